@@ -1,0 +1,8 @@
+package candela.base
+
+/** Runs `body` for 0 until `count`, compiled to a plain `while`: no range, no boxing. */
+inline def loop(count: Int)(inline body: Int => Unit): Unit =
+  var i = 0
+  while i < count do
+    body(i)
+    i += 1

@@ -1,0 +1,36 @@
+package candela.base
+
+/** The nearest known name, for "did you mean". */
+object Suggest:
+
+  /** The known name that differs from `name` by the fewest edits, if that is few enough to be a slip:
+    * at most a third of the longer name's length. Upper and lower case count as equal.
+    */
+  def nearest(name: String, known: Iterable[String]): Option[String] =
+    known.toVector.sorted
+      .map(k => (k, distance(name.toLowerCase, k.toLowerCase)))
+      .filter((k, d) => d <= math.max(1, math.max(name.length, k.length) / 3))
+      .minByOption(_._2)
+      .map(_._1)
+
+  /** A ready help line: the near miss, else all known names. */
+  def help(name: String, known: Iterable[String]): Option[String] =
+    nearest(name, known).map(k => s"did you mean `$k`?").orElse {
+      Option.when(known.nonEmpty)(known.toVector.sorted.distinct.mkString("known: ", ", ", ""))
+    }
+
+  /** Edits (insert, delete, replace, swap of neighbours) from `a` to `b`.
+    *
+    * Source: Damerau, "A technique for computer detection and correction of spelling errors",
+    * CACM 7(3), 1964 (the restricted form).
+    */
+  def distance(a: String, b: String): Int =
+    val d = Array.ofDim[Int](a.length + 1, b.length + 1)
+    loop(a.length + 1)(i => d(i)(0) = i)
+    loop(b.length + 1)(j => d(0)(j) = j)
+    for i <- 1 to a.length; j <- 1 to b.length do
+      val replace = d(i - 1)(j - 1) + (if a(i - 1) == b(j - 1) then 0 else 1)
+      d(i)(j) = math.min(replace, math.min(d(i - 1)(j), d(i)(j - 1)) + 1)
+      val swapped = i > 1 && j > 1 && a(i - 1) == b(j - 2) && a(i - 2) == b(j - 1)
+      if swapped then d(i)(j) = math.min(d(i)(j), d(i - 2)(j - 2) + 1)
+    d(a.length)(b.length)

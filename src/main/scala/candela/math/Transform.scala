@@ -1,0 +1,168 @@
+package candela.math
+
+/** An affine or projective map of space with its inverse.
+  *
+  * @param m       16 numbers, row by row, to be applied to column vectors; Double, so that long chains
+  *                of scene statements lose nothing that Float coordinates could show
+  * @param inverse the same for the inverse map
+  */
+final class Transform private (val m: IndexedSeq[Double], val inverseM: IndexedSeq[Double]):
+
+  def inverse: Transform = Transform(inverseM, m)
+
+  /** First `b`, then this: `(this * b).point(p) == this.point(b.point(p))`. */
+  def *(b: Transform): Transform =
+    Transform(Transform.product(m, b.m), Transform.product(b.inverseM, inverseM))
+
+  def point(p: Vec3): Vec3 =
+    val (x, y, z) = (p.x.toDouble, p.y.toDouble, p.z.toDouble)
+    val w = m(12) * x + m(13) * y + m(14) * z + m(15)
+    Vec3(
+      ((m(0) * x + m(1) * y + m(2) * z + m(3)) / w).toFloat,
+      ((m(4) * x + m(5) * y + m(6) * z + m(7)) / w).toFloat,
+      ((m(8) * x + m(9) * y + m(10) * z + m(11)) / w).toFloat
+    )
+
+  def vector(v: Vec3): Vec3 =
+    val (x, y, z) = (v.x.toDouble, v.y.toDouble, v.z.toDouble)
+    Vec3(
+      (m(0) * x + m(1) * y + m(2) * z).toFloat,
+      (m(4) * x + m(5) * y + m(6) * z).toFloat,
+      (m(8) * x + m(9) * y + m(10) * z).toFloat
+    )
+
+  /** Surface normals go by the transposed inverse; the result has no particular length. */
+  def normal(n: Vec3): Vec3 =
+    val (x, y, z) = (n.x.toDouble, n.y.toDouble, n.z.toDouble)
+    Vec3(
+      (inverseM(0) * x + inverseM(4) * y + inverseM(8) * z).toFloat,
+      (inverseM(1) * x + inverseM(5) * y + inverseM(9) * z).toFloat,
+      (inverseM(2) * x + inverseM(6) * y + inverseM(10) * z).toFloat
+    )
+
+  /** Does the map turn left hands into right hands? (Negative determinant of the linear part.) */
+  def swapsHandedness: Boolean =
+    m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
+      m(2) * (m(4) * m(9) - m(5) * m(8)) < 0
+
+  def isIdentity: Boolean = m == Transform.Identity.m
+
+  override def equals(other: Any): Boolean = other match
+    case t: Transform => m == t.m
+    case _ => false
+  override def hashCode: Int = m.hashCode
+  override def toString: String = m.mkString("[", " ", "]")
+
+object Transform:
+
+  private def identity16: IndexedSeq[Double] =
+    Vector.tabulate(16)(i => if i % 5 == 0 then 1.0 else 0.0)
+
+  val Identity: Transform = new Transform(identity16, identity16)
+
+  private def apply(m: IndexedSeq[Double], inverse: IndexedSeq[Double]): Transform =
+    new Transform(m, inverse)
+
+  /** The map with the given 16 numbers, row by row; None if it can't be inverted. */
+  def fromRows(rows: IndexedSeq[Double]): Option[Transform] =
+    invert(rows).map(inverse => Transform(rows, inverse))
+
+  /** The same from columns: the order in which scene files write `Transform` and `ConcatTransform`. */
+  def fromColumns(columns: IndexedSeq[Double]): Option[Transform] =
+    fromRows(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
+
+  def translate(x: Double, y: Double, z: Double): Transform =
+    Transform(
+      Vector(1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1),
+      Vector(1, 0, 0, -x, 0, 1, 0, -y, 0, 0, 1, -z, 0, 0, 0, 1)
+    )
+
+  /** None if a factor is zero. */
+  def scale(x: Double, y: Double, z: Double): Option[Transform] =
+    Option.when(x != 0 && y != 0 && z != 0)(
+      Transform(
+        Vector(x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1),
+        Vector(1 / x, 0, 0, 0, 0, 1 / y, 0, 0, 0, 0, 1 / z, 0, 0, 0, 0, 1)
+      )
+    )
+
+  /** Counter-clockwise rotation about an axis of any length but zero (Rodrigues' formula). */
+  def rotate(degrees: Double, x: Double, y: Double, z: Double): Option[Transform] =
+    val length = Math.sqrt(x * x + y * y + z * z)
+    Option.when(length > 0):
+      val (ax, ay, az) = (x / length, y / length, z / length)
+      val s = Math.sin(Math.toRadians(degrees))
+      val c = Math.cos(Math.toRadians(degrees))
+      val k = 1 - c
+      val m = Vector(
+        ax * ax * k + c, ax * ay * k - az * s, ax * az * k + ay * s, 0, //
+        ax * ay * k + az * s, ay * ay * k + c, ay * az * k - ax * s, 0, //
+        ax * az * k - ay * s, ay * az * k + ax * s, az * az * k + c, 0, //
+        0, 0, 0, 1
+      )
+      Transform(m, transposed(m))
+
+  /** World to camera, for a camera at `eye` that looks at `look`; left-handed, y up, z forward, as in
+    * PBRT. None if the three don't span a frame.
+    */
+  def lookAt(eye: Seq[Double], look: Seq[Double], up: Seq[Double]): Option[Transform] =
+    def sub(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ - _)
+    def cross(a: Seq[Double], b: Seq[Double]) =
+      Seq(a(1) * b(2) - a(2) * b(1), a(2) * b(0) - a(0) * b(2), a(0) * b(1) - a(1) * b(0))
+    def unit(a: Seq[Double]) =
+      val l = Math.sqrt(a.map(x => x * x).sum)
+      Option.when(l > 0)(a.map(_ / l))
+    for
+      z <- unit(sub(look, eye))
+      u <- unit(up)
+      x <- unit(cross(u, z))
+      y = cross(z, x)
+      cameraToWorld <- fromRows(
+        Vector(0, 1, 2).flatMap(i => Vector(x(i), y(i), z(i), eye(i))) ++ Vector(0.0, 0, 0, 1)
+      )
+    yield cameraToWorld.inverse
+
+  /** Perspective projection onto z in [0, 1] for depths in [near, far]; `fov` in degrees is the full
+    * angle that [-1, 1] spans.
+    */
+  def perspective(fov: Double, near: Double, far: Double): Transform =
+    val inv = 1 / Math.tan(Math.toRadians(fov) / 2)
+    fromRows(
+      Vector(
+        inv, 0, 0, 0, //
+        0, inv, 0, 0, //
+        0, 0, far / (far - near), -far * near / (far - near), //
+        0, 0, 1, 0
+      )
+    ).get
+
+  private def transposed(m: IndexedSeq[Double]): IndexedSeq[Double] =
+    Vector.tabulate(16)(i => m(i % 4 * 4 + i / 4))
+
+  private def product(a: IndexedSeq[Double], b: IndexedSeq[Double]): IndexedSeq[Double] =
+    Vector.tabulate(16): i =>
+      val (r, c) = (i / 4 * 4, i % 4)
+      a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
+
+  /** Gauss–Jordan with full row pivoting. */
+  private def invert(rows: IndexedSeq[Double]): Option[IndexedSeq[Double]] =
+    val a = Array.tabulate(4, 8): (r, c) =>
+      if c < 4 then rows(r * 4 + c) else if c - 4 == r then 1.0 else 0.0
+    var regular = rows.forall(java.lang.Double.isFinite)
+    var column = 0
+    while regular && column < 4 do
+      val pivot = (column until 4).maxBy(r => Math.abs(a(r)(column)))
+      if a(pivot)(column) == 0 then regular = false
+      else
+        val row = a(pivot)
+        a(pivot) = a(column)
+        a(column) = row
+        val scale = 1 / row(column)
+        for c <- 0 until 8 do row(c) *= scale
+        for r <- 0 until 4 if r != column do
+          val factor = a(r)(column)
+          for c <- 0 until 8 do a(r)(c) -= factor * row(c)
+        column += 1
+    Option.when(regular && a.forall(_.forall(java.lang.Double.isFinite)))(
+      Vector.tabulate(16)(i => a(i / 4)(4 + i % 4))
+    )

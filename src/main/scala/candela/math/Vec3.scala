@@ -1,0 +1,50 @@
+package candela.math
+
+/** A point, direction or offset in space, or a normal: three Floats, immutable. What it stands for is
+  * said by the name that holds it; [[Transform]] has one method for each meaning.
+  */
+final class Vec3(val x: Float, val y: Float, val z: Float):
+  def +(b: Vec3): Vec3 = Vec3(x + b.x, y + b.y, z + b.z)
+  def -(b: Vec3): Vec3 = Vec3(x - b.x, y - b.y, z - b.z)
+  def *(s: Float): Vec3 = Vec3(x * s, y * s, z * s)
+  def unary_- : Vec3 = Vec3(-x, -y, -z)
+
+  infix def dot(b: Vec3): Float = x * b.x + y * b.y + z * b.z
+  infix def absDot(b: Vec3): Float = Math.abs(dot(b))
+
+  /** The cross product, exact to 1.5 ulp per component also for nearly parallel vectors. */
+  infix def cross(b: Vec3): Vec3 = Vec3(
+    differenceOfProducts(y, b.z, z, b.y),
+    differenceOfProducts(z, b.x, x, b.z),
+    differenceOfProducts(x, b.y, y, b.x)
+  )
+
+  def lengthSquared: Float = x * x + y * y + z * z
+  def length: Float = sqrt(lengthSquared)
+
+  /** Unit length; NaN for the zero vector. Doubles inside, so lengths of 1e±30 neither over- nor underflow. */
+  def normalized: Vec3 =
+    val (dx, dy, dz) = (x.toDouble, y.toDouble, z.toDouble)
+    val s = 1.0 / Math.sqrt(dx * dx + dy * dy + dz * dz)
+    Vec3((dx * s).toFloat, (dy * s).toFloat, (dz * s).toFloat)
+
+  def isZero: Boolean = x == 0f && y == 0f && z == 0f
+  def isFinite: Boolean =
+    java.lang.Float.isFinite(x) && java.lang.Float.isFinite(y) && java.lang.Float.isFinite(z)
+
+  /** This vector, turned around if needed, so that it lies on the side of `n`. */
+  def facing(n: Vec3): Vec3 = if dot(n) < 0f then -this else this
+
+  def apply(axis: Int): Float = if axis == 0 then x else if axis == 1 then y else z
+
+  override def equals(other: Any): Boolean = other match
+    case b: Vec3 => x == b.x && y == b.y && z == b.z
+    case _ => false
+  override def hashCode: Int = (x, y, z).hashCode
+  override def toString: String = s"($x, $y, $z)"
+
+object Vec3:
+  val Zero: Vec3 = Vec3(0f, 0f, 0f)
+  val X: Vec3 = Vec3(1f, 0f, 0f)
+  val Y: Vec3 = Vec3(0f, 1f, 0f)
+  val Z: Vec3 = Vec3(0f, 0f, 1f)
