@@ -6,7 +6,7 @@ package candela.math
   *                of scene statements lose nothing that Float coordinates could show
   * @param inverse the same for the inverse map
   */
-final class Transform private (val m: IndexedSeq[Double], val inverseM: IndexedSeq[Double]):
+final class Transform private (val m: IArray[Double], val inverseM: IArray[Double]):
 
   def inverse: Transform = Transform(inverseM, m)
 
@@ -45,27 +45,27 @@ final class Transform private (val m: IndexedSeq[Double], val inverseM: IndexedS
     m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
       m(2) * (m(4) * m(9) - m(5) * m(8)) < 0
 
-  def isIdentity: Boolean = m == Transform.Identity.m
+  def isIdentity: Boolean = this == Transform.Identity
 
   override def equals(other: Any): Boolean = other match
-    case t: Transform => m == t.m
+    case t: Transform => m.sameElements(t.m)
     case _ => false
-  override def hashCode: Int = m.hashCode
+  override def hashCode: Int = m.toSeq.hashCode
   override def toString: String = m.mkString("[", " ", "]")
 
 object Transform:
 
-  private def identity16: IndexedSeq[Double] =
-    Vector.tabulate(16)(i => if i % 5 == 0 then 1.0 else 0.0)
+  val Identity: Transform =
+    val m = IArray.tabulate(16)(i => if i % 5 == 0 then 1.0 else 0.0)
+    new Transform(m, m)
 
-  val Identity: Transform = new Transform(identity16, identity16)
-
-  private def apply(m: IndexedSeq[Double], inverse: IndexedSeq[Double]): Transform =
+  private def apply(m: IArray[Double], inverse: IArray[Double]): Transform =
     new Transform(m, inverse)
 
   /** The map with the given 16 numbers, row by row; None if it can't be inverted. */
   def fromRows(rows: IndexedSeq[Double]): Option[Transform] =
-    invert(rows).map(inverse => Transform(rows, inverse))
+    val m = IArray.from(rows)
+    invert(m).map(inverse => Transform(m, inverse))
 
   /** The same from columns: the order in which scene files write `Transform` and `ConcatTransform`. */
   def fromColumns(columns: IndexedSeq[Double]): Option[Transform] =
@@ -73,16 +73,16 @@ object Transform:
 
   def translate(x: Double, y: Double, z: Double): Transform =
     Transform(
-      Vector(1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1),
-      Vector(1, 0, 0, -x, 0, 1, 0, -y, 0, 0, 1, -z, 0, 0, 0, 1)
+      IArray[Double](1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1),
+      IArray[Double](1, 0, 0, -x, 0, 1, 0, -y, 0, 0, 1, -z, 0, 0, 0, 1)
     )
 
   /** None if a factor is zero. */
   def scale(x: Double, y: Double, z: Double): Option[Transform] =
     Option.when(x != 0 && y != 0 && z != 0)(
       Transform(
-        Vector(x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1),
-        Vector(1 / x, 0, 0, 0, 0, 1 / y, 0, 0, 0, 0, 1 / z, 0, 0, 0, 0, 1)
+        IArray[Double](x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1),
+        IArray[Double](1 / x, 0, 0, 0, 0, 1 / y, 0, 0, 0, 0, 1 / z, 0, 0, 0, 0, 1)
       )
     )
 
@@ -94,7 +94,7 @@ object Transform:
       val s = Math.sin(Math.toRadians(degrees))
       val c = Math.cos(Math.toRadians(degrees))
       val k = 1 - c
-      val m = Vector(
+      val m = IArray[Double](
         ax * ax * k + c, ax * ay * k - az * s, ax * az * k + ay * s, 0, //
         ax * ay * k + az * s, ay * ay * k + c, ay * az * k - ax * s, 0, //
         ax * az * k - ay * s, ay * az * k + ax * s, az * az * k + c, 0, //
@@ -118,7 +118,7 @@ object Transform:
       x <- unit(cross(u, z))
       y = cross(z, x)
       cameraToWorld <- fromRows(
-        Vector(0, 1, 2).flatMap(i => Vector(x(i), y(i), z(i), eye(i))) ++ Vector(0.0, 0, 0, 1)
+        Vector(0, 1, 2).flatMap(i => Vector(x(i), y(i), z(i), eye(i))) ++ Vector(0.0, 0.0, 0.0, 1.0)
       )
     yield cameraToWorld.inverse
 
@@ -136,16 +136,16 @@ object Transform:
       )
     ).get
 
-  private def transposed(m: IndexedSeq[Double]): IndexedSeq[Double] =
-    Vector.tabulate(16)(i => m(i % 4 * 4 + i / 4))
+  private def transposed(m: IArray[Double]): IArray[Double] =
+    IArray.tabulate(16)(i => m(i % 4 * 4 + i / 4))
 
-  private def product(a: IndexedSeq[Double], b: IndexedSeq[Double]): IndexedSeq[Double] =
-    Vector.tabulate(16): i =>
+  private def product(a: IArray[Double], b: IArray[Double]): IArray[Double] =
+    IArray.tabulate(16): i =>
       val (r, c) = (i / 4 * 4, i % 4)
       a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
 
   /** Gauss–Jordan with full row pivoting. */
-  private def invert(rows: IndexedSeq[Double]): Option[IndexedSeq[Double]] =
+  private def invert(rows: IArray[Double]): Option[IArray[Double]] =
     val a = Array.tabulate(4, 8): (r, c) =>
       if c < 4 then rows(r * 4 + c) else if c - 4 == r then 1.0 else 0.0
     var regular = rows.forall(java.lang.Double.isFinite)
@@ -164,5 +164,5 @@ object Transform:
           for c <- 0 until 8 do a(r)(c) -= factor * row(c)
         column += 1
     Option.when(regular && a.forall(_.forall(java.lang.Double.isFinite)))(
-      Vector.tabulate(16)(i => a(i / 4)(4 + i % 4))
+      IArray.tabulate(16)(i => a(i / 4)(4 + i % 4))
     )

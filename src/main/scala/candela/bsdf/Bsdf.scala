@@ -1,0 +1,55 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+
+/** How a point of a surface scatters light. Directions are unit vectors that point away from the
+  * surface, in a local frame whose +z is the shading normal. `wo` is where the radiance goes (to the
+  * camera), `wi` where it comes from. Immutable.
+  */
+abstract class Bsdf:
+
+  /** The value in sr⁻¹, without the cosine; black for perfectly specular scattering. */
+  def f(wo: Vec3, wi: Vec3): Rgb
+
+  /** The density, per solid angle, with which `sample` returns `wi`; 0 for specular scattering. */
+  def pdf(wo: Vec3, wi: Vec3): Float
+
+  /** Draws `wi` for `wo`.
+    *
+    * @param choice picks between lobes, in [0, 1)
+    * @return [[BsdfSample.Absorbed]] if nothing is scattered
+    */
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
+
+  /** Only perfectly specular scattering: light sampling can't help. */
+  def isSpecular: Boolean
+
+  /** Does it scatter to the other side of the surface? */
+  def isTransmissive: Boolean
+
+/** @param weight     f·|cos θi|/pdf
+  * @param pdf        per solid angle; for a specular direction the probability of its choice
+  * @param eta        for transmission the index of refraction on the side of `wi` over that of `wo`,
+  *                   else 1
+  */
+final class BsdfSample(
+    val wi: Vec3,
+    val weight: Rgb,
+    val pdf: Float,
+    val isSpecular: Boolean,
+    val eta: Float = 1f
+)
+
+object BsdfSample:
+  /** No direction: the path ends here. */
+  val Absorbed: BsdfSample = BsdfSample(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
+
+/** Gives every point of a surface its [[Bsdf]]. */
+abstract class Material:
+  def bsdf(at: ShadingPoint): Bsdf
+
+/** The same everywhere: the object is made once, at build. */
+final class ConstantMaterial(value: Bsdf) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = value

@@ -1,0 +1,29 @@
+package candela.geometry
+
+import candela.math.*
+
+/** An axis-aligned box; `Bounds3.Empty` holds no point. */
+final case class Bounds3(min: Vec3, max: Vec3):
+  def union(b: Bounds3): Bounds3 = Bounds3(
+    Vec3(Math.min(min.x, b.min.x), Math.min(min.y, b.min.y), Math.min(min.z, b.min.z)),
+    Vec3(Math.max(max.x, b.max.x), Math.max(max.y, b.max.y), Math.max(max.z, b.max.z))
+  )
+  def union(p: Vec3): Bounds3 = union(Bounds3(p, p))
+  def isEmpty: Boolean = !(min.x <= max.x && min.y <= max.y && min.z <= max.z)
+  def extent: Vec3 = max - min
+  def center: Vec3 = (min + max) * 0.5f
+
+  /** Radius of the sphere around `center` through the corners. */
+  def radius: Float = if isEmpty then 0f else (max - center).length
+
+  def corner(i: Int): Vec3 = Vec3(
+    if (i & 1) == 0 then min.x else max.x,
+    if (i & 2) == 0 then min.y else max.y,
+    if (i & 4) == 0 then min.z else max.z
+  )
+
+object Bounds3:
+  val Empty: Bounds3 =
+    val inf = Float.PositiveInfinity
+    Bounds3(Vec3(inf, inf, inf), Vec3(-inf, -inf, -inf))
+  def of(points: Iterable[Vec3]): Bounds3 = points.foldLeft(Empty)((b, p) => b.union(p))

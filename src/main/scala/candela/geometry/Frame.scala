@@ -1,0 +1,36 @@
+package candela.geometry
+
+import candela.math.*
+
+/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. */
+final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
+  def toLocal(v: Vec3): Vec3 = Vec3(v dot s, v dot t, v dot n)
+  def toWorld(v: Vec3): Vec3 = Vec3(
+    s.x * v.x + t.x * v.y + n.x * v.z,
+    s.y * v.x + t.y * v.y + n.y * v.z,
+    s.z * v.x + t.z * v.y + n.z * v.z
+  )
+
+object Frame:
+  /** Any basis around the unit vector `n`, continuous but for n.z = 0.
+    *
+    * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+    */
+  def around(n: Vec3): Frame =
+    val sign = Math.copySign(1f, n.z)
+    val a = -1f / (sign + n.z)
+    val b = n.x * n.y * a
+    Frame(
+      Vec3(1f + sign * n.x * n.x * a, sign * b, -sign * n.x),
+      Vec3(b, sign + n.y * n.y * a, -n.y),
+      n
+    )
+
+  /** The basis around the unit vector `n` whose `s` follows `along` (made perpendicular to `n`). */
+  def along(n: Vec3, along: Vec3): Frame =
+    val s = along - n * (along dot n)
+    val length2 = s.lengthSquared
+    if length2 > 1e-12f * along.lengthSquared && length2 > 0f then
+      val unit = s.normalized
+      Frame(unit, n cross unit, n)
+    else around(n)

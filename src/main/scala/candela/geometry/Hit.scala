@@ -1,0 +1,9 @@
+package candela.geometry
+
+/** The closest hit found so far; mutable, one per worker. Its distance is the ray's `tMax`. */
+final class Hit:
+  /** Which primitive, as the accelerator numbers them; −1: none. */
+  var primitive: Int = -1
+
+  /** For a triangle the barycentric weights of its second and third vertex; shapes use them freely. */
+  var u, v: Float = 0f

@@ -1,0 +1,53 @@
+package candela.geometry
+
+import candela.math.*
+
+/** A half-line with an end, and what every intersection test wants to know of its direction.
+  *
+  * Mutable, one per worker and purpose: the kernels read its fields, so that tracing a ray allocates
+  * nothing. `tMax` shrinks to the closest hit found so far.
+  */
+final class Ray:
+  var ox, oy, oz = 0f
+  var dx, dy, dz = 0f
+  var tMax = 0f
+
+  /** 1/direction; an infinity where a component is zero. */
+  var invX, invY, invZ = 0f
+
+  /** The axis along which the direction is longest, and the other two in an order that keeps the
+    * handedness; with the shear that turns the ray into +z. Source: Woop, Benthin, Wald, "Watertight
+    * Ray/Triangle Intersection", JCGT 2(1), 2013.
+    */
+  var kx, ky, kz = 0
+  var shearX, shearY, shearZ = 0f
+
+  def origin: Vec3 = Vec3(ox, oy, oz)
+  def direction: Vec3 = Vec3(dx, dy, dz)
+  def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)
+
+  def set(origin: Vec3, direction: Vec3, end: Float): Unit =
+    ox = origin.x
+    oy = origin.y
+    oz = origin.z
+    dx = direction.x
+    dy = direction.y
+    dz = direction.z
+    tMax = end
+    invX = 1f / dx
+    invY = 1f / dy
+    invZ = 1f / dz
+    val (ax, ay, az) = (Math.abs(dx), Math.abs(dy), Math.abs(dz))
+    kz = if ax > ay then (if ax > az then 0 else 2) else if ay > az then 1 else 2
+    kx = if kz == 2 then 0 else kz + 1
+    ky = if kx == 2 then 0 else kx + 1
+    val along = component(kz)
+    if along < 0f then
+      val swap = kx
+      kx = ky
+      ky = swap
+    shearX = -component(kx) / along
+    shearY = -component(ky) / along
+    shearZ = 1f / along
+
+  private def component(axis: Int): Float = if axis == 0 then dx else if axis == 1 then dy else dz

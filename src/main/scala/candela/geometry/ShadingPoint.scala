@@ -1,0 +1,53 @@
+package candela.geometry
+
+import candela.math.*
+
+/** Where a ray met a surface, with all that textures, materials and lights ask about it.
+  *
+  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit.
+  */
+final class ShadingPoint:
+  /** World space. */
+  var p: Vec3 = Vec3.Zero
+
+  /** Conservative bound of the absolute error of `p`, per component. */
+  var pError: Vec3 = Vec3.Zero
+
+  /** Unit normal of the true surface, on the side that the shape calls its outside. */
+  var geometricNormal: Vec3 = Vec3.Z
+
+  /** Orthonormal; `frame.n` is the (interpolated) shading normal, in the hemisphere of
+    * `geometricNormal`, and `frame.s` follows ∂p/∂u.
+    */
+  var frame: Frame = Frame.around(Vec3.Z)
+
+  /** Surface parameters, for textures. */
+  var u, v: Float = 0f
+
+  /** Index into the scene's materials. */
+  var material: Int = 0
+
+  /** Index into the scene's lights if this surface emits, else −1. */
+  var areaLight: Int = -1
+
+  /** Where a ray in `direction` starts, so that it can't meet the surface it leaves: moved along the
+    * geometric normal out of the box that `pError` spans, then rounded outwards.
+    *
+    * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.5.
+    */
+  def offsetOrigin(direction: Vec3): Vec3 =
+    ShadingPoint.offset(p, pError, geometricNormal, direction)
+
+object ShadingPoint:
+  def offset(p: Vec3, pError: Vec3, n: Vec3, direction: Vec3): Vec3 =
+    val d = Math.abs(n.x) * pError.x + Math.abs(n.y) * pError.y + Math.abs(n.z) * pError.z
+    val side = if (direction dot n) < 0f then -d else d
+    Vec3(
+      away(p.x, n.x * side),
+      away(p.y, n.y * side),
+      away(p.z, n.z * side)
+    )
+
+  private def away(x: Float, by: Float): Float =
+    val moved = x + by
+    if by > 0f then Math.nextUp(moved) else if by < 0f then Math.nextDown(moved) else moved

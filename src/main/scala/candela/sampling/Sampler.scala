@@ -1,0 +1,25 @@
+package candela.sampling
+
+/** A stream of points in [0, 1), one for each choice along a path: indexed by pixel, sample number and
+  * dimension, so that an image depends on neither threads nor the order of pixels.
+  *
+  * Not thread-safe: each worker has a `copy`.
+  */
+abstract class Sampler:
+
+  /** Samples for each pixel; some methods round the request up, e.g. to a power of two. */
+  def samplesPerPixel: Int
+
+  /** Goes to dimension 0 of sample `sample` of the pixel. */
+  def start(x: Int, y: Int, sample: Int): Unit
+
+  /** The next dimension, in [0, 1). */
+  def next1D(): Float
+
+  /** The next two dimensions, well distributed together; read them from `x` and `y`. */
+  def next2D(): Unit
+
+  /** The last point of `next2D`, each in [0, 1). */
+  final var x, y: Float = 0f
+
+  def copy(): Sampler
