@@ -1,0 +1,77 @@
+package candela.scenefile
+
+import candela.base.{Problem, SourcePos}
+import candela.math.Transform
+
+/** An object-to-world transform at the start and the end of the shutter; mostly both are one object. */
+final case class AnimatedTransform(start: Transform, end: Transform):
+  def isAnimated: Boolean = start != end
+
+/** Which material a shape has. */
+enum MaterialRef:
+  /** None was given: the dialect's default. */
+  case Default
+
+  /** `Material "type" …`. */
+  case Inline(declaration: Declaration)
+
+  /** `NamedMaterial "name"`; what it means is in [[SceneDescription.namedMaterials]]. */
+  case Named(name: String, at: SourcePos)
+
+/** What holds at a `Shape` statement. */
+final case class ShapeDescription(
+    shape: Declaration,
+    objectToWorld: AnimatedTransform,
+    reverseOrientation: Boolean,
+    material: MaterialRef,
+    areaLight: Option[Declaration],
+    insideMedium: String = "",
+    outsideMedium: String = ""
+)
+
+final case class LightDescription(light: Declaration, lightToWorld: AnimatedTransform)
+
+final case class InstanceDescription(name: String, at: SourcePos, instanceToWorld: AnimatedTransform)
+
+/** `Texture "name" "valueType" "class" …`.
+  *
+  * @param valueType "float" or "spectrum" ("color" is folded into the latter)
+  */
+final case class TextureDescription(
+    name: String,
+    valueType: String,
+    texture: Declaration,
+    textureToWorld: AnimatedTransform
+)
+
+/** Everything a scene file said, nothing it implied: what is None was not said.
+  *
+  * @param integrator     v2's `SurfaceIntegrator`, v3's and v4's `Integrator`
+  * @param worldToCamera  the transform at the `Camera` statement
+  * @param textures       in the order of their statements (a texture may use only earlier ones)
+  * @param namedMaterials in the order of their statements; a later one of the same name wins
+  * @param objects        shapes by the name of their `ObjectBegin`
+  * @param warnings       what was noticed on the way
+  */
+final case class SceneDescription(
+    dialect: Dialect,
+    camera: Option[Declaration] = None,
+    worldToCamera: AnimatedTransform = AnimatedTransform(Transform.Identity, Transform.Identity),
+    film: Option[Declaration] = None,
+    sampler: Option[Declaration] = None,
+    filter: Option[Declaration] = None,
+    integrator: Option[Declaration] = None,
+    accelerator: Option[Declaration] = None,
+    renderer: Option[Declaration] = None,
+    volumeIntegrator: Option[Declaration] = None,
+    options: Vector[Param] = Vector.empty,
+    textures: Vector[TextureDescription] = Vector.empty,
+    namedMaterials: Vector[(String, Declaration)] = Vector.empty,
+    lights: Vector[LightDescription] = Vector.empty,
+    shapes: Vector[ShapeDescription] = Vector.empty,
+    objects: Map[String, Vector[ShapeDescription]] = Map.empty,
+    instances: Vector[InstanceDescription] = Vector.empty,
+    media: Vector[(String, Declaration)] = Vector.empty,
+    volumes: Vector[LightDescription] = Vector.empty,
+    warnings: Vector[Problem] = Vector.empty
+)
