@@ -22,6 +22,11 @@ final class Ray:
   var kx, ky, kz = 0
   var shearX, shearY, shearZ = 0f
 
+  /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree that
+    * the builder makes.
+    */
+  val stack: Array[Long] = new Array[Long](128)
+
   def origin: Vec3 = Vec3(ox, oy, oz)
   def direction: Vec3 = Vec3(dx, dy, dz)
   def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)

@@ -1,0 +1,39 @@
+package candela.accel
+
+import candela.geometry.{Bounds3, Hit, Ray}
+
+/** Finds what a ray meets among many primitives. Immutable; the work space of a walk is in the ray. */
+abstract class Accelerator:
+
+  /** The closest hit in (0, `ray.tMax`): shortens the ray, fills `hit`. Otherwise sets `hit.primitive`
+    * to −1.
+    */
+  def closest(ray: Ray, hit: Hit): Boolean
+
+  /** Is there any hit in (0, `ray.tMax`)? `hit` is work space. */
+  def isOccluded(ray: Ray, hit: Hit): Boolean
+
+  def bounds: Bounds3
+
+  /** For the plan: what it is, with its size. */
+  def describe: String
+
+/** Tests everything: the oracle of the other accelerators' tests, and right for a handful. */
+final class BruteForce(primitives: Primitives) extends Accelerator:
+  private val packed = primitives.packed(Array.range(0, primitives.count))
+
+  def closest(ray: Ray, hit: Hit): Boolean =
+    hit.primitive = -1
+    packed.intersect(0, primitives.count, ray, hit)
+
+  def isOccluded(ray: Ray, hit: Hit): Boolean = packed.isHit(0, primitives.count, ray, hit)
+
+  val bounds: Bounds3 = Accelerator.union(primitives.bounds)
+  def describe: String = s"none: ${primitives.count} primitives tested in turn"
+
+object Accelerator:
+  /** The box around boxes of six Floats each. */
+  def union(bounds: Array[Float]): Bounds3 =
+    import candela.math.Vec3
+    bounds.grouped(6).foldLeft(Bounds3.Empty): (all, b) =>
+      all.union(Bounds3(Vec3(b(0), b(1), b(2)), Vec3(b(3), b(4), b(5))))

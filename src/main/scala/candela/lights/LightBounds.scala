@@ -1,0 +1,94 @@
+package candela.lights
+
+import candela.geometry.Bounds3
+import candela.math.*
+
+/** Where lights are, where they shine and how much: enough to guess how much they matter at a point.
+  *
+  * @param axis         unit mean direction of the surfaces' normals
+  * @param cosNormals   of the largest angle between a normal and `axis` (θo)
+  * @param cosEmission  of the largest angle between a normal and light that it sends out (θe)
+  * @param power        in watts, any common scale
+  *
+  * Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting",
+  * PACMCGIT 1(2), 2018; the bound for cones as in Pharr, Jakob, Humphreys, "Physically Based
+  * Rendering", 4th ed., §12.6.3.
+  */
+final case class LightBounds(
+    box: Bounds3,
+    axis: Vec3,
+    cosNormals: Float,
+    cosEmission: Float,
+    power: Float,
+    twoSided: Boolean
+):
+  private val center = box.center
+  private val radius2 = square(box.radius)
+  private val minDistance2 = Math.max(radius2, square(box.extent.length * 0.5f))
+
+  /** Larger where these lights may bring more light to `p` with normal `n` (zero vector: a point that
+    * takes light from all around). Zero only where they can bring none.
+    */
+  def importance(p: Vec3, n: Vec3): Float =
+    val toCenter = center - p
+    val distance2 = toCenter.lengthSquared
+    val wi = if distance2 > 0f then toCenter * (1f / sqrt(distance2)) else Vec3.Z
+    val cosAxis0 = -(axis dot wi)
+    val cosAxis = if twoSided then Math.abs(cosAxis0) else cosAxis0
+    val sinAxis = safeSqrt(1f - square(cosAxis))
+    // θb: half the angle under which the box is seen; from inside, all directions
+    val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
+    val sinBox = safeSqrt(1f - square(cosBox))
+    val sinNormals = safeSqrt(1f - square(cosNormals))
+    val cosX = LightBounds.cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
+    val sinX = LightBounds.sinDifference(sinAxis, cosAxis, sinNormals, cosNormals)
+    val cosMin = LightBounds.cosDifference(sinX, cosX, sinBox, cosBox)
+    if cosMin <= cosEmission then 0f
+    else
+      val emitted = power * cosMin / Math.max(distance2, minDistance2)
+      if n.isZero then emitted
+      else
+        val cosSurface = Math.abs(wi dot n)
+        val sinSurface = safeSqrt(1f - square(cosSurface))
+        Math.max(0f, emitted * LightBounds.cosDifference(sinSurface, cosSurface, sinBox, cosBox))
+
+  def union(b: LightBounds): LightBounds =
+    if power == 0f then b
+    else if b.power == 0f then this
+    else
+      val (sum, cosSum) = LightBounds.unionCones(axis, cosNormals, b.axis, b.cosNormals)
+      LightBounds(
+        box.union(b.box),
+        sum,
+        cosSum,
+        Math.min(cosEmission, b.cosEmission),
+        power + b.power,
+        twoSided || b.twoSided
+      )
+
+object LightBounds:
+  def everywhere(p: Vec3, power: Float): LightBounds =
+    LightBounds(Bounds3(p, p), Vec3.Z, -1f, 0f, power, twoSided = false)
+
+  /** cos(max(0, a − b)), and the sine. */
+  private def cosDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
+    if cosA > cosB then 1f else cosA * cosB + sinA * sinB
+  private def sinDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
+    if cosA > cosB then 0f else sinA * cosB - cosA * sinB
+
+  /** The narrowest cone around two cones, as axis and cosine of the half-angle. */
+  private def unionCones(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
+    val angleA = Math.acos(clamp(cosA, -1f, 1f).toDouble)
+    val angleB = Math.acos(clamp(cosB, -1f, 1f).toDouble)
+    val between = Math.acos(clamp(a dot b, -1f, 1f).toDouble)
+    if Math.min(between + angleB, Math.PI) <= angleA then (a, cosA)
+    else if Math.min(between + angleA, Math.PI) <= angleB then (b, cosB)
+    else
+      val half = (angleA + between + angleB) / 2
+      val turnAxis = a cross b
+      if half >= Math.PI || turnAxis.isZero then (Vec3.Z, -1f)
+      else
+        val turned = Transform
+          .rotate(Math.toDegrees(half - angleA), turnAxis.x, turnAxis.y, turnAxis.z)
+          .fold(a)(_.vector(a))
+        (turned.normalized, Math.cos(half).toFloat)

@@ -1,0 +1,126 @@
+package candela.lights
+
+
+import candela.math.*
+
+/** Which light to sample at a point. Immutable. */
+abstract class LightSelection:
+
+  /** Chooses a light for the point `p` with normal `n`: its index, or −1 if none can bring light. */
+  def choose(p: Vec3, n: Vec3, u: Float): Int
+
+  /** The probability with which `choose` returns `light`. */
+  def probability(p: Vec3, n: Vec3, light: Int): Float
+
+  def describe: String
+
+/** Only one light: nothing to choose. */
+final class SingleLight extends LightSelection:
+  def choose(p: Vec3, n: Vec3, u: Float): Int = 0
+  def probability(p: Vec3, n: Vec3, light: Int): Float = 1f
+  def describe: String = "one light"
+
+/** All lights alike. */
+final class UniformSelection(lights: Int) extends LightSelection:
+  def choose(p: Vec3, n: Vec3, u: Float): Int = Math.min((u * lights).toInt, lights - 1)
+  def probability(p: Vec3, n: Vec3, light: Int): Float = 1f / lights
+  def describe: String = s"$lights lights, uniformly"
+
+/** By a binary tree of [[LightBounds]], going down at each node by the importance of its children; the
+  * lights at infinity are chosen each as often as the whole tree.
+  *
+  * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
+  */
+final class LightTree(lights: Array[Light]) extends LightSelection:
+  private val infinite: Array[Int] = lights.indices.filter(i => lights(i).bounds.isEmpty).toArray
+  private val finite: Array[(Int, LightBounds)] =
+    for i <- lights.indices.toArray; b <- lights(i).bounds.toArray if b.power > 0f yield (i, b)
+
+  /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf. */
+  private val nodes = new Array[LightBounds](Math.max(1, 2 * finite.length))
+  private val children = new Array[Int](nodes.length)
+  private var used = 0
+
+  /** Per light: the way from the root as bits, low bit first, 1 = second child; −1: not in the tree. */
+  private val trail = Array.fill(lights.length)(-1L)
+
+  if finite.nonEmpty then build(finite, 0L, 0)
+
+  def describe: String = s"${lights.length} lights, by a tree of importance"
+
+  private val infiniteShare: Float = 1f / (infinite.length + (if finite.isEmpty then 0 else 1))
+
+  private def build(part: Array[(Int, LightBounds)], bits: Long, depth: Int): LightBounds =
+    val node = used
+    used += 1
+    val all =
+      if part.length == 1 then
+        children(node) = ~part(0)._1
+        trail(part(0)._1) = bits
+        part(0)._2
+      else
+        val (left, right) = split(part)
+        val a = build(left, bits, depth + 1)
+        children(node) = used
+        a.union(build(right, bits | (1L << depth), depth + 1))
+    nodes(node) = all
+    all
+
+  /** Halves by the axis on which centres spread most: depth stays at log2 of the count. */
+  private def split(part: Array[(Int, LightBounds)]): (Array[(Int, LightBounds)], Array[(Int, LightBounds)]) =
+    val centers = candela.geometry.Bounds3.of(part.map(_._2.box.center)).extent
+    val axis = (0 until 3).maxBy(k => centers(k))
+    part.sortBy(_._2.box.center(axis)).splitAt(part.length / 2)
+
+  def choose(p: Vec3, n: Vec3, u: Float): Int =
+    val inInfinite = infinite.length * infiniteShare
+    if infinite.length > 0 && (u < inInfinite || finite.isEmpty) then
+      infinite(Math.min((u / infiniteShare).toInt, infinite.length - 1))
+    else if finite.isEmpty then -1
+    else descend(p, n, Math.min((u - inInfinite) / (1f - inInfinite), OneMinusEpsilon))
+
+  private def descend(p: Vec3, n: Vec3, u0: Float): Int =
+    var u = u0
+    var node = 0
+    if nodes(0).importance(p, n) <= 0f && children(0) < 0 then -1
+    else
+      while node >= 0 && children(node) >= 0 do
+        val second = children(node)
+        val a = nodes(node + 1).importance(p, n)
+        val b = nodes(second).importance(p, n)
+        if !(a + b > 0f) then node = -1
+        else
+          val pa = a / (a + b)
+          if u < pa then
+            u = Math.min(u / pa, OneMinusEpsilon)
+            node += 1
+          else
+            u = Math.min((u - pa) / (1f - pa), OneMinusEpsilon)
+            node = second
+      if node < 0 then -1 else ~children(node)
+
+  def probability(p: Vec3, n: Vec3, light: Int): Float =
+    if lights(light).bounds.isEmpty then infiniteShare
+    else if trail(light) < 0 then 0f
+    else
+      var bits = trail(light)
+      var node = 0
+      var probability = infiniteShare
+      while children(node) >= 0 do
+        val second = children(node)
+        val a = nodes(node + 1).importance(p, n)
+        val b = nodes(second).importance(p, n)
+        if !(a + b > 0f) then return 0f
+        if (bits & 1L) == 0L then
+          probability *= a / (a + b)
+          node += 1
+        else
+          probability *= b / (a + b)
+          node = second
+        bits >>>= 1
+      probability
+
+object LightSelection:
+  /** The plainest that serves these lights. */
+  def of(lights: Array[Light]): LightSelection =
+    if lights.length == 1 then SingleLight() else LightTree(lights)

@@ -1,0 +1,89 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** A flat disk or annulus, perhaps swept over less than a full turn, in any affine position.
+  *
+  * @param height      its z in object space
+  * @param innerRadius of the hole, 0: none
+  * @param phiMax      sweep in radians
+  * @param reversed    is the outside the side of object space's −z?
+  */
+final class Disk(
+    objectToWorld: Transform,
+    height: Float,
+    radius: Float,
+    innerRadius: Float,
+    phiMax: Float,
+    reversed: Boolean
+) extends Shape:
+  private val toObject = objectToWorld.inverseM
+  private val normal =
+    val n = objectToWorld.normal(Vec3.Z).normalized
+    if reversed then -n else n
+  private val dpdx = objectToWorld.vector(Vec3.X)
+  private val dpdy = objectToWorld.vector(Vec3.Y)
+
+  val area: Float =
+    val stretch = (dpdx cross dpdy).length
+    0.5f * phiMax * (square(radius) - square(innerRadius)) * stretch
+
+  def bounds: Bounds3 =
+    Bounds3.of(
+      for x <- Seq(-radius, radius); y <- Seq(-radius, radius)
+      yield objectToWorld.point(Vec3(x, y, height))
+    )
+
+  def intersect(ray: Ray, hit: Hit): Boolean =
+    val t = distance(ray)
+    if t > 0.0 && t < ray.tMax then
+      ray.tMax = t.toFloat
+      true
+    else false
+
+  def isHit(ray: Ray): Boolean =
+    val t = distance(ray)
+    t > 0.0 && t < ray.tMax
+
+  private def distance(ray: Ray): Double =
+    val m = toObject
+    val oz = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
+    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
+    val t = (height - oz) / dz
+    if !(t > 0.0 && t < ray.tMax) then -1.0
+    else
+      val x = m(0) * (ray.ox + t * ray.dx) + m(1) * (ray.oy + t * ray.dy) +
+        m(2) * (ray.oz + t * ray.dz) + m(3)
+      val y = m(4) * (ray.ox + t * ray.dx) + m(5) * (ray.oy + t * ray.dy) +
+        m(6) * (ray.oz + t * ray.dz) + m(7)
+      val r2 = x * x + y * y
+      val inside = r2 <= radius.toDouble * radius && r2 >= innerRadius.toDouble * innerRadius &&
+        (phiMax >= TwoPi || angle(x, y) <= phiMax)
+      if inside then t else -1.0
+
+  private def angle(x: Double, y: Double): Double =
+    val a = Math.atan2(y, x)
+    if a < 0 then a + 2 * Math.PI else a
+
+  def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    val local = objectToWorld.inverse.point(ray.at(ray.tMax))
+    // Put back into the plane: the point is exact but for the rounding of the way to world space
+    at.p = objectToWorld.point(Vec3(local.x, local.y, height))
+    at.pError = TriangleSoup.roundingError(at.p)
+    at.geometricNormal = normal
+    val phi = angle(local.x.toDouble, local.y.toDouble).toFloat
+    at.u = phi / phiMax
+    at.v = (radius - sqrt(square(local.x) + square(local.y))) / (radius - innerRadius)
+    at.frame = Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f)))
+
+  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+    val r = sqrt(lerp(u1, square(innerRadius), square(radius)))
+    val phi = u2 * phiMax
+    out.p = objectToWorld.point(Vec3(r * cos(phi), r * sin(phi), height))
+    out.pError = TriangleSoup.roundingError(out.p)
+    out.n = normal
+    out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
+
+  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+    SurfaceSampler.perSolidAngle(1f / area, from, p, n)

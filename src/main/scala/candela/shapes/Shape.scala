@@ -1,0 +1,56 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** A surface that rays can meet, other than a triangle of a mesh; in world space, immutable. */
+abstract class Shape extends SurfaceSampler:
+
+  /** Contains the whole surface. */
+  def bounds: Bounds3
+
+  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance, and `hit.u`, `hit.v` are
+    * the surface parameters; `hit.primitive` is left to the caller.
+    */
+  def intersect(ray: Ray, hit: Hit): Boolean
+
+  /** The same question without the answer's details; the ray stays as it is. */
+  def isHit(ray: Ray): Boolean
+
+  /** Fills in the geometry of the hit that `intersect` found. */
+  def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
+
+/** A surface on which points can be chosen, as seen from a point: what an area light needs. */
+abstract class SurfaceSampler:
+
+  /** In square units of world space. */
+  def area: Float
+
+  /** Chooses a point that may be visible from `from`; `out.pdf` is 0 if there is none. */
+  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit
+
+  /** The density per solid angle at `from` with which `sample` returns the point `p` of this surface,
+    * whose unit normal is `n`.
+    */
+  def pdf(from: Vec3, p: Vec3, n: Vec3): Float
+
+/** A point on a surface; mutable, one per worker. */
+final class SurfaceSample:
+  var p: Vec3 = Vec3.Zero
+
+  /** Conservative bound of the error of `p`, per component. */
+  var pError: Vec3 = Vec3.Zero
+
+  /** Unit normal on the outside. */
+  var n: Vec3 = Vec3.Z
+
+  /** Per solid angle at the point that asked. */
+  var pdf: Float = 0f
+
+object SurfaceSampler:
+  /** Turns a density per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */
+  def perSolidAngle(perArea: Float, from: Vec3, p: Vec3, n: Vec3): Float =
+    val d = p - from
+    val distance2 = d.lengthSquared
+    val cosine = Math.abs(d dot n) / sqrt(distance2)
+    if cosine > 0f then perArea * distance2 / cosine else 0f

@@ -1,0 +1,166 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** A sphere, perhaps cut by two planes of constant z and swept over less than a full turn, anywhere in
+  * the world and of any affine shape.
+  *
+  * The quadratic is solved in Double: Float data give a discriminant that is exact enough for spheres
+  * a million radii away (stability suite), and the hit point's error is that of its rounding alone.
+  *
+  * @param zMin, zMax clip planes in object space; −radius, radius for a full sphere
+  * @param phiMax     sweep in radians, 2π for a full sphere
+  * @param reversed   is the outside the side that p − centre points away from?
+  */
+final class Sphere(
+    objectToWorld: Transform,
+    radius: Float,
+    zMin: Float,
+    zMax: Float,
+    phiMax: Float,
+    reversed: Boolean
+) extends Shape:
+  private val toWorld = objectToWorld.m
+  private val toObject = objectToWorld.inverseM
+  private val full = zMin <= -radius && zMax >= radius && phiMax >= TwoPi
+  private val thetaMin = Math.acos(clamp(zMin / radius, -1f, 1f).toDouble)
+  private val thetaMax = Math.acos(clamp(zMax / radius, -1f, 1f).toDouble)
+  private val center = objectToWorld.point(Vec3.Zero)
+
+  /** The factor by which the transform scales, if it scales all directions alike. */
+  private val uniformScale: Option[Float] =
+    val columns = (0 until 3).map(c => (0 until 3).map(r => toWorld(4 * r + c)))
+    def dot(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ * _).sum
+    val s2 = dot(columns(0), columns(0))
+    val alike = columns.forall(c => Math.abs(dot(c, c) - s2) <= 1e-5 * s2)
+    val square = Seq((0, 1), (0, 2), (1, 2)).forall: (i, j) =>
+      Math.abs(dot(columns(i), columns(j))) <= 1e-5 * s2
+    Option.when(alike && square)(Math.sqrt(s2).toFloat)
+
+  private val worldRadius = radius * uniformScale.getOrElse(1f)
+  private val conical = full && uniformScale.isDefined
+
+  def bounds: Bounds3 =
+    val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
+    val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))
+    val pad = TriangleSoup.roundingError(
+      Vec3(
+        Math.max(Math.abs(world.min.x), Math.abs(world.max.x)),
+        Math.max(Math.abs(world.min.y), Math.abs(world.max.y)),
+        Math.max(Math.abs(world.min.z), Math.abs(world.max.z))
+      )
+    )
+    Bounds3(world.min - pad, world.max + pad)
+
+  def intersect(ray: Ray, hit: Hit): Boolean =
+    val t = nearest(ray)
+    if t > 0.0 && t < ray.tMax then
+      ray.tMax = t.toFloat
+      true
+    else false
+
+  def isHit(ray: Ray): Boolean =
+    val t = nearest(ray)
+    t > 0.0 && t < ray.tMax
+
+  /** The smallest distance > 0 at which the ray meets the sphere, or −1. */
+  private def nearest(ray: Ray): Double =
+    val m = toObject
+    val ox = m(0) * ray.ox + m(1) * ray.oy + m(2) * ray.oz + m(3)
+    val oy = m(4) * ray.ox + m(5) * ray.oy + m(6) * ray.oz + m(7)
+    val oz = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
+    val dx = m(0) * ray.dx + m(1) * ray.dy + m(2) * ray.dz
+    val dy = m(4) * ray.dx + m(5) * ray.dy + m(6) * ray.dz
+    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
+    val a = dx * dx + dy * dy + dz * dz
+    val b = ox * dx + oy * dy + oz * dz
+    val r2 = radius.toDouble * radius
+    val c = ox * ox + oy * oy + oz * oz - r2
+    // r² − |o − (b/a) d|² does not cancel far from a small sphere, as b² − ac does (Haines et al.,
+    // "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019)
+    val s = b / a
+    val (nx, ny, nz) = (ox - s * dx, oy - s * dy, oz - s * dz)
+    val discriminant = a * (r2 - (nx * nx + ny * ny + nz * nz))
+    if !(discriminant >= 0.0) then -1.0
+    else
+      val root = Math.sqrt(discriminant)
+      val q = -(b + (if b < 0.0 then -root else root))
+      val (t0, t1) = if b < 0.0 then (c / q, q / a) else (q / a, c / q)
+      if t0 > 0.0 && isKept(ox + t0 * dx, oy + t0 * dy, oz + t0 * dz) then t0
+      else if t1 > 0.0 && isKept(ox + t1 * dx, oy + t1 * dy, oz + t1 * dz) then t1
+      else -1.0
+
+  private def isKept(x: Double, y: Double, z: Double): Boolean =
+    full || (z >= zMin && z <= zMax && Sphere.phi(x, y) <= phiMax)
+
+  def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    // Repeated in Double from the Float t: the point is pulled onto the sphere afterwards anyway
+    val m = toObject
+    val t = ray.tMax.toDouble
+    val (wx, wy, wz) = (ray.ox + t * ray.dx, ray.oy + t * ray.dy, ray.oz + t * ray.dz)
+    val px = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
+    val py = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
+    val pz = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
+    val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
+    val (x, y, z) = (px * scale, py * scale, pz * scale)
+    val w = toWorld
+    at.p = Vec3(
+      (w(0) * x + w(1) * y + w(2) * z + w(3)).toFloat,
+      (w(4) * x + w(5) * y + w(6) * z + w(7)).toFloat,
+      (w(8) * x + w(9) * y + w(10) * z + w(11)).toFloat
+    )
+    at.pError = TriangleSoup.roundingError(at.p)
+    val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
+    at.geometricNormal = if reversed then -outward else outward
+    val phi = Sphere.phi(x, y)
+    at.u = (phi / phiMax).toFloat
+    at.v = ((Math.acos(Math.max(-1.0, Math.min(1.0, z / radius))) - thetaMin) /
+      (thetaMax - thetaMin)).toFloat
+    val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
+    at.frame = Frame.along(at.geometricNormal, dpdu)
+
+  def area: Float =
+    // Exact for uniform scales; a non-uniform one is sampled by its bounding ellipsoid's mean
+    val scale2 = square(uniformScale.getOrElse(Math.cbrt(Math.abs(Sphere.determinant(toWorld))).toFloat))
+    phiMax * radius * (zMax - zMin) * scale2
+
+  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+    if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
+      SphereSampling.cone(center, worldRadius, from, u1, u2, out)
+    else
+      sampleArea(u1, u2, out)
+      out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
+    if reversed then out.n = -out.n
+
+  /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world area. */
+  private def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
+    val z = lerp(u1, zMin, zMax)
+    val r = safeSqrt(square(radius) - square(z))
+    val phi = u2 * phiMax
+    val p = Vec3(r * cos(phi), r * sin(phi), z)
+    out.p = objectToWorld.point(p)
+    out.pError = TriangleSoup.roundingError(out.p)
+    val n = objectToWorld.normal(p)
+    // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
+    val stretch = Math.abs(Sphere.determinant(toWorld)).toFloat * n.length / radius
+    out.n = n.normalized
+    out.pdf = 1f / (phiMax * radius * (zMax - zMin) * stretch)
+
+  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+    if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
+      SphereSampling.conePdf(center, worldRadius, from)
+    else
+      val q = objectToWorld.inverse.point(p)
+      val stretch =
+        Math.abs(Sphere.determinant(toWorld)).toFloat * objectToWorld.normal(q).length / radius
+      SurfaceSampler.perSolidAngle(1f / (phiMax * radius * (zMax - zMin) * stretch), from, p, n)
+
+object Sphere:
+  private def phi(x: Double, y: Double): Double =
+    val a = Math.atan2(y, x)
+    if a < 0 then a + 2 * Math.PI else a
+
+  private def determinant(m: IArray[Double]): Double =
+    m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
+      m(2) * (m(4) * m(9) - m(5) * m(8))

@@ -1,0 +1,153 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Frame, Hit, ShadingPoint}
+import candela.math.*
+
+/** One mesh of the soup: which vertices and triangles are its own, and what it looks like.
+  *
+  * @param firstVertex   of its vertices in [[TriangleSoup.positions]], in vertices
+  * @param firstTriangle of its triangles
+  * @param normals       three Floats a vertex, world space, any length; empty: flat facets
+  * @param uvs           two Floats a vertex; empty: (0,0), (1,0), (1,1) in every triangle
+  * @param flipped       the geometric normal is −(p1−p0)×(p2−p0)
+  * @param material      index into the scene's materials
+  * @param firstLight    index of the light of its first triangle, the others follow; −1: no emitter
+  */
+final class Mesh(
+    val firstVertex: Int,
+    val firstTriangle: Int,
+    val triangles: Int,
+    val normals: Array[Float],
+    val uvs: Array[Float],
+    val flipped: Boolean,
+    val material: Int,
+    val firstLight: Int
+)
+
+/** All triangles of a scene in world space.
+  *
+  * @param positions x, y, z of every vertex of every mesh
+  * @param indices   three vertices a triangle, counted over all meshes
+  * @param meshOf    the mesh of each triangle
+  * @param tangents  does any material ask for the direction of u? If not, it isn't computed
+  */
+final class TriangleSoup(
+    val positions: Array[Float],
+    val indices: Array[Int],
+    val meshOf: Array[Int],
+    val meshes: Array[Mesh],
+    tangents: Boolean
+):
+  def count: Int = meshOf.length
+
+  def vertex(triangle: Int, corner: Int): Vec3 =
+    val i = indices(3 * triangle + corner) * 3
+    Vec3(positions(i), positions(i + 1), positions(i + 2))
+
+  def bounds(triangle: Int): Bounds3 =
+    Bounds3.of(Seq(vertex(triangle, 0), vertex(triangle, 1), vertex(triangle, 2)))
+
+  /** Geometry of the point with barycentric weights (1−hit.u−hit.v, hit.u, hit.v).
+    *
+    * The weights sum to one in Double, so the point lies in the triangle's plane up to the final
+    * rounding to Float, which `pError` bounds (stability suite: self-intersection).
+    */
+  def surface(triangle: Int, hit: Hit, at: ShadingPoint): Unit =
+    val mesh = meshes(meshOf(triangle))
+    val i0 = indices(3 * triangle)
+    val i1 = indices(3 * triangle + 1)
+    val i2 = indices(3 * triangle + 2)
+    val b1 = hit.u
+    val b2 = hit.v
+    val p0 = vertex(triangle, 0)
+    val p1 = vertex(triangle, 1)
+    val p2 = vertex(triangle, 2)
+    val p = mix(p0, p1, p2, b1.toDouble, b2.toDouble)
+    at.p = p
+    at.pError = TriangleSoup.roundingError(p)
+    val e1 = p1 - p0
+    val e2 = p2 - p0
+    val facet = (e1 cross e2).normalized
+    val outside = if mesh.flipped then -facet else facet
+    val n =
+      if mesh.normals.length == 0 then outside
+      else shadingNormal(mesh, i0, i1, i2, b1, b2, outside)
+    at.geometricNormal = if mesh.normals.length == 0 then outside else outside.facing(n)
+    uv(mesh, i0, i1, i2, b1, b2, at)
+    at.frame =
+      if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
+    at.material = mesh.material
+    at.areaLight = if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
+
+  private def mix(p0: Vec3, p1: Vec3, p2: Vec3, b1: Double, b2: Double): Vec3 =
+    val b0 = 1.0 - b1 - b2
+    Vec3(
+      (b0 * p0.x + b1 * p1.x + b2 * p2.x).toFloat,
+      (b0 * p0.y + b1 * p1.y + b2 * p2.y).toFloat,
+      (b0 * p0.z + b1 * p1.z + b2 * p2.z).toFloat
+    )
+
+  private def shadingNormal(
+      mesh: Mesh,
+      i0: Int,
+      i1: Int,
+      i2: Int,
+      b1: Float,
+      b2: Float,
+      facet: Vec3
+  ): Vec3 =
+    val n = mesh.normals
+    val b0 = 1f - b1 - b2
+    val j0 = (i0 - mesh.firstVertex) * 3
+    val j1 = (i1 - mesh.firstVertex) * 3
+    val j2 = (i2 - mesh.firstVertex) * 3
+    val sum = Vec3(
+      b0 * n(j0) + b1 * n(j1) + b2 * n(j2),
+      b0 * n(j0 + 1) + b1 * n(j1 + 1) + b2 * n(j2 + 1),
+      b0 * n(j0 + 2) + b1 * n(j1 + 2) + b2 * n(j2 + 2)
+    )
+    val length2 = sum.lengthSquared
+    if length2 > 0f && length2 < Float.PositiveInfinity then sum * (1f / sqrt(length2)) else facet
+
+  private def uv(
+      mesh: Mesh,
+      i0: Int,
+      i1: Int,
+      i2: Int,
+      b1: Float,
+      b2: Float,
+      at: ShadingPoint
+  ): Unit =
+    val t = mesh.uvs
+    if t.length == 0 then
+      at.u = b1 + b2
+      at.v = b2
+    else
+      val b0 = 1f - b1 - b2
+      val j0 = (i0 - mesh.firstVertex) * 2
+      val j1 = (i1 - mesh.firstVertex) * 2
+      val j2 = (i2 - mesh.firstVertex) * 2
+      at.u = b0 * t(j0) + b1 * t(j1) + b2 * t(j2)
+      at.v = b0 * t(j0 + 1) + b1 * t(j1 + 1) + b2 * t(j2 + 1)
+
+  /** ∂p/∂u up to a positive factor; any edge if the parameterisation is degenerate. */
+  private def dpdu(mesh: Mesh, i0: Int, i1: Int, i2: Int, e1: Vec3, e2: Vec3): Vec3 =
+    val t = mesh.uvs
+    if t.length == 0 then e1
+    else
+      val j0 = (i0 - mesh.firstVertex) * 2
+      val j1 = (i1 - mesh.firstVertex) * 2
+      val j2 = (i2 - mesh.firstVertex) * 2
+      val v1 = t(j1 + 1) - t(j0 + 1)
+      val v2 = t(j2 + 1) - t(j0 + 1)
+      val determinant = differenceOfProducts(t(j1) - t(j0), v2, t(j2) - t(j0), v1)
+      if determinant == 0f then e1
+      else (e1 * v2 - e2 * v1) * Math.signum(determinant)
+
+object TriangleSoup:
+  val Empty: TriangleSoup =
+    TriangleSoup(Array.empty, Array.empty, Array.empty, Array.empty, tangents = false)
+
+  /** Rounding a Double point to Float is off by half an ulp; one more for what uses it. */
+  def roundingError(p: Vec3): Vec3 =
+    Vec3(Math.abs(p.x) * gamma(2), Math.abs(p.y) * gamma(2), Math.abs(p.z) * gamma(2))
