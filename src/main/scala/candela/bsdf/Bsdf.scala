@@ -23,6 +23,10 @@ abstract class Bsdf:
     */
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
 
+  /** Draws among the perfectly specular directions only: what Whitted's recursion follows. */
+  def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed
+
   /** Only perfectly specular scattering: light sampling can't help. */
   def isSpecular: Boolean
 
@@ -50,6 +54,18 @@ object BsdfSample:
 abstract class Material:
   def bsdf(at: ShadingPoint): Bsdf
 
+  /** Is it the same everywhere? */
+  def isConstant: Boolean = false
+
+  /** Does it scatter differently when turned about its normal? Then the tangent matters. */
+  def isAnisotropic: Boolean = false
+
+/** No surface at all: rays go straight on (pbrt's "interface" and "none"). */
+object InterfaceMaterial extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("an interface has no BSDF")
+
 /** The same everywhere: the object is made once, at build. */
-final class ConstantMaterial(value: Bsdf) extends Material:
+final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = false)
+    extends Material:
   def bsdf(at: ShadingPoint): Bsdf = value
+  override def isConstant: Boolean = true

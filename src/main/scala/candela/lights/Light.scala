@@ -13,6 +13,9 @@ abstract class Light:
     */
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit
 
+  /** Is there any use in `sample`? Not if chance finds the light as well, or if it is black. */
+  def isSampled: Boolean = true
+
   /** Can a ray never meet it by chance? Then only `sample` finds it. */
   def isDelta: Boolean
 

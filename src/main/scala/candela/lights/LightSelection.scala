@@ -32,7 +32,7 @@ final class UniformSelection(lights: Int) extends LightSelection:
   * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
   */
 final class LightTree(lights: Array[Light]) extends LightSelection:
-  private val infinite: Array[Int] = lights.indices.filter(i => lights(i).bounds.isEmpty).toArray
+  private val infinite: Array[Int] = lights.indices.filter(i => lights(i).bounds.isEmpty && lights(i).isSampled).toArray
   private val finite: Array[(Int, LightBounds)] =
     for i <- lights.indices.toArray; b <- lights(i).bounds.toArray if b.power > 0f yield (i, b)
 
@@ -44,11 +44,12 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   /** Per light: the way from the root as bits, low bit first, 1 = second child; −1: not in the tree. */
   private val trail = Array.fill(lights.length)(-1L)
 
-  if finite.nonEmpty then build(finite, 0L, 0)
+  if finite.nonEmpty then build(finite, 0L, 0): Unit
 
   def describe: String = s"${lights.length} lights, by a tree of importance"
 
-  private val infiniteShare: Float = 1f / (infinite.length + (if finite.isEmpty then 0 else 1))
+  private val infiniteShare: Float =
+    1f / Math.max(1, infinite.length + (if finite.isEmpty then 0 else 1))
 
   private def build(part: Array[(Int, LightBounds)], bits: Long, depth: Int): LightBounds =
     val node = used
@@ -100,7 +101,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
       if node < 0 then -1 else ~children(node)
 
   def probability(p: Vec3, n: Vec3, light: Int): Float =
-    if lights(light).bounds.isEmpty then infiniteShare
+    if lights(light).bounds.isEmpty then (if lights(light).isSampled then infiniteShare else 0f)
     else if trail(light) < 0 then 0f
     else
       var bits = trail(light)

@@ -29,6 +29,8 @@ final class Disk(
     val stretch = (dpdx cross dpdy).length
     0.5f * phiMax * (square(radius) - square(innerRadius)) * stretch
 
+  def normals: (Vec3, Float) = (normal, 1f)
+
   def bounds: Bounds3 =
     Bounds3.of(
       for x <- Seq(-radius, radius); y <- Seq(-radius, radius)

@@ -17,6 +17,9 @@ abstract class Shape extends SurfaceSampler:
   /** The same question without the answer's details; the ray stays as it is. */
   def isHit(ray: Ray): Boolean
 
+  /** A cone that holds all outside normals: its unit axis, and the cosine of its half-angle. */
+  def normals: (Vec3, Float)
+
   /** Fills in the geometry of the hit that `intersect` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
 

@@ -120,6 +120,8 @@ final class Sphere(
     val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
     at.frame = Frame.along(at.geometricNormal, dpdu)
 
+  def normals: (Vec3, Float) = (Vec3.Z, -1f)
+
   def area: Float =
     // Exact for uniform scales; a non-uniform one is sampled by its bounding ellipsoid's mean
     val scale2 = square(uniformScale.getOrElse(Math.cbrt(Math.abs(Sphere.determinant(toWorld))).toFloat))

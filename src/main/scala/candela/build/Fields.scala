@@ -1,0 +1,128 @@
+package candela.build
+
+import candela.base.Suggest
+import candela.color.Rgb
+import candela.math.Vec3
+import candela.scenefile.{Dialect, Param, ParamType}
+import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
+
+/** The kinds of parameters that a recipe can declare. A default may depend on the dialect:
+  * `float("xradius", "…")(if v4 then 1.5f else 2f)`.
+  */
+trait Fields:
+  protected def register[T](field: Field[T]): Field[T]
+
+  protected final def v2(using d: Dialect): Boolean = d == Dialect.V2
+  protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
+  protected final def v4(using d: Dialect): Boolean = d == Dialect.V4
+
+  protected val all: Set[Dialect] = Dialect.values.toSet
+  protected val onlyV4: Set[Dialect] = Set(Dialect.V4)
+  protected val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
+
+  protected final def float(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> Float
+  ): Field[Float] = field(name, "float", doc, in, default)(floats(1, _, _).map(_(0)))
+
+  protected final def integer(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> Int
+  ): Field[Int] = field(name, "integer", doc, in, default): (p, site) =>
+    if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
+    else wrong(p, site, "one integer")
+
+  protected final def bool(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> Boolean
+  ): Field[Boolean] = field(name, "bool", doc, in, default): (p, site) =>
+    if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
+    else wrong(p, site, "one bool")
+
+  protected final def string(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> String
+  ): Field[String] = field(name, "string", doc, in, default): (p, site) =>
+    if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
+    else wrong(p, site, "one string")
+
+  /** A string out of a closed set. */
+  protected final def oneOf(name: String, doc: String, values: String*)(
+      default: Dialect ?=> String
+  ): Field[String] = field(name, "string", doc, all, default): (p, site) =>
+    p.strings.headOption.filter(values.contains).orElse {
+      val found = p.strings.headOption.getOrElse("")
+      site.problems.error(
+        p.valuesAt,
+        s"`$name` is one of ${values.mkString(", ")}; found `$found`",
+        Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
+      )
+      None
+    }
+
+  protected final def point(name: String, doc: String)(default: Dialect ?=> Vec3): Field[Vec3] =
+    field(name, "point3", doc, all, default): (p, site) =>
+      floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
+
+  /** Any number of numbers. */
+  protected final def numbers(name: String, typeName: String, doc: String): Field[Array[Float]] =
+    field(name, typeName, doc, all, Array.emptyFloatArray): (p, site) =>
+      if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
+      else if Fields.numeric(p.paramType) then Some(p.floats)
+      else wrong(p, site, "numbers")
+
+  protected final def integers(name: String, doc: String): Field[Array[Int]] =
+    field(name, "integer[]", doc, all, Array.emptyIntArray): (p, site) =>
+      if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
+
+  /** A colour that is no texture: light, or an index of refraction. */
+  protected final def color(name: String, doc: String, role: SpectrumRole, in: Set[Dialect] = all)(
+      default: Dialect ?=> Rgb
+  ): Field[Rgb] = field(name, "rgb", doc, in, default)(Spectra.rgb(_, role, _))
+
+  /** A function of wavelength, or a colour. */
+  protected final def spectrum(name: String, doc: String)(
+      default: Dialect ?=> SpectralValue
+  ): Field[SpectralValue] = field(name, "spectrum", doc, all, default)(Spectra.value(_, _))
+
+  protected final def floatTexture(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> Float
+  ): Field[FloatTexture] =
+    field(name, "float texture", doc, in, ConstantFloat(default)): (p, site) =>
+      if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
+      else floats(1, p, site).map(v => ConstantFloat(v(0)))
+
+  protected final def rgbTexture(name: String, doc: String, in: Set[Dialect] = all)(
+      default: Dialect ?=> Rgb
+  ): Field[RgbTexture] =
+    field(name, "spectrum texture", doc, in, ConstantRgb(default)): (p, site) =>
+      if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
+      else Spectra.rgb(p, SpectrumRole.Reflectance, site).map(ConstantRgb(_))
+
+  private def floats(count: Int, p: Param, site: Site): Option[Array[Float]] =
+    val values =
+      if p.paramType == ParamType.Integer then p.ints.map(_.toFloat)
+      else if Fields.numeric(p.paramType) then p.floats
+      else Array.emptyFloatArray
+    if values.length == count then Some(values)
+    else wrong(p, site, if count == 1 then "one number" else s"$count numbers")
+
+  private def wrong[T](p: Param, site: Site, expected: String): Option[T] =
+    val count = Seq(p.floats.length, p.ints.length, p.bools.size, p.strings.size).max
+    site.problems.error(
+      p.at,
+      s"`${p.name}` of \"${site.declaration.name}\" takes $expected; found " +
+        s"$count of type ${p.paramType.spelling}"
+    )
+    None
+
+  private def field[T](
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect],
+      default: Dialect ?=> T
+  )(read: (Param, Site) => Option[T]): Field[T] =
+    register(Field(name, typeName, doc, in, d => default(using d), read))
+
+object Fields:
+  private[build] val numeric: Set[ParamType] = Set(
+    ParamType.Float, ParamType.Point2, ParamType.Vector2, ParamType.Point3, ParamType.Vector3,
+    ParamType.Normal, ParamType.Rgb
+  )

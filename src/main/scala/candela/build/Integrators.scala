@@ -1,0 +1,68 @@
+package candela.build
+
+import candela.integrators.{DirectLighting, Integrator, PathTracer, Whitted}
+import candela.scene.Scene
+import candela.scenefile.Dialect
+
+/** An integrator to be made once the scene is known.
+  *
+  * @param make         takes the scene and how often each light is to be sampled
+  * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
+  */
+final case class IntegratorPlan(
+    make: (Scene, Array[Int]) => Integrator,
+    samplesBsdf: Boolean,
+    describe: String
+)
+
+/** Recipes of integrators; v2 calls them surface integrators. */
+object Integrators:
+  val all: Recipes[IntegratorPlan] = Recipes(
+    "integrator",
+    Vector(Path("path"), Path("volpath"), Direct, WhittedRecipe),
+    Vector(
+      "bdpt", "mlt", "sppm", "ao", "ambientocclusion", "photonmap", "exphotonmap", "igi", "irradiancecache",
+      "dipolesubsurface", "diffuseprt", "glossyprt", "useprobes", "lightpath", "simplepath",
+      "simplevolpath", "randomwalk", "function", "metropolis"
+    ).map(_ -> "the path integrator is used, which has the same mean where that one is unbiased").toMap
+  )
+
+  final class Path(name: String) extends Recipe[IntegratorPlan](name):
+    private val maxDepth = integer("maxdepth", "most scattering events of a path")(5)
+    private val threshold = float("rrthreshold", "throughput below which a path may end", Set(Dialect.V3))(1f)
+    private val lightSampler = string("lightsampler", "how lights are chosen", onlyV4)("bvh")
+    private val strategy = string("lightsamplestrategy", "how lights are chosen", Set(Dialect.V3))("spatial")
+    notYet("regularize", "BSDFs stay as they are")
+    notYet("pixelbounds", "the film's crop window is rendered")
+
+    protected def make()(using site: Site): IntegratorPlan =
+      // All of them have the same mean; Candela's tree serves for each
+      val _ = (lightSampler(), strategy())
+      // v2 lights one vertex more than it counts
+      val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
+      IntegratorPlan(
+        (scene, _) => PathTracer(scene, depth, threshold()),
+        samplesBsdf = true,
+        s"path, up to $depth scattering events"
+      )
+
+  object Direct extends Recipe[IntegratorPlan]("directlighting", Set(Dialect.V2, Dialect.V3)):
+    private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
+    private val strategy = oneOf("strategy", "sample all lights or one at random", "all", "one", "weighted")("all")
+    notYet("pixelbounds", "the film's crop window is rendered")
+
+    protected def make()(using Site): IntegratorPlan =
+      val (depth, every) = (Math.max(1, maxDepth()), strategy() == "all")
+      IntegratorPlan(
+        (scene, samples) => DirectLighting(scene, depth, if every then samples else Array.empty),
+        samplesBsdf = true,
+        s"directlighting, ${if every then "all lights" else "one light"} at each point"
+      )
+
+  object WhittedRecipe extends Recipe[IntegratorPlan]("whitted", Set(Dialect.V2, Dialect.V3)):
+    private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
+    notYet("pixelbounds", "the film's crop window is rendered")
+
+    protected def make()(using Site): IntegratorPlan =
+      val depth = Math.max(1, maxDepth())
+      IntegratorPlan((scene, _) => Whitted(scene, depth), samplesBsdf = false, "whitted")

@@ -1,0 +1,116 @@
+package candela.build
+
+import candela.base.{Problem, SceneError, Severity}
+import candela.math.Transform
+import candela.render.{PixelBounds, RenderPlan}
+import candela.scenefile.{Declaration, Dialect, SceneDescription}
+
+/** What the person at the command line asks for beside what the scene says.
+  *
+  * @param spp        samples per pixel instead of the scene's
+  * @param quick      a sixteenth of the pixels, one sample each
+  * @param cropWindow x0, x1, y0, y1 as parts of the image, instead of the scene's
+  */
+final case class BuildOptions(
+    spp: Option[Int] = None,
+    seed: Int = 0,
+    quick: Boolean = false,
+    cropWindow: Option[(Float, Float, Float, Float)] = None
+)
+
+/** Makes a render plan of a description: the bridge between the two towers.
+  *
+  * Each choice of a plainer object (see the features of the plan) is made here, once.
+  */
+object SceneBuilder:
+
+  /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all errors. */
+  def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
+    val problems = Problems()
+    val resources = Resources()
+    def site(d: Declaration) = Site(d, description.dialect, resources, problems)
+    def view[A](given_ : Option[Declaration], recipes: Recipes[A], default: String): A =
+      val fallback = Declaration(recipes.category, default, Vector.empty, NoPlace, NoFolder)
+      given_.flatMap(d => recipes.build(site(d))).getOrElse(recipes.build(site(fallback)).get)
+
+    val defaults = Defaults(description.dialect)
+    val film = view(description.film, Films.all, "image")
+    val (width, height) =
+      if options.quick then (Math.max(1, film.width / 4), Math.max(1, film.height / 4))
+      else (film.width, film.height)
+    val filter = view(description.filter, Filters.all, defaults.filter)
+    val spp = options.spp.orElse(Option.when(options.quick)(1))
+    val sampler = view(description.sampler, Samplers.all, defaults.sampler)(
+      SamplerRequest(spp, options.seed, width, height)
+    )
+    if description.worldToCamera.isAnimated then
+      description.camera.foreach(c => problems.warn(c.at, Motion))
+    val camera = view(description.camera, Cameras.all, "perspective")(
+      description.worldToCamera.start.inverse,
+      width,
+      height
+    )
+    val integrator = view(description.integrator, Integrators.all, defaults.integrator)
+    warnOfWholes(description, problems)
+    val world = WorldBuilder(description, resources, problems).build(integrator)
+    if problems.hasErrors then throw SceneError(problems.result.sortBy(place))
+    val plan = RenderPlan(
+      width = width,
+      height = height,
+      crop = cropOf(film, width, height, options),
+      camera = camera,
+      filter = filter,
+      sampler = sampler,
+      integrator = world.integrator,
+      maxComponent = film.maxComponent,
+      imageScale = film.scale,
+      filename = film.filename,
+      features = ("dialect", description.dialect.toString.toLowerCase) +:
+        ("integrator", integrator.describe) +: world.features
+    )
+    (plan, problems.result)
+
+  private val NoPlace = candela.base.SourcePos("", 0, 0)
+  private val NoFolder = java.nio.file.Path.of("")
+
+  private[build] val Motion = "motion is not supported yet: it stands still as at the start of the shutter"
+
+  /** Statements that are understood and have no effect on the picture yet. */
+  private def warnOfWholes(d: SceneDescription, problems: Problems): Unit =
+    for r <- d.renderer if !Set("sampler", "sample").contains(r.name) do
+      problems.warn(r.at, s"renderer \"${r.name}\" is not supported yet: the surface integrator is used")
+    for v <- d.volumes do problems.warn(v.light.at, s"volumes are not supported yet: it is left out")
+    for (name, m) <- d.media do
+      problems.warn(m.at, s"participating media are not supported yet: `$name` is left out")
+
+  private def cropOf(
+      film: FilmSettings,
+      width: Int,
+      height: Int,
+      options: BuildOptions
+  ): PixelBounds =
+    val (x0, x1, y0, y1) = options.cropWindow.getOrElse:
+      val c = film.crop
+      if film.inPixels then
+        (c(0) / film.width, c(1) / film.width, c(2) / film.height, c(3) / film.height)
+      else (c(0), c(1), c(2), c(3))
+    def edge(part: Float, size: Int) =
+      candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
+    val bounds = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    if bounds.width < 1 || bounds.height < 1 then
+      throw SceneError(
+        Problem(Severity.Error, None, s"the crop window $x0 $x1 $y0 $y1 holds no pixel of $width×$height")
+      )
+    bounds
+
+  private def place(p: Problem): (String, Int, Int) =
+    p.at.fold(("", 0, 0))(a => (a.file, a.line, a.column))
+
+/** What each dialect does where the scene says nothing. */
+private final case class Defaults(filter: String, sampler: String, integrator: String)
+
+private object Defaults:
+  def apply(dialect: Dialect): Defaults = dialect match
+    case Dialect.V2 => Defaults("box", "lowdiscrepancy", "directlighting")
+    case Dialect.V3 => Defaults("box", "halton", "path")
+    case Dialect.V4 => Defaults("gaussian", "zsobol", "volpath")

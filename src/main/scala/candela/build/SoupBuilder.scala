@@ -1,0 +1,113 @@
+package candela.build
+
+import scala.collection.mutable.ArrayBuffer
+
+import candela.base.loop
+import candela.math.Transform
+import candela.shapes.{Mesh, TriangleSoup}
+
+/** Collects the meshes of a scene, in world space, for one [[TriangleSoup]]. */
+final class SoupBuilder:
+  private val positions = ArrayBuffer.empty[Array[Float]]
+  private val indices = ArrayBuffer.empty[Array[Int]]
+  private val meshes = ArrayBuffer.empty[Mesh]
+  private var vertices = 0
+  private var triangles = 0
+
+  def triangleCount: Int = triangles
+
+  /** Adds a mesh; answers the number of its first triangle.
+    *
+    * @param flipNormals turn the given shading normals around too (pbrt-v4 does with ReverseOrientation)
+    * @param firstLight  of its triangles' lights, −1: it does not emit
+    */
+  def add(
+      mesh: ShapeGeometry.Triangles,
+      toWorld: Transform,
+      reversed: Boolean,
+      flipNormals: Boolean,
+      material: Int,
+      firstLight: Int
+  ): Int =
+    val first = triangles
+    val base = vertices
+    positions += SoupBuilder.points(mesh.positions, toWorld)
+    indices += mesh.indices.map(_ + base)
+    meshes += Mesh(
+      firstVertex = base,
+      firstTriangle = first,
+      triangles = mesh.indices.length / 3,
+      normals = SoupBuilder.normals(mesh.normals, toWorld, reversed && flipNormals),
+      uvs = mesh.uvs,
+      flipped = reversed != toWorld.swapsHandedness,
+      material = material,
+      firstLight = firstLight
+    )
+    vertices += mesh.positions.length / 3
+    triangles += mesh.indices.length / 3
+    first
+
+  def result(tangents: Boolean): TriangleSoup =
+    val meshOf = new Array[Int](triangles)
+    for (mesh, i) <- meshes.zipWithIndex do
+      java.util.Arrays.fill(meshOf, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
+    TriangleSoup(
+      SoupBuilder.joined(positions),
+      SoupBuilder.joinedInts(indices),
+      meshOf,
+      meshes.toArray,
+      tangents
+    )
+
+object SoupBuilder:
+  private def points(p: Array[Float], toWorld: Transform): Array[Float] =
+    if toWorld.isIdentity then p
+    else
+      val m = toWorld.m
+      val out = new Array[Float](p.length)
+      loop(p.length / 3): i =>
+        val x = p(3 * i).toDouble
+        val y = p(3 * i + 1).toDouble
+        val z = p(3 * i + 2).toDouble
+        val w = m(12) * x + m(13) * y + m(14) * z + m(15)
+        loop(3): r =>
+          out(3 * i + r) =
+            ((m(4 * r) * x + m(4 * r + 1) * y + m(4 * r + 2) * z + m(4 * r + 3)) / w).toFloat
+      out
+
+  private def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
+    if n.length == 0 || (toWorld.isIdentity && !flip) then n
+    else
+      val m = toWorld.inverseM
+      val sign = if flip then -1.0 else 1.0
+      val out = new Array[Float](n.length)
+      loop(n.length / 3): i =>
+        val x = n(3 * i) * sign
+        val y = n(3 * i + 1) * sign
+        val z = n(3 * i + 2) * sign
+        // Unit length, so that interpolation weights all three corners alike
+        val wx = m(0) * x + m(4) * y + m(8) * z
+        val wy = m(1) * x + m(5) * y + m(9) * z
+        val wz = m(2) * x + m(6) * y + m(10) * z
+        val length = Math.sqrt(wx * wx + wy * wy + wz * wz)
+        val s = if length > 0 then 1 / length else 0.0
+        out(3 * i) = (wx * s).toFloat
+        out(3 * i + 1) = (wy * s).toFloat
+        out(3 * i + 2) = (wz * s).toFloat
+      out
+
+  private def joined(parts: ArrayBuffer[Array[Float]]): Array[Float] =
+    val all = new Array[Float](parts.map(_.length).sum)
+    var at = 0
+    for part <- parts do
+      System.arraycopy(part, 0, all, at, part.length)
+      at += part.length
+    all
+
+  private def joinedInts(parts: ArrayBuffer[Array[Int]]): Array[Int] =
+    val all = new Array[Int](parts.map(_.length).sum)
+    var at = 0
+    for part <- parts do
+      System.arraycopy(part, 0, all, at, part.length)
+      at += part.length
+    all

@@ -1,0 +1,170 @@
+package candela.build
+
+import scala.collection.mutable
+import scala.collection.mutable.ArrayBuffer
+
+import candela.accel.{Accelerator, Bvh, Grid, Primitives}
+import candela.bsdf.{InterfaceMaterial, Material}
+import candela.integrators.Integrator
+import candela.lights.{Light, LightSelection}
+import candela.math.Transform
+import candela.scene.{Scene, ShapeInstance}
+import candela.scenefile.*
+import candela.shapes.TriangleSampler
+
+/** The world, ready to render, with what it holds in words. */
+final class World(val integrator: Integrator, val features: Vector[(String, String)])
+
+/** Makes shapes, materials and lights of a description. */
+final class WorldBuilder(description: SceneDescription, resources: Resources, problems: Problems):
+  private val materials = ArrayBuffer.empty[Material]
+  private val materialOf = mutable.HashMap.empty[MaterialRef, Int]
+  private val soup = SoupBuilder()
+  private val solids = ArrayBuffer.empty[ShapeInstance]
+  private val lights = ArrayBuffer.empty[Light]
+  private val lightSamples = ArrayBuffer.empty[Int]
+
+  /** Lights of mesh triangles can be made only when all triangles are known: (plan, first, count). */
+  private val meshLights = ArrayBuffer.empty[(AreaLightPlan, Int, Int, Int)]
+  private var emissive = 0
+
+  private def site(d: Declaration) = Site(d, description.dialect, resources, problems)
+
+  def build(integrator: IntegratorPlan): World =
+    for t <- description.textures do Textures.define(t, site(t.texture))
+    for s <- description.shapes do add(s)
+    for i <- description.instances; s <- instantiated(i) do add(s)
+    val triangles = soup.result(tangents = Materials.needTangents(materials))
+    for (plan, first, count, light) <- meshLights do
+      val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
+      val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
+      for (sampler, k) <- samplers.zipWithIndex do lights(light + k) = plan.ofTriangle(sampler, area)
+    for l <- description.lights do addLight(l, !integrator.samplesBsdf)
+    val primitives = Primitives(triangles, solids.map(_.shape).toArray)
+    val accelerator = accelerate(primitives)
+    val sources = lights.toArray
+    val selection = LightSelection.of(sources)
+    val scene = Scene(triangles, solids.toArray, accelerator, materials.toArray, sources, selection)
+    if sources.isEmpty then warnOfDarkness()
+    World(
+      integrator.make(scene, lightSamples.toArray),
+      Vector(
+        "accelerator" -> accelerator.describe,
+        "triangles" -> soup.triangleCount.toString,
+        "other shapes" -> solids.length.toString,
+        "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
+        "lights" -> (if sources.isEmpty then "none" else selection.describe)
+      )
+    )
+
+  private def warnOfDarkness(): Unit =
+    for c <- description.camera do
+      problems.warn(c.at, "the scene has no light: its image will be black")
+
+  private def accelerate(primitives: Primitives): Accelerator =
+    description.accelerator match
+      case Some(d) if d.name == "grid" || d.name == "none" => Grid(primitives)
+      case Some(d) if d.name == "bvh" => Bvh(primitives)
+      case Some(d) =>
+        val what = if d.name == "kdtree" then "" else "unknown "
+        problems.warn(d.at, s"${what}accelerator \"${d.name}\": a bvh is used, with the same picture")
+        Bvh(primitives)
+      case None => Bvh(primitives)
+
+  /** The shapes of an object, moved to where an instance puts them. */
+  private def instantiated(i: InstanceDescription): Vector[ShapeDescription] =
+    description.objects.get(i.name) match
+      case None =>
+        problems.error(
+          i.at,
+          s"no object is named `${i.name}`",
+          candela.base.Suggest.help(i.name, description.objects.keys)
+        )
+        Vector.empty
+      case Some(shapes) =>
+        shapes.map: s =>
+          val t = i.instanceToWorld
+          s.copy(
+            objectToWorld = AnimatedTransform(
+              t.start * s.objectToWorld.start,
+              t.end * s.objectToWorld.end
+            ),
+            areaLight = None
+          )
+
+  private def add(s: ShapeDescription): Unit =
+    if s.objectToWorld.isAnimated then problems.warn(s.shape.at, SceneBuilder.Motion)
+    val toWorld = s.objectToWorld.start
+    val here = site(s.shape)
+    for geometry <- Shapes.all.build(here).flatten do
+      val material = materialIndex(s.material)
+      val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
+      geometry match
+        case mesh: ShapeGeometry.Triangles => addMesh(s, mesh, toWorld, material, light, here)
+        case ShapeGeometry.Solid(make) =>
+          val shape = make(toWorld, s.reverseOrientation)
+          val index = light.fold(-1): plan =>
+            lights += plan.ofShape(shape)
+            lightSamples += plan.samples
+            lights.length - 1
+          solids += ShapeInstance(shape, material, index)
+
+  private def addMesh(
+      s: ShapeDescription,
+      mesh: ShapeGeometry.Triangles,
+      toWorld: Transform,
+      material: Int,
+      light: Option[AreaLightPlan],
+      here: Site
+  ): Unit =
+    val count = mesh.indices.length / 3
+    if soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
+      here.error(
+        s"more than ${WorldBuilder.MostTriangles} triangles: each instance is a copy until instancing is supported"
+      )
+    else
+      val firstLight = light.fold(-1)(_ => lights.length)
+      val flipNormals = description.dialect == Dialect.V4
+      val first = soup.add(mesh, toWorld, s.reverseOrientation, flipNormals, material, firstLight)
+      for plan <- light do
+        meshLights += ((plan, first, count, firstLight))
+        for _ <- 0 until count do
+          lights += null // made as soon as all triangles are known
+          lightSamples += plan.samples
+
+  private def addLight(l: LightDescription, complete: Boolean): Unit =
+    if l.lightToWorld.isAnimated then problems.warn(l.light.at, SceneBuilder.Motion)
+    for
+      plan <- Lights.all.build(site(l.light))
+      light <- plan.make(l.lightToWorld.start, complete)
+    do
+      lights += light
+      lightSamples += plan.samples
+
+  /** Index of the material, made when it is first used. */
+  private def materialIndex(ref: MaterialRef): Int =
+    materialOf.getOrElseUpdate(
+      ref, {
+        val made = ref match
+          case MaterialRef.Default => Materials.default(description.dialect)
+          case MaterialRef.Inline(d) => Materials.build(site(d), named)
+          case MaterialRef.Named(name, at) =>
+            named.get(name) match
+              case Some(d) => Materials.build(site(d), named)
+              case None =>
+                problems.error(
+                  at,
+                  s"no material is named `$name`",
+                  candela.base.Suggest.help(name, named.keys)
+                )
+                InterfaceMaterial
+        materials += made
+        materials.length - 1
+      }
+    )
+
+  private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
+
+object WorldBuilder:
+  /** 9 Floats a triangle must fit into one array. */
+  private[build] val MostTriangles = 200_000_000

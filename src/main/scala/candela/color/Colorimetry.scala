@@ -1,0 +1,62 @@
+package candela.color
+
+import scala.io.{Codec, Source}
+
+/** From spectra to linear sRGB, with the CIE 1931 observer, and the spectra that scenes can name. */
+object Colorimetry:
+
+  /** Which light a spectrum is seen under. */
+  enum White:
+    /** Equal energy: pbrt-v2's and v3's habit. A constant 1 becomes a slightly reddish colour. */
+    case EqualEnergy
+
+    /** The white of sRGB: a constant 1 becomes (1, 1, 1). pbrt-v4's habit for reflectances. */
+    case D65
+
+  /** Wavelengths at which integrals are sampled: 360–830 nm in steps of 5. */
+  private lazy val observer: Array[Array[Float]] = table("cie1931")
+  lazy val D65: Spectrum = named("D65").get
+
+  /** The colour of a reflectance (or refractive index, …) that depends on wavelength. */
+  def rgb(spectrum: Float => Float, white: White): Rgb =
+    var x, y, z, sum = 0.0
+    for Array(nm, cx, cy, cz) <- observer do
+      val light = if white == White.D65 then D65(nm) else 1f
+      val s = spectrum(nm) * light
+      x += s * cx
+      y += s * cy
+      z += s * cz
+      sum += light * cy
+    fromXyz(x / sum, y / sum, z / sum)
+
+  /** The colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's habit for emission. */
+  def unitLuminance(spectrum: Float => Float): Rgb =
+    val c = rgb(spectrum, White.EqualEnergy)
+    c * (1f / c.luminance)
+
+  /** IEC 61966-2-1, the inverse of its matrix of primaries. */
+  def fromXyz(x: Double, y: Double, z: Double): Rgb = Rgb(
+    (3.240479 * x - 1.537150 * y - 0.498535 * z).toFloat,
+    (-0.969256 * x + 1.875991 * y + 0.041556 * z).toFloat,
+    (0.055648 * x - 0.204043 * y + 1.057311 * z).toFloat
+  )
+
+  /** The names of the spectra that come with Candela, as pbrt-v4 calls them. */
+  val names: Vector[String] =
+    val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
+    metals.flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k")) ++
+      Vector("BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11").map(g => s"glass-$g") :+ "stdillum-D65"
+
+  def named(name: String): Option[Spectrum] =
+    val file = name.stripPrefix("stdillum-")
+    Option.when(names.contains(name) || file == "D65"):
+      val rows = table(file)
+      Spectrum(rows.map(_(0)), rows.map(_(1)))
+
+  /** Rows of numbers; lines that begin with # are remarks. */
+  private def table(name: String): Array[Array[Float]] =
+    val stream = getClass.getResourceAsStream(s"/candela/spectra/$name.txt")
+    val source = Source.fromInputStream(stream)(using Codec.UTF8)
+    try
+      source.getLines().filterNot(_.startsWith("#")).map(_.trim.split(' ').map(_.toFloat)).toArray
+    finally source.close()

@@ -1,0 +1,47 @@
+package candela.color
+
+import candela.math.*
+
+/** A function of wavelength, given at points and linear between them.
+  *
+  * @param lambda wavelengths in nm, ascending
+  * @param outside what it is beyond the first and last wavelength: their values, or 0
+  */
+final class Spectrum(
+    val lambda: Array[Float],
+    val values: Array[Float],
+    outside: Spectrum.Outside = Spectrum.Outside.Clamped
+):
+  def apply(nm: Float): Float =
+    val n = lambda.length
+    val beyond = outside == Spectrum.Outside.Zero
+    if n == 0 then 0f
+    else if nm <= lambda(0) then (if beyond && nm < lambda(0) then 0f else values(0))
+    else if nm >= lambda(n - 1) then (if beyond && nm > lambda(n - 1) then 0f else values(n - 1))
+    else
+      val found = java.util.Arrays.binarySearch(lambda, nm)
+      val i = if found >= 0 then found else -found - 2
+      lerp((nm - lambda(i)) / (lambda(i + 1) - lambda(i)), values(i), values(i + 1))
+
+  def *(s: Float): Spectrum = Spectrum(lambda, values.map(_ * s), outside)
+
+object Spectrum:
+  enum Outside:
+    case Clamped, Zero
+
+  def constant(value: Float): Spectrum = Spectrum(Array(550f), Array(value))
+
+  /** Spectral radiance of a black body of `kelvin`, scaled to a maximum of 1 (Planck's law; the maximum
+    * by Wien's displacement law).
+    */
+  def blackbody(kelvin: Float): Spectrum =
+    val peak = planck(2.8977721e-3 / kelvin, kelvin)
+    val lambda = Array.tabulate(95)(i => 360f + 5f * i)
+    Spectrum(lambda, lambda.map(l => (planck(l * 1e-9, kelvin) / peak).toFloat))
+
+  /** W·m⁻²·sr⁻¹·m⁻¹ at a wavelength in metres; constants of CODATA 2018 (exact). */
+  private def planck(meters: Double, kelvin: Double): Double =
+    val c = 299792458.0
+    val h = 6.62607015e-34
+    val kb = 1.380649e-23
+    2 * h * c * c / (Math.pow(meters, 5) * Math.expm1(h * c / (meters * kb * kelvin)))

@@ -1,0 +1,103 @@
+package candela.integrators
+
+import candela.bsdf.Bsdf
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Light that comes straight from the sources, or by way of mirrors and glass only.
+  *
+  * @param maxDepth     most specular bounces, plus one
+  * @param lightSamples how often each light is sampled at a point; empty: one light, chosen at random
+  *
+  * Where a surface both mirrors and refracts, one of the two is followed at random instead of both:
+  * the same mean at a cost that does not double with each bounce.
+  * Source: PBRT 3rd ed., §14.3; multiple importance sampling as in Veach 1997, §9.2.
+  */
+final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
+    extends LightTransport(scene):
+  private val bsdfRay = Ray()
+  private val bsdfHit = Hit()
+  private val met = ShadingPoint()
+
+  def copy(): DirectLighting = DirectLighting(scene, maxDepth, lightSamples)
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    var light = Rgb.Black
+    var throughput = Rgb.White
+    var depth = 0
+    var alive = true
+    while alive do
+      rays += 1
+      if !scene.closest(ray, hit) then
+        light += throughput * escaped(ray.direction, (_, _) => 1f)
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        val wo = -ray.direction
+        if at.areaLight >= 0 then light += throughput * scene.surfaceLight(at).radiance(at, wo)
+        if scene.isInterface(at) then
+          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+        else
+          val bsdf = scene.bsdf(at)
+          if !bsdf.isSpecular then light += throughput * direct(bsdf, wo, sampler)
+          depth += 1
+          alive = depth < maxDepth
+          if alive then
+            val bounce = bsdf.sampleSpecular(at.frame.toLocal(wo), sampler.next1D())
+            throughput = throughput * bounce.weight
+            alive = !throughput.isBlack
+            val wi = at.frame.toWorld(bounce.wi)
+            ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+    light
+
+  private def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    var sum = Rgb.Black
+    if lightSamples.length == 0 then
+      val chosen = scene.selection.choose(at.p, at.frame.n, sampler.next1D())
+      if chosen >= 0 then
+        val selected = scene.selection.probability(at.p, at.frame.n, chosen)
+        sum = estimate(chosen, selected, bsdf, wo, sampler)
+    else
+      var light = 0
+      while light < lightSamples.length do
+        var i = 0
+        while i < lightSamples(light) do
+          sum += estimate(light, 1f, bsdf, wo, sampler) * (1f / lightSamples(light))
+          i += 1
+        light += 1
+    sum
+
+  /** One sample of the light and one of the BSDF, combined. */
+  private def estimate(light: Int, selected: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    sampler.next2D()
+    val byLight = sampleLight(light, selected, bsdf, wo, sampler, combined = true)
+    if scene.lights(light).isDelta then byLight
+    else byLight + byBsdf(light, selected, bsdf, wo, sampler)
+
+  private def byBsdf(light: Int, selected: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
+    // Specular directions are followed by the loop above
+    if bounce.isSpecular || bounce.weight.isBlack then Rgb.Black
+    else
+      val wi = at.frame.toWorld(bounce.wi)
+      bsdfRay.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+      rays += 1
+      if scene.closest(bsdfRay, bsdfHit) then
+        scene.surface(bsdfRay, bsdfHit, met)
+        if met.areaLight != light then Rgb.Black
+        else
+          val source = scene.surfaceLight(met)
+          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, met))
+          bounce.weight * source.radiance(met, -wi) * (weight / selected)
+      else
+        val found = scene.environmentIndex.indexOf(light)
+        if found < 0 then Rgb.Black
+        else
+          val source = scene.environments(found)
+          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(wi))
+          bounce.weight * source.radiance(wi) * (weight / selected)

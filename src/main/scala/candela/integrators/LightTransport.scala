@@ -1,0 +1,92 @@
+package candela.integrators
+
+import candela.bsdf.Bsdf
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.lights.LightSample
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** What the integrators that walk from the camera share: work space, and light sampling. */
+abstract class LightTransport(protected val scene: Scene) extends Integrator:
+  protected val hit = Hit()
+  protected val at = ShadingPoint()
+  protected val shadowRay = Ray()
+  protected val shadowHit = Hit()
+  protected val lightSample = LightSample()
+  protected var rays = 0L
+
+  def raysTraced: Long = rays
+
+  /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight` of
+    * its index.
+    */
+  protected inline def escaped(direction: Vec3, inline weight: (Int, Float) => Float): Rgb =
+    var sum = Rgb.Black
+    var i = 0
+    while i < scene.environments.length do
+      val light = scene.environments(i)
+      val w = weight(scene.environmentIndex(i), light.pdf(direction))
+      sum += light.radiance(direction) * w
+      i += 1
+    sum
+
+  /** One sample of the light that `light` sends to `at` and on to `wo` (world space).
+    *
+    * @param selected probability with which this light was chosen
+    * @param combined weight by the power heuristic, because BSDF sampling finds this light too
+    */
+  protected def sampleLight(
+      light: Int,
+      selected: Float,
+      bsdf: Bsdf,
+      wo: Vec3,
+      sampler: Sampler,
+      combined: Boolean
+  ): Rgb =
+    val source = scene.lights(light)
+    source.sample(at.p, sampler.x, sampler.y, lightSample)
+    if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
+    else
+      val wi = at.frame.toLocal(lightSample.wi)
+      val local = at.frame.toLocal(wo)
+      val f = bsdf.f(local, wi)
+      if f.isBlack || isBlocked() then Rgb.Black
+      else
+        val pdf = selected * lightSample.pdf
+        val weight =
+          if combined && !source.isDelta then LightTransport.powerHeuristic(pdf, bsdf.pdf(local, wi))
+          else 1f
+        f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
+
+  /** Is something between the shading point and the chosen point on the light? */
+  private def isBlocked(): Boolean =
+    val origin = at.offsetOrigin(lightSample.wi)
+    if lightSample.isInfinite then
+      shadowRay.set(origin, lightSample.wi, Float.PositiveInfinity)
+    else
+      val target = lightSample.target
+      val end = ShadingPoint.offset(target.p, target.pError, target.n, -lightSample.wi)
+      shadowRay.set(origin, end - origin, LightTransport.ShadowEnd)
+    rays += 1
+    blocked()
+
+  /** Walks on through surfaces that are mere interfaces. */
+  private def blocked(): Boolean = scene.isOccluded(shadowRay, shadowHit)
+
+object LightTransport:
+  /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of its
+    * two ends must not reach the light's own surface.
+    */
+  inline val ShadowEnd = 0.9999f
+
+  /** Weight of a sample drawn with density `a` where `b` could have drawn it too.
+    *
+    * Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9.2.4, β = 2.
+    */
+  def powerHeuristic(a: Float, b: Float): Float =
+    if a == Float.PositiveInfinity then 1f
+    else
+      val r = b / a
+      1f / (1f + r * r)

@@ -1,0 +1,85 @@
+package candela.integrators
+
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Unidirectional path tracing with next-event estimation, multiple importance sampling and Russian
+  * roulette.
+  *
+  * @param maxDepth most scattering events of a path
+  * @param rouletteThreshold throughput below which a path may end early
+  *
+  * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed., §13.4.
+  */
+final class PathTracer(scene: Scene, maxDepth: Int, rouletteThreshold: Float)
+    extends LightTransport(scene):
+
+  def copy(): PathTracer = PathTracer(scene, maxDepth, rouletteThreshold)
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    var light = Rgb.Black
+    var throughput = Rgb.White
+    var depth = 0
+    var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
+    var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
+    var lastP = Vec3.Zero
+    var lastN = Vec3.Zero
+    var alive = true
+    while alive do
+      rays += 1
+      if !scene.closest(ray, hit) then
+        val d = ray.direction
+        light += throughput * escaped(
+          d,
+          (i, pdf) => misWeight(lastPdf, if lastPdf > 0f then scene.selection.probability(lastP, lastN, i) * pdf else 0f)
+        )
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        val wo = -ray.direction
+        if at.areaLight >= 0 then
+          val source = scene.surfaceLight(at)
+          val emitted = source.radiance(at, wo)
+          if !emitted.isBlack then
+            val pdf =
+              if lastPdf > 0f then
+                scene.selection.probability(lastP, lastN, at.areaLight) * source.pdf(lastP, at)
+              else 0f
+            light += throughput * emitted * misWeight(lastPdf, pdf)
+        if depth == maxDepth then alive = false
+        else if scene.isInterface(at) then
+          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+        else
+          depth += 1
+          val bsdf = scene.bsdf(at)
+          val n = at.frame.n
+          if !bsdf.isSpecular && scene.lights.length > 0 then
+            val choice = sampler.next1D()
+            sampler.next2D()
+            val chosen = scene.selection.choose(at.p, n, choice)
+            if chosen >= 0 then
+              val selected = scene.selection.probability(at.p, n, chosen)
+              light += throughput * sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+          val choice = sampler.next1D()
+          sampler.next2D()
+          val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
+          throughput = throughput * bounce.weight
+          lastPdf = if bounce.isSpecular then 0f else bounce.pdf
+          lastP = at.p
+          lastN = n
+          etaScale *= square(bounce.eta)
+          val wi = at.frame.toWorld(bounce.wi)
+          ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+          alive = !throughput.isBlack
+          if alive && depth > 1 then
+            val q = throughput.max * etaScale
+            if q < rouletteThreshold then
+              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+    light
+
+  /** Weight of light that a sampled direction met, which light sampling finds with density `pdf`. */
+  private def misWeight(sampled: Float, pdf: Float): Float =
+    if sampled > 0f then LightTransport.powerHeuristic(sampled, pdf) else 1f

@@ -1,0 +1,75 @@
+package candela.lights
+
+import candela.math.*
+
+/** How an image covers the sphere of directions; (x, y) are in [0, 1], y down from the image's top. */
+abstract class SphereMap:
+
+  /** Image place of the unit direction `d`, as (x, y, 0). */
+  def toImage(d: Vec3): Vec3
+
+  /** Unit direction of the image place. */
+  def toDirection(x: Float, y: Float): Vec3
+
+  /** Steradians per unit of image area at the place; 0 where the map degenerates. */
+  def stretch(y: Float): Float
+
+  /** The pixel beyond the border, (x, y) moved back into a `width` × `height` image. */
+  def wrapX(x: Int, y: Int, width: Int, height: Int): Int
+  def wrapY(x: Int, y: Int, width: Int, height: Int): Int
+
+/** Longitude along x, colatitude from +z down y: the layout of pbrt-v2's and v3's `mapname`. */
+object LatLongMap extends SphereMap:
+  def toImage(d: Vec3): Vec3 =
+    val phi = Math.atan2(d.y.toDouble, d.x.toDouble).toFloat
+    val theta = Math.acos(clamp(d.z, -1f, 1f).toDouble).toFloat
+    Vec3(clamp((if phi < 0f then phi + TwoPi else phi) * InvTwoPi, 0f, 1f), theta * InvPi, 0f)
+
+  def toDirection(x: Float, y: Float): Vec3 =
+    val (phi, theta) = (x * TwoPi, y * Pi)
+    val s = sin(theta)
+    Vec3(s * cos(phi), s * sin(phi), cos(theta))
+
+  def stretch(y: Float): Float = 2f * Pi * Pi * sin(y * Pi)
+
+  def wrapX(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(x, width)
+  def wrapY(x: Int, y: Int, width: Int, height: Int): Int = clamp(y, 0, height - 1)
+
+/** The equal-area octahedral map of pbrt-v4's environment images.
+  *
+  * Source: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", JGT 13(3), 2008.
+  */
+object EqualAreaMap extends SphereMap:
+  def toImage(d: Vec3): Vec3 =
+    val (ax, ay, az) = (Math.abs(d.x), Math.abs(d.y), Math.abs(d.z))
+    val r = safeSqrt(1f - az)
+    val phi = // of the first octant, in [0, 1]
+      if ax == 0f && ay == 0f then 0f else Math.atan2(ay.toDouble, ax.toDouble).toFloat * (2f * InvPi)
+    val v0 = phi * r
+    val u0 = r - v0
+    val u = if d.z < 0f then 1f - v0 else u0
+    val v = if d.z < 0f then 1f - u0 else v0
+    Vec3((Math.copySign(u, d.x) + 1f) * 0.5f, (Math.copySign(v, d.y) + 1f) * 0.5f, 0f)
+
+  def toDirection(x: Float, y: Float): Vec3 =
+    val (u, v) = (2f * x - 1f, 2f * y - 1f)
+    val (au, av) = (Math.abs(u), Math.abs(v))
+    val signed = 1f - (au + av)
+    val r = 1f - Math.abs(signed)
+    val phi = (if r == 0f then 1f else (av - au) / r + 1f) * (Pi / 4f)
+    val horizontal = r * safeSqrt(2f - r * r)
+    Vec3(
+      Math.copySign(cos(phi) * horizontal, u),
+      Math.copySign(sin(phi) * horizontal, v),
+      Math.copySign(1f - r * r, signed)
+    )
+
+  def stretch(y: Float): Float = 4f * Pi
+
+  // Beyond a border the octahedron goes on at the same border, mirrored at its middle
+  def wrapX(x: Int, y: Int, width: Int, height: Int): Int =
+    val inside = if x < 0 then -1 - x else if x >= width then 2 * width - 1 - x else x
+    if y < 0 || y >= height then width - 1 - inside else inside
+  def wrapY(x: Int, y: Int, width: Int, height: Int): Int =
+    val inside = if y < 0 then -1 - y else if y >= height then 2 * height - 1 - y else y
+    if x < 0 || x >= width then height - 1 - inside else inside

@@ -1,0 +1,54 @@
+package candela.scene
+
+import candela.accel.Accelerator
+import candela.bsdf.{Bsdf, InterfaceMaterial, Material}
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
+import candela.shapes.{Shape, TriangleSoup}
+
+/** A shape that is no triangle, with what it looks like.
+  *
+  * @param material index into the scene's materials
+  * @param light    index into its lights, −1: it does not emit
+  */
+final case class ShapeInstance(shape: Shape, material: Int, light: Int)
+
+/** All that a ray can meet, and all that lights it. Immutable; shared by all workers. */
+final class Scene(
+    soup: TriangleSoup,
+    shapes: Array[ShapeInstance],
+    accelerator: Accelerator,
+    materials: Array[Material],
+    val lights: Array[Light],
+    val selection: LightSelection
+):
+  /** Those of `lights` that surround the scene, with their indices. */
+  val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
+  val environmentIndex: Array[Int] =
+    lights.indices.filter(i => lights(i).isInstanceOf[EnvironmentLight]).toArray
+
+  private val surfaceLights: Array[SurfaceLight] = lights.map:
+    case s: SurfaceLight => s
+    case _ => null
+
+  def closest(ray: Ray, hit: Hit): Boolean = accelerator.closest(ray, hit)
+
+  def isOccluded(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
+
+  /** Works out the geometry of the hit that `closest` found. */
+  def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    val primitive = hit.primitive
+    if primitive < soup.count then soup.surface(primitive, hit, at)
+    else
+      val instance = shapes(primitive - soup.count)
+      instance.shape.surface(ray, hit, at)
+      at.material = instance.material
+      at.areaLight = instance.light
+
+  /** Does light pass here as if nothing were there? */
+  def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
+
+  def bsdf(at: ShadingPoint): Bsdf = materials(at.material).bsdf(at)
+
+  /** The light whose surface `at` is on; only if `at.areaLight` ≥ 0. */
+  def surfaceLight(at: ShadingPoint): SurfaceLight = surfaceLights(at.areaLight)
