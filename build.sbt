@@ -1,6 +1,7 @@
 ThisBuild / scalaVersion := "3.3.7"
 ThisBuild / organization := "candela"
 ThisBuild / version := "0.1.0"
+ThisBuild / licenses := Seq(License.Apache2)
 
 val lwjgl = "3.4.3"
 val lwjglNatives = Seq(
@@ -12,13 +13,26 @@ val lwjglNatives = Seq(
   "natives-windows-arm64"
 )
 
+/** What every JVM of this build gets: the renderer's own, and the one that tests it. */
+val jvmOptions = Seq(
+  "-XX:+UseParallelGC", // nobody waits for a pause; throughput is all that counts
+  "-Xss4m", // deep BVHs and deeply nested includes
+  "-Djava.awt.headless=true",
+  "-Dfile.encoding=UTF-8", // the default from JDK 18 on
+  "--enable-native-access=ALL-UNNAMED", // LWJGL
+  // JDK 24 and later warn about Scala's lazy values; JDK 17 does not know the option that says no
+  "-XX:+IgnoreUnrecognizedVMOptions",
+  "--sun-misc-unsafe-memory-access=allow"
+)
+
 lazy val root = (project in file("."))
+  .enablePlugins(JavaAppPackaging)
   .settings(
     name := "candela",
-    scalacOptions ++= Seq(
-      "-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror",
-      "-java-output-version:17"
-    ),
+    description := "A physically based renderer for pbrt scenes",
+    scalacOptions ++= Seq("-encoding", "UTF-8"),
+    scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
+    scalacOptions += "-java-output-version:17",
     libraryDependencies ++= Seq(
       "com.github.scopt" %% "scopt" % "4.1.0",
       "org.lwjgl" % "lwjgl" % lwjgl,
@@ -31,7 +45,36 @@ lazy val root = (project in file("."))
     libraryDependencies ++= lwjglNatives.flatMap(n =>
       Seq("lwjgl", "lwjgl-tinyexr", "lwjgl-stb").map(m => "org.lwjgl" % m % lwjgl classifier n)
     ),
-    run / fork := true,
-    run / connectInput := true,
-    Test / fork := true
+    Compile / mainClass := Some("candela.cli.Main"),
+    Compile / sourceGenerators += versionSource,
+
+    // `sbt run`: a JVM of its own, in the checkout's folder, on the terminal itself
+    Compile / run / javaOptions ++= jvmOptions :+ "-XX:MaxRAMPercentage=70",
+    Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
+
+    // `sbt stage`: the same JVM options, in the script it writes
+    Universal / javaOptions ++= (jvmOptions :+ "-XX:MaxRAMPercentage=70").map("-J" + _),
+
+    Test / fork := true,
+    Test / testForkedParallel := true,
+    Test / javaOptions ++= jvmOptions :+ "-Xmx3g",
+    Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
+    Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
+    Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
   )
+
+/** `candela.base.Version`, so that the program and the files it writes can name their version. */
+def versionSource = Def.task {
+  val file = (Compile / sourceManaged).value / "candela" / "base" / "Version.scala"
+  val text =
+    s"""package candela.base
+       |
+       |/** The version in build.sbt, which writes this file. */
+       |object Version:
+       |  val current: String = "${version.value}"
+       |""".stripMargin
+  if (!file.exists || IO.read(file) != text) IO.write(file, text)
+  Seq(file)
+}
+
+addCommandAlias("checkFormat", "scalafmtCheckAll; scalafmtSbtCheck")

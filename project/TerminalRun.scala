@@ -1,0 +1,44 @@
+import java.io.File
+import java.lang.ProcessBuilder.Redirect
+
+import scala.util.{Failure, Success, Try}
+
+import sbt.{ForkOptions, ForkRun, Logger}
+import sbt.internal.util.MessageOnlyException
+
+/** Runs the program in a JVM of its own that has sbt's own input and output, not pipes to them.
+  *
+  * So nothing is prefixed or delayed, the program can tell a terminal from a log file, and Ctrl-C
+  * reaches it as it would without sbt; sbt then waits for it to write what it has.
+  */
+final class TerminalRun(options: ForkOptions) extends ForkRun(options) {
+
+  override def run(mainClass: String, classpath: Seq[File], args: Seq[String], log: Logger): Try[Unit] = {
+    val home = options.javaHome.getOrElse(new File(sys.props("java.home")))
+    val java = new File(new File(home, "bin"), "java")
+    val command = java.getPath +: (options.runJVMOptions ++
+      Seq("-cp", classpath.mkString(File.pathSeparator), mainClass) ++ args)
+    log.debug(command.mkString(" "))
+
+    val builder = new ProcessBuilder(command: _*)
+      .redirectInput(Redirect.INHERIT)
+      .redirectOutput(Redirect.INHERIT)
+      .redirectError(Redirect.INHERIT)
+    options.workingDirectory.foreach(builder.directory)
+    options.envVars.foreach { case (name, value) => builder.environment.put(name, value) }
+
+    val child = builder.start()
+    val hook = sys.addShutdownHook(end(child))
+    val code =
+      try child.waitFor()
+      catch { case _: InterruptedException => end(child) }
+    Try(hook.remove()) // refused while sbt itself ends, and then not needed
+    if (code == 0) Success(()) else Failure(new MessageOnlyException(s"exit code $code"))
+  }
+
+  /** Asks the program to end (it may be ending already), and waits until it has. */
+  private def end(child: Process): Int = {
+    child.destroy()
+    child.waitFor()
+  }
+}

@@ -1,0 +1,2 @@
+addSbtPlugin("com.github.sbt" % "sbt-native-packager" % "1.11.7") // `stage`
+addSbtPlugin("org.scalameta" % "sbt-scalafmt" % "2.6.2") // `scalafmtAll`, `scalafmtCheckAll`
