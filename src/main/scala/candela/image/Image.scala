@@ -1,18 +1,94 @@
 package candela.image
 
+import candela.base.loop
+import candela.color.Encoding
+
+/** A picture that can't be read or written: whose fault it is and what would do, on one line. It is no
+  * bug, so it has no stack trace.
+  */
+final class ImageError(message: String) extends RuntimeException(message, null, false, false)
+
+/** A picture as its file stores it: `channels` numbers for each pixel, interleaved, rows from the top. */
+sealed abstract class StoredImage:
+  def width: Int
+  def height: Int
+  def channelNames: Vector[String]
+
+  /** What the stored numbers mean. */
+  def encoding: Encoding
+  def toImage: Image
+
+  final def channels: Int = channelNames.size
+
+  /** Where the named channels are, if all of them are there. */
+  final def indicesOf(names: Vector[String]): Option[Vector[Int]] =
+    val found = names.map(channelNames.indexOf)
+    Option.when(found.forall(_ >= 0))(found)
+
+  /** The channels that make its colour: R, G and B, or Y three times.
+    *
+    * @throws ImageError if there are neither
+    */
+  final def colorChannels: Vector[Int] =
+    indicesOf(Image.RgbNames)
+      .orElse(indicesOf(Vector("Y")).map(y => Vector(y.head, y.head, y.head)))
+      .getOrElse(throw ImageError(s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"))
+
 /** Pixels in memory: `channels` Floats for each, interleaved, rows from the top; linear unless said. */
 final class Image(
     val width: Int,
     val height: Int,
     val channelNames: Vector[String],
-    val data: Array[Float]
-):
-  val channels: Int = channelNames.size
+    val data: Array[Float],
+    val encoding: Encoding = Encoding.Linear
+) extends StoredImage:
   require(data.length == width.toLong * height * channels, s"$width×$height×$channels")
 
   def apply(x: Int, y: Int, channel: Int): Float = data((y * width + x) * channels + channel)
+
+  def toImage: Image = this
+
+  /** The same picture with its numbers decoded; alpha is never encoded. */
+  def linear: Image =
+    if encoding == Encoding.Linear then this
+    else
+      val isColor = channelNames.map(_ != "A").toArray
+      val decoded = new Array[Float](data.length)
+      loop(data.length): i =>
+        decoded(i) = if isColor(i % channels) then encoding.decode(data(i)) else data(i)
+      Image(width, height, channelNames, decoded)
+
+  /** Linear R, G and B; gray pictures become three equal channels, others are dropped.
+    *
+    * @throws ImageError if it has neither R, G, B nor Y
+    */
+  def toRgb: Image =
+    if encoding == Encoding.Linear && channelNames == Image.RgbNames then this
+    else
+      val sources = colorChannels
+      val picked = Image.rgb(width, height)
+      loop(width * height): pixel =>
+        loop(3): c =>
+          picked.data(3 * pixel + c) = encoding.decode(data(pixel * channels + sources(c)))
+      picked
 
 object Image:
   val RgbNames: Vector[String] = Vector("R", "G", "B")
   def rgb(width: Int, height: Int): Image =
     Image(width, height, RgbNames, new Array[Float](width * height * 3))
+
+/** An 8-bit picture, kept so: value 255 stands for 1. */
+final class ByteImage(
+    val width: Int,
+    val height: Int,
+    val channelNames: Vector[String],
+    val bytes: Array[Byte],
+    val encoding: Encoding
+) extends StoredImage:
+  require(bytes.length == width.toLong * height * channels, s"$width×$height×$channels")
+
+  /** The values in [0, 1], still encoded. */
+  def toImage: Image =
+    val data = new Array[Float](bytes.length)
+    loop(bytes.length)(i => data(i) = (bytes(i) & 0xff) / 255f)
+    Image(width, height, channelNames, data, encoding)

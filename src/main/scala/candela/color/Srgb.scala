@@ -1,0 +1,27 @@
+package candela.color
+
+/** The transfer curve of sRGB, both ways: what 8-bit pictures are stored with and screens expect.
+  *
+  * Source: IEC 61966-2-1:1999, §5.2, with the published break points 0.0031308 and 0.04045. Inputs may
+  * leave [0, 1]: below 0 the linear piece goes on, above 1 the power.
+  */
+object Srgb:
+
+  /** Linear light from the stored value. */
+  def decode(encoded: Float): Float =
+    if encoded <= 0.04045f then encoded * (1f / 12.92f)
+    else Math.pow((encoded + 0.055) / 1.055, 2.4).toFloat
+
+  /** The value to store from linear light. */
+  def encode(linear: Float): Float =
+    if linear <= 0.0031308f then linear * 12.92f
+    else (1.055 * Math.pow(linear.toDouble, 1.0 / 2.4) - 0.055).toFloat
+
+  /** The nearest 8-bit code; clamps, and NaN is 0. */
+  def encode8(linear: Float): Int =
+    if !(linear > 0f) then 0
+    else if linear >= 1f then 255
+    else (encode(linear) * 255f + 0.5f).toInt
+
+  /** `decode(code / 255)` for the 256 codes of a byte. */
+  val DecodeTable: IArray[Float] = IArray.tabulate(256)(code => decode(code / 255f))

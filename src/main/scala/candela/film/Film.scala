@@ -1,0 +1,63 @@
+package candela.film
+
+import candela.base.loop
+import candela.image.Image
+
+import java.util.concurrent.atomic.AtomicLong
+
+/** What the camera samples add up to, for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
+  *
+  * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a pixel's
+  * value does not drift however many samples it gets.
+  */
+final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
+  require(x1 > x0 && y1 > y0, s"empty film [$x0, $x1) × [$y0, $y1)")
+
+  val width: Int = x1 - x0
+  val height: Int = y1 - y0
+
+  // For each pixel, row by row: weighted red, green, blue, sum of weights.
+  private val sums = new Array[Double](Math.multiplyExact(4, Math.multiplyExact(width, height)))
+
+  private val refusals = AtomicLong(0)
+  private val firstRefusal = AtomicLong(Long.MaxValue)
+
+  /** Adds a sample to its pixel; one that is not finite is refused and counted instead. */
+  def add(x: Int, y: Int, r: Float, g: Float, b: Float, weight: Float): Unit =
+    val pixel = (y - y0) * width + (x - x0)
+    // Infinite or NaN parts make the sum so; it costs one test instead of four.
+    if java.lang.Float.isFinite((r + g + b) * weight) || allFinite(r, g, b, weight) then
+      val at = 4 * pixel
+      sums(at) += weight.toDouble * r
+      sums(at + 1) += weight.toDouble * g
+      sums(at + 2) += weight.toDouble * b
+      sums(at + 3) += weight.toDouble
+    else
+      val _ = refusals.incrementAndGet()
+      val _ = firstRefusal.accumulateAndGet(pixel.toLong, (a, b) => Math.min(a, b))
+
+  /** Large finite values may overflow in the sum that `add` tests. */
+  private def allFinite(r: Float, g: Float, b: Float, weight: Float): Boolean =
+    import java.lang.Float.isFinite
+    isFinite(r) && isFinite(g) && isFinite(b) && isFinite(weight)
+
+  /** Samples that were NaN or infinite. */
+  def refused: Long = refusals.get
+
+  /** The first pixel, row by row, that got such a sample; the same whatever the order of work was. */
+  def firstRefused: Option[(Int, Int)] =
+    val pixel = firstRefusal.get
+    Option.when(pixel != Long.MaxValue):
+      ((pixel % width).toInt + x0, (pixel / width).toInt + y0)
+
+  /** The weighted means, times `scale`; pixels without samples are black. May be called while others
+    * add: it then holds what is there.
+    */
+  def toImage(scale: Float): Image =
+    val image = Image.rgb(width, height)
+    loop(width * height): pixel =>
+      val weight = sums(4 * pixel + 3)
+      if weight != 0 then
+        loop(3): c =>
+          image.data(3 * pixel + c) = (sums(4 * pixel + c) / weight * scale).toFloat
+    image

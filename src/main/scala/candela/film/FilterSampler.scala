@@ -1,0 +1,108 @@
+package candela.film
+
+import candela.base.loop
+
+/** Chooses where in a filter's extent a camera sample goes, so that samples count (almost) the same:
+  * every pixel then has samples of its own and no two pixels share one.
+  *
+  * Along each axis the density is |filter|, interpolated linearly between points 1/32 pixel apart or
+  * closer; box and triangle filters it follows exactly. Mutable, one per worker.
+  *
+  * Source: Ernst, Stamminger, Greiner, "Filter Importance Sampling", IEEE Symposium on Interactive
+  * Ray Tracing 2006.
+  */
+final class FilterSampler private (
+    filter: Filter,
+    alongX: FilterSampler.Axis,
+    alongY: FilterSampler.Axis
+):
+  def this(filter: Filter) = this(
+    filter,
+    FilterSampler.Axis.of(filter.radiusX, filter.x),
+    FilterSampler.Axis.of(filter.radiusY, filter.y)
+  )
+
+  /** The last sample: pixels from the pixel's centre. */
+  var dx, dy: Float = 0f
+
+  /** filter / (density · integral of the filter): 1 on average, negative in the negative lobes. */
+  var weight: Float = 0f
+
+  /** @param u1 uniform in [0, 1), as `u2` */
+  def sample(u1: Float, u2: Float): Unit =
+    dx = alongX.sample(u1)
+    dy = alongY.sample(u2)
+    weight = alongX.weight(dx, filter.x(dx)) * alongY.weight(dy, filter.y(dy))
+
+  def copy(): FilterSampler = new FilterSampler(filter, alongX, alongY)
+
+private object FilterSampler:
+
+  /** A density on [−radius, radius], linear in each of `heights.length − 1` equal cells.
+    *
+    * @param heights  at the ends of the cells; the density is height · inverseArea
+    * @param cdf      at the same places, from 0 to 1
+    * @param integral of the signed filter
+    */
+  private final class Axis(radius: Float, heights: Array[Float], cdf: Array[Float], integral: Float):
+    private val cells = heights.length - 1
+    private val cellWidth = 2f * radius / cells
+    private val cellsPerPixel = cells / (2f * radius)
+
+    def sample(u: Float): Float =
+      val cell = find(u)
+      val low = cdf(cell)
+      val high = cdf(cell + 1)
+      val v = if high > low then (u - low) / (high - low) else 0f
+      val a = heights(cell)
+      val b = heights(cell + 1)
+      // The root of the linear density's cumulative that cancels nothing.
+      val root = Math.sqrt((1.0 - v) * a * a + v.toDouble * b * b).toFloat
+      val t = if a + root > 0f then v * (a + b) / (a + root) else 0f
+      Math.min(radius, (cell + t) * cellWidth - radius)
+
+    def weight(d: Float, value: Float): Float =
+      val at = (d + radius) * cellsPerPixel
+      val cell = Math.min(at.toInt, cells - 1)
+      val t = at - cell
+      val density = (1f - t) * heights(cell) + t * heights(cell + 1)
+      if density > 0f then value / (density * integral) else 0f
+
+    /** The last cell that begins at or before `u` in the cumulative. */
+    private def find(u: Float): Int =
+      var low = 0
+      var high = cells
+      while high - low > 1 do
+        val middle = (low + high) >>> 1
+        if cdf(middle) <= u then low = middle else high = middle
+      low
+
+  private object Axis:
+    private val CellsPerPixel = 32
+    private val MinCells = 64
+
+    /** Points of the filter within each cell, for its integral: Simpson's rule, whose error is below
+      * that of Float for functions as smooth as filters are in a cell.
+      */
+    private val Intervals = 8
+
+    def of(radius: Float, filter: Float => Float): Axis =
+      // A multiple of four, so that centre and half radius, where filters have kinks, are cell ends.
+      val cells = Math.max(MinCells, (2 * radius * CellsPerPixel).ceil.toInt + 3 & ~3)
+      def place(i: Double): Float =
+        Math.max(-radius, Math.min(radius, (radius * (2 * i / cells - 1)).toFloat))
+
+      val heights = Array.tabulate(cells + 1)(i => Math.abs(filter(place(i))))
+      val cumulative = new Array[Double](cells + 1)
+      var integral = 0.0
+      loop(cells): i =>
+        cumulative(i + 1) = cumulative(i) + 0.5 * (heights(i).toDouble + heights(i + 1))
+        integral += (0 to Intervals)
+          .map: k =>
+            val factor = if k == 0 || k == Intervals then 1 else if k % 2 == 1 then 4 else 2
+            factor * filter(place(i + k.toDouble / Intervals)).toDouble
+          .sum / (3 * Intervals)
+      val area = cumulative(cells)
+      require(area > 0 && integral > 0, "a filter without positive integral")
+      val density = heights.map(h => (h / area).toFloat)
+      Axis(radius, density, cumulative.map(c => (c / area).toFloat), integral.toFloat)

@@ -1,0 +1,98 @@
+package candela.film
+
+import candela.math.*
+
+// Scene files name the radii `xwidth`, `ywidth` (pbrt-v2, v3) or `xradius`, `yradius` (v4); all in
+// pixels from the centre. The defaults are given as v2 and v3 / v4.
+
+/** Every sample within the box counts the same. Defaults: radii 0.5 / 0.5. */
+final class BoxFilter(radiusX: Float, radiusY: Float) extends Filter(radiusX, radiusY):
+  def x(dx: Float): Float = if abs(dx) <= radiusX then 1f else 0f
+  def y(dy: Float): Float = if abs(dy) <= radiusY then 1f else 0f
+
+/** A tent. Defaults: radii 2 / 2. */
+final class TriangleFilter(radiusX: Float, radiusY: Float) extends Filter(radiusX, radiusY):
+  def x(dx: Float): Float = Math.max(0f, radiusX - abs(dx))
+  def y(dy: Float): Float = Math.max(0f, radiusY - abs(dy))
+
+/** exp(−α d²), lowered so that it ends in 0 at the radius.
+  *
+  * @param alpha in pixels⁻², positive
+  */
+final class GaussianFilter private (radiusX: Float, radiusY: Float, alpha: Double)
+    extends Filter(radiusX, radiusY):
+  require(alpha > 0, s"Gaussian filter with alpha $alpha")
+
+  private val edgeX = Math.exp(-alpha * radiusX * radiusX)
+  private val edgeY = Math.exp(-alpha * radiusY * radiusY)
+
+  def x(dx: Float): Float = lowered(dx, edgeX)
+  def y(dy: Float): Float = lowered(dy, edgeY)
+
+  private def lowered(d: Float, edge: Double): Float =
+    Math.max(0.0, Math.exp(-alpha * d * d) - edge).toFloat
+
+object GaussianFilter:
+  /** As in pbrt-v2 and v3. Defaults: radii 2, alpha 2. */
+  def ofAlpha(radiusX: Float, radiusY: Float, alpha: Float): GaussianFilter =
+    GaussianFilter(radiusX, radiusY, alpha.toDouble)
+
+  /** As in pbrt-v4: `sigma` is the standard deviation in pixels. Defaults: radii 1.5, sigma 0.5, which
+    * is alpha 2.
+    */
+  def ofSigma(radiusX: Float, radiusY: Float, sigma: Float): GaussianFilter =
+    GaussianFilter(radiusX, radiusY, 1 / (2.0 * sigma * sigma))
+
+/** Two cubic pieces on each side, the outer one negative: sharp, with little ringing. Integrates to
+  * 1 for every `b` and `c` when the radii are 2. Defaults: radii 2 / 2, B = C = 1/3.
+  *
+  * Source: Mitchell & Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988, eq. 8.
+  */
+final class MitchellFilter(radiusX: Float, radiusY: Float, b: Float, c: Float)
+    extends Filter(radiusX, radiusY):
+  def x(dx: Float): Float = cubic(2f * dx / radiusX)
+  def y(dy: Float): Float = cubic(2f * dy / radiusY)
+
+  private def cubic(at: Float): Float =
+    val t = abs(at)
+    val sixfold =
+      if t < 1f then ((12f - 9f * b - 6f * c) * t - 18f + 12f * b + 6f * c) * t * t + 6f - 2f * b
+      else if t < 2f then
+        ((-b - 6f * c) * t + 6f * b + 30f * c) * t * t - (12f * b + 48f * c) * t + 8f * b + 24f * c
+      else 0f
+    sixfold * (1f / 6f)
+
+/** A sinc within the central lobe of a wider sinc (Lanczos window), cut off at the radius.
+  *
+  * @param frequency of the filtering sinc: zeros at the multiples of 1/frequency pixels
+  * @param window    of the windowing one
+  */
+final class LanczosSincFilter private (
+    radiusX: Float,
+    radiusY: Float,
+    frequencyX: Double,
+    frequencyY: Double,
+    windowX: Double,
+    windowY: Double
+) extends Filter(radiusX, radiusY):
+  def x(dx: Float): Float = windowed(dx, radiusX, frequencyX, windowX)
+  def y(dy: Float): Float = windowed(dy, radiusY, frequencyY, windowY)
+
+  private def windowed(d: Float, radius: Float, frequency: Double, window: Double): Float =
+    if abs(d) > radius then 0f else (sinc(d * frequency) * sinc(d * window)).toFloat
+
+  private def sinc(x: Double): Double =
+    // Below this the quotient differs from 1 by less than Double can show.
+    if Math.abs(x) < 1e-9 then 1.0 else Math.sin(Math.PI * x) / (Math.PI * x)
+
+object LanczosSincFilter:
+  /** As in pbrt-v3 and v4: one lobe a pixel, a window of `tau` pixels. Defaults: radii 4, tau 3. */
+  def apply(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
+    require(tau > 0f, s"sinc filter with tau $tau")
+    new LanczosSincFilter(radiusX, radiusY, 1, 1, 1.0 / tau, 1.0 / tau)
+
+  /** As in pbrt-v2: the window ends at the radius, with `tau` lobes inside. Defaults: radii 4, tau 3. */
+  def stretched(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
+    require(tau > 0f, s"sinc filter with tau $tau")
+    val (inverseX, inverseY) = (1.0 / radiusX, 1.0 / radiusY)
+    new LanczosSincFilter(radiusX, radiusY, tau * inverseX, tau * inverseY, inverseX, inverseY)

@@ -1,0 +1,162 @@
+package candela.image
+
+import candela.base.loop
+
+import org.lwjgl.PointerBuffer
+import org.lwjgl.system.MemoryStack.stackPush
+import org.lwjgl.system.libc.LibCStdlib
+import org.lwjgl.system.{MemoryStack, MemoryUtil}
+import org.lwjgl.util.tinyexr.*
+import org.lwjgl.util.tinyexr.TinyEXR.*
+
+import java.nio.{ByteBuffer, IntBuffer}
+
+/** Calls of the native decoder, for files whose header [[ExrHeader]] has passed. */
+private[image] object ExrDecoder:
+
+  /** Decodes part `chosen` into `target`, interleaved: channel i of the target is channel `order(i)` of
+    * the file.
+    */
+  def decode(
+      file: Array[Byte],
+      parts: Vector[ExrPart],
+      chosen: Int,
+      order: Array[Int],
+      target: Array[Float]
+  ): Unit =
+    val stack = stackPush()
+    val native = MemoryUtil.memAlloc(file.length)
+    try
+      native.put(file).flip()
+      val version = EXRVersion.calloc(stack)
+      check(ParseEXRVersionFromMemory(version, native), stack.mallocPointer(1))
+      val part = parts(chosen)
+      if version.multipart then many(version, native, parts, chosen, order, target, stack)
+      else one(version, native, part, order, target, stack)
+    finally
+      MemoryUtil.memFree(native)
+      stack.close()
+
+  private def one(
+      version: EXRVersion,
+      file: ByteBuffer,
+      part: ExrPart,
+      order: Array[Int],
+      target: Array[Float],
+      stack: MemoryStack
+  ): Unit =
+    val error = stack.callocPointer(1)
+    val header = EXRHeader.calloc(stack)
+    val image = EXRImage.calloc(stack)
+    InitEXRHeader(header)
+    InitEXRImage(image)
+    check(ParseEXRHeaderFromMemory(header, version, file, error), error)
+    try
+      requestFloats(header)
+      check(LoadEXRImageFromMemory(image, header, file, error), error)
+      try gather(image, header, part, order, target)
+      finally free(image)
+    finally
+      val _ = FreeEXRHeader(header)
+
+  private def many(
+      version: EXRVersion,
+      file: ByteBuffer,
+      parts: Vector[ExrPart],
+      chosen: Int,
+      order: Array[Int],
+      target: Array[Float],
+      stack: MemoryStack
+  ): Unit =
+    val error = stack.callocPointer(1)
+    val list = stack.callocPointer(1)
+    val count = stack.callocInt(1)
+    check(ParseEXRMultipartHeaderFromMemory(list, count, version, file, error), error)
+    val pointers = list.getPointerBuffer(0, count.get(0))
+    def header(i: Int) = EXRHeader.create(pointers.get(i))
+    try
+      if count.get(0) != parts.size then throw ImageError("the header is damaged")
+      loop(parts.size)(i => requestFloats(header(i)))
+      val images = EXRImage.calloc(parts.size)
+      try
+        loop(parts.size)(i => InitEXRImage(images.get(i)))
+        check(LoadEXRMultipartImageFromMemory(images, pointers, file, error), error)
+        try gather(images.get(chosen), header(chosen), parts(chosen), order, target)
+        finally loop(parts.size)(i => free(images.get(i)))
+      finally images.free()
+    finally
+      loop(count.get(0)): i =>
+        val _ = FreeEXRHeader(header(i))
+        LibCStdlib.nfree(pointers.get(i))
+      LibCStdlib.nfree(list.get(0))
+
+  /** Halves become floats in the decoder; it knows no conversion of integers. */
+  private def requestFloats(header: EXRHeader): Unit =
+    val found: IntBuffer = header.pixel_types
+    val requested: IntBuffer = header.requested_pixel_types
+    loop(header.num_channels): i =>
+      val isInteger = found.get(i) == TINYEXR_PIXELTYPE_UINT
+      val _ = requested.put(i, if isInteger then TINYEXR_PIXELTYPE_UINT else TINYEXR_PIXELTYPE_FLOAT)
+
+  private def gather(
+      image: EXRImage,
+      header: EXRHeader,
+      part: ExrPart,
+      order: Array[Int],
+      target: Array[Float]
+  ): Unit =
+    val agrees = image.width == part.width && image.height == part.height &&
+      image.num_channels == order.length && header.num_channels == order.length
+    if !agrees then throw ImageError("the header is damaged")
+    loop(order.length): to =>
+      val from = order(to)
+      val isInteger = part.channels(from).pixelType == TINYEXR_PIXELTYPE_UINT
+      part.tileSize match
+        case None =>
+          val plane = Plane(image.images.get(from), part.width, isInteger)
+          plane.copy(target, part.width, order.length, to, 0, 0, part.width, part.height)
+        case Some((tw, th)) =>
+          val tiles = image.tiles
+          loop(image.num_tiles): i =>
+            val tile = tiles.get(i)
+            val (x, y) = (tile.offset_x * tw, tile.offset_y * th)
+            val inside = x >= 0 && y >= 0 && x + tile.width <= part.width &&
+              y + tile.height <= part.height && tile.width <= tw && tile.height <= th
+            if !inside then throw ImageError("a tile lies outside the image")
+            val plane = Plane(tile.images(order.length).get(from), tw, isInteger)
+            plane.copy(target, part.width, order.length, to, x, y, tile.width, tile.height)
+
+  /** One channel of the image or of a tile in native memory. */
+  private final class Plane(address: Long, stride: Int, isInteger: Boolean):
+
+    def copy(
+        target: Array[Float],
+        targetWidth: Int,
+        channels: Int,
+        channel: Int,
+        x0: Int,
+        y0: Int,
+        width: Int,
+        rows: Int
+    ): Unit =
+      loop(rows): y =>
+        loop(width): x =>
+          val at = address + 4 * (y.toLong * stride + x)
+          val value =
+            if isInteger then (MemoryUtil.memGetInt(at) & 0xffffffffL).toFloat
+            else MemoryUtil.memGetFloat(at)
+          target(((y0 + y) * targetWidth + x0 + x) * channels + channel) = value
+
+  private def free(image: EXRImage): Unit =
+    val _ = FreeEXRImage(image)
+
+  private def check(code: Int, error: PointerBuffer): Unit =
+    if code != TINYEXR_SUCCESS then throw ImageError(s"can't be decoded: ${message(code, error)}")
+
+  /** Takes the text that the library left behind, and frees it. */
+  private[image] def message(code: Int, error: PointerBuffer): String =
+    if error.get(0) == 0 then s"EXR error $code"
+    else
+      val text = MemoryUtil.memUTF8(error.get(0))
+      nFreeEXRErrorMessage(error.get(0))
+      text.trim

@@ -1,0 +1,90 @@
+package candela.image
+
+import candela.base.loop
+
+import org.lwjgl.PointerBuffer
+import org.lwjgl.system.MemoryStack.stackPush
+import org.lwjgl.system.libc.LibCStdlib
+import org.lwjgl.system.{MemoryStack, MemoryUtil}
+import org.lwjgl.util.tinyexr.*
+import org.lwjgl.util.tinyexr.TinyEXR.*
+
+import java.nio.FloatBuffer
+import java.nio.charset.StandardCharsets.UTF_8
+
+/** Calls of the native encoder. */
+private[image] object ExrEncoder:
+
+  def encode(image: Image, metadata: Vector[(String, String)]): Array[Byte] =
+    // Readers look channels up by binary search: the file must have them sorted by name.
+    val order = image.channelNames.indices.sortBy(image.channelNames)
+    val planes = order.map(plane(image, _))
+    // Named one by one: MemoryStack is too small for many channels.
+    val channels = EXRChannelInfo.calloc(order.size)
+    val types = MemoryUtil.memCallocInt(order.size)
+    val attributes = EXRAttribute.calloc(Math.max(1, metadata.size))
+    val texts = metadata.map((_, text) => MemoryUtil.memUTF8(text, false))
+    val stack = stackPush()
+    try
+      loop(order.size): i =>
+        val name = image.channelNames(order(i))
+        put(channels.get(i).name, name)
+        val _ = channels.get(i).pixel_type(TINYEXR_PIXELTYPE_FLOAT).x_sampling(1).y_sampling(1)
+        val _ = types.put(i, TINYEXR_PIXELTYPE_FLOAT)
+      loop(metadata.size): i =>
+        put(attributes.get(i).name, metadata(i)(0))
+        put(attributes.get(i).`type`, "string")
+        val _ = attributes.get(i).value(texts(i))
+      val header = EXRHeader.calloc(stack)
+      InitEXRHeader(header)
+      header
+        .num_channels(order.size)
+        .channels(channels)
+        .pixel_types(types)
+        .requested_pixel_types(types)
+        .compression_type(TINYEXR_COMPRESSIONTYPE_ZIP)
+      if metadata.nonEmpty then
+        val _ = header.num_custom_attributes(metadata.size).custom_attributes(attributes)
+      save(image, header, planes, stack)
+    finally
+      planes.foreach(MemoryUtil.memFree(_))
+      texts.foreach(MemoryUtil.memFree(_))
+      channels.free()
+      attributes.free()
+      MemoryUtil.memFree(types)
+      stack.close()
+
+  private def save(
+      image: Image,
+      header: EXRHeader,
+      planes: Seq[FloatBuffer],
+      stack: MemoryStack
+  ): Array[Byte] =
+    val pointers = MemoryUtil.memAllocPointer(planes.size)
+    try
+      planes.zipWithIndex.foreach((p, i) => pointers.put(i, MemoryUtil.memAddress(p)))
+      val native = EXRImage.calloc(stack)
+      InitEXRImage(native)
+      native.images(pointers).width(image.width).height(image.height).num_channels(planes.size)
+      val error = stack.callocPointer(1)
+      val memory: PointerBuffer = stack.callocPointer(1)
+      val size = SaveEXRImageToMemory(native, header, memory, error)
+      if size <= 0 then
+        throw ImageError(s"can't be encoded as EXR: ${ExrDecoder.message(0, error)}")
+      try
+        if size > Int.MaxValue - 8 then throw ImageError("an EXR file of more than 2 GB")
+        val bytes = new Array[Byte](size.toInt)
+        val _ = MemoryUtil.memByteBuffer(memory.get(0), size.toInt).get(bytes)
+        bytes
+      finally LibCStdlib.nfree(memory.get(0))
+    finally MemoryUtil.memFree(pointers)
+
+  private def plane(image: Image, channel: Int): FloatBuffer =
+    val values = MemoryUtil.memAllocFloat(image.width * image.height)
+    loop(values.capacity): i =>
+      val _ = values.put(i, image.data(i * image.channels + channel))
+    values
+
+  /** Into a zeroed array of 256 bytes. */
+  private def put(field: java.nio.ByteBuffer, text: String): Unit =
+    val _ = field.put(text.getBytes(UTF_8))

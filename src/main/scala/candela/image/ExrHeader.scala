@@ -1,0 +1,167 @@
+package candela.image
+
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.{ByteBuffer, ByteOrder}
+import scala.collection.mutable
+
+/** A channel of an EXR part; `pixelType` 0: unsigned integer, 1: half, 2: float. */
+private[image] final case class ExrChannel(
+    name: String,
+    pixelType: Int,
+    xSampling: Int,
+    ySampling: Int
+)
+
+/** What one part of an EXR file says about itself, as far as it matters for reading it.
+  *
+  * @param width    of the data window, as `height`
+  * @param tileSize (width, height), if the part is tiled
+  */
+private[image] final case class ExrPart(
+    channels: Vector[ExrChannel],
+    compression: Int,
+    width: Int,
+    height: Int,
+    tileSize: Option[(Int, Int)]
+)
+
+/** Reads and checks EXR headers, so that only what decodes right reaches the native decoder.
+  *
+  * Source: "OpenEXR File Layout", openexr.com.
+  */
+private[image] object ExrHeader:
+
+  private val Compressions = Vector(
+    "none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB", "HTJ2K256", "HTJ2K32"
+  )
+
+  /** Rows in a chunk, by compression. */
+  private val ChunkRows = Vector(1, 1, 1, 16, 32, 16, 32, 32)
+
+  private val Half = 1
+  private val MaxAttributes = 128
+  private val MaxChannels = 256
+  private val MaxTile = 1 << 16
+
+  /** The parts of a file, each checked; at least one. */
+  def parts(file: Array[Byte]): Vector[ExrPart] =
+    val in = Reader(file)
+    val _ = in.int()
+    val version = in.int()
+    if (version & 0xff) != 2 then throw ImageError(s"EXR version ${version & 0xff} is not supported")
+    val isMultipart = (version & 0x1000) != 0
+    val flags = if isMultipart then 0 else version
+    val found = mutable.ArrayBuffer(part(in.attributes(), flags))
+    if isMultipart then
+      var more = in.attributes()
+      while more.nonEmpty do
+        found += part(more, flags)
+        more = in.attributes()
+    val rest = file.length.toLong - in.position
+    if found.map(chunks).sum * 16 > rest then throw ImageError("the file is cut short")
+    found.toVector
+
+  /** A chunk has 8 bytes in the table and 8 or more of its own. */
+  private def chunks(part: ExrPart): Long = part.tileSize match
+    case Some((w, h)) => ceilDiv(part.width, w) * ceilDiv(part.height, h)
+    case None => ceilDiv(part.height, ChunkRows(part.compression))
+
+  private def ceilDiv(a: Int, b: Int): Long = (a.toLong + b - 1) / b
+
+  private def part(attributes: Map[String, (String, ByteBuffer)], flags: Int): ExrPart =
+    def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
+      attributes.get(name).map: (found, data) =>
+        if found != kind || data.remaining < size then throw ImageError(s"attribute `$name` is damaged")
+        data
+    def required(name: String, kind: String, size: Int): ByteBuffer =
+      value(name, kind, size).getOrElse(throw ImageError(s"attribute `$name` is missing"))
+
+    val kind = value("type", "string", 0).map(UTF_8.decode(_).toString)
+    val isDeep = (flags & 0x800) != 0 || kind.exists(_.startsWith("deep"))
+    if isDeep then throw ImageError("deep EXR files are not supported")
+    val isTiled = (flags & 0x200) != 0 || kind.contains("tiledimage")
+    val tiles = Option.when(isTiled):
+      val data = required("tiles", "tiledesc", 9)
+      (data.getInt(), data.getInt())
+    val window = required("dataWindow", "box2i", 16)
+    val Vector(x0, y0, x1, y1) = Vector.fill(4)(window.getInt().toLong): @unchecked
+    val channels = channelList(required("channels", "chlist", 1))
+    val compression = required("compression", "compression", 1).get() & 0xff
+    val (width, height) = (x1 - x0 + 1, y1 - y0 + 1)
+    if width < 1 || height < 1 then throw ImageError("the data window is empty")
+    checkSize(width, height, channels.size, tiles)
+    checkCoding(compression, channels)
+    ExrPart(channels, compression, width.toInt, height.toInt, tiles)
+
+  private def checkSize(w: Long, h: Long, channels: Int, tiles: Option[(Int, Int)]): Unit =
+    val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels
+    if !fits then throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
+    for (tw, th) <- tiles do
+      // A tile may exceed the image; the decoder allocates each in full.
+      val sane = tw > 0 && th > 0 && tw <= MaxTile && th <= MaxTile &&
+        ceilDiv(w.toInt, tw) * tw * ceilDiv(h.toInt, th) * th <= (Int.MaxValue - 8) / channels
+      if !sane then throw ImageError(s"tiles of $tw×$th pixels are not supported")
+
+  private def checkCoding(compression: Int, channels: Vector[ExrChannel]): Unit =
+    val name = Compressions.lift(compression).getOrElse(s"number $compression")
+    if compression >= ChunkRows.size then
+      throw ImageError(s"EXR compression $name is not supported; save it with ZIP or PIZ")
+    if (name == "B44" || name == "B44A") && channels.exists(_.pixelType != Half) then
+      throw ImageError(s"EXR compression $name is supported for half channels only; save it with ZIP")
+    for channel <- channels if channel.xSampling != 1 || channel.ySampling != 1 do
+      throw ImageError(s"channel `${channel.name}` is subsampled, which is not supported")
+
+  private def channelList(data: ByteBuffer): Vector[ExrChannel] =
+    val in = Reader(data)
+    val found = mutable.ArrayBuffer.empty[ExrChannel]
+    var name = in.name()
+    while name.nonEmpty do
+      val pixelType = in.int()
+      if pixelType < 0 || pixelType > 2 then throw ImageError(s"channel `$name` has an unknown type")
+      val _ = in.int() // the perceptual-linearity hint and padding
+      found += ExrChannel(name, pixelType, in.int(), in.int())
+      if found.size > MaxChannels then throw ImageError(s"more than $MaxChannels channels")
+      name = in.name()
+    if found.isEmpty then throw ImageError("it has no channels")
+    val names = found.map(_.name)
+    if names.distinct.size != names.size then throw ImageError("two channels have the same name")
+    found.toVector
+
+  /** Little-endian bytes, read within their bounds. */
+  private final class Reader(bytes: ByteBuffer):
+    def this(file: Array[Byte]) = this(ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN))
+
+    def position: Int = bytes.position
+
+    private def need(count: Int): Unit =
+      if count < 0 || count > bytes.remaining then throw ImageError("the header is damaged")
+
+    def int(): Int =
+      need(4)
+      bytes.getInt()
+
+    /** Up to the zero byte that ends it; empty: the end of a list. */
+    def name(): String =
+      val start = bytes.position
+      need(1)
+      while bytes.get() != 0 do need(1)
+      val length = bytes.position - 1 - start
+      if length > 255 then throw ImageError("the header is damaged")
+      val text = new Array[Byte](length)
+      bytes.get(start, text)
+      String(text, UTF_8)
+
+    /** One header: name → (type, value). */
+    def attributes(): Map[String, (String, ByteBuffer)] =
+      val found = mutable.Map.empty[String, (String, ByteBuffer)]
+      var key = name()
+      while key.nonEmpty do
+        val kind = name()
+        val size = int()
+        need(size)
+        val value = bytes.slice(bytes.position, size).order(ByteOrder.LITTLE_ENDIAN)
+        bytes.position(bytes.position + size)
+        found(key) = (kind, value)
+        if found.size > MaxAttributes then throw ImageError(s"more than $MaxAttributes attributes")
+        key = name()
+      found.toMap

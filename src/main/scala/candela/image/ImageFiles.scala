@@ -1,0 +1,91 @@
+package candela.image
+
+import java.io.IOException
+import java.nio.file.{AtomicMoveNotSupportedException, Files, NoSuchFileException, Path}
+import java.nio.file.{StandardCopyOption, StandardOpenOption}
+import java.util.Locale
+
+/** Pictures in files, whatever the format. Everything that goes wrong is an [[ImageError]]. */
+object ImageFiles:
+
+  private val Readable = "EXR, HDR (Radiance), PNG, JPEG and TGA files can be read"
+  private val Writable = "pictures are written as .exr or .png"
+
+  /** The picture as Floats. Pictures of 8 and 16 bits hold [0, 1] and say that they are sRGB-encoded;
+    * `linear` decodes them.
+    */
+  def read(path: Path): Image = load(path).toImage
+
+  /** The picture as compact as its file has it: 8 bits stay 8 bits. */
+  def load(path: Path): StoredImage =
+    val bytes =
+      try Files.readAllBytes(path)
+      catch
+        case _: NoSuchFileException => throw ImageError(s"$path: there is no such file")
+        case e: IOException => throw ImageError(s"$path: can't be read: ${reason(e)}")
+        case _: OutOfMemoryError => throw ImageError(s"$path: a file of 2 GB or more")
+    try decode(bytes, suffix(path))
+    catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+
+  /** What the file begins with outranks its name, which people change: the four marks can't begin a
+    * valid TGA file, the one format that has none.
+    */
+  private def decode(bytes: Array[Byte], extension: String): StoredImage =
+    def begins(mark: Int*) =
+      bytes.length >= mark.size && mark.indices.forall(i => (bytes(i) & 0xff) == mark(i))
+    if bytes.isEmpty then throw ImageError("the file is empty")
+    else if begins(0x76, 0x2f, 0x31, 0x01) then Exr.read(bytes)
+    else if begins('#', '?') then Hdr.read(bytes)
+    else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || extension == "tga" then
+      StbReader.read(bytes)
+    else if Set("exr", "hdr", "pic", "png", "jpg", "jpeg").contains(extension) then
+      throw ImageError(s"not a valid .$extension file: it begins with other bytes")
+    else throw ImageError(s"unknown format; $Readable")
+
+  /** Writes by extension: `.exr` (32-bit float, all channels) or `.png` (8-bit sRGB, R, G, B or Y).
+    *
+    * The picture appears under its name whole or not at all: it is written beside it and renamed.
+    *
+    * @param metadata names and texts that the file carries along
+    */
+  def write(path: Path, image: Image, metadata: Vector[(String, String)] = Vector.empty): Unit =
+    val bytes =
+      try
+        suffix(path) match
+          case "exr" => Exr.write(image, metadata)
+          case "png" => Png.write(image, metadata)
+          case "" => throw ImageError(s"the name has no extension; $Writable")
+          case other => throw ImageError(s"can't write .$other files; $Writable")
+      catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+    try replace(path, bytes)
+    catch
+      case _: NoSuchFileException => throw ImageError(s"$path: there is no such folder")
+      case e: IOException => throw ImageError(s"$path: can't be written: ${reason(e)}")
+
+  /** True if `write` takes the name. */
+  def isWritable(path: Path): Boolean = Set("exr", "png").contains(suffix(path))
+
+  private def replace(path: Path, bytes: Array[Byte]): Unit =
+    if Files.isDirectory(path) then throw IOException("it is a folder")
+    // Not Files.createTempFile, which would make the picture readable for its owner only.
+    val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
+    val temporary = path.resolveSibling(s".${path.getFileName}.$unique.tmp")
+    try
+      val _ = Files.write(temporary, bytes, StandardOpenOption.CREATE_NEW)
+      try
+        val _ = Files.move(temporary, path, StandardCopyOption.ATOMIC_MOVE)
+      catch
+        case _: AtomicMoveNotSupportedException =>
+          val _ = Files.move(temporary, path, StandardCopyOption.REPLACE_EXISTING)
+    finally
+      val _ = Files.deleteIfExists(temporary)
+
+  private def suffix(path: Path): String =
+    val name = Option(path.getFileName).fold("")(_.toString)
+    val dot = name.lastIndexOf('.')
+    if dot < 0 then "" else name.substring(dot + 1).toLowerCase(Locale.ROOT)
+
+  private def reason(e: IOException): String =
+    e.getClass.getSimpleName.stripSuffix("Exception") match
+      case "AccessDenied" => "access denied"
+      case _ => Option(e.getMessage).getOrElse(e.getClass.getSimpleName)

@@ -1,0 +1,50 @@
+package candela.image
+
+import candela.base.loop
+import candela.color.Encoding
+
+import org.lwjgl.stb.STBImage
+import org.lwjgl.system.{MemoryStack, MemoryUtil}
+
+import java.nio.{ByteBuffer, IntBuffer}
+
+/** PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes are resolved, 1 to 4 channels kept. */
+private[image] object StbReader:
+
+  private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
+
+  def read(file: Array[Byte]): StoredImage =
+    val stack = MemoryStack.stackPush()
+    val native = MemoryUtil.memAlloc(file.length)
+    try
+      native.put(file).flip()
+      decode(native, stack.mallocInt(1), stack.mallocInt(1), stack.mallocInt(1))
+    finally
+      MemoryUtil.memFree(native)
+      stack.close()
+
+  private def decode(file: ByteBuffer, w: IntBuffer, h: IntBuffer, c: IntBuffer): StoredImage =
+    if !STBImage.stbi_info_from_memory(file, w, h, c) then failed()
+    val values = w.get(0).toLong * h.get(0) * c.get(0)
+    if values <= 0 || values > Int.MaxValue - 8 then
+      throw ImageError(s"${w.get(0)}×${h.get(0)} pixels are more than fit into memory")
+    if STBImage.stbi_is_16_bit_from_memory(file) then
+      val pixels = STBImage.stbi_load_16_from_memory(file, w, h, c, 0)
+      if pixels == null then failed()
+      try
+        val data = new Array[Float](pixels.remaining)
+        loop(data.length)(i => data(i) = (pixels.get(i) & 0xffff) / 65535f)
+        Image(w.get(0), h.get(0), Names(c.get(0) - 1), data, Encoding.Srgb)
+      finally STBImage.stbi_image_free(pixels)
+    else
+      val pixels = STBImage.stbi_load_from_memory(file, w, h, c, 0)
+      if pixels == null then failed()
+      try
+        val bytes = new Array[Byte](pixels.remaining)
+        pixels.get(bytes)
+        ByteImage(w.get(0), h.get(0), Names(c.get(0) - 1), bytes, Encoding.Srgb)
+      finally STBImage.stbi_image_free(pixels)
+
+  private def failed(): Nothing =
+    val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")
+    throw ImageError(s"can't be decoded as PNG, JPEG or TGA: $why")

@@ -1,0 +1,66 @@
+package candela.textures
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.lerp
+
+/** Textures made of textures. The `of` methods give the plainest texture that is right: what follows
+  * from constants alone becomes a constant.
+  */
+final class ScaledFloat private (a: FloatTexture, b: FloatTexture) extends FloatTexture:
+  def apply(at: ShadingPoint): Float = a(at) * b(at)
+
+object ScaledFloat:
+  def of(a: FloatTexture, b: FloatTexture): FloatTexture = (a.constant, b.constant) match
+    case (Some(x), Some(y)) => ConstantFloat(x * y)
+    case (Some(1f), _) => b
+    case (_, Some(1f)) => a
+    case _ => ScaledFloat(a, b)
+
+/** The product of two colours (pbrt-v2, v3). */
+final class ProductRgb private (a: RgbTexture, b: RgbTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = a(at) * b(at)
+
+object ProductRgb:
+  def of(a: RgbTexture, b: RgbTexture): RgbTexture = (a.constant, b.constant) match
+    case (Some(x), Some(y)) => ConstantRgb(x * y)
+    case (Some(Rgb.White), _) => b
+    case (_, Some(Rgb.White)) => a
+    case _ => ProductRgb(a, b)
+
+/** A colour times a number (pbrt-v4). */
+final class ScaledRgb private (a: RgbTexture, scale: FloatTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = a(at) * scale(at)
+
+object ScaledRgb:
+  def of(a: RgbTexture, scale: FloatTexture): RgbTexture = (a.constant, scale.constant) match
+    case (Some(x), Some(s)) => ConstantRgb(x * s)
+    case (_, Some(1f)) => a
+    case _ => ScaledRgb(a, scale)
+
+/** (1 − amount)·a + amount·b. */
+final class MixFloat private (a: FloatTexture, b: FloatTexture, amount: FloatTexture)
+    extends FloatTexture:
+  def apply(at: ShadingPoint): Float = lerp(amount(at), a(at), b(at))
+
+object MixFloat:
+  def of(a: FloatTexture, b: FloatTexture, amount: FloatTexture): FloatTexture =
+    (a.constant, b.constant, amount.constant) match
+      case (_, _, Some(0f)) => a
+      case (_, _, Some(1f)) => b
+      case (Some(x), Some(y), Some(t)) => ConstantFloat(lerp(t, x, y))
+      case _ => MixFloat(a, b, amount)
+
+/** (1 − amount)·a + amount·b. */
+final class MixRgb private (a: RgbTexture, b: RgbTexture, amount: FloatTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = MixRgb.mix(amount(at), a(at), b(at))
+
+object MixRgb:
+  def of(a: RgbTexture, b: RgbTexture, amount: FloatTexture): RgbTexture =
+    (a.constant, b.constant, amount.constant) match
+      case (_, _, Some(0f)) => a
+      case (_, _, Some(1f)) => b
+      case (Some(x), Some(y), Some(t)) => ConstantRgb(mix(t, x, y))
+      case _ => MixRgb(a, b, amount)
+
+  private def mix(t: Float, a: Rgb, b: Rgb): Rgb = a * (1f - t) + b * t

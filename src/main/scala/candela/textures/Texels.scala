@@ -1,0 +1,106 @@
+package candela.textures
+
+import candela.base.loop
+import candela.image.{ByteImage, Image, StoredImage}
+
+/** The pixels of an image texture as linear numbers, in as little memory as they came: one channel, or
+  * red, green and blue. Rows from the top.
+  */
+abstract class Texels(val width: Int, val height: Int, val channels: Int):
+  /** @param texel counted row by row */
+  def apply(texel: Int, channel: Int): Float
+
+/** Bytes with the meaning of their 256 values. */
+final class ByteTexels(w: Int, h: Int, channels: Int, bytes: Array[Byte], meaning: Array[Float])
+    extends Texels(w, h, channels):
+  def apply(texel: Int, channel: Int): Float = meaning(bytes(texel * channels + channel) & 0xff)
+
+final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
+    extends Texels(w, h, channels):
+  def apply(texel: Int, channel: Int): Float = values(texel * channels + channel)
+
+/** Texels from pictures. `decode` takes a stored number (0 to 1 for 8 bits) to a linear one; it holds
+  * whatever the scene says of encoding, e.g. `image.encoding.decode`, or for pbrt-v2
+  * x ↦ (scale·x)^gamma.
+  */
+object Texels:
+
+  /** For a colour texture; alpha is dropped, and one channel kept of a gray picture. */
+  def color(image: StoredImage, decode: Float => Float): Texels =
+    val channels = image.colorChannels.toArray
+    if isGray(image, channels) then single(image, channels(0), decode)
+    else
+      image match
+        case stored: ByteImage =>
+          val bytes = new Array[Byte](stored.width * stored.height * 3)
+          loop(stored.width * stored.height): i =>
+            loop(3)(c => bytes(3 * i + c) = stored.bytes(i * stored.channels + channels(c)))
+          ByteTexels(stored.width, stored.height, 3, bytes, table(decode))
+        case floats: Image =>
+          val values = new Array[Float](floats.width * floats.height * 3)
+          loop(floats.width * floats.height): i =>
+            loop(3)(c => values(3 * i + c) = decode(floats.data(i * floats.channels + channels(c))))
+          FloatTexels(floats.width, floats.height, 3, values)
+
+  /** A number for each pixel, as pbrt-v2 and v3 make it: the luminance of the stored colours, decoded.
+    * The weights are those of pbrt's RGB colours.
+    */
+  def luminance(image: StoredImage, decode: Float => Float): Texels =
+    val channels = image.colorChannels.toArray
+    if isGray(image, channels) then single(image, channels(0), decode)
+    else
+      combined(image, channels): (r, g, b) =>
+        decode(0.212671f * r + 0.715160f * g + 0.072169f * b)
+
+  /** A number for each pixel, as pbrt-v4 makes it: of a picture with alpha other than 1 the alpha
+    * (decoded like a colour), else the mean of the decoded colours.
+    */
+  def meanOrAlpha(image: StoredImage, decode: Float => Float): Texels =
+    val channels = image.colorChannels.toArray
+    val alpha = image.channelNames.indexOf("A")
+    val hasAlpha = channels.distinct.length == 3 && alpha >= 0 && !isOpaque(image, alpha)
+    if hasAlpha then single(image, alpha, decode)
+    else if isGray(image, channels) then single(image, channels(0), decode)
+    else combined(image, channels)((r, g, b) => (decode(r) + decode(g) + decode(b)) * (1f / 3f))
+
+  private def isOpaque(image: StoredImage, alpha: Int): Boolean =
+    every(image)(i => stored(image, i * image.channels + alpha) == 1f)
+
+  private def isGray(image: StoredImage, c: Array[Int]): Boolean =
+    every(image): i =>
+      val r = stored(image, i * image.channels + c(0))
+      r == stored(image, i * image.channels + c(1)) && r == stored(image, i * image.channels + c(2))
+
+  private inline def every(image: StoredImage)(inline holds: Int => Boolean): Boolean =
+    val count = image.width * image.height
+    var i = 0
+    while i < count && holds(i) do i += 1
+    i == count
+
+  private def stored(image: StoredImage, index: Int): Float = image match
+    case stored: ByteImage => (stored.bytes(index) & 0xff) / 255f
+    case floats: Image => floats.data(index)
+
+  private def single(image: StoredImage, channel: Int, decode: Float => Float): Texels =
+    val count = image.width * image.height
+    image match
+      case stored: ByteImage =>
+        val bytes = new Array[Byte](count)
+        loop(count)(i => bytes(i) = stored.bytes(i * stored.channels + channel))
+        ByteTexels(stored.width, stored.height, 1, bytes, table(decode))
+      case floats: Image =>
+        val values = new Array[Float](count)
+        loop(count)(i => values(i) = decode(floats.data(i * floats.channels + channel)))
+        FloatTexels(floats.width, floats.height, 1, values)
+
+  private inline def combined(image: StoredImage, c: Array[Int])(
+      inline f: (Float, Float, Float) => Float
+  ): Texels =
+    val values = new Array[Float](image.width * image.height)
+    loop(values.length): i =>
+      val at = i * image.channels
+      values(i) = f(stored(image, at + c(0)), stored(image, at + c(1)), stored(image, at + c(2)))
+    FloatTexels(image.width, image.height, 1, values)
+
+  private def table(decode: Float => Float): Array[Float] =
+    Array.tabulate(256)(code => decode(code / 255f))

@@ -1,0 +1,35 @@
+package candela.textures
+
+import candela.math.clamp
+
+/** What an image texture is outside the unit square. */
+enum Wrap:
+  case Repeat, Black, Clamp
+
+  /** The square is an octahedral map of the sphere: leaving it leads to where its edge is glued. */
+  case OctahedralSphere
+
+  /** The index of texel (`x`, `y`), counted row by row, for any integers; −1: black. */
+  def index(x: Int, y: Int, width: Int, height: Int): Int =
+    if x >= 0 && y >= 0 && x < width && y < height then y * width + x
+    else
+      this match
+        case Repeat => Math.floorMod(y, height) * width + Math.floorMod(x, width)
+        case Black => -1
+        case Clamp => clamp(y, 0, height - 1) * width + clamp(x, 0, width - 1)
+        case OctahedralSphere => Wrap.octahedral(x, y, width, height)
+
+object Wrap:
+
+  /** Each crossing of an edge mirrors about it and about the other axis' middle.
+    *
+    * Source: Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008.
+    */
+  private def octahedral(x: Int, y: Int, width: Int, height: Int): Int =
+    val acrossX = (Math.floorDiv(x, width) & 1) != 0
+    val acrossY = (Math.floorDiv(y, height) & 1) != 0
+    val inX = Math.floorMod(x, width)
+    val inY = Math.floorMod(y, height)
+    // Both mirror both axes, so crossing two edges mirrors twice: back where it was.
+    if acrossX != acrossY then (height - 1 - inY) * width + (width - 1 - inX)
+    else inY * width + inX

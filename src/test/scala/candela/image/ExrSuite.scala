@@ -1,0 +1,97 @@
+package candela.image
+
+import org.scalacheck.Gen
+import org.scalatest.funsuite.AnyFunSuite
+import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
+
+class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
+
+  private def resource(name: String): Array[Byte] =
+    getClass.getResourceAsStream(s"/exr/$name.exr").readAllBytes()
+
+  /** What the files in src/test/resources/exr hold; see README.md there. */
+  private def expected(channel: Int, x: Int, y: Int): Float = (channel + 1) * (x / 4 - 2 * (y / 4)) / 8f
+
+  private def assertHolds(image: Image, order: Vector[(String, Int)]): Unit =
+    assert((image.width, image.height) == (37, 21))
+    assert(image.channelNames == order.map(_(0)))
+    for y <- 0 until 21; x <- 0 until 37; ((name, number), c) <- order.zipWithIndex do
+      assert(image(x, y, c) == expected(number, x, y), s"$name at $x, $y")
+
+  private val rgb = Vector("R" -> 0, "G" -> 1, "B" -> 2)
+
+  for name <- Vector(
+      "half-none", "half-rle", "half-zips", "half-zip", "half-piz", "half-pxr24", "half-b44",
+      "half-b44a", "float-zip", "float-piz", "float-pxr24", "tiled", "tiled-window", "window",
+      "decreasing"
+    )
+  do
+    test(s"$name.exr, written by another library, is read exactly"):
+      assertHolds(Exr.read(resource(name)), rgb)
+
+  test("of several parts the one with colour is read"):
+    assertHolds(Exr.read(resource("multipart")), rgb)
+
+  test("channels of any name come after R, G, B and A"):
+    val others = Vector("A" -> 3, "N.X" -> 4, "N.Y" -> 5, "depth" -> 6)
+    assertHolds(Exr.read(resource("many")), rgb ++ others)
+
+  test("a luminance picture is gray"):
+    val image = Exr.read(resource("luminance"))
+    assertHolds(image, Vector("Y" -> 0))
+    val gray = image.toRgb
+    assert(gray.channelNames == Image.RgbNames)
+    assert((0 until 3).forall(c => gray(9, 2, c) == expected(0, 9, 2)))
+
+  test("integer channels become floats"):
+    val image = Exr.read(resource("integer"))
+    val id = image.channelNames.indexOf("id")
+    // 16000 times the number of the pixel is a multiple of 128 below 2^31: exact in Float.
+    for y <- 0 until 21; x <- 0 until 37 do assert(image(x, y, id) == 16000f * (37 * y + x))
+
+  test("what the decoder can't do right is refused by name"):
+    def refusal(name: String) = Samples.attempt(Exr.read(resource(name))).swap.toOption.get
+    assert(refusal("float-b44").contains("B44 is supported for half channels only"))
+    assert(refusal("half-dwaa").contains("DWAA is not supported"))
+    assert(refusal("half-dwab").contains("DWAB is not supported"))
+    assert(refusal("half-htj2k").contains("HTJ2K256 is not supported"))
+
+  test("every finite float, infinity and NaN comes back bit for bit"):
+    val sizes = for w <- Gen.choose(1, 40); h <- Gen.choose(1, 40) yield (w, h)
+    val names = Gen.oneOf(Image.RgbNames, Vector("Y"), Vector("B", "G", "R", "A", "z", "Albedo.R"))
+    forAll(sizes, names, Gen.long): (size, names, seed) =>
+      val random = scala.util.Random(seed)
+      val data = Array.fill(size(0) * size(1) * names.size):
+        java.lang.Float.intBitsToFloat(random.nextInt())
+      val image = Image(size(0), size(1), names, data)
+      val back = Exr.read(Exr.write(image, Vector.empty))
+      assert((back.width, back.height) == size)
+      assert(back.channelNames.toSet == names.toSet)
+      for y <- 0 until size(1); x <- 0 until size(0); (name, c) <- names.zipWithIndex do
+        val value = back(x, y, back.channelNames.indexOf(name))
+        assert(
+          java.lang.Float.floatToRawIntBits(value) ==
+            java.lang.Float.floatToRawIntBits(image(x, y, c))
+        )
+
+  test("metadata is stored as text attributes"):
+    val texts = Vector("scene" -> "küche.pbrt", "candela.samples" -> "16", "empty" -> "")
+    val file = Exr.write(Samples.random(5, 4, Image.RgbNames, 1), texts)
+    val plain = String(file, "UTF-8")
+    for (name, text) <- texts do
+      val size = text.getBytes("UTF-8").length.toChar
+      assert(plain.contains(s"$name\u0000string\u0000$size\u0000\u0000\u0000$text"))
+    assert(Exr.read(file).width == 5)
+
+  test("metadata names that the format can't hold are refused"):
+    val image = Image.rgb(1, 1)
+    assert(Samples.attempt { Exr.write(image, Vector("" -> "x")); image }.isLeft)
+    assert(Samples.attempt { Exr.write(image, Vector("x" * 256 -> "x")); image }.isLeft)
+
+  test("damaged files are read or refused, never anything else"):
+    val names = Vector("half-piz", "half-rle", "half-b44a", "float-pxr24", "tiled", "multipart", "many")
+    val outcomes = names.flatMap: name =>
+      Samples.damaged(resource(name), 60, seed = name.hashCode).map: file =>
+        Samples.attempt(if file.length < 8 then throw ImageError("short") else Exr.read(file))
+    assert(outcomes.exists(_.isLeft))
+    assert(outcomes.exists(_.isRight))

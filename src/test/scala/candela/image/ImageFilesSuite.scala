@@ -1,0 +1,90 @@
+package candela.image
+
+import candela.color.Encoding
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.nio.file.{Files, Path}
+import scala.jdk.CollectionConverters.*
+
+class ImageFilesSuite extends AnyFunSuite:
+
+  private def error(body: => Any): String =
+    intercept[ImageError] { val _ = body }.getMessage
+
+  private def names(folder: Path): Vector[String] =
+    val all = Files.list(folder)
+    try all.iterator.asScala.map(_.getFileName.toString).toVector.sorted
+    finally all.close()
+
+  test("what was written is read back, by the extension's format"):
+    Samples.inFolder: folder =>
+      val image = Samples.random(12, 9, Image.RgbNames, 1)
+      ImageFiles.write(folder.resolve("a.exr"), image)
+      ImageFiles.write(folder.resolve("b.PNG"), image, Vector("Scene" -> "x"))
+      assert(ImageFiles.read(folder.resolve("a.exr")).data.sameElements(image.data))
+      val png = ImageFiles.read(folder.resolve("b.PNG"))
+      assert(png.encoding == Encoding.Srgb && png.width == 12)
+      assert(names(folder) == Vector("a.exr", "b.PNG"))
+
+  test("contents outrank a wrong extension"):
+    Samples.inFolder: folder =>
+      ImageFiles.write(folder.resolve("a.png"), Image.rgb(3, 2))
+      val renamed = Files.move(folder.resolve("a.png"), folder.resolve("a.exr"))
+      assert(ImageFiles.load(renamed).isInstanceOf[ByteImage])
+
+  test("a TGA file, which has no mark, is known by its extension"):
+    Samples.inFolder: folder =>
+      // Type 2, true colour, 2×1 pixels of 24 bits, blue first, from the top.
+      val file = Array[Byte](0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 32) ++
+        Array[Byte](30, 20, 10, 60, 50, 40)
+      val path = Files.write(folder.resolve("a.tga"), file)
+      ImageFiles.load(path) match
+        case image: ByteImage =>
+          assert(image.bytes.toVector == Vector[Byte](10, 20, 30, 40, 50, 60))
+        case other => fail(s"$other")
+
+  test("errors name the file and what is wrong"):
+    Samples.inFolder: folder =>
+      def file(name: String, contents: String) =
+        Files.write(folder.resolve(name), contents.getBytes)
+      val missing = folder.resolve("no.exr")
+      assert(error(ImageFiles.read(missing)) == s"$missing: there is no such file")
+      val empty = file("empty.png", "")
+      assert(error(ImageFiles.read(empty)) == s"$empty: the file is empty")
+      val text = file("text.exr", "no picture")
+      val wanted = s"$text: not a valid .exr file: it begins with other bytes"
+      assert(error(ImageFiles.read(text)) == wanted)
+      assert(error(ImageFiles.read(file("a.tiff", "II*"))).contains("unknown format; EXR, HDR"))
+      assert(error(ImageFiles.read(folder)).startsWith(s"$folder: can't be read"))
+      assert(error(ImageFiles.read(file("a.tga", "no"))).contains("can't be decoded"))
+
+  test("writing refuses formats it does not know, and names those it does"):
+    val image = Image.rgb(1, 1)
+    val supported = "pictures are written as .exr or .png"
+    assert(error(ImageFiles.write(Path.of("a.jpg"), image)).contains(s"can't write .jpg files; $supported"))
+    assert(error(ImageFiles.write(Path.of("a"), image)).contains(s"no extension; $supported"))
+    assert(ImageFiles.isWritable(Path.of("x/a.Exr")) && !ImageFiles.isWritable(Path.of("png")))
+
+  test("writing replaces a picture"):
+    Samples.inFolder: folder =>
+      val path = folder.resolve("a.exr")
+      ImageFiles.write(path, Image.rgb(1, 1))
+      ImageFiles.write(path, Image.rgb(7, 5))
+      assert(ImageFiles.read(path).width == 7)
+      assert(names(folder) == Vector("a.exr"))
+
+  test("a picture that can't be written leaves the old one and no temporary file"):
+    Samples.inFolder: folder =>
+      val path = folder.resolve("a.png")
+      ImageFiles.write(path, Image.rgb(4, 4))
+      assert(error(ImageFiles.write(path, Samples.random(2, 2, Vector("z"), 1))).startsWith(s"$path: "))
+      assert(ImageFiles.read(path).width == 4)
+
+      val taken = Files.createDirectory(folder.resolve("b.exr"))
+      val inside = Files.createFile(taken.resolve("keep"))
+      assert(error(ImageFiles.write(taken, Image.rgb(1, 1))) == s"$taken: can't be written: it is a folder")
+      assert(Files.exists(inside))
+
+      val nowhere = folder.resolve("no/c.exr")
+      assert(error(ImageFiles.write(nowhere, Image.rgb(1, 1))) == s"$nowhere: there is no such folder")
+      assert(names(folder) == Vector("a.png", "b.exr"))
