@@ -1,0 +1,34 @@
+package candela.cli
+
+import java.io.PrintStream
+
+/** The program. The only place that exits. */
+object Main:
+
+  def main(args: Array[String]): Unit =
+    val code = run(args.toVector, Terminal.ofProcess)
+    System.out.flush()
+    System.err.flush()
+    System.exit(code)
+
+  /** Runs a command line within another program; returns the exit code. */
+  def run(args: Seq[String], out: PrintStream, err: PrintStream): Int =
+    run(args, Terminal(out, err, isInteractive = false, Interrupts.Ignored))
+
+  private[cli] def run(
+      args: Seq[String],
+      terminal: Terminal,
+      loader: SceneLoader = SceneLoader.FromFile
+  ): Int =
+    val code = CommandLine.parse(args) match
+      case Left(answer) =>
+        terminal.out.print(answer.out)
+        terminal.err.print(answer.err)
+        answer.code
+      case Right(options) =>
+        val report = Report(terminal.err, options.quiet, options.verbose)
+        options.command match
+          case Command.Render => RenderCommand(options, terminal, report, loader).run()
+          case Command.Check => CheckCommand(options, terminal, report, loader).run()
+          case Command.Compare => CompareCommand(options, terminal, report).run()
+    code.number

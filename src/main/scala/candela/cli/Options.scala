@@ -1,0 +1,33 @@
+package candela.cli
+
+import candela.scenefile.Dialect
+
+enum Command(val word: String):
+  case Render extends Command("render")
+  case Check extends Command("check")
+  case Compare extends Command("compare")
+
+/** The part of the image to render: fractions of its width and height, 0 to 1. */
+final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
+
+/** A command line, understood; what is None was not said.
+  *
+  * @param files     the scenes; for `compare`, the image and its reference
+  * @param outfiles  where to write the image, instead of the scene's file name
+  * @param maxRelMse the relative mean squared error above which `compare` fails
+  */
+final case class Options(
+    command: Command = Command.Render,
+    files: Vector[String] = Vector.empty,
+    outfiles: Vector[String] = Vector.empty,
+    threads: Option[Int] = None,
+    spp: Option[Int] = None,
+    seed: Int = 0,
+    quick: Boolean = false,
+    quiet: Boolean = false,
+    verbose: Boolean = false,
+    explain: Boolean = false,
+    cropWindow: Option[CropWindow] = None,
+    dialect: Option[Dialect] = None,
+    maxRelMse: Option[Double] = None
+)

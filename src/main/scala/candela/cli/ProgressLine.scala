@@ -1,0 +1,71 @@
+package candela.cli
+
+import candela.render.Progress
+
+import java.io.PrintStream
+
+/** Shows how far a rendering is: on a terminal one line that is redrawn; elsewhere, in logs, a line now
+  * and then.
+  *
+  * Of our own, since the bars of libraries know only terminals: a log gets no carriage returns here.
+  */
+final class ProgressLine(err: PrintStream, isInteractive: Boolean):
+  import ProgressLine.*
+
+  private var shownAt = 0.0
+  private var shownSteps = 0
+  private var shownLength = 0
+
+  def update(progress: Progress): Unit = if isInteractive then redraw(progress) else log(progress)
+
+  /** Makes place for what is printed next. */
+  def finish(): Unit =
+    if shownLength > 0 then
+      err.print("\r" + " " * shownLength + "\r")
+      err.flush()
+      shownLength = 0
+
+  private def redraw(progress: Progress): Unit =
+    if progress.seconds - shownAt >= RedrawSeconds then
+      val text = bar(progress)
+      err.print("\r" + text.padTo(shownLength, ' '))
+      err.flush()
+      shownAt = progress.seconds
+      shownLength = text.length
+
+  private def log(progress: Progress): Unit =
+    val steps = (fraction(progress) * LogSteps).toInt
+    if steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds then
+      err.println(line(progress))
+      shownAt = progress.seconds
+      shownSteps = steps
+
+object ProgressLine:
+
+  /** Slower than the eye, so that a terminal far away is not flooded. */
+  private val RedrawSeconds = 0.1
+  private val LogSeconds = 10.0
+
+  /** A log gets a line for every tenth of the work at most. */
+  private val LogSteps = 10
+  private val BarWidth = 28
+
+  /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left` */
+  def line(progress: Progress): String =
+    s"render ${percent(progress)}  ${Figures.duration(progress.seconds)}, ${speed(progress)}"
+
+  /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`. */
+  def bar(progress: Progress): String =
+    val full = (fraction(progress) * BarWidth).toInt
+    val drawn = if full < BarWidth then "=" * full + ">" else "=" * full
+    s"render ${percent(progress)} [${drawn.padTo(BarWidth, ' ')}] ${speed(progress)}"
+
+  private def fraction(p: Progress): Double = if p.total == 0 then 1 else p.done.toDouble / p.total
+
+  private def percent(p: Progress): String = "%3d%%".format((fraction(p) * 100).toInt)
+
+  private def speed(p: Progress): String =
+    if p.done == 0 then "starting"
+    else
+      val rate = p.done / Math.max(p.seconds, 1e-9)
+      s"${Figures.metric(rate)} samples/s, ${Figures.clock((p.total - p.done) / rate)} left"

@@ -1,0 +1,117 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError, Version}
+import candela.image.{ImageError, ImageFiles}
+import candela.render.{Cancellation, PixelBounds, Renderer, Rendering}
+
+import java.nio.file.Path
+
+import scala.util.{Failure, Success, Try}
+
+/** `candela render`: from scenes to image files. */
+final class RenderCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  private val cancellation = Cancellation()
+  private val threads = options.threads.getOrElse(Runtime.getRuntime.availableProcessors)
+
+  def run(): ExitCode =
+    var code = ExitCode.Done
+    var taken = Map.empty[Path, String]
+    for scene <- options.files if !cancellation.isRequested do
+      code = code.worseOf:
+        report.guarded:
+          val loaded = load(scene)
+          val files = outputs(loaded.plan.filename)
+          for path <- files.paths.map(_.toAbsolutePath.normalize) do
+            taken.get(path).foreach(other => throw overwrite(path, scene, other))
+            taken += path -> scene
+          render(scene, loaded, files.paths)
+    code
+
+  private def load(scene: String): LoadedScene =
+    // Said before the scene is read, which may take long.
+    OutputFiles.asked(options.outfiles).check()
+    val loaded = loader.load(scene, options)
+    report.warnings(loaded.warnings, all = options.verbose)
+    if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
+    loaded
+
+  private def outputs(filename: String): OutputFiles =
+    val files =
+      if options.outfiles.nonEmpty then OutputFiles.asked(options.outfiles)
+      else OutputFiles.ofFilm(filename)
+    report.warnings(files.warnings, all = true)
+    files.check()
+    files
+
+  private def overwrite(path: Path, scene: String, other: String): SceneError =
+    val message = s"the image of `$scene` would overwrite that of `$other`: $path"
+    SceneError(Problem.general(message, Some("render one at a time, with --outfile")))
+
+  private def render(scene: String, loaded: LoadedScene, paths: Vector[Path]): ExitCode =
+    terminal.interrupts.during(cancellation):
+      val progress = ProgressLine(terminal.err, terminal.isInteractive)
+      val show = if options.quiet then (_ => ()) else progress.update
+      val rendering =
+        try Renderer.render(loaded.plan, threads, cancellation, show)
+        finally progress.finish()
+      val started = System.nanoTime
+      val written = write(paths, scene, loaded, rendering)
+      val writeSeconds = (System.nanoTime - started) * 1e-9
+      summarise(written, loaded, rendering, writeSeconds)
+      if written.size < paths.size then ExitCode.BadInput
+      else if cancellation.isRequested then ExitCode.Interrupted
+      else ExitCode.Done
+
+  /** Writes every file that can be written, and returns those. */
+  private def write(
+      paths: Vector[Path],
+      scene: String,
+      loaded: LoadedScene,
+      rendering: Rendering
+  ): Vector[Path] =
+    val image = rendering.film.toImage(loaded.plan.imageScale)
+    val about = metadata(scene, loaded, rendering)
+    val attempts = paths.map(path => path -> Try(ImageFiles.write(path, image, about)))
+    val failures = attempts.collect:
+      case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)
+      case (_, Failure(e)) => throw e
+    if failures.nonEmpty then
+      val _ = report.errors(failures)
+    attempts.collect { case (path, Success(_)) => path }
+
+  private def metadata(
+      scene: String,
+      loaded: LoadedScene,
+      rendering: Rendering
+  ): Vector[(String, String)] =
+    val plan = loaded.plan
+    val PixelBounds(x0, y0, x1, y1) = plan.crop
+    val crop = Option.when(plan.crop != PixelBounds(0, 0, plan.width, plan.height)):
+      "crop" -> s"x $x0 until $x1, y $y0 until $y1 of ${plan.width}x${plan.height}"
+    Vector(
+      "software" -> s"Candela ${Version.current}",
+      "scene" -> scene,
+      "dialect" -> loaded.description.dialect.toString.toLowerCase,
+      "integrator" -> plan.integrator.getClass.getSimpleName,
+      "samplesPerPixel" -> rendering.samplesDone.toString,
+      "seed" -> options.seed.toString,
+      "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
+    ) ++ crop
+
+  private def summarise(
+      written: Vector[Path],
+      loaded: LoadedScene,
+      rendering: Rendering,
+      writeSeconds: Double
+  ): Unit =
+    rendering.refused.foreach(r => terminal.err.println(Summary.refused(r)))
+    if !options.quiet && written.nonEmpty then
+      if options.verbose then
+        terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
+      terminal.out.println(Summary.result(written, rendering))
+      terminal.out.flush()

@@ -1,0 +1,68 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError, Suggest}
+import candela.build.{BuildOptions, SceneBuilder}
+import candela.render.RenderPlan
+import candela.scenefile.{Parser, SceneDescription}
+
+import java.nio.file.{Files, InvalidPathException, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** A scene that is ready to render, how it was described, and what it took.
+  *
+  * @param warnings of parser and builder
+  */
+final case class LoadedScene(
+    description: SceneDescription,
+    plan: RenderPlan,
+    warnings: Vector[Problem],
+    parseSeconds: Double,
+    buildSeconds: Double
+)
+
+/** From a scene's file name to what can be rendered. */
+abstract class SceneLoader:
+
+  /** @throws SceneError if the scene is not as it should be */
+  def load(scene: String, options: Options): LoadedScene
+
+object SceneLoader:
+
+  object FromFile extends SceneLoader:
+    def load(scene: String, options: Options): LoadedScene =
+      val file = existing(scene)
+      val started = System.nanoTime
+      val description = Parser.parse(file, options.dialect)
+      val parsed = System.nanoTime
+      val (plan, warnings) = SceneBuilder.build(description, buildOptions(options))
+      val built = System.nanoTime
+      val all = description.warnings ++ warnings
+      LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
+
+  private def buildOptions(o: Options): BuildOptions =
+    BuildOptions(o.spp, o.seed, o.quick, o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1)))
+
+  private def existing(scene: String): Path =
+    val file =
+      try Path.of(scene)
+      catch
+        case e: InvalidPathException =>
+          throw SceneError(Problem.general(s"`$scene` is no file name: ${e.getReason}"))
+    if Files.isDirectory(file) then
+      val help = "name a scene file in it".concat(scenesIn(file).mkString(": ", ", ", ""))
+      throw SceneError(Problem.general(s"`$scene` is a folder", Some(help)))
+    else if !Files.exists(file) then
+      val folder = Option(file.toAbsolutePath.getParent)
+      val near = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
+      val help = near.map(name => s"did you mean `${file.resolveSibling(name)}`?")
+      throw SceneError(Problem.general(s"there is no scene file `$scene`", help))
+    else file
+
+  private def scenesIn(folder: Path): Vector[String] =
+    if !Files.isDirectory(folder) then Vector.empty
+    else
+      Using.resource(Files.list(folder)): files =>
+        val names = files.iterator.asScala.map(_.getFileName.toString)
+        names.filter(_.endsWith(".pbrt")).toVector.sorted
