@@ -5,15 +5,19 @@ import java.nio.file.{Files, Path}
 import scala.collection.mutable
 
 import candela.base.Suggest
-import candela.image.{Image, ImageError, ImageFiles}
+import candela.bsdf.Coats
+import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** What statements of a scene file can refer to by name: textures, and files. */
 final class Resources:
+  /** Tables of coated materials, shared by all of them that are alike. */
+  val coats = Coats()
+
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
-  private val images = mutable.Map.empty[Path, Either[String, Image]]
+  private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
 
   def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
   def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
@@ -56,11 +60,11 @@ final class Resources:
       None
 
   /** The picture that a parameter names, read once however often it is used. */
-  def image(p: Param, from: Declaration, problems: Problems): Option[Image] =
+  def image(p: Param, from: Declaration, problems: Problems): Option[StoredImage] =
     file(p, from, problems).flatMap: path =>
       val read = images.getOrElseUpdate(
         path.toAbsolutePath.normalize,
-        try Right(ImageFiles.read(path))
+        try Right(ImageFiles.load(path))
         catch case e: ImageError => Left(e.getMessage)
       )
       read match

@@ -34,7 +34,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     for t <- description.textures do Textures.define(t, site(t.texture))
     for s <- description.shapes do add(s)
     for i <- description.instances; s <- instantiated(i) do add(s)
-    val triangles = soup.result(tangents = Materials.needTangents(materials))
+    val triangles = soup.result(tangents = materials.exists(_.isAnisotropic))
     for (plan, first, count, light) <- meshLights do
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
@@ -147,10 +147,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       ref, {
         val made = ref match
           case MaterialRef.Default => Materials.default(description.dialect)
-          case MaterialRef.Inline(d) => Materials.build(site(d), named)
+          case MaterialRef.Inline(d) => Materials.build(site(d))
           case MaterialRef.Named(name, at) =>
             named.get(name) match
-              case Some(d) => Materials.build(site(d), named)
+              case Some(d) => Materials.build(site(d))
               case None =>
                 problems.error(
                   at,
