@@ -1,0 +1,41 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Ideal diffuse scattering to both sides of a thin sheet, such as paper or a leaf.
+  *
+  * The side is drawn with probabilities proportional to the largest components.
+  *
+  * @param reflectance   the fraction of the power that stays on the side it came from, in [0, 1]
+  * @param transmittance the fraction that passes; both together should not exceed 1
+  */
+final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Bsdf:
+  private val total = reflectance.max + transmittance.max
+  private val reflects = if total > 0f then reflectance.max / total else 0f
+  private val transmits = if total > 0f then transmittance.max / total else 0f
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    val cosines = wo.z * wi.z
+    if cosines > 0f then reflectance * InvPi
+    else if cosines < 0f then transmittance * InvPi
+    else Rgb.Black
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    val cosines = wo.z * wi.z
+    val side = if cosines > 0f then reflects else if cosines < 0f then transmits else 0f
+    side * Hemisphere.cosinePdf(wi)
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val near = Hemisphere.cosineSample(wo, u1, u2)
+    if total == 0f || near.z == 0f then BsdfSample.Absorbed
+    else if choice < reflects then
+      val density = reflects * Hemisphere.cosinePdf(near)
+      BsdfSample(near, reflectance * (1f / reflects), density, isSpecular = false)
+    else
+      val far = Hemisphere.flipped(near)
+      val density = transmits * Hemisphere.cosinePdf(far)
+      BsdfSample(far, transmittance * (1f / transmits), density, isSpecular = false)
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = !transmittance.isBlack

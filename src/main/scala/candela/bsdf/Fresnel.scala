@@ -1,0 +1,104 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Reflection and refraction of unpolarised light at an ideally flat interface.
+  *
+  * Worked in Double: near the critical angle and for metals of small `eta` the differences below lose
+  * up to half the digits of a Float (`FresnelSuite` compares with another form of the equations).
+  *
+  * Source: Born and Wolf, "Principles of Optics", 7th ed., §1.5.2 and §14.2.
+  */
+object Fresnel:
+
+  /** The fraction of the power that an interface of two transparent media reflects.
+    *
+    * @param cosThetaI cosine of the angle to the normal on the side light arrives from; negative if
+    *                  that is the inside: then `eta` is inverted
+    * @param eta       index of refraction inside over that outside; greater than 0
+    * @return          in [0, 1]; exactly 1 past the critical angle
+    */
+  def dielectric(cosThetaI: Float, eta: Float): Float =
+    val n = if cosThetaI < 0f then 1.0 / eta else eta.toDouble
+    val cosI = Math.min(Math.abs(cosThetaI.toDouble), 1.0)
+    val cos2T = 1.0 - (1.0 - cosI * cosI) / (n * n)
+    if cos2T <= 0.0 then 1f
+    else
+      val cosT = Math.sqrt(cos2T)
+      val parallel = (n * cosI - cosT) / (n * cosI + cosT)
+      val perpendicular = (cosI - n * cosT) / (cosI + n * cosT)
+      (0.5 * (parallel * parallel + perpendicular * perpendicular)).toFloat
+
+  /** The cosine of the angle of refraction, at least 0; −1 if all light is reflected.
+    *
+    * @param cosThetaI cosine of the angle to the normal, in [0, 1]
+    * @param eta       index beyond the interface over that before it
+    */
+  def cosRefracted(cosThetaI: Float, eta: Float): Float =
+    val cosI = cosThetaI.toDouble
+    val cos2T = 1.0 - Math.max(0.0, 1.0 - cosI * cosI) / (eta.toDouble * eta)
+    if cos2T <= 0.0 then -1f else Math.sqrt(cos2T).toFloat
+
+  /** The direction in which light goes on, or came from, beyond the interface (Snell's law).
+    *
+    * @param w    unit vector that points away from the interface, on the side of `m`
+    * @param m    unit normal
+    * @param cosI `w dot m`, at least 0
+    * @param cosT `cosRefracted(cosI, eta)`, at least 0
+    * @param eta  index beyond the interface over that on the side of `w`
+    */
+  def refracted(w: Vec3, m: Vec3, cosI: Float, cosT: Float, eta: Float): Vec3 =
+    val along = cosI / eta - cosT
+    val across = -1f / eta
+    Vec3(w.x * across + m.x * along, w.y * across + m.y * along, w.z * across + m.z * along)
+
+  /** The fraction of the power that a metal reflects.
+    *
+    * @param cosThetaI cosine of the angle to the normal; the sign doesn't matter
+    * @param eta       real part of the index of refraction, over that of the medium outside
+    * @param k         imaginary part (absorption), likewise
+    */
+  def conductor(cosThetaI: Float, eta: Float, k: Float): Float =
+    val c = Math.min(Math.abs(cosThetaI.toDouble), 1.0)
+    val (n, kk) = (eta.toDouble, k.toDouble)
+    val s2 = 1.0 - c * c
+    // (a + ib)² = (n + ik)² − sin²θ. Of a² and b², the one that no difference spoils comes first.
+    val real = n * n - kk * kk - s2
+    val modulus = Math.sqrt(real * real + 4.0 * n * n * kk * kk)
+    val larger = Math.sqrt(0.5 * (modulus + Math.abs(real)))
+    val a =
+      if real >= 0.0 then larger
+      else if larger > 0.0 then n * kk / larger
+      else 0.0
+    val sum = modulus + c * c
+    val difference = 2.0 * a * c
+    if sum + difference == 0.0 then 1f // grazing, at the critical angle: the limit
+    else
+      val perpendicular = (sum - difference) / (sum + difference)
+      val sum2 = c * c * modulus + s2 * s2
+      val difference2 = difference * s2
+      val parallel =
+        if sum2 + difference2 == 0.0 then perpendicular
+        else perpendicular * (sum2 - difference2) / (sum2 + difference2)
+      (0.5 * (perpendicular + parallel)).toFloat
+
+  /** `conductor` for each channel. */
+  def conductor(cosThetaI: Float, eta: Rgb, k: Rgb): Rgb = Rgb(
+    conductor(cosThetaI, eta.r, k.r),
+    conductor(cosThetaI, eta.g, k.g),
+    conductor(cosThetaI, eta.b, k.b)
+  )
+
+  /** The approximation of `conductor` for metals that absorb well, which drops sin²θ beside `eta² + k²`.
+    *
+    * Source: PBRT 2nd ed., §8.2.1.
+    */
+  def strongConductor(cosThetaI: Float, eta: Float, k: Float): Float =
+    val c = Math.min(Math.abs(cosThetaI.toDouble), 1.0)
+    val n2 = eta.toDouble * eta + k.toDouble * k
+    val twice = 2.0 * eta * c
+    val parallel = (n2 * c * c - twice + 1.0) / (n2 * c * c + twice + 1.0)
+    val sum = n2 + c * c
+    val perpendicular = if sum + twice == 0.0 then 1.0 else (sum - twice) / (sum + twice)
+    (0.5 * (parallel + perpendicular)).toFloat

@@ -1,0 +1,25 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Ideal diffuse reflection: the same radiance in every direction on the side the light came from.
+  *
+  * @param albedo the fraction of the power that is reflected, in [0, 1]
+  */
+final class Lambert(albedo: Rgb) extends Bsdf:
+  private val value = albedo * InvPi
+  private val absorbs = albedo.isBlack
+
+  def f(wo: Vec3, wi: Vec3): Rgb = if Hemisphere.same(wo, wi) then value else Rgb.Black
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val wi = Hemisphere.cosineSample(wo, u1, u2)
+    if absorbs || wi.z == 0f then BsdfSample.Absorbed
+    else BsdfSample(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false

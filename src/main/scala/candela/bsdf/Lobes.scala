@@ -1,0 +1,77 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** The sum of several ways to scatter, at one place.
+  *
+  * `sample` draws from one of them and weighs the direction with the density of all, unless it is
+  * specular: then no other lobe can have produced it.
+  *
+  * @param lobes         at least one
+  * @param probabilities with which each is drawn from; positive where the lobe is not black; sum 1
+  */
+final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    var sum = lobes(0).f(wo, wi)
+    var i = 1
+    while i < lobes.length do
+      sum = sum + lobes(i).f(wo, wi)
+      i += 1
+    sum
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    var sum = 0f
+    var i = 0
+    while i < lobes.length do
+      sum += probabilities(i) * lobes(i).pdf(wo, wi)
+      i += 1
+    sum
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    // The last lobe also takes what rounding leaves of the interval.
+    var i = 0
+    var rest = choice
+    while i < lobes.length - 1 && rest >= probabilities(i) do
+      rest -= probabilities(i)
+      i += 1
+    val p = probabilities(i)
+    val drawn = lobes(i).sample(wo, clamp(rest / p, 0f, OneMinusEpsilon), u1, u2)
+    if drawn.pdf == 0f then BsdfSample.Absorbed
+    else if drawn.isSpecular then
+      BsdfSample(drawn.wi, drawn.weight * (1f / p), drawn.pdf * p, isSpecular = true, drawn.eta)
+    else
+      val density = pdf(wo, drawn.wi)
+      val weight = f(wo, drawn.wi) * (Hemisphere.absCos(drawn.wi) / density)
+      BsdfSample(drawn.wi, weight, density, isSpecular = false, drawn.eta)
+
+  val isSpecular: Boolean = lobes.forall(_.isSpecular)
+  val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
+
+object Lobes:
+
+  /** Collects lobes with a guess of their albedo, and makes the plainest [[Bsdf]] of them.
+    *
+    * Half of the samples follow the guesses; the other half are shared equally, because at grazing
+    * angles gloss can be many times brighter than on average.
+    */
+  final class Builder:
+    private var lobes = Array.empty[Bsdf]
+    private var albedos = Array.empty[Float]
+
+    /** Leaves out what scatters nothing. */
+    def add(lobe: => Bsdf, albedo: Float): Builder =
+      if albedo > 0f then
+        lobes = lobes :+ lobe
+        albedos = albedos :+ albedo
+      this
+
+    def result: Bsdf =
+      if lobes.isEmpty then Black
+      else if lobes.length == 1 then lobes(0)
+      else
+        val total = albedos.sum
+        Lobes(lobes, albedos.map(a => 0.5f * a / total + 0.5f / lobes.length.toFloat))
+
+  private val Black = Lambert(Rgb.Black)

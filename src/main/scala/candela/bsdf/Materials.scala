@@ -1,0 +1,121 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
+
+/** Makes the plainest [[Material]] that is right: where no texture varies, the [[Bsdf]] is made once. */
+object Materials:
+
+  def matte(kd: RgbTexture, sigma: FloatTexture): Material =
+    fold(MatteMaterial(kd, sigma), isFixed(kd) && isFixed(sigma))
+
+  def diffuse(reflectance: RgbTexture): Material =
+    fold(DiffuseMaterial(reflectance), isFixed(reflectance))
+
+  def diffuseTransmission(r: RgbTexture, t: RgbTexture, scale: Float): Material =
+    fold(DiffuseTransmissionMaterial(r, t, scale), isFixed(r) && isFixed(t))
+
+  /** @param thickness in mean free paths of the coat's absorption
+    * @param scattering albedo of the medium between coat and base
+    * @param maxDepth  how many times light may meet coat or base from within
+    * @return None if the medium scatters or the thickness varies: neither is supported
+    */
+  def coatedDiffuse(
+      reflectance: RgbTexture,
+      roughness: Roughness,
+      thickness: FloatTexture,
+      scattering: RgbTexture,
+      eta: Float,
+      maxDepth: Int,
+      coats: Coats
+  ): Option[Material] =
+    for
+      depth <- thickness.constant
+      _ <- scattering.constant.filter(_.max <= 0f)
+    yield
+      val family =
+        if roughness.isConstant then
+          IArray(coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, depth))
+        else coats.family(eta, depth)
+      // Light meets the base first, then coat and base in turn.
+      val hits = (maxDepth + 1) / 2
+      val material = CoatedDiffuseMaterial(reflectance, roughness, family, hits)
+      fold(material, isFixed(reflectance) && roughness.isConstant)
+
+  def substrate(kd: RgbTexture, ks: RgbTexture, roughness: Roughness): Material =
+    fold(SubstrateMaterial(kd, ks, roughness), isFixed(kd) && isFixed(ks) && roughness.isConstant)
+
+  def mirror(kr: RgbTexture): Material = fold(MirrorMaterial(kr), isFixed(kr))
+
+  def conductor(curve: ReflectanceCurve, roughness: Roughness): Material =
+    fold(ConductorMaterial(curve, roughness), roughness.isConstant)
+
+  def conductor(eta: RgbTexture, k: RgbTexture, roughness: Roughness): Material =
+    fold(
+      IndexedConductorMaterial(eta, k, roughness),
+      isFixed(eta) && isFixed(k) && roughness.isConstant
+    )
+
+  def conductor(reflectance: RgbTexture, roughness: Roughness): Material =
+    fold(
+      TintedConductorMaterial(reflectance, roughness),
+      isFixed(reflectance) && roughness.isConstant
+    )
+
+  /** PBRT 4's dielectric, and PBRT 3's glass. */
+  def dielectric(
+      kr: RgbTexture,
+      kt: RgbTexture,
+      eta: FloatTexture,
+      roughness: Roughness
+  ): Material =
+    fold(
+      DielectricMaterial(kr, kt, eta, roughness, compresses = true),
+      isFixed(kr) && isFixed(kt) && isFixed(eta) && roughness.isConstant
+    )
+
+  def dielectric(eta: Float, roughness: Roughness): Material =
+    dielectric(White, White, ConstantFloat(eta), roughness)
+
+  /** PBRT 2's glass: always smooth, and refraction doesn't change radiance. */
+  def oldGlass(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): Material =
+    fold(
+      DielectricMaterial(kr, kt, eta, Smooth, compresses = false),
+      isFixed(kr) && isFixed(kt) && isFixed(eta)
+    )
+
+  def thinDielectric(eta: Float): Material =
+    ConstantMaterial(ThinDielectric(if eta == 0f then 1f else eta))
+
+  def plastic(kd: RgbTexture, ks: RgbTexture, roughness: Roughness, edition: Edition): Material =
+    fold(
+      PlasticMaterial(kd, ks, roughness, edition),
+      isFixed(kd) && isFixed(ks) && roughness.isConstant
+    )
+
+  def uber(
+      kd: RgbTexture,
+      ks: RgbTexture,
+      kr: RgbTexture,
+      kt: RgbTexture,
+      opacity: RgbTexture,
+      eta: FloatTexture,
+      roughness: Roughness,
+      edition: Edition
+  ): Material =
+    fold(
+      UberMaterial(kd, ks, kr, kt, opacity, eta, roughness, edition),
+      Seq(kd, ks, kr, kt, opacity).forall(isFixed) && isFixed(eta) && roughness.isConstant
+    )
+
+  private val White = ConstantRgb(Rgb.White)
+  private val Zero = ConstantFloat(0f)
+  private val Smooth = Roughness(Zero, Zero, RoughnessModel.PlainAlpha)
+
+  private def isFixed(texture: RgbTexture): Boolean = texture.constant.isDefined
+  private def isFixed(texture: FloatTexture): Boolean = texture.constant.isDefined
+
+  /** No texture looks at the point if all are constant. */
+  private def fold(material: Material, isFixed: Boolean): Material =
+    if isFixed then ConstantMaterial(material.bsdf(ShadingPoint())) else material

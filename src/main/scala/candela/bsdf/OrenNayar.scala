@@ -1,0 +1,40 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Diffuse reflection from a surface of V-shaped grooves, as of clay or the moon.
+  *
+  * @param albedo reflectance of the facets, in [0, 1]
+  * @param sigma  standard deviation of the angle of the facets, in degrees, in [0, 90]; 0 is
+  *               [[Lambert]]
+  *
+  * Source: Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994: the
+  * qualitative model.
+  */
+final class OrenNayar(albedo: Rgb, sigma: Float) extends Bsdf:
+  private val variance = square(radians(sigma))
+  private val a = 1f - variance / (2f * (variance + 0.33f))
+  private val b = 0.45f * variance / (variance + 0.09f)
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if Hemisphere.same(wo, wi) then albedo * (InvPi * shape(wo, wi)) else Rgb.Black
+
+  /** The value relative to that of a Lambertian surface. */
+  private def shape(wo: Vec3, wi: Vec3): Float =
+    val cosO = Hemisphere.absCos(wo)
+    val cosI = Hemisphere.absCos(wi)
+    // sin α · tan β · cos Δφ: the sines cancel those of the azimuths but for one cosine.
+    val projected = wo.x * wi.x + wo.y * wi.y
+    if projected <= 0f then a else a + b * projected / (if cosI > cosO then cosI else cosO)
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val wi = Hemisphere.cosineSample(wo, u1, u2)
+    if !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
+    else BsdfSample(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false

@@ -1,0 +1,129 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** The rough interface of two transparent media: every facet reflects and refracts.
+  *
+  * What is scattered twice within the roughness is lost. Refraction scales radiance by the square of
+  * the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
+  *
+  * @param eta           index of refraction inside (below the surface) over that outside; not 1
+  * @param reflectance   multiplies the reflected light
+  * @param transmittance multiplies the refracted light
+  *
+  * Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
+  */
+final class RoughDielectric(
+    distribution: MicrofacetDistribution,
+    eta: Float,
+    reflectance: Rgb = Rgb.White,
+    transmittance: Rgb = Rgb.White
+) extends Bsdf:
+  private val maxReflectance = reflectance.max
+  private val maxTransmittance = transmittance.max
+
+  /** The index on the other side over that on the side of `wo`. */
+  private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / eta else eta
+
+  /** The probability that a facet with this Fresnel term is chosen to reflect; NaN if it does neither. */
+  private def reflects(fresnel: Float): Float =
+    val r = fresnel * maxReflectance
+    r / (r + (1f - fresnel) * maxTransmittance)
+
+  /** The facet that scatters `o` (above) to `i`; zero if there is none that both see from the front. */
+  private def facet(o: Vec3, i: Vec3, relative: Float): Vec3 =
+    val across = if i.z > 0f then o + i else o + i * relative
+    if across.isZero then Vec3.Zero
+    else
+      val unit = across.normalized
+      val m = if unit.z < 0f then -unit else unit
+      if (o dot m) > 0f && (i dot m) * i.z > 0f then m else Vec3.Zero
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if wo.z == 0f || wi.z == 0f then Rgb.Black
+    else
+      val relative = relativeEta(wo)
+      val o = Hemisphere.above(wo)
+      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val m = facet(o, i, relative)
+      if m.isZero then Rgb.Black
+      else
+        val fresnel = Fresnel.dielectric(o dot m, relative)
+        val density = distribution.d(m) * distribution.visibility(o, i, m)
+        if i.z > 0f then reflectance * (fresnel * density)
+        else
+          val spread = 4f * (o dot m) * jacobian(o, i, m, relative) / (relative * relative)
+          transmittance * ((1f - fresnel) * density * spread)
+
+  /** Solid angle of facet normals for that of refracted directions. */
+  private def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val cosI = i dot m
+    Math.abs(cosI) / square(cosI + (o dot m) / relative)
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if wo.z == 0f || wi.z == 0f then 0f
+    else
+      val relative = relativeEta(wo)
+      val o = Hemisphere.above(wo)
+      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val m = facet(o, i, relative)
+      if m.isZero then 0f else density(o, i, m, relative)
+
+  private def density(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val p = reflects(Fresnel.dielectric(o dot m, relative))
+    if p.isNaN then 0f
+    else if i.z > 0f then p * MicrofacetReflection.pdf(distribution, o, m)
+    else (1f - p) * distribution.pdf(o, m) * jacobian(o, i, m, relative)
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val relative = relativeEta(wo)
+    val o = Hemisphere.above(wo)
+    val m = distribution.sample(o, u1, u2)
+    val cosM = o dot m
+    if o.z == 0f || cosM <= 0f then BsdfSample.Absorbed
+    else
+      val fresnel = Fresnel.dielectric(cosM, relative)
+      val p = reflects(fresnel)
+      if p.isNaN then BsdfSample.Absorbed
+      else if choice < p then
+        val i = Hemisphere.reflected(o, m, cosM)
+        if i.z <= 0f then BsdfSample.Absorbed
+        else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f)
+      else
+        val cosT = Fresnel.cosRefracted(cosM, relative)
+        if cosT <= 0f then BsdfSample.Absorbed
+        else
+          val i = Fresnel.refracted(o, m, cosM, cosT, relative)
+          val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
+          if i.z >= 0f then BsdfSample.Absorbed else leave(wo, o, i, m, passed, relative, relative)
+
+  private def leave(
+      wo: Vec3,
+      o: Vec3,
+      i: Vec3,
+      m: Vec3,
+      weight: Rgb,
+      relative: Float,
+      sampleEta: Float
+  ): BsdfSample =
+    val pdf = density(o, i, m, relative)
+    if pdf > 0f && java.lang.Float.isFinite(pdf) then
+      val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
+      BsdfSample(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
+    else BsdfSample.Absorbed
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = !transmittance.isBlack
+
+/** The interface of two transparent media, as rough as `distribution` says. */
+object Dielectric:
+  def apply(
+      distribution: MicrofacetDistribution,
+      eta: Float,
+      reflectance: Rgb = Rgb.White,
+      transmittance: Rgb = Rgb.White
+  ): Bsdf =
+    // Without a change of index nothing is bent, however rough the interface.
+    if distribution.isSmooth || eta == 1f then SmoothDielectric(eta, reflectance, transmittance)
+    else RoughDielectric(distribution, eta, reflectance, transmittance)

@@ -1,0 +1,87 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** What perfectly specular scattering has in common: only `sample` can find its directions. */
+sealed abstract class Specular extends Bsdf:
+  final def f(wo: Vec3, wi: Vec3): Rgb = Rgb.Black
+  final def pdf(wo: Vec3, wi: Vec3): Float = 0f
+  final def isSpecular: Boolean = true
+
+/** A smooth mirror on both sides.
+  *
+  * @param scale multiplies what `curve` says is reflected
+  */
+final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extends Specular:
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val weight = scale * curve(wo.z)
+    if weight.isBlack then BsdfSample.Absorbed
+    else BsdfSample(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
+
+  def isTransmissive: Boolean = false
+
+/** The smooth interface of two transparent media.
+  *
+  * @param eta           index of refraction inside (below the surface) over that outside
+  * @param reflectance   multiplies the reflected light
+  * @param transmittance multiplies the refracted light
+  * @param compresses    does refraction change radiance by the square of the index, as it does in
+  *                      nature because the beam changes its solid angle? PBRT before version 3 left
+  *                      it out
+  */
+final class SmoothDielectric(
+    eta: Float,
+    reflectance: Rgb = Rgb.White,
+    transmittance: Rgb = Rgb.White,
+    compresses: Boolean = true
+) extends Specular:
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val reflected = Fresnel.dielectric(wo.z, eta)
+    val reflects = reflected * reflectance.max
+    val transmits = (1f - reflected) * transmittance.max
+    val total = reflects + transmits
+    if total <= 0f then BsdfSample.Absorbed
+    else if choice * total < reflects then
+      val weight = reflectance * (reflected * total / reflects)
+      BsdfSample(Hemisphere.mirrored(wo), weight, reflects / total, isSpecular = true)
+    else refract(wo, (1f - reflected) * total / transmits, transmits / total)
+
+  private def refract(wo: Vec3, weight: Float, probability: Float): BsdfSample =
+    val relative = if wo.z < 0f then 1f / eta else eta
+    val cosT = Fresnel.cosRefracted(Math.abs(wo.z), relative)
+    // Rounding in Double and Float may put the critical angle one ulp apart.
+    if cosT <= 0f then BsdfSample.Absorbed
+    else
+      val wi = Vec3(-wo.x / relative, -wo.y / relative, if wo.z < 0f then cosT else -cosT)
+      val scale = if compresses then weight / (relative * relative) else weight
+      BsdfSample(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
+
+  def isTransmissive: Boolean = !transmittance.isBlack
+
+/** A pane with two parallel smooth sides: all that is reflected back and forth within it is counted,
+  * and what passes keeps its direction.
+  *
+  * @param eta index of refraction of the pane over that outside
+  *
+  * Source: Stokes, "On the intensity of the light reflected from or transmitted through a pile of
+  * plates", Proc. Royal Society 11, 1862; PBRT 4th ed., §9.5.
+  */
+final class ThinDielectric(eta: Float) extends Specular:
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val once = Fresnel.dielectric(Math.abs(wo.z), eta)
+    val reflected = 2f * once / (1f + once) // the geometric series of inner reflections
+    if choice < reflected then
+      BsdfSample(Hemisphere.mirrored(wo), Rgb.White, reflected, isSpecular = true)
+    else BsdfSample(-wo, Rgb.White, 1f - reflected, isSpecular = true)
+
+  def isTransmissive: Boolean = true
+
+/** Lets a part of the light go straight on, as if there were no surface. */
+final class Passthrough(transmittance: Rgb) extends Specular:
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    if transmittance.isBlack then BsdfSample.Absorbed
+    else BsdfSample(-wo, transmittance, 1f, isSpecular = true)
+
+  def isTransmissive: Boolean = true

@@ -1,0 +1,109 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture}
+
+/** A smooth mirror of the same reflectance at every angle. */
+final class MirrorMaterial(kr: RgbTexture) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = Mirror(kr(at).map(c => Math.max(c, 0f)))
+
+/** A metal whose reflectance at each angle is known. */
+final class ConductorMaterial(curve: ReflectanceCurve, roughness: Roughness) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), curve)
+
+/** A metal whose complex index of refraction varies. */
+final class IndexedConductorMaterial(eta: RgbTexture, k: RgbTexture, roughness: Roughness)
+    extends Material:
+  def bsdf(at: ShadingPoint): Bsdf =
+    Conductor(roughness(at), ConductorReflectance(eta(at), k(at)))
+
+/** A metal given by what it reflects at normal incidence. */
+final class TintedConductorMaterial(reflectance: RgbTexture, roughness: Roughness) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf =
+    Conductor(roughness(at), ConductorReflectance.ofReflectance(reflectance(at)))
+
+/** Glass, water: reflects and refracts.
+  *
+  * @param kr        multiplies the reflected light
+  * @param kt        multiplies the refracted light
+  * @param eta       index of refraction inside over that outside; 0 is taken for 1
+  * @param roughness where it is not smooth, `compresses` must hold
+  * @param compresses see [[SmoothDielectric]]
+  */
+final class DielectricMaterial(
+    kr: RgbTexture,
+    kt: RgbTexture,
+    eta: FloatTexture,
+    roughness: Roughness,
+    compresses: Boolean
+) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf =
+    val distribution = roughness(at)
+    val raw = eta(at)
+    val index = if raw == 0f then 1f else raw
+    val reflectance = kr(at).map(c => Math.max(c, 0f))
+    val transmittance = kt(at).map(c => Math.max(c, 0f))
+    if compresses then Dielectric(distribution, index, reflectance, transmittance)
+    else SmoothDielectric(index, reflectance, transmittance, compresses = false)
+
+/** Which edition of PBRT's layered materials is meant. */
+enum Edition:
+
+  /** The interface of plastic and uber is the inside of glass, seen from either side: all light is
+    * reflected beyond 42 degrees. Refraction doesn't change radiance.
+    */
+  case Second
+
+  /** Plastic has the inside of glass outside (and the outside inside); uber is right. */
+  case Third
+
+/** Gloss on a diffuse base that doesn't know of it. */
+final class PlasticMaterial(
+    kd: RgbTexture,
+    ks: RgbTexture,
+    roughness: Roughness,
+    edition: Edition
+) extends Material:
+  private val curve = DielectricReflectance(1f / 1.5f, oriented = edition == Edition.Third)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val diffuse = kd(at).map(c => Math.max(c, 0f))
+    val gloss = ks(at).map(c => Math.max(c, 0f))
+    Lobes.Builder()
+      .add(Lambert(diffuse), diffuse.max)
+      .add(MicrofacetReflection(roughness(at), curve, gloss), gloss.max)
+      .result
+
+/** Everything at once: diffuse base, gloss, mirror, refraction, and `opacity` to see through it all. */
+final class UberMaterial(
+    kd: RgbTexture,
+    ks: RgbTexture,
+    kr: RgbTexture,
+    kt: RgbTexture,
+    opacity: RgbTexture,
+    eta: FloatTexture,
+    roughness: Roughness,
+    edition: Edition
+) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf =
+    val third = edition == Edition.Third
+    val index = if third then eta(at) else 1f / eta(at)
+    val covered = opacity(at).map(c => Math.max(c, 0f))
+    val open = (Rgb.White - covered).map(c => Math.max(c, 0f))
+    val diffuse = kd(at).map(c => Math.max(c, 0f)) * covered
+    val gloss = ks(at).map(c => Math.max(c, 0f)) * covered
+    val mirror = kr(at).map(c => Math.max(c, 0f)) * covered
+    val clear = kt(at).map(c => Math.max(c, 0f)) * covered
+    val normalReflectance = Fresnel.dielectric(1f, index)
+    val interface = normalReflectance * mirror.max + (1f - normalReflectance) * clear.max
+    Lobes.Builder()
+      .add(Passthrough(open), open.max)
+      .add(Lambert(diffuse), diffuse.max)
+      .add(
+        MicrofacetReflection(roughness(at), DielectricReflectance(index, oriented = third), gloss),
+        gloss.max
+      )
+      .add(SmoothDielectric(index, mirror, clear, compresses = third), interface)
+      .result
