@@ -6,6 +6,14 @@ import candela.math.Vec3
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
+// Which dialects have a parameter or a recipe
+private[build] val every: Set[Dialect] = Dialect.values.toSet
+private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
+private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
+private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
+private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
+private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
+
 /** The kinds of parameters that a recipe can declare. A default may depend on the dialect:
   * `float("xradius", "…")(if v4 then 1.5f else 2f)`.
   */
@@ -16,27 +24,23 @@ trait Fields:
   protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
   protected final def v4(using d: Dialect): Boolean = d == Dialect.V4
 
-  protected val all: Set[Dialect] = Dialect.values.toSet
-  protected val onlyV4: Set[Dialect] = Set(Dialect.V4)
-  protected val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
-
-  protected final def float(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def float(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> Float
   ): Field[Float] = field(name, "float", doc, in, default)(floats(1, _, _).map(_(0)))
 
-  protected final def integer(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def integer(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> Int
   ): Field[Int] = field(name, "integer", doc, in, default): (p, site) =>
     if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
     else wrong(p, site, "one integer")
 
-  protected final def bool(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def bool(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> Boolean
   ): Field[Boolean] = field(name, "bool", doc, in, default): (p, site) =>
     if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
     else wrong(p, site, "one bool")
 
-  protected final def string(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def string(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> String
   ): Field[String] = field(name, "string", doc, in, default): (p, site) =>
     if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
@@ -45,7 +49,7 @@ trait Fields:
   /** A string out of a closed set. */
   protected final def oneOf(name: String, doc: String, values: String*)(
       default: Dialect ?=> String
-  ): Field[String] = field(name, "string", doc, all, default): (p, site) =>
+  ): Field[String] = field(name, "string", doc, every, default): (p, site) =>
     p.strings.headOption.filter(values.contains).orElse {
       val found = p.strings.headOption.getOrElse("")
       site.problems.error(
@@ -57,38 +61,38 @@ trait Fields:
     }
 
   protected final def point(name: String, doc: String)(default: Dialect ?=> Vec3): Field[Vec3] =
-    field(name, "point3", doc, all, default): (p, site) =>
+    field(name, "point3", doc, every, default): (p, site) =>
       floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
 
   /** Any number of numbers. */
   protected final def numbers(name: String, typeName: String, doc: String): Field[Array[Float]] =
-    field(name, typeName, doc, all, Array.emptyFloatArray): (p, site) =>
+    field(name, typeName, doc, every, Array.emptyFloatArray): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
       else if Fields.numeric(p.paramType) then Some(p.floats)
       else wrong(p, site, "numbers")
 
   protected final def integers(name: String, doc: String): Field[Array[Int]] =
-    field(name, "integer[]", doc, all, Array.emptyIntArray): (p, site) =>
+    field(name, "integer[]", doc, every, Array.emptyIntArray): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
 
   /** A colour that is no texture: light, or an index of refraction. */
-  protected final def color(name: String, doc: String, role: SpectrumRole, in: Set[Dialect] = all)(
+  protected final def color(name: String, doc: String, role: SpectrumRole, in: Set[Dialect] = every)(
       default: Dialect ?=> Rgb
   ): Field[Rgb] = field(name, "rgb", doc, in, default)(Spectra.rgb(_, role, _))
 
   /** A function of wavelength, or a colour. */
   protected final def spectrum(name: String, doc: String)(
       default: Dialect ?=> SpectralValue
-  ): Field[SpectralValue] = field(name, "spectrum", doc, all, default)(Spectra.value(_, _))
+  ): Field[SpectralValue] = field(name, "spectrum", doc, every, default)(Spectra.value(_, _))
 
-  protected final def floatTexture(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def floatTexture(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> Float
   ): Field[FloatTexture] =
     field(name, "float texture", doc, in, ConstantFloat(default)): (p, site) =>
       if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
       else floats(1, p, site).map(v => ConstantFloat(v(0)))
 
-  protected final def rgbTexture(name: String, doc: String, in: Set[Dialect] = all)(
+  protected final def rgbTexture(name: String, doc: String, in: Set[Dialect] = every)(
       default: Dialect ?=> Rgb
   ): Field[RgbTexture] =
     field(name, "spectrum texture", doc, in, ConstantRgb(default)): (p, site) =>

@@ -29,9 +29,9 @@ object Integrators:
 
   final class Path(name: String) extends Recipe[IntegratorPlan](name):
     private val maxDepth = integer("maxdepth", "most scattering events of a path")(5)
-    private val threshold = float("rrthreshold", "throughput below which a path may end", Set(Dialect.V3))(1f)
+    private val threshold = float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
     private val lightSampler = string("lightsampler", "how lights are chosen", onlyV4)("bvh")
-    private val strategy = string("lightsamplestrategy", "how lights are chosen", Set(Dialect.V3))("spatial")
+    private val strategy = string("lightsamplestrategy", "how lights are chosen", onlyV3)("spatial")
     notYet("regularize", "BSDFs stay as they are")
     notYet("pixelbounds", "the film's crop window is rendered")
 
@@ -46,7 +46,7 @@ object Integrators:
         s"path, up to $depth scattering events"
       )
 
-  object Direct extends Recipe[IntegratorPlan]("directlighting", Set(Dialect.V2, Dialect.V3)):
+  object Direct extends Recipe[IntegratorPlan]("directlighting", untilV3):
     private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
     private val strategy = oneOf("strategy", "sample all lights or one at random", "all", "one", "weighted")("all")
     notYet("pixelbounds", "the film's crop window is rendered")
@@ -59,7 +59,7 @@ object Integrators:
         s"directlighting, ${if every then "all lights" else "one light"} at each point"
       )
 
-  object WhittedRecipe extends Recipe[IntegratorPlan]("whitted", Set(Dialect.V2, Dialect.V3)):
+  object WhittedRecipe extends Recipe[IntegratorPlan]("whitted", untilV3):
     private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
     notYet("pixelbounds", "the film's crop window is rendered")
 

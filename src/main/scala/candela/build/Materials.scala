@@ -31,10 +31,6 @@ object Materials:
 
   def build(site: Site): Material = all.build(site).getOrElse(default(site.dialect))
 
-  private val v2Only = Set(Dialect.V2)
-  private val v3Only = Set(Dialect.V3)
-  private val sinceV3 = Set(Dialect.V3, Dialect.V4)
-
   abstract class MaterialRecipe(name: String, dialects: Set[Dialect]) extends Recipe[Material](name, dialects):
     notYet("bumpmap", "the surface is smooth")
     notYet("displacement", "the surface is smooth")
@@ -73,9 +69,9 @@ object Materials:
     private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
     private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
     private val kr = rgbTexture("Kr", "factor of mirror reflection")(Rgb.Black)
-    private val kt = rgbTexture("Kt", "factor of refraction", v3Only)(Rgb.Black)
+    private val kt = rgbTexture("Kt", "factor of refraction", onlyV3)(Rgb.Black)
     private val opacity = rgbTexture("opacity", "what does not pass straight through")(Rgb.White)
-    private val eta = floatTexture("eta", "index of refraction", v3Only)(1.5f)
+    private val eta = floatTexture("eta", "index of refraction", onlyV3)(1.5f)
     private val index = floatTexture("index", "index of refraction")(1.5f)
     protected def make()(using site: Site): Material =
       val n = eta.given_().getOrElse(index())
@@ -93,7 +89,7 @@ object Materials:
     private val ks = rgbTexture("Ks", "gloss at normal incidence")(Rgb.gray(0.5f))
     private val u = floatTexture("uroughness", "along u")(0.1f)
     private val v = floatTexture("vroughness", "along v")(0.1f)
-    private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", v3Only)(true)
+    private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", onlyV3)(true)
     protected def make()(using site: Site): Material =
       val model =
         if site.dialect == Dialect.V2 then RoughnessModel.AnisotropicExponents
@@ -104,11 +100,11 @@ object Materials:
   object Glass extends MaterialRecipe("glass", untilV3):
     private val kr = rgbTexture("Kr", "factor of reflection")(Rgb.White)
     private val kt = rgbTexture("Kt", "factor of refraction")(Rgb.White)
-    private val eta = floatTexture("eta", "index of refraction", v3Only)(1.5f)
+    private val eta = floatTexture("eta", "index of refraction", onlyV3)(1.5f)
     private val index = floatTexture("index", "index of refraction")(1.5f)
-    private val u = floatTexture("uroughness", "along u; 0: smooth", v3Only)(0f)
-    private val v = floatTexture("vroughness", "along v; 0: smooth", v3Only)(0f)
-    private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", v3Only)(true)
+    private val u = floatTexture("uroughness", "along u; 0: smooth", onlyV3)(0f)
+    private val v = floatTexture("vroughness", "along v; 0: smooth", onlyV3)(0f)
+    private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", onlyV3)(true)
     protected def make()(using site: Site): Material =
       if site.dialect == Dialect.V2 then Make.oldGlass(kr(), kt(), index())
       else

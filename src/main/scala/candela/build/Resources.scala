@@ -22,10 +22,10 @@ final class Resources:
   def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
   def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
 
-  def floatTexture(p: Param, problems: Problems): Option[FloatTexture] =
+  def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
     lookUp(p, floats, colors.keySet, "float", "spectrum", problems)
 
-  def rgbTexture(p: Param, problems: Problems): Option[RgbTexture] =
+  def rgbTexture(p: Param, problems: Findings): Option[RgbTexture] =
     lookUp(p, colors, floats.keySet, "spectrum", "float", problems)
 
   private def lookUp[T](
@@ -34,7 +34,7 @@ final class Resources:
       others: collection.Set[String],
       kind: String,
       otherKind: String,
-      problems: Problems
+      problems: Findings
   ): Option[T] =
     val name = p.strings.headOption.getOrElse("")
     in.get(name).orElse {
@@ -46,7 +46,7 @@ final class Resources:
     }
 
   /** The file that a parameter names, relative to the scene's folder. An absent one is an error. */
-  def file(p: Param, from: Declaration, problems: Problems): Option[Path] =
+  def file(p: Param, from: Declaration, problems: Findings): Option[Path] =
     val name = p.strings.headOption.getOrElse("")
     val path = from.folder.resolve(name.replace('\\', '/'))
     if name.nonEmpty && Files.isRegularFile(path) then Some(path)
@@ -60,7 +60,7 @@ final class Resources:
       None
 
   /** The picture that a parameter names, read once however often it is used. */
-  def image(p: Param, from: Declaration, problems: Problems): Option[StoredImage] =
+  def image(p: Param, from: Declaration, problems: Findings): Option[StoredImage] =
     file(p, from, problems).flatMap: path =>
       val read = images.getOrElseUpdate(
         path.toAbsolutePath.normalize,

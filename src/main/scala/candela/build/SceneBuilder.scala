@@ -26,7 +26,7 @@ object SceneBuilder:
 
   /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all errors. */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
-    val problems = Problems()
+    val problems = Findings()
     val resources = Resources()
     def site(d: Declaration) = Site(d, description.dialect, resources, problems)
     def view[A](given_ : Option[Declaration], recipes: Recipes[A], default: String): A =
@@ -76,7 +76,7 @@ object SceneBuilder:
   private[build] val Motion = "motion is not supported yet: it stands still as at the start of the shutter"
 
   /** Statements that are understood and have no effect on the picture yet. */
-  private def warnOfWholes(d: SceneDescription, problems: Problems): Unit =
+  private def warnOfWholes(d: SceneDescription, problems: Findings): Unit =
     for r <- d.renderer if !Set("sampler", "sample").contains(r.name) do
       problems.warn(r.at, s"renderer \"${r.name}\" is not supported yet: the surface integrator is used")
     for v <- d.volumes do problems.warn(v.light.at, s"volumes are not supported yet: it is left out")

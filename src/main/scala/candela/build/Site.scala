@@ -6,7 +6,7 @@ import candela.base.{Problem, Severity, SourcePos}
 import candela.scenefile.{Declaration, Dialect}
 
 /** Gathers what is wrong with a description, so that one run can name it all. */
-final class Problems:
+final class Findings:
   private val all = mutable.LinkedHashSet.empty[Problem]
 
   def warn(at: SourcePos, message: String, help: Option[String] = None): Unit =
@@ -23,7 +23,7 @@ final class Site(
     val declaration: Declaration,
     val dialect: Dialect,
     val resources: Resources,
-    val problems: Problems
+    val problems: Findings
 ):
   def warn(message: String, help: Option[String] = None): Unit =
     problems.warn(declaration.at, message, help)

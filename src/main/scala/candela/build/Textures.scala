@@ -130,8 +130,8 @@ object Textures:
     private val wrap = oneOf("wrap", "beyond the image", "repeat", "black", "clamp", "octahedralsphere")("repeat")
     protected val scale = float("scale", "factor of the values")(1f)
     protected val invert = bool("invert", "1 − value", onlyV4)(false)
-    private val gammaNumber = float("gamma", "exponent that makes values linear", Set(Dialect.V2))(1f)
-    private val gammaFlag = bool("gamma", "are values sRGB-encoded?", Set(Dialect.V3))(true)
+    private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
+    private val gammaFlag = bool("gamma", "are values sRGB-encoded?", onlyV3)(true)
     private val encoding = string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("sRGB")
     private val filter =
       oneOf("filter", "of the lookup", "point", "bilinear", "trilinear", "ewa", "EWA")("bilinear")

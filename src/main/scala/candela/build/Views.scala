@@ -36,7 +36,7 @@ object Films:
     private val iso = float("iso", "sensor sensitivity; 100 leaves values as they are", onlyV4)(100f)
     private val exposure = float("exposuretime", "seconds", onlyV4)(1f)
     private val sensor = string("sensor", "colour response of the sensor", onlyV4)("cie1931")
-    private val maxLuminance = float("maxsampleluminance", "brighter samples are scaled down", Set(Dialect.V3))(
+    private val maxLuminance = float("maxsampleluminance", "brighter samples are scaled down", onlyV3)(
       Float.PositiveInfinity
     )
     private val maxComponent = float("maxcomponentvalue", "brighter samples are scaled down", onlyV4)(

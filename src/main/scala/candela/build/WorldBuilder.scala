@@ -16,7 +16,7 @@ import candela.shapes.TriangleSampler
 final class World(val integrator: Integrator, val features: Vector[(String, String)])
 
 /** Makes shapes, materials and lights of a description. */
-final class WorldBuilder(description: SceneDescription, resources: Resources, problems: Problems):
+final class WorldBuilder(description: SceneDescription, resources: Resources, problems: Findings):
   private val materials = ArrayBuffer.empty[Material]
   private val materialOf = mutable.HashMap.empty[MaterialRef, Int]
   private val soup = SoupBuilder()
