@@ -1,0 +1,35 @@
+package candela.sampling
+
+/** Pseudorandom orders of 0 until `n`, computed element by element: nothing is stored. */
+object Permutation:
+
+  /** Where `index` goes in the order chosen by `seed`; 0 ≤ `index` < `n`.
+    *
+    * A bijection of the next power of two is walked until it leads back below `n`: at most half of
+    * its elements lie outside, so a walk has fewer than two steps on average. Each round adds, multiplies by an odd
+    * number and folds the upper half onto the lower one; all three can be undone.
+    *
+    * Source of the idea: Kensler, "Correlated multi-jittered sampling", Pixar TM 13-01, 2013, §3.
+    */
+  def element(index: Int, n: Int, seed: Long): Int =
+    if n <= 1 then 0
+    else
+      val bits = 32 - Integer.numberOfLeadingZeros(n - 1)
+      val mask = -1 >>> (32 - bits)
+      val fold = (bits + 1) / 2
+      var at = index
+      while
+        var keys = seed
+        var round = 0
+        while round < Rounds do
+          keys = keys * 0xd1342543de82ef95L + SampleHash.Step
+          val key = (keys >>> 32).toInt
+          at = ((at + (key >>> 16)) * (key | 1)) & mask
+          at ^= at >>> fold
+          round += 1
+        at >= n
+      do ()
+      at
+
+  /** Enough that pairs of elements land uniformly; `PermutationSuite` counts them. */
+  private inline val Rounds = 5

@@ -1,0 +1,37 @@
+package candela.sampling
+
+/** Bit mixing for samplers: from (pixel, sample, dimension, seed) to numbers that look independent.
+  *
+  * A dimension's random bits are `mix64` of a counter that starts at [[pixel]] and grows by
+  * [[Step]] with each request, as in Steele, Lea, Flood, "Fast splittable pseudorandom number
+  * generators", OOPSLA 2014. Nothing else is kept, so any sample can be had on its own.
+  */
+object SampleHash:
+
+  /** 2⁶⁴ over the golden ratio, made odd: the counter's increment. */
+  inline val Step = 0x9e3779b97f4a7c15L
+
+  /** A bijection of 64 bits in which every input bit flips every output bit with probability ½.
+    *
+    * Source: Stafford, "Better bit mixing: improving on MurmurHash3's 64-bit finalizer", 2011,
+    * variant 13.
+    */
+  def mix64(key: Long): Long =
+    var h = key
+    h = (h ^ (h >>> 30)) * 0xbf58476d1ce4e5b9L
+    h = (h ^ (h >>> 27)) * 0x94d049bb133111ebL
+    h ^ (h >>> 31)
+
+  /** The same for 32 bits; 0 stays 0. Source: Appleby, MurmurHash3's finaliser, 2011. */
+  def mix(key: Int): Int =
+    var h = key
+    h = (h ^ (h >>> 16)) * 0x85ebca6b
+    h = (h ^ (h >>> 13)) * 0xc2b2ae35
+    h ^ (h >>> 16)
+
+  /** The counter at dimension 0 of a pixel; pixels of the whole 32-bit plane have different ones. */
+  def pixel(x: Int, y: Int, seed: Int): Long =
+    mix64((x.toLong << 32 | (y & 0xffffffffL)) ^ mix64(seed + Step))
+
+  /** The upper 24 bits as a fraction: in [0, 1), never 1, and each a multiple of 2⁻²⁴. */
+  def toUnit(bits: Int): Float = (bits >>> 8) * 5.9604645e-8f

@@ -1,0 +1,52 @@
+package candela.sampling
+
+import candela.math.*
+
+/** Jittered strata: the samples of a pixel fill each cell of an `xSamples` × `ySamples` grid once in
+  * every pair of dimensions, and each of `xSamples · ySamples` intervals once in every single one.
+  * Cells are dealt out in an order of its own for each pixel and dimension. Sample numbers past the
+  * last cell begin another pass over all cells, with new jitter.
+  *
+  * In pbrt: `stratified` (v2, v3, v4), with its `xsamples`, `ysamples` and `jitter`.
+  *
+  * Source: Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986.
+  *
+  * @param jitter a random place in each cell; without it the centre
+  */
+final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, seed: Int)
+    extends Sampler:
+
+  require(xSamples > 0 && ySamples > 0, s"a grid of $xSamples by $ySamples has no cells")
+  val samplesPerPixel: Int = Math.multiplyExact(xSamples, ySamples)
+
+  private var counter = 0L // the same for all samples of one pass over a pixel's cells
+  private var index = 0
+
+  def start(x: Int, y: Int, sample: Int): Unit =
+    index = sample % samplesPerPixel
+    counter = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel)
+
+  def next1D(): Float =
+    val bits = nextBits()
+    val cell = Permutation.element(index, samplesPerPixel, bits)
+    place(cell, (offsetBits(bits, cell) >>> 32).toInt, samplesPerPixel)
+
+  def next2D(): Unit =
+    val bits = nextBits()
+    val cell = Permutation.element(index, samplesPerPixel, bits)
+    val offset = offsetBits(bits, cell)
+    x = place(cell % xSamples, (offset >>> 32).toInt, xSamples)
+    y = place(cell / xSamples, offset.toInt, ySamples)
+
+  def copy(): StratifiedSampler = StratifiedSampler(xSamples, ySamples, jitter, seed)
+
+  private def nextBits(): Long =
+    counter += SampleHash.Step
+    SampleHash.mix64(counter)
+
+  private def offsetBits(bits: Long, cell: Int): Long =
+    SampleHash.mix64(bits + (cell + 1) * SampleHash.Step)
+
+  private def place(cell: Int, offset: Int, cells: Int): Float =
+    val within = if jitter then SampleHash.toUnit(offset) else 0.5f
+    Math.min((cell + within) / cells, OneMinusEpsilon)

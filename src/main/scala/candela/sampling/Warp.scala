@@ -1,0 +1,78 @@
+package candela.sampling
+
+import candela.math.*
+
+/** Maps from the unit square to the shapes that rendering samples, with their densities.
+  *
+  * `u1` and `u2` are in [0, 1). Directions are unit vectors around +z, their densities in sr⁻¹. All
+  * results are [[Vec3]] values, which the compiler keeps off the heap: a point of the disk has z = 0,
+  * a point of a triangle is its three barycentric weights. Neighbours stay neighbours, so the
+  * stratification of the square survives.
+  */
+object Warp:
+
+  /** Uniform on the disk of radius 1 in the plane z = 0.
+    *
+    * Source: Shirley & Chiu, "A low distortion map between disk and square", JGT 2(3), 1997.
+    */
+  def concentricDisk(u1: Float, u2: Float): Vec3 =
+    val a = 2f * u1 - 1f
+    val b = 2f * u2 - 1f
+    if a == 0f && b == 0f then Vec3.Zero
+    else if abs(a) > abs(b) then polar(a, (Pi / 4f) * (b / a))
+    else polar(b, Pi / 2f - (Pi / 4f) * (a / b))
+
+  private def polar(r: Float, phi: Float): Vec3 = Vec3(r * cos(phi), r * sin(phi), 0f)
+
+  /** Directions with z ≥ 0, as dense as the cosine of their angle to +z.
+    *
+    * Source: Malley's method: PBRT 3rd ed., §13.6.3.
+    */
+  def cosineHemisphere(u1: Float, u2: Float): Vec3 =
+    val d = concentricDisk(u1, u2)
+    Vec3(d.x, d.y, safeSqrt(1f - d.x * d.x - d.y * d.y))
+
+  def cosineHemispherePdf(cosTheta: Float): Float = if cosTheta > 0f then cosTheta * InvPi else 0f
+
+  /** Directions with z ≥ 0, all equally likely. Source: PBRT 3rd ed., §13.6.1. */
+  def uniformHemisphere(u1: Float, u2: Float): Vec3 = around(1f - u1, safeSqrt(u1 * (2f - u1)), u2)
+
+  inline val UniformHemispherePdf = InvTwoPi
+
+  /** Source: PBRT 3rd ed., §13.6.1. */
+  def uniformSphere(u1: Float, u2: Float): Vec3 =
+    around(1f - 2f * u1, 2f * safeSqrt(u1 * (1f - u1)), u2)
+
+  inline val UniformSpherePdf = 0.07957747154594766788f
+
+  /** Directions within an angle of +z, all equally likely.
+    *
+    * Source: PBRT 3rd ed., §13.6.4, in 1 − cos θ, so that narrow cones lose no digits.
+    *
+    * @param oneMinusCosMax 1 − cos of the half-angle, in (0, 2]. From its sine s, for angles up to 90°,
+    *                       it is best had as s² / (1 + √(1 − s²)).
+    */
+  def uniformCone(u1: Float, u2: Float, oneMinusCosMax: Float): Vec3 =
+    val h = u1 * oneMinusCosMax
+    around(1f - h, safeSqrt(h * (2f - h)), u2)
+
+  /** Inside the cone; it is 0 outside. */
+  def uniformConePdf(oneMinusCosMax: Float): Float = InvTwoPi / oneMinusCosMax
+
+  /** Uniform on a triangle: the weights of its three corners, which sum to 1.
+    *
+    * Source: Heitz, "A low-distortion map between triangle and square", 2019.
+    */
+  def uniformTriangle(u1: Float, u2: Float): Vec3 =
+    if u1 < u2 then
+      val b0 = u1 * 0.5f
+      val b1 = u2 - b0
+      Vec3(b0, b1, 1f - b0 - b1)
+    else
+      val b1 = u2 * 0.5f
+      val b0 = u1 - b1
+      Vec3(b0, b1, 1f - b0 - b1)
+
+  private def around(cosTheta: Float, sinTheta: Float, u: Float): Vec3 =
+    val phi = TwoPi * u
+    Vec3(sinTheta * cos(phi), sinTheta * sin(phi), cosTheta)

@@ -1,0 +1,100 @@
+package candela.shapes
+
+import scala.collection.mutable
+
+import candela.base.loop
+
+/** The neighbourhood of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and stands
+  * for the edge from that vertex to the face's next one as well.
+  *
+  * Source: Rossignac, Safonova, Szymczak, "3D compression made simple: Edgebreaker on a corner table",
+  * SMI 2001.
+  *
+  * @param vertices the vertex at each corner
+  * @param twins    the same edge seen from the neighbouring face, or −1 on the boundary
+  * @param start    for each vertex one of its corners, where walks around it begin
+  */
+private[shapes] final class CornerTable(
+    val vertices: Array[Int],
+    val twins: Array[Int],
+    val start: Array[Int]
+):
+  import CornerTable.{next, previous}
+
+  def vertexCount: Int = start.length
+  def faceCount: Int = vertices.length / 3
+
+  /** Writes the neighbours of `vertex` into `ring`: clockwise from anywhere if it is inside (for faces
+    * that wind counter-clockwise), counter-clockwise from edge to edge if it is on the boundary.
+    *
+    * @return how many, negated on the boundary
+    */
+  def ring(vertex: Int, ring: Array[Int]): Int =
+    val first = start(vertex)
+    var corner = first
+    var count = 0
+    while
+      ring(count) = vertices(next(corner))
+      count += 1
+      val across = twins(corner)
+      if across >= 0 then corner = next(across)
+      across >= 0 && corner != first
+    do ()
+    if twins(corner) >= 0 then count
+    else
+      ring(0) = vertices(next(corner))
+      count = 1
+      while corner >= 0 do
+        ring(count) = vertices(previous(corner))
+        count += 1
+        corner = twins(previous(corner))
+      -count
+
+  /** An upper bound for what `ring` writes. */
+  def longestRing: Int =
+    val corners = new Array[Int](vertexCount)
+    vertices.foreach(v => corners(v) += 1)
+    corners.max + 1
+
+private[shapes] object CornerTable:
+
+  inline def next(corner: Int): Int = if corner % 3 == 2 then corner - 2 else corner + 1
+  inline def previous(corner: Int): Int = if corner % 3 == 0 then corner + 2 else corner - 1
+
+  /** Finds the neighbours of all faces.
+    *
+    * @throws MeshError unless each edge has one face on each side, or one face in all
+    */
+  def of(vertices: Array[Int], vertexCount: Int): CornerTable =
+    val edges = mutable.LongMap[Int]()
+    val twins = Array.fill(vertices.length)(-1)
+    val start = Array.fill(vertexCount)(-1)
+    loop(vertices.length): corner =>
+      val from = vertices(corner)
+      val to = vertices(next(corner))
+      start(from) = corner
+      val other = edges.getOrElse(key(from, to), -1)
+      if other >= 0 then throw badEdge(vertices, corner, other)
+      edges(key(from, to)) = corner
+      val twin = edges.getOrElse(key(to, from), -1)
+      if twin >= 0 then
+        twins(corner) = twin
+        twins(twin) = corner
+    CornerTable(vertices, twins, start)
+
+  private def key(from: Int, to: Int): Long = from.toLong << 32 | to
+
+  /** Two faces that run along an edge the same way: is there a third, or is one of the two turned? */
+  private def badEdge(vertices: Array[Int], corner: Int, other: Int): MeshError =
+    val (from, to) = (vertices(corner), vertices(next(corner)))
+    val faces = (0 until vertices.length / 3).filter: f =>
+      val face = vertices.slice(3 * f, 3 * f + 3)
+      face.contains(from) && face.contains(to)
+    MeshError(
+      if faces.size > 2 then
+        s"the edge between vertices $from and $to belongs to ${faces.size} faces " +
+          s"(${faces.take(8).mkString(", ")}); a surface has at most two there"
+      else
+        s"faces ${other / 3} and ${corner / 3} wind opposite ways: both run from vertex $from to " +
+          s"vertex $to"
+    )

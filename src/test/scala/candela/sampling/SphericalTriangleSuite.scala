@@ -1,0 +1,77 @@
+package candela.sampling
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.math.*
+import candela.testing.ChiSquare
+
+class SphericalTriangleSuite extends AnyFunSuite:
+  private val eye = Vec3(0.3f, -0.2f, 0.1f)
+  private val triangles = Seq(
+    (Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0, 0, 1)),
+    (Vec3(2, -1, 1), Vec3(1, 3, 1), Vec3(-2, -1, 1.5f)),
+    (Vec3(4, 4, -0.1f), Vec3(-4, 4, 0), Vec3(0, -4, 0.2f)), // almost the half-space
+    (Vec3(5, 0, 0), Vec3(5, 0.01f, 3), Vec3(5, 0.02f, 3)) // a sliver
+  ).map((a, b, c) => (a + eye, b + eye, c + eye))
+
+  private def set(t: (Vec3, Vec3, Vec3)): SphericalTriangle =
+    val triangle = SphericalTriangle()
+    assert(triangle.set(eye, t._1, t._2, t._3))
+    triangle
+
+  /** Möller–Trumbore without the comparisons: the weights of b and c where the ray meets the plane. */
+  private def weights(t: (Vec3, Vec3, Vec3), w: Vec3): (Float, Float) =
+    val (e1, e2) = (t._2 - t._1, t._3 - t._1)
+    val p = w cross e2
+    val s = eye - t._1
+    val inv = 1 / (e1 dot p)
+    ((s dot p) * inv, (w dot (s cross e1)) * inv)
+
+  test("an octant has a solid angle of π/2"):
+    val octant = SphericalTriangle()
+    assert(octant.set(Vec3.Zero, Vec3(2, 0, 0), Vec3(0, 3, 0), Vec3(0, 0, 0.5f)))
+    assert(abs(octant.solidAngle - Pi / 2) < 1e-6f) // rounding of π/2 to Float
+
+  test("a small far triangle has the solid angle area · cos / distance²"):
+    val t = set((eye + Vec3(0, 0, 1e3f), eye + Vec3(0, 1, 1e3f), eye + Vec3(1, 0, 1e3f)))
+    // positions of 1000 round to 6e-5 of the triangle's size
+    assert(abs(t.solidAngle / 0.5e-6f - 1) < 2e-4f)
+
+  test("samples are as dense as the pdf says"):
+    for (t, i) <- triangles.zipWithIndex.take(3) do
+      val triangle = set(t)
+      val result = ChiSquare.directions(i + 1)(
+        u => Some(triangle.sample(u(), u())),
+        w =>
+          val (b1, b2) = weights(t, w)
+          val ahead = (w dot (t._1 + t._2 + t._3 - eye * 3)) > 0
+          if ahead && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 then triangle.pdf else 0
+      )
+      assert(result.accepted(tests = 3), s"$t: $result")
+
+  test("samples are unit directions that meet the triangle"):
+    for t <- triangles do
+      val triangle = set(t)
+      for i <- 0 to 16; j <- 0 to 16 do
+        val w = triangle.sample(Math.min(i / 16f, OneMinusEpsilon), Math.min(j / 16f, OneMinusEpsilon))
+        assert(abs(w.length - 1) < 2e-7f) // rounding of three components
+        val (b1, b2) = weights(t, w)
+        // the sliver is 0.01 wide at a distance of 5, where directions round to 3e-7
+        assert(b1 > -1e-3f && b2 > -1e-3f && b1 + b2 < 1.001f, s"$t ($i, $j): $b1 $b2")
+
+  test("invert undoes sample"):
+    for t <- triangles.take(3) do
+      val triangle = set(t)
+      for i <- 1 until 16; j <- 1 until 16 do
+        val u = triangle.invert(triangle.sample(i / 16f, j / 16f))
+        // directions round to 1e-7; near b (j = 1) that is worth 16 times as much along u1
+        assert(abs(u.x - i / 16f) < 1e-5f && abs(u.y - j / 16f) < 1e-5f, s"$t ($i, $j): $u")
+
+  test("degenerate triangles are refused"):
+    val t = SphericalTriangle()
+    val (a, b) = (Vec3(1, 0, 0), Vec3(0, 1, 0))
+    assert(!t.set(Vec3.Zero, a, b, Vec3(-1, -1, 0)), "the eye in the triangle's plane, inside")
+    assert(!t.set(Vec3(3, 3, 0), a, b, Vec3(-1, -1, 0)), "edge-on")
+    assert(!t.set(a, a, b, Vec3(0, 0, 1)), "the eye at a corner")
+    assert(!t.set(Vec3.Zero, a, a, Vec3(0, 0, 1)), "two equal corners")
+    assert(!t.set(Vec3.Zero, a, b, Vec3(0.5f, 0.5f, 0)), "corners in a line")

@@ -1,0 +1,220 @@
+package candela.shapes
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.math.*
+
+class LoopSubdivisionSuite extends AnyFunSuite:
+  import LoopSubdivisionSuite.*
+
+  private def at(values: Array[Float], i: Int): Vec3 =
+    Vec3(values(3 * i), values(3 * i + 1), values(3 * i + 2))
+
+  private def subdivided(mesh: Mesh, levels: Int): SubdividedMesh =
+    LoopSubdivision.subdivide(levels, mesh.indices, mesh.positions)
+
+  private def edges(indices: Array[Int]): Set[Set[Int]] =
+    indices.grouped(3).flatMap(f => Seq(Set(f(0), f(1)), Set(f(1), f(2)), Set(f(2), f(0)))).toSet
+
+  test("a vertex has its limit position at every level, inside closed surfaces"):
+    for (name, mesh) <- closed; levels <- 1 to 5 do
+      val (coarse, fine) = (subdivided(mesh, 0), subdivided(mesh, levels))
+      for v <- 0 until mesh.vertexCount do
+        // both are exact but for the rounding to Float
+        val gap = (at(coarse.positions, v) - at(fine.positions, v)).length
+        assert(gap < 4e-7f, s"$name, vertex $v, level $levels")
+
+  test("brute-force refinement converges to the limit positions"):
+    for (name, mesh) <- closed do
+      val limit = subdivided(mesh, 1)
+      val refined = (1 to 8).foldLeft(mesh)((m, _) => plainLoop(m))
+      for v <- 0 until mesh.vertexCount do
+        // the distance to the limit shrinks by 4 (5/16 or so at valences 3 to 5) a level, from about 1
+        val gap = (at(limit.positions, v) - at(refined.positions, v)).length
+        assert(gap < 1e-3f, s"$name, vertex $v: $gap")
+
+  test("the tetrahedron's limit points keep its symmetry and have the known radius"):
+    val radii = (0 until 4).map(v => at(subdivided(tetrahedron, 3).positions, v).length)
+    // valence 3: β = 3/16, γ = 1/(3 + 3/(8β)) = 1/5; the ring's mean is −v/3: 2/5 − 3/5 · 1/3 = 1/5
+    for r <- radii do assert(abs(r - sqrt(3f) / 5) < 2e-7f)
+
+  test("the Euler characteristic is kept, every level makes four faces of one"):
+    for (name, mesh) <- all; levels <- 0 to 3 do
+      val fine = subdivided(mesh, levels)
+      def characteristic(vertices: Int, indices: Array[Int]) =
+        vertices - edges(indices).size + indices.length / 3
+      assert(
+        characteristic(fine.positions.length / 3, fine.indices) ==
+          characteristic(mesh.vertexCount, mesh.indices),
+        name
+      )
+      assert(fine.indices.length == mesh.indices.length << 2 * levels)
+
+  test("triangles keep the winding of the input"):
+    for (name, mesh) <- closed do
+      val fine = subdivided(mesh, 3)
+      for f <- fine.indices.grouped(3) do
+        val (a, b, c) = (at(fine.positions, f(0)), at(fine.positions, f(1)), at(fine.positions, f(2)))
+        assert((((b - a) cross (c - a)) dot a) > 0f, name)
+
+  test("normals point to the side from which faces wind clockwise, the longest has length 1"):
+    for (name, mesh) <- closed; levels <- 0 to 3 do
+      val fine = subdivided(mesh, levels)
+      val normals = (0 until fine.normals.length / 3).map(at(fine.normals, _))
+      for (n, v) <- normals.zipWithIndex do
+        val outward = at(fine.positions, v).normalized
+        // all these bodies are round: 30° is generous, the wrong side would be −1
+        assert((n.normalized dot outward) < -0.86f, s"$name, level $levels, vertex $v")
+      assert(abs(normals.map(_.length).max - 1f) < 2e-7f, name)
+    val mirrored = octahedron.copy(indices = octahedron.indices.grouped(3).flatMap(_.reverse).toArray)
+    val fine = subdivided(mirrored, 2)
+    for v <- 0 until fine.normals.length / 3 do
+      assert((at(fine.normals, v) dot at(fine.positions, v)) > 0f)
+
+  test("normals of the octahedron's corners are its axes"):
+    val fine = subdivided(octahedron, 2)
+    for v <- 0 until 6 do
+      val axis = at(octahedron.positions, v)
+      assert((at(fine.normals, v).normalized + axis).length < 1e-6f) // symmetric up to rounding
+
+  test("a flat grid stays flat, its straight edges stay straight, its normals agree"):
+    for levels <- 0 to 3 do
+      val fine = subdivided(flatGrid, levels)
+      val boundary = edges(fine.indices).count(e => facesAt(fine.indices, e) == 1)
+      assert(boundary == 16 << levels)
+      for v <- 0 until fine.positions.length / 3 do
+        val (p, n) = (at(fine.positions, v), at(fine.normals, v))
+        assert(p.z == 0f && n.x == 0f && n.y == 0f && n.z < 0f, s"level $levels, vertex $v")
+      for e <- edges(fine.indices) if facesAt(fine.indices, e) == 1 do
+        // the corners are rounded off: they reach from 0 to 1 along a side, so look between 1 and 3
+        val ends = e.toSeq.map(at(fine.positions, _))
+        val between = ends.forall(p => p.x > 1.01f && p.x < 2.99f)
+        assert(!between || ends.forall(p => abs(p.y) < 1e-6f || abs(p.y - 4f) < 1e-6f), ends)
+
+  test("a grid's inside is reproduced: limit points of vertices far from edges are the vertices"):
+    val limit = subdivided(flatGrid, 0)
+    val centre = 12
+    assert((at(limit.positions, centre) - at(flatGrid.positions, centre)).length < 1e-6f)
+
+  test("the boundary depends on boundary vertices alone, with weights 1/5, 3/5, 1/5"):
+    val limit = subdivided(flatGrid, 0)
+    // the corner (0, 0) has the neighbours (1, 0) and (0, 1)
+    assert((at(limit.positions, 0) - Vec3(0.2f, 0.2f, 0f)).length < 1e-7f)
+    val pushed = flatGrid.positions.clone()
+    pushed(3 * 6 + 2) = 5f // an inner vertex, upwards
+    val bent = LoopSubdivision.subdivide(2, flatGrid.indices, pushed)
+    for e <- edges(bent.indices) if facesAt(bent.indices, e) == 1; v <- e do
+      assert(at(bent.positions, v).z == 0f)
+
+  test("boundary normals of every valence lie on the side of the inner ones"):
+    for faces <- 1 to 8 do
+      val fan = fanMesh(faces)
+      val limit = subdivided(fan, 0)
+      for v <- 0 until fan.vertexCount do
+        assert((at(limit.normals, v).normalized - Vec3(0, 0, -1)).length < 1e-6f, s"$faces $v")
+
+  test("vertices that no face uses are left out"):
+    val extra = Mesh(octahedron.indices.map(_ + 1), Array(9f, 9f, 9f) ++ octahedron.positions)
+    val (with0, without) = (subdivided(extra, 2), subdivided(octahedron, 2))
+    assert(with0.positions.sameElements(without.positions))
+    assert(with0.indices.sameElements(without.indices))
+
+  test("fans that touch in one vertex are accepted"):
+    val bowTie = Mesh(Array(0, 1, 2, 0, 3, 4), Array(0, 0, 0, 1, 0, 0, 1, 1, 0, -1, 0, 0, -1, -1, 0))
+    val fine = subdivided(bowTie, 2)
+    assert(fine.indices.length == 3 * 2 * 16)
+    assert(fine.positions.forall(java.lang.Float.isFinite(_)))
+
+  private def refused(levels: Int, indices: Array[Int], positions: Array[Float]): String =
+    intercept[MeshError](LoopSubdivision.subdivide(levels, indices, positions)).getMessage
+
+  test("malformed meshes are refused with the faces and vertices that are wrong"):
+    val square = Array[Float](0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 2, 2)
+    assert(refused(1, Array(0, 1, 2, 0, 2, 5), square) ==
+      "face 1 uses vertex 5; there are 5, counted from 0")
+    assert(refused(1, Array(0, 1, -2), square) ==
+      "face 0 uses vertex -2; there are 5, counted from 0")
+    assert(refused(1, Array(0, 1, 2, 3, 1, 3), square) == "face 1 uses a vertex twice: 3, 1, 3")
+    assert(refused(1, Array(0, 1, 2, 0, 1, 3), square) ==
+      "faces 0 and 1 wind opposite ways: both run from vertex 0 to vertex 1")
+    assert(refused(1, Array(0, 1, 2, 1, 0, 3, 0, 1, 4), square) ==
+      "the edge between vertices 0 and 1 belongs to 3 faces (0, 1, 2); " +
+      "a surface has at most two there")
+    assert(refused(1, Array(0, 1, 2, 0), square) == "4 indices are no whole number of triangles")
+    assert(refused(1, Array(), square) == "a mesh without faces")
+    assert(refused(1, Array(0, 1, 2), square.take(8)) ==
+      "8 coordinates are no whole number of points")
+    assert(refused(-1, Array(0, 1, 2), square) == "a mesh can't be subdivided -1 times")
+    assert(refused(15, Array(0, 1, 2), square) == "15 levels make too many triangles of 1")
+    assert(refused(1, Array(0, 1, 2), square.updated(4, Float.NaN)) ==
+      "a coordinate of vertex 1 is NaN")
+
+  private def facesAt(indices: Array[Int], edge: Set[Int]): Int =
+    indices.grouped(3).count(f => edge.subsetOf(f.toSet))
+
+object LoopSubdivisionSuite:
+
+  final case class Mesh(indices: Array[Int], positions: Array[Float]):
+    def vertexCount: Int = positions.length / 3
+
+  // closed bodies around the origin, counter-clockwise seen from outside
+
+  val tetrahedron: Mesh = Mesh(
+    Array(0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2),
+    Array(1, 1, 1, -1, 1, -1, -1, -1, 1, 1, -1, -1)
+  )
+  val octahedron: Mesh = Mesh(
+    Array(0, 2, 4, 2, 1, 4, 1, 3, 4, 3, 0, 4, 2, 0, 5, 1, 2, 5, 3, 1, 5, 0, 3, 5),
+    Array(1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1)
+  )
+
+  /** Each side is two triangles; corner i has the bits of i as x, y, z. */
+  val cube: Mesh =
+    val sides = Seq(
+      (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)
+    )
+    Mesh(
+      sides.flatMap((a, b, c, d) => Seq(a, b, c, a, c, d)).toArray,
+      (0 until 8).flatMap(i => Seq(i & 1, i >> 1 & 1, i >> 2).map(2f * _ - 1)).toArray
+    )
+
+  /** 4 × 4 squares of side 1, in the plane z = 0. */
+  val flatGrid: Mesh =
+    val squares = for y <- 0 until 4; x <- 0 until 4 yield 5 * y + x
+    Mesh(
+      squares.flatMap(i => Seq(i, i + 1, i + 6, i, i + 6, i + 5)).toArray,
+      (0 until 25).flatMap(i => Seq((i % 5).toFloat, (i / 5).toFloat, 0f)).toArray
+    )
+
+  /** Faces side by side around vertex 0, over half a turn. */
+  def fanMesh(faces: Int): Mesh =
+    val rim = (0 to faces).flatMap: i =>
+      val angle = Math.PI * i / (faces + 1)
+      Seq(Math.cos(angle).toFloat, Math.sin(angle).toFloat, 0f)
+    Mesh((1 to faces).flatMap(i => Seq(0, i, i + 1)).toArray, Array(0f, 0f, 0f) ++ rim)
+
+  val closed: Seq[(String, Mesh)] =
+    Seq("tetrahedron" -> tetrahedron, "octahedron" -> octahedron, "cube" -> cube)
+  val all: Seq[(String, Mesh)] = closed ++ Seq("grid" -> flatGrid, "fan" -> fanMesh(3))
+
+  /** One level of Loop's rules for closed meshes, written straight down: slow, but plain to see. */
+  def plainLoop(mesh: Mesh): Mesh =
+    def point(i: Int) = Vec3(mesh.positions(3 * i), mesh.positions(3 * i + 1), mesh.positions(3 * i + 2))
+    val faces = mesh.indices.grouped(3).map(_.toVector).toVector
+    val around = scala.collection.mutable.Map[Int, Set[Int]]().withDefaultValue(Set())
+    val opposite = scala.collection.mutable.Map[Set[Int], Vector[Int]]().withDefaultValue(Vector())
+    for f <- faces; k <- 0 until 3 do
+      around(f(k)) ++= f.toSet - f(k)
+      opposite(Set(f(k), f((k + 1) % 3))) :+= f((k + 2) % 3)
+    val even = (0 until mesh.vertexCount).map: v =>
+      val n = around(v).size
+      val beta = if n == 3 then 3f / 16 else 3f / (8 * n)
+      point(v) * (1 - n * beta) + around(v).map(point).reduce(_ + _) * beta
+    val pairs = opposite.keys.toVector
+    val number = pairs.zipWithIndex.map((e, i) => e -> (mesh.vertexCount + i)).toMap
+    val odd = pairs.map: e =>
+      e.map(point).reduce(_ + _) * 0.375f + opposite(e).map(point).reduce(_ + _) * 0.125f
+    val split = faces.flatMap: f =>
+      val o = Vector(0, 1, 2).map(k => number(Set(f(k), f((k + 1) % 3))))
+      Vector(f(0), o(0), o(2), o(0), f(1), o(1), o(2), o(1), f(2), o(0), o(1), o(2))
+    Mesh(split.toArray, (even ++ odd).flatMap(p => Seq(p.x, p.y, p.z)).toArray)

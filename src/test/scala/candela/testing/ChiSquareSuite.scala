@@ -1,0 +1,61 @@
+package candela.testing
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.math.*
+
+class ChiSquareSuite extends AnyFunSuite:
+
+  test("Q(a, x) agrees with its closed forms"):
+    // Q(1, x) = e⁻ˣ, Q(½, x) = erfc(√x), Q(2, x) = (1 + x) e⁻ˣ; 1e-10 is what `upper` claims
+    for x <- Seq(0.01, 0.5, 1.0, 3.0, 10.0, 40.0) do
+      assert(Math.abs(IncompleteGamma.upper(1, x) - Math.exp(-x)) < 1e-10)
+      assert(Math.abs(IncompleteGamma.upper(2, x) - (1 + x) * Math.exp(-x)) < 1e-10)
+    assert(Math.abs(IncompleteGamma.upper(0.5, 1.0) - 0.15729920705) < 1e-10)
+    // 5% point of χ² with 100 degrees of freedom, from tables with 3 decimals
+    assert(Math.abs(IncompleteGamma.upper(50, 124.342 / 2) - 0.05) < 1e-5)
+
+  test("ln Γ agrees with factorials"):
+    val factorials = (1 to 20).scanLeft(1.0)(_ * _)
+    // 1e-12: the series' first omitted term is below 1e-12 from 12 on
+    for n <- 1 to 20 do
+      assert(Math.abs(IncompleteGamma.logGamma(n) - Math.log(factorials(n - 1))) < 1e-11)
+
+  private def uniformSphere(u: () => Float): Option[Vec3] =
+    val (z, phi) = (2 * u() - 1, TwoPi * u())
+    Some(Vec3(safeSqrt(1 - z * z) * cos(phi), safeSqrt(1 - z * z) * sin(phi), z))
+
+  test("a right density is accepted, and one that is 3% wrong is refused"):
+    val right = ChiSquare.directions(seed = 1)(uniformSphere, _ => 1 / (4 * Pi))
+    assert(right.accepted(tests = 1), right)
+    val tilted = ChiSquare.directions(seed = 1)(uniformSphere, w => (1 + 0.03f * w.x) / (4 * Pi))
+    assert(!tilted.accepted(tests = 100), tilted)
+
+  test("p-values of a right density are spread evenly"):
+    val ps = (1 to 100).map: seed =>
+      ChiSquare.directions(seed, draws = 5000)(uniformSphere, _ => 1 / (4 * Pi)).pValue
+    // 100 uniform values: each quarter gets 25 ± 4.3; 4 sigmas
+    for quarter <- 0 until 4 do
+      val count = ps.count(p => p >= quarter / 4.0 && p < (quarter + 1) / 4.0)
+      assert(Math.abs(count - 25) < 18, s"quarter $quarter: $count")
+
+  test("draws that return nothing must be as many as the density leaves"):
+    def upperOnly(u: () => Float) = uniformSphere(u).filter(_.z > 0)
+    val honest = ChiSquare.directions(seed = 2)(upperOnly, w => if w.z > 0 then 1 / (4 * Pi) else 0)
+    assert(honest.accepted(tests = 1), honest)
+    val boasting = ChiSquare.directions(seed = 2)(upperOnly, w => if w.z > 0 then 1 / TwoPi else 0)
+    assert(!boasting.accepted(tests = 100), boasting)
+
+  test("draws where the density is zero are refused"):
+    val result = ChiSquare.directions(seed = 3)(
+      u => uniformSphere(u).map(w => if w.z < -0.999f then w else Vec3(w.x, w.y, abs(w.z))),
+      w => if w.z > 0 then 1 / TwoPi else 0
+    )
+    assert(!result.accepted(tests = 100), result)
+
+  test("bins integrate peaks and jumps"):
+    val peak = BinIntegral((x, y) => Math.exp(-((x - 0.3) * (x - 0.3) + y * y) / 2e-4))
+    // half a Gaussian of variance 1e-4: π · 1e-4; 1e-7 as the class says
+    assert(Math.abs(peak(0, 0, 1, 1) - Math.PI * 1e-4) < 1e-7)
+    val step = BinIntegral((x, _) => if x < 1 / 3.0 then 1 else 0)
+    assert(Math.abs(step(0, 0, 1, 1) - 1 / 3.0) < 1 / 512.0)
