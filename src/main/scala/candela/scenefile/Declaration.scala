@@ -41,6 +41,7 @@ enum ParamType(val spelling: String):
   * @param valuesAt where the values begin
   * @param floats   the numbers of every numeric type but `integer` (empty otherwise); `bools`, `ints`
   *                 and `strings` likewise for theirs
+  * @param isDefault came from an `Attribute` statement, which speaks to many: it may fit none here
   */
 final class Param(
     val paramType: ParamType,
@@ -50,8 +51,13 @@ final class Param(
     val floats: Array[Float] = Array.emptyFloatArray,
     val ints: Array[Int] = Array.emptyIntArray,
     val bools: Vector[Boolean] = Vector.empty,
-    val strings: Vector[String] = Vector.empty
-)
+    val strings: Vector[String] = Vector.empty,
+    val isDefault: Boolean = false
+):
+  def withStrings(values: Vector[String]): Param =
+    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault)
+
+  def asDefault: Param = Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true)
 
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *

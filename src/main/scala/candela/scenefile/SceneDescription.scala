@@ -49,8 +49,11 @@ final case class TextureDescription(
   * @param integrator     v2's `SurfaceIntegrator`, v3's and v4's `Integrator`
   * @param worldToCamera  the transform at the `Camera` statement
   * @param textures       in the order of their statements (a texture may use only earlier ones)
-  * @param namedMaterials in the order of their statements; a later one of the same name wins
+  * @param namedMaterials in the order of their statements. Every name here (and of textures and
+  *                       objects) is unique: where a file defines one again, [[Scope]] renames the
+  *                       new one and its uses
   * @param objects        shapes by the name of their `ObjectBegin`
+  * @param transformTimes the times at which the start and the end of an [[AnimatedTransform]] hold
   * @param warnings       what was noticed on the way
   */
 final case class SceneDescription(
@@ -73,5 +76,6 @@ final case class SceneDescription(
     instances: Vector[InstanceDescription] = Vector.empty,
     media: Vector[(String, Declaration)] = Vector.empty,
     volumes: Vector[LightDescription] = Vector.empty,
+    transformTimes: (Float, Float) = (0f, 1f),
     warnings: Vector[Problem] = Vector.empty
 )

@@ -1,0 +1,156 @@
+package candela.scenefile
+
+import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.math.Transform
+
+/** Where in a file a directive may stand: before `WorldBegin`, after it, or both. */
+enum Place:
+  case Options, World, Anywhere
+
+/** One kind of statement.
+  *
+  * @param usage what follows the name, for messages
+  */
+final class Directive(val name: String, val usage: String, val place: Place)(
+    val run: (Arguments, SceneWriter) => Unit
+)
+
+/** All statements of all dialects. */
+object Directives:
+  import Place.*
+
+  private val NameAndParams = "\"name\" parameters"
+
+  private def option(name: String): Directive =
+    Directive(name, NameAndParams, Options)((in, scene) => scene.option(name, in.named()))
+
+  private def declaration(name: String, usage: String = NameAndParams)(
+      run: (SceneWriter, Named) => Unit
+  ): Directive =
+    Directive(name, usage, World)((in, scene) => run(scene, in.named()))
+
+  private val options: List[Directive] = List(
+    option("Accelerator"),
+    option("Camera"),
+    option("Film"),
+    option("Integrator"),
+    option("PixelFilter"),
+    option("Renderer"),
+    option("Sampler"),
+    option("SurfaceIntegrator"),
+    option("VolumeIntegrator"),
+    Directive("TransformTimes", "start end", Options): (in, scene) =>
+      val times = in.numbers(2)
+      scene.transformTimes(times(0).toFloat, times(1).toFloat),
+    Directive("WorldBegin", "", Options)((in, scene) => scene.beginWorld(in.at))
+  )
+
+  private val transforms: List[Directive] = List(
+    Directive("Identity", "", Anywhere)((_, scene) => scene.transform(_ => Transform.Identity)),
+    Directive("Translate", "x y z", Anywhere): (in, scene) =>
+      val v = in.numbers(3)
+      scene.transform(_ * Transform.translate(v(0), v(1), v(2))),
+    Directive("Scale", "x y z", Anywhere): (in, scene) =>
+      val v = in.numbers(3)
+      val scale = regular(in.at, "a scale of zero")(Transform.scale(v(0), v(1), v(2)))
+      scene.transform(_ * scale),
+    Directive("Rotate", "degrees axis.x axis.y axis.z", Anywhere): (in, scene) =>
+      val v = in.numbers(4)
+      val rotation = regular(in.at, "an axis of length 0")(Transform.rotate(v(0), v(1), v(2), v(3)))
+      scene.transform(_ * rotation),
+    Directive("LookAt", "eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z", Anywhere):
+      (in, scene) =>
+        val v = in.numbers(9)
+        val why = "an eye at its target, or an up direction along the view"
+        val view = regular(in.at, why)(Transform.lookAt(v.take(3), v.slice(3, 6), v.drop(6)))
+        scene.transform(_ * view)
+    ,
+    Directive("Transform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
+      val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
+      scene.transform(_ => matrix),
+    Directive("ConcatTransform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
+      val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
+      scene.transform(_ * matrix),
+    Directive("CoordinateSystem", "\"name\"", Anywhere): (in, scene) =>
+      scene.nameCoordinates(in.quoted("a name")._1),
+    Directive("CoordSysTransform", "\"name\"", Anywhere): (in, scene) =>
+      val (name, at) = in.quoted("a name")
+      scene.useCoordinates(name, at),
+    Directive("ActiveTransform", "All | StartTime | EndTime", Anywhere): (in, scene) =>
+      scene.activate(ActiveTransform.valueOf(in.word("All", "StartTime", "EndTime")))
+  )
+
+  private def regular(at: SourcePos, why: String)(t: Option[Transform]): Transform =
+    t.getOrElse(throw SceneError(Problem.error(at, s"$why: this transform can't be inverted")))
+
+  private val blocks: List[Directive] = List(
+    Directive("AttributeBegin", "", World): (in, scene) =>
+      scene.blocks.begin("AttributeBegin", in.at),
+    Directive("AttributeEnd", "", World)((in, scene) => scene.blocks.end("AttributeBegin", in.at)),
+    Directive("TransformBegin", "", World): (in, scene) =>
+      scene.blocks.begin("TransformBegin", in.at),
+    Directive("TransformEnd", "", World)((in, scene) => scene.blocks.end("TransformBegin", in.at)),
+    Directive("ObjectBegin", "\"name\"", World): (in, scene) =>
+      scene.beginObject(in.quoted("a name")._1, in.at),
+    Directive("ObjectEnd", "", World)((in, scene) => scene.endObject(in.at)),
+    Directive("ObjectInstance", "\"name\"", World): (in, scene) =>
+      val (name, at) = in.quoted("an object's name")
+      scene.instance(name, at),
+    Directive("WorldEnd", "", World)((in, scene) => scene.worldEnd = Some(in.at))
+  )
+
+  private val world: List[Directive] = List(
+    declaration("AreaLightSource")(_.areaLight(_)),
+    declaration("LightSource")(_.light(_)),
+    declaration("MakeNamedMaterial", "\"name\" \"string type\" \"…\" parameters")(
+      _.makeNamedMaterial(_)
+    ),
+    declaration("Material")(_.material(_)),
+    declaration("Shape")(_.shape(_)),
+    declaration("Volume")(_.volume(_)),
+    Directive("NamedMaterial", "\"name\"", World): (in, scene) =>
+      val (name, at) = in.quoted("a material's name")
+      scene.namedMaterial(name, at),
+    Directive("ReverseOrientation", "", World)((_, scene) => scene.reverseOrientation()),
+    Directive("Texture", "\"name\" \"float|spectrum\" \"class\" parameters", World): (in, scene) =>
+      val (name, at) = in.quoted("a name")
+      val (valueType, typeAt) = in.quoted("`float` or `spectrum`")
+      val texture = in.named("a class")
+      scene.texture(name, at, textureType(valueType, typeAt), texture)
+  )
+
+  private def textureType(written: String, at: SourcePos): String = written match
+    case "float" | "spectrum" => written
+    case "color" => "spectrum"
+    case _ =>
+      val help = Suggest.help(written, List("float", "spectrum", "color"))
+      throw SceneError(Problem.error(at, s"textures have no values of type `$written`", help))
+
+  private val others: List[Directive] = List(
+    Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
+      val from = in.named("a target")
+      scene.attribute(from.name, from.at, from.params),
+    Directive("ColorSpace", "\"name\"", Anywhere): (in, _) =>
+      val (name, at) = in.quoted("a name")
+      if name != "srgb" then
+        val message = s"the color space `$name` is not supported: colors are taken as sRGB"
+        in.report(Problem.warning(at, message)),
+    Directive("Import", "\"file\"", World): (in, scene) =>
+      val (file, at) = in.quoted("a file name")
+      scene.blocks.isolated(in.include(file, at)).foreach(in.report),
+    Directive("Include", "\"file\"", Anywhere): (in, _) =>
+      val (file, at) = in.quoted("a file name")
+      in.include(file, at),
+    Directive("MakeNamedMedium", "\"name\" \"string type\" \"…\" parameters", Anywhere):
+      (in, scene) => scene.makeNamedMedium(in.named())
+    ,
+    Directive("MediumInterface", "\"inside\" \"outside\"", Anywhere): (in, scene) =>
+      val (inside, _) = in.quoted("a medium's name")
+      scene.mediumInterface(inside, in.another.getOrElse(inside)),
+    Directive("Option", "\"name\" value", Anywhere): (in, scene) =>
+      val (name, at) = in.quoted("a name")
+      scene.option(in.value(SceneOptions.typeOf(name, at), SceneOptions.plain(name)))
+  )
+
+  val all: Map[String, Directive] =
+    (options ++ transforms ++ blocks ++ world ++ others).map(d => d.name -> d).toMap

@@ -1,0 +1,46 @@
+package candela.scenefile
+
+import java.nio.file.Path
+
+import candela.base.{Problem, SceneError}
+
+/** Reads scene files. */
+object Parser:
+
+  /** The scene of a file and all that it includes; a [[SceneError]] has the problems
+    * found, up to 20 errors.
+    *
+    * @param dialect the file's dialect; None: recognise it
+    */
+  def parse(file: Path, dialect: Option[Dialect] = None): SceneDescription =
+    Source.read(file) match
+      case Right(source) => parse(source, folderOf(file), Some(file), dialect)
+      case Left(why) => throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
+
+  /** The scene of a text.
+    *
+    * @param name   how messages call it
+    * @param folder the folder against which file names resolve
+    */
+  def parseText(
+      name: String,
+      text: String,
+      folder: Path,
+      dialect: Option[Dialect] = None
+  ): SceneDescription =
+    parse(Source.fromText(name, text), folder, None, dialect)
+
+  private[scenefile] def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
+
+  private def parse(source: Source, folder: Path, file: Option[Path], dialect: Option[Dialect]) =
+    val first = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3))
+    first.read()
+    val guess = dialect.getOrElse(first.guess)
+    // The few statements that v4 treats otherwise were read as v3's: then once more.
+    val run =
+      if !first.askedDialect || dialect.nonEmpty || guess != Dialect.V4 then first
+      else
+        val second = ParserRun(source, folder, file, Dialect.V4)
+        second.read()
+        second
+    run.result(guess)

@@ -1,0 +1,232 @@
+package candela.scenefile
+
+import java.nio.file.Path
+import scala.collection.mutable
+
+import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.math.Transform
+
+/** Carries out statements: keeps the graphics state, and collects the description.
+  *
+  * @param folder  the scene file's folder
+  * @param isV4    asked only where the dialects differ in what a statement means
+  * @param problem hears of errors and warnings that need not stop the statement
+  */
+final class SceneWriter(
+    folder: Path,
+    evidence: DialectGuess,
+    isV4: () => Boolean,
+    problem: Problem => Unit
+):
+  private val names = UniqueNames()
+  private val textures = Vector.newBuilder[TextureDescription]
+  private val lights = Vector.newBuilder[LightDescription]
+  private val shapes = Vector.newBuilder[ShapeDescription]
+  private val objects = mutable.LinkedHashMap.empty[String, Vector[ShapeDescription]]
+  private val instances = Vector.newBuilder[InstanceDescription]
+  private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
+  private val objectNames = mutable.HashMap.empty[String, String]
+  private var inObject = Option.empty[(String, mutable.Builder[ShapeDescription, Vector[ShapeDescription]])]
+  private var result = SceneDescription(Dialect.V4)
+
+  val blocks: Blocks = Blocks(isV4)
+
+  /** Where `WorldBegin` stands, once it was met; likewise `WorldEnd`. */
+  var worldBegin = Option.empty[SourcePos]
+  var worldEnd = Option.empty[SourcePos]
+
+  private def state = blocks.state
+  private def change(f: GraphicsState => GraphicsState): Unit = blocks.state = f(blocks.state)
+  private def fail(at: SourcePos, message: String, help: Option[String]) =
+    throw SceneError(Problem.error(at, message, help))
+
+  def description(dialect: Dialect, warnings: Vector[Problem]): SceneDescription =
+    result.copy(
+      dialect = dialect,
+      textures = textures.result(),
+      lights = lights.result(),
+      shapes = shapes.result(),
+      objects = objects.toMap,
+      instances = instances.result(),
+      warnings = warnings
+    )
+
+  // Declarations
+
+  private def declare(category: String, from: Named, defaults: String = ""): Declaration =
+    evidence.uses(category, from.name)
+    val inherited = state.defaults.getOrElse(defaults, Vector.empty)
+    val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
+    Declaration(category, from.name, state.scope.resolve(all), from.at, folder)
+
+  /** The declaration whose name is the value of "string type". */
+  private def declareByType(category: String, from: Named, defaults: String): Declaration =
+    val whole = declare("", from, defaults)
+    val missing = Some(s"add for example \"string type\" \"${SceneWriter.Examples(category)}\"")
+    whole.param("type").filter(_.strings.size == 1) match
+      case Some(t) =>
+        evidence.uses(category, t.strings.head)
+        val params = whole.params.filterNot(_ eq t)
+        Declaration(category, t.strings.head, params, t.valuesAt, folder)
+      case None => fail(from.at, s"\"${from.name}\" has no \"string type\"", missing)
+
+  /** A statement of the options part: each overrides the one before. */
+  def option(directive: String, from: Named): Unit =
+    val d = Some(declare(directive, from))
+    result = directive match
+      case "Camera" =>
+        coordinateSystems("camera") = GraphicsState.inverse(state.transform)
+        result.copy(camera = d, worldToCamera = state.transform)
+      case "Film" => result.copy(film = d)
+      case "Sampler" => result.copy(sampler = d)
+      case "PixelFilter" => result.copy(filter = d)
+      case "Integrator" | "SurfaceIntegrator" => result.copy(integrator = d)
+      case "VolumeIntegrator" => result.copy(volumeIntegrator = d)
+      case "Renderer" => result.copy(renderer = d)
+      case "Accelerator" => result.copy(accelerator = d)
+
+  def option(param: Param): Unit = result = result.copy(options = result.options :+ param)
+
+  def transformTimes(start: Float, end: Float): Unit =
+    result = result.copy(transformTimes = (start, end))
+
+  // The world
+
+  def beginWorld(at: SourcePos): Unit =
+    worldBegin = Some(at)
+    change(_.copy(transform = GraphicsState.Identity, active = ActiveTransform.All))
+    coordinateSystems("world") = GraphicsState.Identity
+
+  def shape(from: Named): Unit =
+    val described = ShapeDescription(
+      declare("Shape", from, "shape"),
+      state.transform,
+      state.reverseOrientation,
+      state.material,
+      state.areaLight,
+      state.insideMedium,
+      state.outsideMedium
+    )
+    inObject.fold(shapes)(_._2) += described
+
+  def light(from: Named): Unit =
+    lights += LightDescription(declare("LightSource", from, "light"), state.transform)
+
+  def volume(from: Named): Unit =
+    val described = LightDescription(declare("Volume", from), state.transform)
+    result = result.copy(volumes = result.volumes :+ described)
+
+  /** An empty name switches the light off. */
+  def areaLight(from: Named): Unit =
+    val light = Option.when(from.name.nonEmpty)(declare("AreaLightSource", from, "light"))
+    change(_.copy(areaLight = light))
+
+  def material(from: Named): Unit =
+    val material = MaterialRef.Inline(declare("Material", from, "material"))
+    change(_.copy(material = material))
+
+  def namedMaterial(name: String, at: SourcePos): Unit =
+    val unique = state.scope.materials.getOrElse(name, name)
+    change(_.copy(material = MaterialRef.Named(unique, at)))
+
+  def makeNamedMaterial(from: Named): Unit =
+    val material = declareByType("Material", from, "material")
+    val scope = state.scope
+    val current = scope.materials.getOrElse(from.name, from.name)
+    val unique =
+      if names.take("material", current) then current
+      else
+        refuseInV4(from.at, "material", from.name)
+        names.fresh(List("material"), from.name)
+    val _ = names.take("material", unique)
+    if unique != current then
+      change(_.copy(scope = scope.copy(materials = scope.materials.updated(from.name, unique))))
+    result = result.copy(namedMaterials = result.namedMaterials :+ (unique -> material))
+
+  def makeNamedMedium(from: Named): Unit =
+    val medium = declareByType("Medium", from, "medium")
+    if result.media.exists(_._1 == from.name) then refuseInV4(from.at, "medium", from.name)
+    result = result.copy(media = result.media.filterNot(_._1 == from.name) :+ (from.name -> medium))
+
+  /** `name` is what the file calls the texture, `from.name` its class. */
+  def texture(name: String, at: SourcePos, valueType: String, from: Named): Unit =
+    val described = (unique: String) =>
+      TextureDescription(unique, valueType, declare("Texture", from, "texture"), state.transform)
+    val scope = state.scope
+    val current = scope.textures.getOrElse(name, name)
+    if names.take(valueType, current) then textures += described(current)
+    else
+      refuseInV4(at, s"$valueType texture", name)
+      val made = described(names.fresh(SceneWriter.TextureKinds, name))
+      // what the other kind means by this name must be found under the new one as well
+      for
+        kind <- SceneWriter.TextureKinds if kind != valueType
+        twin <- textures.result().find(t => t.name == current && t.valueType == kind)
+      do
+        textures += twin.copy(name = made.name)
+        val _ = names.take(kind, made.name)
+      textures += made
+      val _ = names.take(valueType, made.name)
+      change(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
+
+  private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
+    if isV4() then fail(at, s"the $kind \"$name\" is defined already", Some("names are used once in v4"))
+
+  def mediumInterface(inside: String, outside: String): Unit =
+    change(_.copy(insideMedium = inside, outsideMedium = outside))
+
+  def attribute(target: String, at: SourcePos, params: Vector[Param]): Unit =
+    if !SceneWriter.Targets.contains(target) then
+      val help = Suggest.help(target, SceneWriter.Targets)
+      fail(at, s"Attribute speaks to no `$target`", help)
+    val earlier = state.defaults.getOrElse(target, Vector.empty)
+    val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(_.asDefault)
+    change(s => s.copy(defaults = s.defaults.updated(target, all)))
+
+  def reverseOrientation(): Unit = change(s => s.copy(reverseOrientation = !s.reverseOrientation))
+
+  // Objects
+
+  def beginObject(name: String, at: SourcePos): Unit =
+    if inObject.nonEmpty then fail(at, "ObjectBegin inside of an object", Some("objects don't nest"))
+    val unique =
+      if names.take("object", name) then name
+      else
+        refuseInV4(at, "object", name)
+        names.fresh(List("object"), name)
+    val _ = names.take("object", unique)
+    objectNames(name) = unique
+    blocks.begin("ObjectBegin", at)
+    inObject = Some((unique, Vector.newBuilder[ShapeDescription]))
+
+  def endObject(at: SourcePos): Unit =
+    inObject.foreach((name, shapes) => objects(name) = shapes.result())
+    inObject = None
+    blocks.end("ObjectBegin", at)
+
+  def instance(name: String, at: SourcePos): Unit =
+    if inObject.nonEmpty then fail(at, "ObjectInstance inside of an object", Some("objects don't nest"))
+    instances += InstanceDescription(objectNames.getOrElse(name, name), at, state.transform)
+
+  // Transforms
+
+  def transform(f: Transform => Transform): Unit = change(_.transformed(f))
+
+  def activate(active: ActiveTransform): Unit = change(_.copy(active = active))
+
+  def nameCoordinates(name: String): Unit = coordinateSystems(name) = state.transform
+
+  def useCoordinates(name: String, at: SourcePos): Unit =
+    coordinateSystems.get(name) match
+      case Some(found) => change(_.copy(transform = found))
+      case None =>
+        val help = Suggest.help(name, coordinateSystems.keys)
+        problem(Problem.warning(at, s"no coordinate system `$name`: the transform stays", help))
+
+object SceneWriter:
+  private val TextureKinds = List("float", "spectrum")
+  private val Targets = List("shape", "light", "material", "medium", "texture")
+  private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
+
+/** A quoted name with its place, and the parameters after it. */
+final case class Named(name: String, at: SourcePos, params: Vector[Param])

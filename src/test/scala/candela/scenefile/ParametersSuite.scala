@@ -1,0 +1,103 @@
+package candela.scenefile
+
+import candela.base.{Problem, SceneError}
+import org.scalatest.funsuite.AnyFunSuite
+
+class ParametersSuite extends AnyFunSuite:
+
+  private var warnings = Vector.empty[Problem]
+
+  private def params(text: String): Vector[Param] =
+    warnings = Vector.empty
+    val in = Tokenizer(Source.fromText("test", text), None)
+    in.advance()
+    val read = Parameters(DialectGuess(), p => warnings = warnings :+ p).list(in)
+    assert(in.current == Token.End)
+    read
+
+  private def one(text: String): Param =
+    val all = params(text)
+    assert(all.size == 1)
+    all.head
+
+  private def error(text: String): String =
+    intercept[SceneError](params(text)).problems.map(p => s"${p.at.get.column}: ${p.message}").mkString
+
+  test("each spelling of each type is known"):
+    val numbers = Map(
+      "float" -> ParamType.Float,
+      "point" -> ParamType.Point3,
+      "point3" -> ParamType.Point3,
+      "vector" -> ParamType.Vector3,
+      "vector3" -> ParamType.Vector3,
+      "normal" -> ParamType.Normal,
+      "normal3" -> ParamType.Normal,
+      "point2" -> ParamType.Point2,
+      "vector2" -> ParamType.Vector2,
+      "rgb" -> ParamType.Rgb,
+      "color" -> ParamType.Rgb,
+      "xyz" -> ParamType.Xyz,
+      "blackbody" -> ParamType.Blackbody,
+      "spectrum" -> ParamType.Spectrum
+    )
+    for (spelling, paramType) <- numbers do
+      val p = one(s"\"$spelling P\" [1 2 3 4 5 6]")
+      assert(p.paramType == paramType && p.floats.toVector == Vector(1f, 2f, 3f, 4f, 5f, 6f))
+
+  test("one value needs no brackets"):
+    assert(one("\"float fov\" 45").floats.toVector == Vector(45f))
+    assert(one("\"integer n\" -3").ints.toVector == Vector(-3))
+    assert(one("\"string f\" \"a b\"").strings == Vector("a b"))
+    assert(one("\"texture Kd\" \"t\"").strings == Vector("t"))
+    assert(one("\"spectrum eta\" \"metal-Cu-eta\"").strings == Vector("metal-Cu-eta"))
+
+  test("true and false may stand in quotes or bare"):
+    val all = params("\"bool a\" true \"bool b\" [false] \"bool c\" \"true\" \"bool d\" [\"false\" true]")
+    assert(all.map(_.bools) == Vector(Vector(true), Vector(false), Vector(true), Vector(false, true)))
+
+  test("a spectrum is pairs of numbers, or names"):
+    assert(one("\"spectrum L\" [400 1 700 2]").floats.length == 4)
+    assert(one("\"spectrum L\" [\"a.spd\" \"b.spd\"]").strings == Vector("a.spd", "b.spd"))
+
+  test("type and name may have more blanks around them"):
+    assert(one("\" float\t tex2 \" [-.25]").name == "tex2")
+
+  test("places are those of the quoted name and of the first value"):
+    val p = one("  \"float a\"\n [ 1 2 ]")
+    assert((p.at.line, p.at.column) == (1, 3))
+    assert((p.valuesAt.line, p.valuesAt.column) == (2, 4))
+
+  test("whole numbers may be written with a point; fractions are cut off with a warning"):
+    assert(one("\"integer n\" [1.0 2e2]").ints.toVector == Vector(1, 200))
+    assert(warnings.isEmpty)
+    assert(one("\"integer n\" [1 2.7]").ints.toVector == Vector(1, 2))
+    assert(warnings.map(_.message) == Vector("`n` takes whole numbers; fractions are cut off"))
+
+  test("of two parameters with one name the last counts, and the first is warned of"):
+    assert(one("\"float a\" 1 \"float a\" 2").floats.toVector == Vector(2f))
+    assert(warnings.map(_.at.get.column) == Vector(1))
+
+  test("a value of the wrong kind is an error at the value"):
+    assert(error("\"float fov\" \"45\"").startsWith("13: "))
+    assert(error("\"float fov\" [1 2 \"3\"]").startsWith("18: "))
+    assert(error("\"string f\" 3").startsWith("12: "))
+    assert(error("\"bool b\" [yes]").startsWith("11: "))
+    assert(error("\"integer n\" 3000000000").startsWith("13: "))
+    assert(error("\"integer n\" [1 3000000000]").startsWith("16: "))
+    assert(error("\"rgb L\" [1 2 nan]").startsWith("14: "))
+
+  test("lists that are no whole number of pairs or triples, and empty ones, are errors"):
+    assert(error("\"rgb L\" [1 2]").contains("takes triples, but has 2 numbers"))
+    assert(error("\"point3 P\" [1 2 3 4]").contains("takes triples"))
+    assert(error("\"point2 P\" [1 2 3]").contains("takes pairs"))
+    assert(error("\"spectrum L\" 3").contains("takes pairs, but has 1 number"))
+    assert(error("\"float a\" []").contains("empty list"))
+    assert(error("\"texture a\" [\"b\" \"c\"]").contains("takes one texture"))
+
+  test("a parameter without type, with an unknown type, or without value is an error"):
+    assert(error("\"fov\" 45").contains("its type is missing"))
+    assert(error("\"float\" 45").contains("a parameter's type without its name"))
+    assert(error("\"flot fov\" 45").contains("no parameter type is called `flot`"))
+    assert(error("\"\" 45").contains("an empty text"))
+    assert(error("\"float fov\"").contains("`fov` has no value"))
+    assert(error("\"float fov\" [ 1 2").contains("no closing `]`"))
