@@ -111,7 +111,7 @@ object CommandLine:
           .text("of the random numbers (default 0): other noise, same expected image")
           .action((n, o) => o.copy(seed = n)),
         opt[Unit]("quick")
-          .text("a small image with few samples, for a first look")
+          .text("a quarter of the width and height, one sample per pixel: a first look")
           .action((_, o) => o.copy(quick = true)),
         opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
           .text("render only this part of the image, in fractions of its size")

@@ -97,11 +97,10 @@ final class RenderCommand(
       "software" -> s"Candela ${Version.current}",
       "scene" -> scene,
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
-      "integrator" -> plan.integrator.getClass.getSimpleName,
       "samplesPerPixel" -> rendering.samplesDone.toString,
       "seed" -> options.seed.toString,
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    ) ++ crop
+    ) ++ plan.features.filter(_._1 == "integrator") ++ crop
 
   private def summarise(
       written: Vector[Path],
