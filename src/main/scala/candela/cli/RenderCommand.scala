@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.base.{Problem, SceneError, Version}
 import candela.image.{ImageError, ImageFiles}
-import candela.render.{Cancellation, PixelBounds, Renderer, Rendering}
+import candela.render.{Cancellation, PixelBounds, Progress, Renderer, Rendering}
 
 import java.nio.file.Path
 
@@ -55,7 +55,7 @@ final class RenderCommand(
   private def render(scene: String, loaded: LoadedScene, paths: Vector[Path]): ExitCode =
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
-      val show = if options.quiet then (_ => ()) else progress.update
+      val show: Progress => Unit = if options.quiet then _ => () else progress.update
       val rendering =
         try Renderer.render(loaded.plan, threads, cancellation, show)
         finally progress.finish()
@@ -97,11 +97,10 @@ final class RenderCommand(
       "software" -> s"Candela ${Version.current}",
       "scene" -> scene,
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
-      "integrator" -> plan.integrator.getClass.getSimpleName,
       "samplesPerPixel" -> rendering.samplesDone.toString,
       "seed" -> options.seed.toString,
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    ) ++ crop
+    ) ++ plan.features.filter(_._1 == "integrator") ++ crop
 
   private def summarise(
       written: Vector[Path],

@@ -1,6 +1,6 @@
 package candela.cli
 
-import java.io.PrintStream
+import java.io.{Console, PrintStream}
 import java.nio.file.{Files, Path}
 
 import scala.util.Try
@@ -26,7 +26,8 @@ object Terminal:
   private def isInteractive: Boolean =
     val attached = Option(System.console()).exists: console =>
       // From JDK 22 on there may be a console without a terminal, and a method that says so.
-      Try(classOf[java.io.Console].getMethod("isTerminal").invoke(console)).forall(_ == true)
+      val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
+      isTerminal.fold(_ => true, java.lang.Boolean.TRUE.equals)
     val isDumb = sys.env.get("TERM").contains("dumb")
     attached && !isDumb && !errIsRedirected
 

@@ -25,7 +25,7 @@ object Renderer:
     val schedule = Schedule(plan.crop, samplesPerPixel)
     val board = Board(schedule, cancellation)
     val film = Film(plan.crop.x0, plan.crop.y0, plan.crop.x1, plan.crop.y1)
-    val filterSampler = FilterSampler(plan.filter)
+    val filterSampler = new FilterSampler(plan.filter)
     val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt):
       TileWorker(plan, schedule, board, film, filterSampler.copy())
 

@@ -1,0 +1,123 @@
+package candela.cli
+
+import candela.base.Version
+import candela.scenefile.Dialect
+
+import scopt.{OParser, Read}
+
+/** All commands and their options, one row each: parsing, checking and help. */
+private[cli] object OptionTable:
+  private type Row = OParser[?, Options]
+
+  private val b = OParser.builder[Options]
+  import b.{arg, checkConfig, cmd, failure, head, help, note, opt, programName, success, version}
+
+  private given Read[Dialect] = Read.reads: text =>
+    Dialect.values
+      .find(_.toString.equalsIgnoreCase(text))
+      .getOrElse(throw IllegalArgumentException("expected v2, v3 or v4"))
+
+  private given Read[CropWindow] = Read.reads: text =>
+    text.split(",", -1).map(_.trim.toFloatOption) match
+      case Array(Some(x0), Some(x1), Some(y0), Some(y1))
+          if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
+        CropWindow(x0, x1, y0, y1)
+      case _ =>
+        throw IllegalArgumentException(
+          "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
+        )
+
+  private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
+    if number.gteq(n, number.fromInt(least)) then success
+    else failure(s"--$name: expected a number from $least, found `$n`")
+
+  private def file(name: String, text: String): OParser[String, Options] =
+    arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
+
+  private def scenes: Row = file("scene.pbrt...", "scene files, each for itself").unbounded()
+
+  // What several commands have is made anew for each: scopt gives a row one parent.
+  private def shared: Vector[Row] = Vector(
+    opt[Dialect]("dialect").valueName("v2|v3|v4")
+      .text("read the scene as this version of pbrt does, instead of recognising it")
+      .action((d, o) => o.copy(dialect = Some(d))),
+    opt[Unit]("explain")
+      .text("say what the scene is built of, and what was left out")
+      .action((_, o) => o.copy(explain = true)),
+    opt[Unit]("quiet")
+      .text("print nothing but errors")
+      .action((_, o) => o.copy(quiet = true)),
+    opt[Unit]("verbose")
+      .text("print every warning, the times of all phases, and what --explain says")
+      .action((_, o) => o.copy(verbose = true))
+  )
+
+  private val renderOptions: Vector[Row] = Vector(
+    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+      .text("the image to write, .exr or .png; several: the same image in each format")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    opt[Int]('j', "nthreads").valueName("N")
+      .text("threads to render with (default: one for each processor)")
+      .validate(atLeast("nthreads", 1))
+      .action((n, o) => o.copy(threads = Some(n))),
+    opt[Int]("spp").valueName("N")
+      .text("samples per pixel, instead of the scene's")
+      .validate(atLeast("spp", 1))
+      .action((n, o) => o.copy(spp = Some(n))),
+    opt[Int]("seed").valueName("N")
+      .text("of the random numbers (default 0): other noise, same expected image")
+      .action((n, o) => o.copy(seed = n)),
+    opt[Unit]("quick")
+      .text("a quarter of the width and height, one sample per pixel: a first look")
+      .action((_, o) => o.copy(quick = true)),
+    opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
+      .text("render only this part of the image, in fractions of its size")
+      .action((w, o) => o.copy(cropWindow = Some(w)))
+  ) ++ shared
+
+  private val checkOptions: Vector[Row] = shared
+
+  private val compareOptions: Vector[Row] = Vector(
+    opt[Double]("max-relmse").valueName("X")
+      .text("exit with 1 if the relative mean squared error is above")
+      .validate(atLeast("max-relmse", 0))
+      .action((x, o) => o.copy(maxRelMse = Some(x)))
+  )
+
+  /** The long options of a command, without dashes. */
+  def names(command: String): Vector[String] =
+    val rows = Command.values.find(_.word == command) match
+      case Some(Command.Render) => renderOptions
+      case Some(Command.Check) => checkOptions
+      case Some(Command.Compare) => compareOptions
+      case None => Vector.empty
+    rows.flatMap(_.toList).map(_.name)
+
+  private def command(c: Command, text: String)(rows: Vector[Row]): Row =
+    cmd(c.word).text(text).action((_, o) => o.copy(command = c)).children(rows*)
+
+  val table: Row = OParser.sequence(
+    programName("candela"),
+    head("candela", Version.current),
+    help("help").text("print this"),
+    version("version").text("print the version"),
+    note(""),
+    command(Command.Render, "render scenes; the word itself may be left out")(
+      scenes +: renderOptions
+    ),
+    note(""),
+    command(Command.Check, "parse and build scenes, without rendering")(scenes +: checkOptions),
+    note(""),
+    command(Command.Compare, "print how an image differs from its reference")(
+      Vector(file("image", "what to judge"), file("reference", "what to judge it by")) ++
+        compareOptions
+    ),
+    note("""
+      |Without --outfile the image goes where the scene's Film says; an .exr also as a .png.
+      |Ctrl-C writes the image as far as it is; a second one quits at once.
+      |Exit codes: 0 done, 1 bad input, 2 bad usage, 3 a bug in Candela, 130 Ctrl-C.""".stripMargin),
+    checkConfig: o =>
+      if o.outfiles.nonEmpty && o.files.size > 1 then
+        failure("--outfile names one image, but there are several scenes")
+      else success
+  )

@@ -1,0 +1,19 @@
+package candela.cli
+
+import java.io.{ByteArrayOutputStream, PrintStream}
+import java.nio.charset.StandardCharsets.UTF_8
+
+/** A terminal that remembers what was printed. */
+final class Captured(isInteractive: Boolean = false, interrupts: Interrupts = Interrupts.Ignored):
+  private val outBytes = ByteArrayOutputStream()
+  private val errBytes = ByteArrayOutputStream()
+
+  val terminal: Terminal = Terminal(
+    PrintStream(outBytes, true, UTF_8),
+    PrintStream(errBytes, true, UTF_8),
+    isInteractive,
+    interrupts
+  )
+
+  def out: String = outBytes.toString(UTF_8)
+  def err: String = errBytes.toString(UTF_8)

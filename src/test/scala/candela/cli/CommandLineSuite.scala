@@ -1,0 +1,89 @@
+package candela.cli
+
+import candela.base.Version
+import candela.scenefile.Dialect
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class CommandLineSuite extends AnyFunSuite:
+
+  private def parse(line: String) = CommandLine.parse(line.split(' ').toVector.filter(_.nonEmpty))
+
+  private val one = Options(files = Vector("a.pbrt"))
+
+  private val understood = Vector(
+    "a.pbrt" -> one,
+    "render a.pbrt" -> one,
+    "a.pbrt b.pbrt" -> one.copy(files = Vector("a.pbrt", "b.pbrt")),
+    "--spp 16 a.pbrt" -> one.copy(spp = Some(16)),
+    "a.pbrt --spp=16" -> one.copy(spp = Some(16)),
+    "a.pbrt --seed -3" -> one.copy(seed = -3),
+    "a.pbrt --nthreads 3" -> one.copy(threads = Some(3)),
+    "a.pbrt -j 3" -> one.copy(threads = Some(3)),
+    "a.pbrt --quick --quiet --verbose --explain" ->
+      one.copy(quick = true, quiet = true, verbose = true, explain = true),
+    "a.pbrt --outfile x.exr" -> one.copy(outfiles = Vector("x.exr")),
+    "a.pbrt --outfile x.exr,y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
+    "--outfile x.exr a.pbrt --outfile y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
+    "a.pbrt --cropwindow 0.25,0.75,0,1" ->
+      one.copy(cropWindow = Some(CropWindow(0.25f, 0.75f, 0f, 1f))),
+    "a.pbrt --dialect v2" -> one.copy(dialect = Some(Dialect.V2)),
+    "check a.pbrt --dialect V4 --explain" ->
+      one.copy(command = Command.Check, dialect = Some(Dialect.V4), explain = true),
+    "render check" -> one.copy(files = Vector("check")),
+    "compare a.exr b.exr" ->
+      Options(command = Command.Compare, files = Vector("a.exr", "b.exr")),
+    "compare --max-relmse 0.01 a.exr b.exr" ->
+      Options(command = Command.Compare, files = Vector("a.exr", "b.exr"), maxRelMse = Some(0.01))
+  )
+
+  for (line, options) <- understood do
+    test(s"`$line` is understood"):
+      assert(parse(line) == Right(options))
+
+  private val refused = Vector(
+    "" -> "scene.pbrt",
+    "--quiet" -> "scene.pbrt",
+    "--spp 0 a.pbrt" -> "--spp: expected a number from 1, found `0`",
+    "--spp many a.pbrt" -> "--spp",
+    "--nthreads 0 a.pbrt" -> "--nthreads: expected a number from 1, found `0`",
+    "--cropwindow 0.5,0.5,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
+    "--cropwindow 0,1,0 a.pbrt" -> "expected x0,x1,y0,y1",
+    "--cropwindow 0,2,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
+    "--cropwindow 0,NaN,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
+    "--dialect v5 a.pbrt" -> "expected v2, v3 or v4",
+    "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
+    "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
+    "-outfile x.exr a.pbrt" -> "did you mean `--outfile`?",
+    "--xyzzy a.pbrt" -> "`candela render` has no option `--xyzzy`",
+    "check --spp 4 a.pbrt" -> "`candela check` has no option `--spp`",
+    "--outfile x.exr a.pbrt b.pbrt" -> "--outfile names one image",
+    "compare a.exr" -> "reference",
+    "compare a.exr b.exr c.exr" -> "c.exr",
+    "compare --max-relmse -1 a.exr b.exr" -> "--max-relmse: expected a number from 0, found `-1.0`"
+  )
+
+  for (line, message) <- refused do
+    test(s"`$line` is bad usage: $message"):
+      val answer = parse(line).left.toOption.get
+      assert(answer.code == ExitCode.BadUsage)
+      assert(answer.err.contains(message))
+      assert(answer.err.linesIterator.next().startsWith("error: "))
+      assert(answer.out.isEmpty)
+
+  test("an option that resembles none gets no suggestion"):
+    assert(!parse("--xyzzy a.pbrt").left.toOption.get.err.contains("did you mean"))
+
+  test("--help lists every command and option, wherever it stands"):
+    val words = Vector("render", "check", "compare", "--outfile", "--nthreads", "--spp", "--seed") ++
+      Vector("--quick", "--quiet", "--verbose", "--cropwindow", "--explain", "--dialect") ++
+      Vector("--max-relmse", "--help", "--version", "Exit codes")
+    for line <- Vector("--help", "render --help", "check --help", "a.pbrt --help") do
+      val answer = parse(line).left.toOption.get
+      assert(answer.code == ExitCode.Done)
+      assert(answer.err.isEmpty)
+      for word <- words do assert(answer.out.contains(word), s"$word in `$line`")
+
+  test("--version prints name and version"):
+    val answer = parse("--version").left.toOption.get
+    assert(answer == CommandLine.Answer(s"candela ${Version.current}\n", "", ExitCode.Done))

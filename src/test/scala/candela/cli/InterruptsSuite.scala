@@ -1,0 +1,36 @@
+package candela.cli
+
+import candela.color.Rgb
+import candela.render.{Cancellation, Renderer, TinyPlan}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import sun.misc.Signal
+
+class InterruptsSuite extends AnyFunSuite:
+
+  test("Ctrl-C ends a rendering that would take years, and says how to quit at once"):
+    val captured = Captured()
+    val cancellation = Cancellation()
+    @volatile var pressed = false
+    val plan = TinyPlan(spp = 1_000_000_000): (where, _) =>
+      if where.sample == 2 && !pressed then
+        pressed = true
+        Signal.raise(Signal("INT"))
+      Rgb.White
+    val rendering = Interrupts.fromSignals(captured.terminal.err).during(cancellation):
+      Renderer.render(plan, threads = 1, cancellation)
+    assert(cancellation.isRequested)
+    assert(!rendering.isComplete)
+    assert(rendering.samplesDone >= 2)
+    assert(captured.err.contains("stopping; Ctrl-C again quits without an image"))
+
+  test("without Ctrl-C nothing is cancelled, and the result is passed on"):
+    val cancellation = Cancellation()
+    assert(Interrupts.fromSignals(System.err).during(cancellation)(42) == 42)
+    assert(!cancellation.isRequested)
+
+  test("what fails meanwhile is passed on"):
+    val failure = intercept[IllegalStateException]:
+      Interrupts.fromSignals(System.err).during(Cancellation())(throw IllegalStateException("planted"))
+    assert(failure.getMessage == "planted")

@@ -1,0 +1,52 @@
+package candela.cli
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class MainSuite extends AnyFunSuite:
+
+  private def run(args: String*): (Int, Captured) =
+    val captured = Captured()
+    (Main.run(args, captured.terminal.out, captured.terminal.err), captured)
+
+  test("--help and --version print to standard output and exit with 0"):
+    for option <- Vector("--help", "--version") do
+      val (code, captured) = run(option)
+      assert(code == 0)
+      assert(captured.out.contains("candela"))
+      assert(captured.err.isEmpty)
+
+  test("bad usage prints to standard error and exits with 2"):
+    val (code, captured) = run("--spq", "4", "a.pbrt")
+    assert(code == 2)
+    assert(captured.err.startsWith("error: `candela render` has no option `--spq`; did you mean `--spp`?"))
+    assert(captured.out.isEmpty)
+
+  test("a missing scene exits with 1 and offers the nearest one"):
+    TempFolder.use: folder =>
+      val _ = Files.createFile(folder.resolve("bunny.pbrt"))
+      for command <- Vector("render", "check") do
+        val (code, captured) = run(command, s"$folder/buny.pbrt")
+        assert(code == 1)
+        assert(captured.err ==
+          s"error: there is no scene file `$folder/buny.pbrt`\n did you mean `$folder/bunny.pbrt`?\n")
+
+  test("a folder in place of a scene exits with 1 and names the scenes in it"):
+    TempFolder.use: folder =>
+      for name <- Vector("b.pbrt", "a.pbrt", "c.exr") do
+        val _ = Files.createFile(folder.resolve(name))
+      val (code, captured) = run(folder.toString)
+      assert(code == 1)
+      assert(captured.err == s"error: `$folder` is a folder\n name a scene file in it: a.pbrt, b.pbrt\n")
+
+  test("a mistake in a scene exits with 1 and is shown in its place"):
+    TempFolder.use: folder =>
+      val scene = folder.resolve("a.pbrt")
+      val _ = Files.writeString(scene, "LookAt 0 0 5  0 0 0  0 1 0\nTranlate 0 0 5\n")
+      val (code, captured) = run("check", scene.toString)
+      assert(code == 1)
+      assert(captured.err.startsWith(s"$scene:2:1: error: "))
+      assert(captured.err.contains(" 2 | Tranlate 0 0 5"))
+      assert(captured.err.contains("did you mean `Translate`?"))
+      assert(!captured.err.contains("\tat "))

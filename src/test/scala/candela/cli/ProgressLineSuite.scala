@@ -1,0 +1,60 @@
+package candela.cli
+
+import candela.render.Progress
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ProgressLineSuite extends AnyFunSuite:
+
+  private def shown(isInteractive: Boolean)(use: ProgressLine => Unit): String =
+    val captured = Captured()
+    use(ProgressLine(captured.terminal.err, isInteractive))
+    captured.err
+
+  test("a line has percentage, seconds, samples per second and the time left"):
+    assert(ProgressLine.line(Progress(4_000_000, 10_000_000, 4.0)) ==
+      "render  40%  4.0 s, 1.00 M samples/s, 0:06 left")
+
+  test("a bar is as full as the rendering"):
+    assert(ProgressLine.bar(Progress(500, 1000, 2.0)) ==
+      "render  50% [==============>             ] 250 samples/s, 0:02 left")
+    assert(ProgressLine.bar(Progress(1000, 1000, 2.0)) ==
+      "render 100% [============================] 500 samples/s, 0:00 left")
+
+  test("before the first sample there is no speed"):
+    assert(ProgressLine.bar(Progress(0, 1000, 0.5)) ==
+      "render   0% [>                           ] starting")
+
+  test("the bar fits into 80 columns for long renderings too"):
+    assert(ProgressLine.bar(Progress(123_456_789, 99_999_999_999L, 99_999.0)).length < 80)
+
+  test("a log gets plain lines, at most one in ten seconds and for a tenth of the work"):
+    val text = shown(isInteractive = false): line =>
+      for i <- 0 to 1000 do line.update(Progress(i, 1000, i * 0.2))
+      line.finish()
+    assert(!text.contains('\r'))
+    val percents = text.linesIterator.map(_.slice(7, 11).trim).toVector
+    assert(percents == Vector("10%", "20%", "30%", "40%", "50%", "60%", "70%", "80%", "90%"))
+
+  test("a log gets nothing about a rendering of seconds"):
+    assert(shown(isInteractive = false)(l => (0 to 100).foreach(i => l.update(Progress(i, 100, i * 0.05)))) == "")
+
+  test("a terminal is redrawn at most ten times a second"):
+    val text = shown(isInteractive = true): line =>
+      for i <- 1 to 1000 do line.update(Progress(i, 1000, i * 0.001))
+    val drawings = text.count(_ == '\r')
+    assert(drawings >= 8 && drawings <= 10)
+
+  test("a shorter line covers a longer one, and the end leaves the line empty"):
+    val long = Progress(1, 100_000_000, 1000.0)
+    val short = Progress(99_999_999, 100_000_000, 2000.0)
+    val text = shown(isInteractive = true): line =>
+      line.update(long)
+      line.update(short)
+      line.finish()
+    val Array("", first, second, blank) = text.split("\r"): @unchecked
+    assert(first.trim == ProgressLine.bar(long))
+    assert(second.length == first.length)
+    assert(second.trim == ProgressLine.bar(short))
+    assert(blank == " " * ProgressLine.bar(short).length || blank == " " * first.length)
+    assert(text.endsWith("\r"))

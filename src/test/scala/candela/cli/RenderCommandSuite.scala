@@ -1,0 +1,145 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError, SourcePos, Version}
+import candela.color.Rgb
+import candela.image.ImageFiles
+import candela.render.{Cancellation, RenderPlan, TinyPlan}
+import candela.scenefile.{Dialect, SceneDescription}
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class RenderCommandSuite extends AnyFunSuite:
+
+  private val gray = Rgb(0.5f, 0.25f, 2f)
+
+  /** Knows scenes by name; writes nothing but where it is told. */
+  private final class Known(scenes: (String, RenderPlan)*) extends SceneLoader:
+    var loaded = Vector.empty[String]
+    def load(scene: String, options: Options): LoadedScene =
+      loaded :+= scene
+      val plan = scenes.toMap.getOrElse(scene, throw SceneError(Problem.general(s"no $scene")))
+      val warning = Problem.warning(SourcePos(scene, 3, 1), "planted")
+      LoadedScene(SceneDescription(Dialect.V3), plan, Vector(warning, warning), 0.5, 0.25)
+
+  private def plan(file: Path) = TinyPlan(filename = file.toString)((_, _) => gray)
+
+  private def run(captured: Captured, loader: SceneLoader, args: String*): Int =
+    Main.run(args, captured.terminal, loader)
+
+  test("the scene's EXR and a PNG beside it are written, and one line says so"):
+    TempFolder.use: folder =>
+      val captured = Captured()
+      val code = run(captured, Known("s.pbrt" -> plan(folder.resolve("a.exr"))), "s.pbrt")
+      assert(code == 0)
+      assert(TempFolder.names(folder) == Set("a.exr", "a.png"))
+      val exr = ImageFiles.read(folder.resolve("a.exr"))
+      assert((exr.width, exr.height) == (40, 27))
+      assert((exr(39, 26, 0), exr(39, 26, 1), exr(39, 26, 2)) == (0.5f, 0.25f, 2f))
+      val start = s"wrote $folder/a.exr, $folder/a.png  40x27, 5 spp, "
+      assert(captured.out.startsWith(start))
+      assert(captured.out.endsWith(" rays/s\n"))
+      assert(captured.out.linesIterator.size == 1)
+      assert(captured.err == "s.pbrt:3:1: warning: planted\n")
+
+  test("with --outfile exactly those files are written"):
+    TempFolder.use: folder =>
+      val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
+      val code = run(Captured(), loader, "s.pbrt", "--outfile", s"$folder/b.png")
+      assert(code == 0)
+      assert(TempFolder.names(folder) == Set("b.png"))
+
+  test("the EXR says of what it is an image"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val _ = run(Captured(), Known("s.pbrt" -> plan(file)), "s.pbrt", "--seed", "7")
+      val bytes = String(Files.readAllBytes(file), "ISO-8859-1")
+      val wanted = Vector("software", s"Candela ${Version.current}", "scene", "s.pbrt", "dialect", "v3") ++
+        Vector("samplesPerPixel", "seed", "renderSeconds", "integrator", "formula")
+      for text <- wanted do assert(bytes.contains(text), text)
+
+  test("--quiet prints nothing when all is well"):
+    TempFolder.use: folder =>
+      val captured = Captured()
+      val code = run(captured, Known("s.pbrt" -> plan(folder.resolve("a.exr"))), "--quiet", "s.pbrt")
+      assert((code, captured.out, captured.err) == (0, "", ""))
+
+  test("--verbose adds the phases and what the scene is made of"):
+    TempFolder.use: folder =>
+      val captured = Captured()
+      val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
+      assert(run(captured, loader, "--verbose", "s.pbrt") == 0)
+      assert(captured.err.contains("parse 0.50 s, build 0.25 s, render "))
+      assert(captured.err.contains("  integrator  formula\n"))
+
+  test("a bad scene does not stop the others, but the exit code tells"):
+    TempFolder.use: folder =>
+      val captured = Captured()
+      val loader = Known("good.pbrt" -> plan(folder.resolve("a.exr")))
+      assert(run(captured, loader, "bad.pbrt", "good.pbrt") == 1)
+      assert(captured.err.startsWith("error: no bad.pbrt\n"))
+      assert(TempFolder.names(folder) == Set("a.exr", "a.png"))
+
+  test("two scenes do not overwrite each other's image"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val captured = Captured()
+      val loader = Known("one.pbrt" -> plan(file), "two.pbrt" -> plan(file))
+      assert(run(captured, loader, "one.pbrt", "two.pbrt") == 1)
+      assert(captured.err.contains("the image of `two.pbrt` would overwrite that of `one.pbrt`"))
+
+  test("where the image can't go, the scene is not even read"):
+    TempFolder.use: folder =>
+      val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
+      val captured = Captured()
+      assert(run(captured, loader, "s.pbrt", "--outfile", s"$folder/none/b.exr") == 1)
+      assert(captured.err.startsWith(s"error: can't write `$folder/none/b.exr`: there is no folder"))
+      assert(loader.loaded.isEmpty)
+
+  test("a rendering that fails leaves the image that was there, and no other file"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.exr"), "precious")
+      val failing = TinyPlan(filename = file.toString): (where, _) =>
+        if where.sample == 4 then throw IllegalStateException("planted") else gray
+      val captured = Captured()
+      assert(run(captured, Known("s.pbrt" -> failing), "s.pbrt") == 3)
+      assert(Files.readString(file) == "precious")
+      assert(TempFolder.names(folder) == Set("a.exr"))
+      assert(captured.err.contains("this is a bug in Candela: java.lang.IllegalStateException: planted"))
+      assert(captured.out.isEmpty)
+
+  test("samples that are no light are told"):
+    TempFolder.use: folder =>
+      val sick = TinyPlan(filename = folder.resolve("a.exr").toString): (where, _) =>
+        if where.x == 3 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else gray
+      val captured = Captured()
+      assert(run(captured, Known("s.pbrt" -> sick), "s.pbrt") == 0)
+      assert(captured.err.contains(
+        "warning: 27 samples left out for being infinite or no number, " +
+          "the first at pixel (3, 0), sample 2"
+      ))
+
+  /** Ctrl-C that comes when a certain sample is taken. */
+  private final class AtSample extends Interrupts:
+    private var current = Cancellation()
+    def press(): Unit = current.request()
+    def during[A](cancellation: Cancellation)(body: => A): A =
+      current = cancellation
+      body
+
+  test("an interrupted rendering is written as far as it is; other scenes are left"):
+    TempFolder.use: folder =>
+      val interrupts = AtSample()
+      val file = folder.resolve("a.exr")
+      val endless = TinyPlan(spp = 1_000_000, filename = file.toString): (where, _) =>
+        if where.sample == 8 then interrupts.press()
+        gray
+      val captured = Captured(interrupts = interrupts)
+      val loader = Known("s.pbrt" -> endless, "t.pbrt" -> plan(folder.resolve("t.exr")))
+      assert(run(captured, loader, "s.pbrt", "t.pbrt", "--nthreads", "1") == 130)
+      assert(captured.out == s"interrupted: wrote $folder/a.exr, $folder/a.png " +
+        "with 8 of 1000000 samples per pixel\n")
+      val image = ImageFiles.read(file)
+      assert((image(39, 26, 0), image(0, 0, 2)) == (0.5f, 2f))
+      assert(loader.loaded == Vector("s.pbrt"))

@@ -1,0 +1,37 @@
+package candela.render
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ScheduleSuite extends AnyFunSuite:
+  private val crop = PixelBounds(3, 5, 50, 41)
+
+  test("waves double what there is, up to 64 samples at a time"):
+    val schedule = Schedule(crop, 300)
+    val starts = (0 to schedule.waves).map(schedule.firstSample)
+    assert(starts == Vector(0, 1, 2, 4, 8, 16, 32, 64, 128, 192, 256, 300))
+
+  test("waves cover every sample once, for any count"):
+    for samples <- 1 to 140 do
+      val schedule = Schedule(crop, samples)
+      val covered = (0 until schedule.waves).flatMap: wave =>
+        schedule.firstSample(wave) until schedule.endSample(wave)
+      assert(covered == (0 until samples))
+
+  test("tiles cover every pixel of the crop once, and no other"):
+    val schedule = Schedule(crop, 1)
+    val covered =
+      for
+        i <- 0 until schedule.tiles
+        tile = schedule.tile(i)
+        y <- tile.y0 until tile.y1
+        x <- tile.x0 until tile.x1
+      yield (x, y)
+    val wanted = for y <- crop.y0 until crop.y1; x <- crop.x0 until crop.x1 yield (x, y)
+    assert(covered.size == wanted.size)
+    assert(covered.toSet == wanted.toSet)
+
+  test("an image smaller than a tile is one tile"):
+    val schedule = Schedule(PixelBounds(7, 7, 8, 9), 4)
+    assert(schedule.tiles == 1)
+    assert(schedule.tile(0) == PixelBounds(7, 7, 8, 9))
+    assert(schedule.steps == schedule.waves)

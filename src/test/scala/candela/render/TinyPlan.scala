@@ -1,0 +1,77 @@
+package candela.render
+
+import candela.cameras.Camera
+import candela.color.Rgb
+import candela.film.BoxFilter
+import candela.geometry.Ray
+import candela.integrators.Integrator
+import candela.math.Vec3
+import candela.sampling.Sampler
+
+/** Where an integrator of [[TinyPlan]] is asked for radiance. */
+final case class Where(x: Int, y: Int, sample: Int)
+
+/** Plans without a scene: the radiance is a formula. */
+object TinyPlan:
+
+  def apply(
+      width: Int = 40,
+      height: Int = 27,
+      spp: Int = 5,
+      crop: Option[PixelBounds] = None,
+      maxComponent: Float = Float.PositiveInfinity,
+      imageScale: Float = 1f,
+      filename: String = "pbrt.exr"
+  )(radiance: (Where, Sampler) => Rgb): RenderPlan =
+    val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
+    RenderPlan(
+      width,
+      height,
+      bounds,
+      FlatCamera,
+      BoxFilter(0.5f, 0.5f),
+      HashSampler(spp),
+      Formula(radiance),
+      maxComponent,
+      imageScale,
+      filename,
+      Vector("integrator" -> "formula")
+    )
+
+  /** Rays start at the place on the film. */
+  private object FlatCamera extends Camera:
+    def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
+      ray.set(Vec3(x, y, 0f), Vec3(0f, 0f, 1f), Float.PositiveInfinity)
+
+  private final class Formula(radiance: (Where, Sampler) => Rgb) extends Integrator:
+    private var rays = 0L
+    def raysTraced: Long = rays
+    def copy(): Formula = Formula(radiance)
+    def radiance(ray: Ray, sampler: Sampler): Rgb =
+      rays += 1
+      // A box filter of radius one half leaves samples in their pixel.
+      sampler match
+        case hash: HashSampler => radiance(Where(ray.ox.toInt, ray.oy.toInt, hash.sample), sampler)
+
+/** Independent samples that know their number. */
+final class HashSampler(val samplesPerPixel: Int) extends Sampler:
+  private var state = 0L
+  var sample = 0
+
+  def start(px: Int, py: Int, s: Int): Unit =
+    sample = s
+    state = (px * 7919L + py) * 104729L + s
+
+  def next1D(): Float =
+    // Steele, Lea, Flood, "Fast splittable pseudorandom number generators", OOPSLA 2014.
+    state += 0x9e3779b97f4a7c15L
+    var z = state
+    z = (z ^ (z >>> 30)) * 0xbf58476d1ce4e5b9L
+    z = (z ^ (z >>> 27)) * 0x94d049bb133111ebL
+    ((z ^ (z >>> 31)) >>> 40) * 0x1p-24f
+
+  def next2D(): Unit =
+    x = next1D()
+    y = next1D()
+
+  def copy(): HashSampler = HashSampler(samplesPerPixel)
