@@ -52,7 +52,8 @@ lazy val root = (project in file("."))
     Compile / run / javaOptions ++= jvmOptions :+ "-XX:MaxRAMPercentage=70",
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
-    // `sbt stage`: the same JVM options, in the script it writes
+    // `sbt stage`: the same JVM options, in the script it writes; nobody there reads an API
+    Compile / packageDoc / mappings := Nil,
     Universal / javaOptions ++= (jvmOptions :+ "-XX:MaxRAMPercentage=70").map("-J" + _),
 
     Test / fork := true,

@@ -108,7 +108,6 @@ JAVA
 
 with_java() { # SBT_OPTS may hold proxy settings; each option is a word of its own
   write_fetch_java "$work/Fetch.java"
-  # shellcheck disable=SC2086
   "$java" ${SBT_OPTS:-} "$work/Fetch.java" "$@"
 }
 
@@ -154,10 +153,10 @@ trap - EXIT INT TERM HUP
 
 # --- sbt ---------------------------------------------------------------------------------------
 
-# user.home: Java takes the home from the user database; sbt's caches shall follow HOME like ours.
-set -- -Duser.home="$home" -Dfile.encoding=UTF-8 -jar "$launcher" "$@"
-# Newer JDKs warn about what Scala's lazy values and sbt's terminal library do.
+set -- -jar "$launcher" "$@"
+# Java takes the home from the user database; sbt's caches shall follow HOME, like the launcher.
+set -- -Duser.home="$home" -Dfile.encoding=UTF-8 ${SBT_OPTS:-} "$@"
+# JDK 24 and later warn about what Scala's lazy values do.
 if [ "$major" -ge 23 ]; then set -- --sun-misc-unsafe-memory-access=allow "$@"; fi
-# shellcheck disable=SC2086
 exec "$java" -Xms256m -Xmx1g -Xss8m -XX:+UseParallelGC -XX:ReservedCodeCacheSize=256m \
-  --enable-native-access=ALL-UNNAMED ${SBT_OPTS:-} "$@"
+  --enable-native-access=ALL-UNNAMED "$@"

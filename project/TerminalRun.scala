@@ -1,6 +1,7 @@
 import java.io.File
 import java.lang.ProcessBuilder.Redirect
 
+import scala.annotation.tailrec
 import scala.util.{Failure, Success, Try}
 
 import sbt.{ForkOptions, ForkRun, Logger}
@@ -36,9 +37,15 @@ final class TerminalRun(options: ForkOptions) extends ForkRun(options) {
     if (code == 0) Success(()) else Failure(new MessageOnlyException(s"exit code $code"))
   }
 
-  /** Asks the program to end (it may be ending already), and waits until it has. */
+  /** Asks the program to end (it may be ending already), and waits until it has: it may have an
+    * unfinished image to write, so a second interrupt does not shorten the wait.
+    */
+  @tailrec
   private def end(child: Process): Int = {
     child.destroy()
-    child.waitFor()
+    val code =
+      try Some(child.waitFor())
+      catch { case _: InterruptedException => None }
+    if (code.isDefined) code.get else end(child)
   }
 }
