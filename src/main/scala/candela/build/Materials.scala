@@ -27,9 +27,9 @@ object Materials:
   )
 
   /** Of shapes that no material was given for, or one that is not supported. */
-  def default(dialect: Dialect): Material = Make.diffuse(candela.textures.ConstantRgb(Rgb.gray(0.5f)))
+  val default: Material = Make.diffuse(candela.textures.ConstantRgb(Rgb.gray(0.5f)))
 
-  def build(site: Site): Material = all.build(site).getOrElse(default(site.dialect))
+  def build(site: Site): Material = all.build(site).getOrElse(default)
 
   abstract class MaterialRecipe(name: String, dialects: Set[Dialect]) extends Recipe[Material](name, dialects):
     notYet("bumpmap", "the surface is smooth")

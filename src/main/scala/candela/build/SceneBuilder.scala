@@ -1,7 +1,6 @@
 package candela.build
 
 import candela.base.{Problem, SceneError, Severity}
-import candela.math.Transform
 import candela.render.{PixelBounds, RenderPlan}
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 

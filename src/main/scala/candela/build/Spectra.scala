@@ -4,7 +4,6 @@ import java.nio.file.Files
 
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
-import candela.math.*
 import candela.scenefile.{Dialect, Param, ParamType}
 
 /** What a spectrum stands for: it decides how it becomes a colour. */

@@ -26,7 +26,6 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
 
   /** Lights of mesh triangles can be made only when all triangles are known: (plan, first, count). */
   private val meshLights = ArrayBuffer.empty[(AreaLightPlan, Int, Int, Int)]
-  private var emissive = 0
 
   private def site(d: Declaration) = Site(d, description.dialect, resources, problems)
 
@@ -146,7 +145,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     materialOf.getOrElseUpdate(
       ref, {
         val made = ref match
-          case MaterialRef.Default => Materials.default(description.dialect)
+          case MaterialRef.Default => Materials.default
           case MaterialRef.Inline(d) => Materials.build(site(d))
           case MaterialRef.Named(name, at) =>
             named.get(name) match
