@@ -63,7 +63,7 @@ private[scenefile] final class ParserRun(
     attempt(in)(in.advance())
     while !isDone && !problems.isFull && in.current != Token.End do attempt(in)(statement(in, files))
 
-  /** Runs `body`; after an error the next directive becomes the current token. */
+  /** Runs `body`; after an error what looks like the next directive becomes the current token. */
   private def attempt(in: Tokenizer)(body: => Unit): Unit =
     try body
     catch
@@ -73,7 +73,7 @@ private[scenefile] final class ParserRun(
 
   private def skipToDirective(in: Tokenizer): Unit =
     val isThere = in.current == Token.Word && Directives.all.contains(in.text)
-    if !isThere then in.advanceToWord(Directives.all.contains)
+    if !isThere then in.advanceToName()
 
   private def statement(in: Tokenizer, files: List[Path]): Unit =
     val at = in.at

@@ -74,14 +74,16 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
             next += 1
           kind = Token.Word
 
-  /** Moves to the next word that `isWanted`, or the end; unreadable text on the way is passed over. */
-  def advanceToWord(isWanted: String => Boolean): Unit =
+  /** Passes the current token and all that follow, up to a bare word that begins like a directive's
+    * name. Unreadable text on the way is passed over.
+    */
+  def advanceToName(): Unit =
     var searching = true
     while searching do
       try
         advance()
-        val mayBe = kind == Token.Word && bytes(start) >= 'A' && bytes(start) <= 'Z'
-        searching = kind != Token.End && !(mayBe && isWanted(text))
+        val isName = kind == Token.Word && bytes(start) >= 'A' && bytes(start) <= 'Z'
+        searching = kind != Token.End && !isName
       catch case _: SceneError => ()
 
   /** Is the current token a number? If so, `number` has read it. */

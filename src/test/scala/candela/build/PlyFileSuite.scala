@@ -1,6 +1,7 @@
 package candela.build
 
-import java.io.{ByteArrayOutputStream, DataOutputStream}
+import java.io.ByteArrayOutputStream
+import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.Files
 import java.util.zip.GZIPOutputStream
 
@@ -29,17 +30,13 @@ class PlyFileSuite extends AnyFunSuite:
 
   private val corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n"
 
-  /** The same file in binary: every number of `rows` by the writer of its type. */
-  private def binary(head: String, isBig: Boolean)(write: DataOutputStream => Unit): Array[Byte] =
-    val body = ByteArrayOutputStream()
-    val out = if isBig then DataOutputStream(body) else LittleEndian(body)
-    write(out)
-    head.getBytes("ISO-8859-1") ++ body.toByteArray
+  /** A header and the bytes that `write` puts in. */
+  private def binary(head: String, order: ByteOrder)(write: ByteBuffer => Unit): Array[Byte] =
+    val body = ByteBuffer.allocate(1000).order(order)
+    write(body)
+    head.getBytes("ISO-8859-1") ++ body.array.take(body.position)
 
-  /** Turns each number around as it is written whole. */
-  private final class LittleEndian(body: ByteArrayOutputStream) extends DataOutputStream(body):
-    override def write(b: Array[Byte], offset: Int, length: Int): Unit =
-      super.write(b.slice(offset, offset + length).reverse, 0, length)
+  private def big(head: String)(write: ByteBuffer => Unit) = binary(head, ByteOrder.BIG_ENDIAN)(write)
 
   test("a quad is the triangles 0 1 2 and 3 0 2, a pentagon a fan"):
     val quad = mesh(header("ascii", 4, 1) + corners + "4 0 1 2 3\n")
@@ -82,23 +79,15 @@ class PlyFileSuite extends AnyFunSuite:
       |end_header
       |""".stripMargin
 
-  private def writeRich(out: DataOutputStream): Unit =
-    out.writeDouble(60)
-    out.writeByte(2)
-    out.writeDouble(1)
-    out.writeDouble(2)
+  private def writeRich(out: ByteBuffer): Unit =
+    out.putDouble(60).put(2.toByte).putDouble(1).putDouble(2)
     for i <- 0 until 3 do
-      out.writeDouble(i + 0.25)
-      out.writeShort(-i)
-      out.writeShort(i)
-      for k <- 0 until i do out.writeByte(-k)
-      for value <- List(2f, 0f, 0f, 1f, i * 0.5f, i * 0.25f) do out.writeFloat(value)
-      out.writeByte(255)
-    out.writeInt(7)
-    out.writeShort(3)
-    for corner <- List(2, 1, 0) do out.writeInt(corner)
-    out.writeFloat(0.5f)
-    for end <- List(0, 1) do out.writeInt(end)
+      out.putDouble(i + 0.25).putShort((-i).toShort).putShort(i.toShort)
+      for k <- 0 until i do out.put((-k).toByte)
+      for value <- List(2f, 0f, 0f, 1f, i * 0.5f, i * 0.25f) do out.putFloat(value)
+      out.put(255.toByte)
+    out.putInt(7).putShort(3).putInt(2).putInt(1).putInt(0).putFloat(0.5f).putInt(0).putInt(1)
+    ()
 
   private def checkRich(m: PlyMesh): Unit =
     assert(m.positions.toVector == Vector(0.25f, 0f, 2f, 1.25f, -1f, 2f, 2.25f, -2f, 2f))
@@ -108,10 +97,9 @@ class PlyFileSuite extends AnyFunSuite:
     ()
 
   test("both byte orders are read, and other elements, properties and lists passed over"):
-    val big = binary(s"ply\nformat binary_big_endian 1.0\n$rich", isBig = true)(writeRich)
-    checkRich(mesh(big))
-    val little = binary(s"ply\nformat binary_little_endian 1.0\n$rich", isBig = false)(writeRich)
-    checkRich(mesh(little))
+    checkRich(mesh(big(s"ply\nformat binary_big_endian 1.0\n$rich")(writeRich)))
+    val little = s"ply\nformat binary_little_endian 1.0\n$rich"
+    checkRich(mesh(binary(little, ByteOrder.LITTLE_ENDIAN)(writeRich)))
 
   test("the same in ASCII"):
     checkRich(
@@ -179,10 +167,10 @@ class PlyFileSuite extends AnyFunSuite:
     assert(error(huge).contains("line 14: `z` of vertex 3 is Infinity"))
     assert(error(header("ascii", 4, 1) + corners.replace("0.5", "nan")).contains("here is no number"))
     val head = "ply\nformat binary_big_endian 1.0\n" + rich
-    val bytes = binary(head, isBig = true)(writeRich)
-    val nan = binary("", isBig = true)(_.writeFloat(Float.NaN))
-    val z = binary("", isBig = true)(_.writeFloat(2f))
-    val normal = binary("", isBig = true)(_.writeFloat(1f))
+    val bytes = big(head)(writeRich)
+    val nan = big("")(b => { val _ = b.putFloat(Float.NaN) })
+    val z = big("")(b => { val _ = b.putFloat(2f) })
+    val normal = big("")(b => { val _ = b.putFloat(1f) })
     val body = head.length + 25
     val firstZ = bytes.indexOfSlice(z, body)
     val message = intercept[SceneError](mesh(bytes.patch(firstZ, nan, 4))).problems.head.message
@@ -192,7 +180,7 @@ class PlyFileSuite extends AnyFunSuite:
 
   test("a file that was cut anywhere is an error, never another mesh"):
     val ascii = (header("ascii", 4, 1) + corners + "4 0 1 2 3").getBytes("ISO-8859-1")
-    val bytes = binary(s"ply\nformat binary_little_endian 1.0\n$rich", isBig = false)(writeRich)
+    val bytes = big(s"ply\nformat binary_big_endian 1.0\n$rich")(writeRich)
     for whole <- List(ascii, bytes); length <- 0 until whole.length do
       intercept[SceneError](mesh(whole.take(length)))
 
@@ -202,5 +190,16 @@ class PlyFileSuite extends AnyFunSuite:
       val body = if format == "ascii" then corners + "3 0 1 2\n" else "x" * 61
       assert(error(header(format, v, f) + body).contains("the file is too short for its 2000000000"))
     val list = header("binary_big_endian", 1, 1).replace("uchar int", "int int")
-    assert(error(list + "\u0000" * 12 + "\u0040zzzzzzz").contains("the file ends too early"))
+    assert(error(list + "\u0000" * 12 + "\u0040" + "\u0000" * 11).contains("the file ends too early"))
     assert(error(list + "\u0000" * 12 + "\u00ff\u00ff\u00ff\u00fezzzz").contains("can't have -2 values"))
+
+  test("whatever byte of a file is changed, the answer is a sound mesh or a SceneError"):
+    val ascii = (header("ascii", 4, 1) + corners + "4 0 1 2 3").getBytes("ISO-8859-1")
+    val bytes = big(s"ply\nformat binary_big_endian 1.0\n$rich")(writeRich)
+    val random = scala.util.Random(1)
+    for whole <- List(ascii, bytes); i <- whole.indices do
+      try
+        val m = mesh(whole.updated(i, random.nextInt(256).toByte))
+        assert(m.indices.forall(v => v >= 0 && v * 3 < m.positions.length))
+        assert(m.positions.forall(java.lang.Float.isFinite))
+      catch case e: SceneError => assert(e.problems.nonEmpty)

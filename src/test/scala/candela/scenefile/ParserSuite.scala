@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 
 import candela.base.SceneError
 import candela.math.{Transform, Vec3}
@@ -231,65 +231,3 @@ class ParserSuite extends AnyFunSuite:
   test("statements after WorldEnd are ignored with a warning"):
     val scene = parse("WorldBegin Shape \"a\" WorldEnd WorldBegin Shape \"b\" WorldEnd")
     assert(scene.shapes.size == 1 && scene.warnings.size == 1)
-
-  test("each independent error is reported, up to 20"):
-    val text = "WorldBegin Tranlate 1 1 1\nShape 3\nRotate 1 2\nShape \"a\" \"flot x\" 1\nWorldEnd"
-    assert(errors(text).size == 4)
-    val many = errors("WorldBegin" + " Shape 3" * 50)
-    assert(many.size == 21 && many.last == "reading stopped after 20 errors")
-
-  test("a typing error in a Begin makes no second error of its End"):
-    assert(errors("WorldBegin\nAttributBegin\nShape \"a\"\nAttributeEnd\nWorldEnd").size == 1)
-
-  private def withFolder[A](files: (String, String)*)(use: Path => A): A =
-    val folder = Files.createTempDirectory("scene")
-    try
-      for (name, text) <- files do
-        Files.createDirectories(folder.resolve(name).getParent)
-        Files.writeString(folder.resolve(name), text)
-      use(folder)
-    finally
-      val all = Files.walk(folder)
-      try all.sorted(java.util.Comparator.reverseOrder()).forEach(Files.delete(_))
-      finally all.close()
-
-  test("included files are found from the scene's folder first, then from the including file's"):
-    withFolder(
-      "main.pbrt" -> "WorldBegin\n  Include \"parts/a.pbrt\"\nWorldEnd",
-      "parts/a.pbrt" -> "Include \"b.pbrt\" Include \"parts/c.pbrt\"",
-      "parts/b.pbrt" -> "Shape \"wrong\"",
-      "b.pbrt" -> "\nShape \"b\"",
-      "parts/c.pbrt" -> "Include \"d.pbrt\"",
-      "parts/d.pbrt" -> "Shape \"d\" \"string filename\" \"e.ply\""
-    ): folder =>
-      val scene = Parser.parse(folder.resolve("main.pbrt"))
-      assert(scene.shapes.map(_.shape.name) == Vector("b", "d"))
-      assert(scene.shapes.forall(_.shape.folder == folder))
-      val at = scene.shapes.head.shape.at
-      assert(at.file.endsWith("b.pbrt") && at.line == 2 && at.column == 7)
-      assert(at.includedFrom.get.file.endsWith("a.pbrt"))
-      assert(at.includedFrom.get.includedFrom.get.toString.endsWith("main.pbrt:2:3"))
-
-  test("an included file shares the graphics state; an imported one gives its back"):
-    withFolder("a.pbrt" -> "Translate 1 0 0 Shape \"in\""): folder =>
-      def start(directive: String) =
-        val text = s"WorldBegin $directive \"a.pbrt\" Shape \"out\""
-        Parser.parseText("test", text, folder).shapes.map(_.objectToWorld.start)
-      assert(start("Include") == Vector.fill(2)(Transform.translate(1, 0, 0)))
-      assert(start("Import") == Vector(Transform.translate(1, 0, 0), Transform.Identity))
-
-  test("files that include one another are an error that names them"):
-    withFolder(
-      "main.pbrt" -> "WorldBegin Include \"a.pbrt\"",
-      "a.pbrt" -> "Include \"b.pbrt\"",
-      "b.pbrt" -> "Include \"a.pbrt\""
-    ): folder =>
-      val error = intercept[SceneError](Parser.parse(folder.resolve("main.pbrt"))).problems.head
-      assert(error.message.startsWith("`a.pbrt` includes itself, through `"))
-      assert(error.message.endsWith("b.pbrt`"))
-      assert(error.at.get.file.endsWith("b.pbrt"))
-
-  test("a scene file that is not there, or is a folder, is an error without a place"):
-    for path <- List("no/such.pbrt", "src") do
-      val problem = intercept[SceneError](Parser.parse(Path.of(path))).problems.head
-      assert(problem.at.isEmpty && problem.message.startsWith(s"can't read the scene file `$path`"))

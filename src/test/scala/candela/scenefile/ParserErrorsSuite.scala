@@ -1,0 +1,38 @@
+package candela.scenefile
+
+import java.nio.file.Path
+
+import candela.base.SceneError
+import org.scalatest.funsuite.AnyFunSuite
+
+class ParserErrorsSuite extends AnyFunSuite:
+
+  private def parse(text: String): SceneDescription =
+    Parser.parseText("test.pbrt", text, Path.of("folder"))
+
+  private def errors(text: String): Vector[String] =
+    intercept[SceneError](parse(text)).problems.map(_.message)
+
+  test("each independent error is reported, up to 20"):
+    val text = "WorldBegin Tranlate 1 1 1\nShape 3\nRotate 1 2\nShape \"a\" \"flot x\" 1\nWorldEnd"
+    assert(errors(text).size == 4)
+    val many = errors("WorldBegin" + " Shape 3" * 50)
+    assert(many.size == 21 && many.last == "reading stopped after 20 errors")
+
+  test("a typing error in a Begin makes no second error of its End"):
+    assert(errors("WorldBegin\nAttributBegin\nShape \"a\"\nAttributeEnd\nWorldEnd").size == 1)
+
+  test("whatever is cut out of a scene, or put into it, gives a scene or a SceneError"):
+    val text = """LookAt 0 0 5  0 0 0  0 1 0 # é
+                 |Camera "perspective" "float fov" [ 45 ] "bool b" true
+                 |WorldBegin AttributeBegin Texture "t" "float" "scale" "texture tex1" "u"
+                 |Transform [ 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 ] Shape "a" "integer i" [ 1 2 3 ]
+                 |AttributeEnd ObjectBegin "o" ObjectEnd WorldEnd""".stripMargin
+    val pieces = Vector("\"", "[", "]", "#", "\\", "\n", " ", "-", "1e", "\u0000", "é", "Shape ", "\"a\"")
+    val random = scala.util.Random(1)
+    for _ <- 0 until 5000 do
+      val from = random.nextInt(text.length)
+      val until = (from + random.nextInt(8)).min(text.length)
+      val broken = text.patch(from, pieces(random.nextInt(pieces.size)), until - from)
+      try assert(parse(broken).camera.forall(_.name != "no such name"))
+      catch case e: SceneError => assert(e.problems.nonEmpty)
