@@ -22,9 +22,9 @@ object CommandLine:
       case _ => false
     options match
       case Some(understood) if !asked => Right(understood)
-      case _ =>
-        val code = if asked then ExitCode.Done else ExitCode.BadUsage
-        Left(Answer(lines(out), lines(errors), code))
+      // Who asks for help need not have everything else right.
+      case _ if asked => Left(Answer(lines(out), "", ExitCode.Done))
+      case _ => Left(Answer(lines(out), lines(errors), ExitCode.BadUsage))
 
   private val setup: OParserSetup = new DefaultOParserSetup {}
 

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Problem, SceneError, Severity}
 import candela.image.ImageFiles
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -32,7 +32,7 @@ object OutputFiles:
     else
       val exr = withExtension(named, "exr")
       val message = s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
-      val warning = Problem.general(message).copy(severity = candela.base.Severity.Warning)
+      val warning = Problem(Severity.Warning, None, message)
       OutputFiles(Vector(exr, withExtension(exr, "png")), Vector(warning))
 
   private def path(name: String): Path =

