@@ -11,7 +11,8 @@ object CommandLine:
   final case class Answer(out: String, err: String, code: ExitCode)
 
   def parse(args: Seq[String]): Either[Answer, Options] =
-    val (options, effects) = OParser.runParser(OptionTable.table, withCommand(args), Options(), setup)
+    val (options, effects) =
+      OParser.runParser(OptionTable.table, withCommand(args), Options(), setup)
     val out = effects.collect { case OEffect.DisplayToOut(text) => text }
     val errors = effects.collect:
       case OEffect.ReportError(text) => s"error: ${explained(text, args)}"

@@ -22,16 +22,18 @@ object OutputFiles:
   def asked(names: Vector[String]): OutputFiles =
     OutputFiles(names.map(path).distinct, Vector.empty)
 
-  /** As the scene's Film says, relative to the current folder. High dynamic range gets a PNG beside it,
-    * to look at. What Candela does not write (pbrt does .tga and .pfm) becomes an EXR.
+  /** As the scene's Film says, relative to the current folder. An EXR gets a PNG beside it, to look
+    * at. What Candela does not write (pbrt does .tga and .pfm) becomes an EXR.
     */
   def ofFilm(filename: String): OutputFiles =
     val named = path(filename)
-    if extension(named) == "exr" then OutputFiles(Vector(named, withExtension(named, "png")), Vector())
+    if extension(named) == "exr" then
+      OutputFiles(Vector(named, withExtension(named, "png")), Vector.empty)
     else if ImageFiles.isWritable(named) then OutputFiles(Vector(named), Vector.empty)
     else
       val exr = withExtension(named, "exr")
-      val message = s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
+      val message =
+        s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
       val warning = Problem(Severity.Warning, None, message)
       OutputFiles(Vector(exr, withExtension(exr, "png")), Vector(warning))
 
