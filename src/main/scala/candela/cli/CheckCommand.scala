@@ -1,6 +1,6 @@
 package candela.cli
 
-/** `candela check`: parses and builds scenes, and says what they hold and what is wrong with them. */
+/** `candela check`: parses and builds scenes, says what they hold and what is wrong with them. */
 final class CheckCommand(
     options: Options,
     terminal: Terminal,

@@ -11,7 +11,8 @@ object CommandLine:
   final case class Answer(out: String, err: String, code: ExitCode)
 
   def parse(args: Seq[String]): Either[Answer, Options] =
-    val (options, effects) = OParser.runParser(OptionTable.table, withCommand(args), Options(), setup)
+    val (options, effects) =
+      OParser.runParser(OptionTable.table, withCommand(args), Options(), setup)
     val out = effects.collect { case OEffect.DisplayToOut(text) => text }
     val errors = effects.collect:
       case OEffect.ReportError(text) => s"error: ${explained(text, args)}"
@@ -22,9 +23,9 @@ object CommandLine:
       case _ => false
     options match
       case Some(understood) if !asked => Right(understood)
-      case _ =>
-        val code = if asked then ExitCode.Done else ExitCode.BadUsage
-        Left(Answer(lines(out), lines(errors), code))
+      // Who asks for help need not have everything else right.
+      case _ if asked => Left(Answer(lines(out), "", ExitCode.Done))
+      case _ => Left(Answer(lines(out), lines(errors), ExitCode.BadUsage))
 
   private val setup: OParserSetup = new DefaultOParserSetup {}
 

@@ -29,12 +29,14 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
 
   private def lines(m: Metrics): Vector[String] =
     val ratios = m.channels.zip(m.meanRatio).map((c, r) => s"$c ${Figures.fixed(r, 4)}")
+    val psnr = if m.psnr.isInfinite then "infinite" else s"${Figures.fixed(m.psnr, 2)} dB"
+    val difference = Figures.scientific(m.largest.value)
     val most = m.largest
     Vector(
       s"MSE           ${Figures.scientific(m.mse)}",
       s"relative MSE  ${Figures.scientific(m.relativeMse)}",
-      s"PSNR          ${if m.psnr.isInfinite then "infinite" else s"${Figures.fixed(m.psnr, 2)} dB"}",
+      s"PSNR          $psnr",
       s"mean ratio    ${ratios.mkString("  ")}",
-      s"largest       ${Figures.scientific(most.value)} in ${most.channel} at (${most.x}, ${most.y})"
+      s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
     ) ++ Option.when(m.skipped > 0):
       s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"

@@ -24,7 +24,8 @@ object Interrupts:
   def fromSignals(err: PrintStream): Interrupts = Signals(err)
 
   /** The first SIGINT cancels, the second quits at once. Another request to end (SIGTERM: a batch
-    * system, or sbt that passes a Ctrl-C on) cancels too, and waits until `body` has written its image.
+    * system, or sbt that passes a Ctrl-C on) cancels too, and waits until `body` has written its
+    * image.
     */
   private final class Signals(err: PrintStream) extends Interrupts:
     private val interrupt = Signal("INT")

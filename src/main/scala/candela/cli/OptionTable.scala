@@ -115,7 +115,8 @@ private[cli] object OptionTable:
     note("""
       |Without --outfile the image goes where the scene's Film says; an .exr also as a .png.
       |Ctrl-C writes the image as far as it is; a second one quits at once.
-      |Exit codes: 0 done, 1 bad input, 2 bad usage, 3 a bug in Candela, 130 Ctrl-C.""".stripMargin),
+      |Exit codes: 0 done, 1 bad input, 2 bad usage, 3 a bug in Candela, 130 Ctrl-C.
+      |""".stripMargin.stripTrailing),
     checkConfig: o =>
       if o.outfiles.nonEmpty && o.files.size > 1 then
         failure("--outfile names one image, but there are several scenes")

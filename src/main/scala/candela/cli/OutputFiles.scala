@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError}
+import candela.base.{Problem, SceneError, Severity}
 import candela.image.ImageFiles
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -22,17 +22,19 @@ object OutputFiles:
   def asked(names: Vector[String]): OutputFiles =
     OutputFiles(names.map(path).distinct, Vector.empty)
 
-  /** As the scene's Film says, relative to the current folder. High dynamic range gets a PNG beside it,
-    * to look at. What Candela does not write (pbrt does .tga and .pfm) becomes an EXR.
+  /** As the scene's Film says, relative to the current folder. An EXR gets a PNG beside it, to look
+    * at. What Candela does not write (pbrt does .tga and .pfm) becomes an EXR.
     */
   def ofFilm(filename: String): OutputFiles =
     val named = path(filename)
-    if extension(named) == "exr" then OutputFiles(Vector(named, withExtension(named, "png")), Vector())
+    if extension(named) == "exr" then
+      OutputFiles(Vector(named, withExtension(named, "png")), Vector.empty)
     else if ImageFiles.isWritable(named) then OutputFiles(Vector(named), Vector.empty)
     else
       val exr = withExtension(named, "exr")
-      val message = s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
-      val warning = Problem.general(message).copy(severity = candela.base.Severity.Warning)
+      val message =
+        s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
+      val warning = Problem(Severity.Warning, None, message)
       OutputFiles(Vector(exr, withExtension(exr, "png")), Vector(warning))
 
   private def path(name: String): Path =

@@ -4,10 +4,10 @@ import candela.render.Progress
 
 import java.io.PrintStream
 
-/** Shows how far a rendering is: on a terminal one line that is redrawn; elsewhere, in logs, a line now
-  * and then.
+/** Shows how far a rendering is: on a terminal one line that is redrawn; elsewhere, in logs, a line
+  * now and then.
   *
-  * Of our own, since the bars of libraries know only terminals: a log gets no carriage returns here.
+  * Not a library's bar, since those know only terminals: a log gets no carriage returns here.
   */
 final class ProgressLine(err: PrintStream, isInteractive: Boolean):
   import ProgressLine.*

@@ -54,8 +54,9 @@ final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
 
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
+    val message = s"the ${limit}B of memory that Java may take are not enough"
     val help = "let Java take more, e.g. with the environment variable JAVA_TOOL_OPTIONS=-Xmx8g"
-    errors(Vector(Problem.general(s"the ${limit}B of memory that Java may take are not enough", Some(help))))
+    errors(Vector(Problem.general(message, Some(help))))
 
   private def bug(e: Throwable): ExitCode =
     val (place, cause) = e match

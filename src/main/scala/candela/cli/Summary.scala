@@ -7,8 +7,8 @@ import java.nio.file.Path
 /** The lines at the end of a rendering. */
 object Summary:
 
-  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; or what there is of
-    * an interrupted one.
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; or what there
+    * is of an interrupted one.
     */
   def result(written: Vector[Path], r: Rendering): String =
     val names = written.mkString(", ")
@@ -16,7 +16,9 @@ object Summary:
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       s"wrote $names  $size, ${r.samplesDone} spp, ${Figures.duration(r.seconds)}, $rates"
-    else s"interrupted: wrote $names with ${r.samplesDone} of ${r.samplesPerPixel} samples per pixel"
+    else
+      val samples = s"${r.samplesDone} of ${r.samplesPerPixel} samples per pixel"
+      s"interrupted: wrote $names with $samples"
 
   def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
     Vector(

@@ -14,8 +14,8 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
 /** A scene made ready to render: just the objects that it needs, each the plainest that is right.
   *
   * @param width        of the full image in pixels, of which `crop` is rendered
-  * @param maxComponent larger radiance samples are scaled down to this (pbrt's `maxcomponentvalue`);
-  *                     infinity: never
+  * @param maxComponent radiance samples are scaled down to this (pbrt's `maxcomponentvalue`); if
+  *                     infinity, never
   * @param features     what the plan holds and what it left out, for people: (what, value)
   */
 final class RenderPlan(

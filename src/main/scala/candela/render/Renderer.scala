@@ -5,8 +5,8 @@ import candela.film.{Film, FilterSampler}
 /** Turns a plan into an image. */
 object Renderer:
 
-  /** Renders with `threads` workers. The image depends on the plan alone, bit for bit: a pixel is in one
-    * tile, whose samples are added in the order of their numbers, whoever does it.
+  /** Renders with `threads` workers. The image depends on the plan alone, bit for bit: a pixel is
+    * in one tile, whose samples are added in the order of their numbers, whoever does it.
     *
     * @param onProgress called about ten times a second, and at the end, in the caller's thread
     * @throws RenderFailure if a sample fails; all workers then stop

@@ -2,8 +2,8 @@ package candela.render
 
 /** In which order an image is rendered: waves of samples, each over all tiles, row by row.
   *
-  * The waves grow (1, 1, 2, 4, … 64 samples per pixel), so that an image which is cut short is noisy
-  * evenly, while a long rendering rarely comes back to a tile.
+  * The waves grow (1, 1, 2, 4, … 64 samples per pixel), so that an image which is cut short is
+  * noisy evenly, while a long rendering rarely comes back to a tile.
   */
 private[render] final class Schedule(crop: PixelBounds, samplesPerPixel: Int):
   import Schedule.*

@@ -3,7 +3,7 @@ package candela.render
 import java.util.concurrent.atomic.{AtomicIntegerArray, AtomicLong, AtomicReference, LongAdder}
 import java.util.concurrent.locks.LockSupport
 
-/** What the workers of one rendering share: who does which step, what is done, and whether to stop. */
+/** What the workers of one rendering share: who does what, what is done, and whether to stop. */
 private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
   private val finishedWaves = AtomicIntegerArray(schedule.tiles)
@@ -24,8 +24,9 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
 
   /** Waits until the earlier waves of a tile are finished; false if they won't be.
     *
-    * Another worker may still be at them. There is no deadlock, since steps are taken in order: whoever
-    * waits, waits for an earlier step. This is also what makes that worker's sums visible to this one.
+    * Another worker may still be at them. There is no deadlock, since steps are taken in order:
+    * whoever waits, waits for an earlier step. This is also what makes that worker's sums visible
+    * to this one.
     */
   def awaitTurn(tile: Int, wave: Int): Boolean =
     while finishedWaves.get(tile) < wave && !isStopped do LockSupport.parkNanos(Board.Pause)
@@ -48,8 +49,8 @@ private[render] object Workers:
   /** Milliseconds between two reports of progress. */
   private val Tick = 100L
 
-  /** Runs each worker in a thread of its own. What one throws stops the others (through the board) and
-    * is thrown here; `onTick` runs about ten times a second in the caller's thread.
+  /** Runs each worker in a thread of its own. What one throws stops the others (through the board)
+    * and is thrown here; `onTick` runs about ten times a second in the caller's thread.
     */
   def run(workers: Vector[Runnable], board: Board)(onTick: () => Unit): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>

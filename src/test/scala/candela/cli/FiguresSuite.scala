@@ -5,7 +5,8 @@ import org.scalatest.funsuite.AnyFunSuite
 class FiguresSuite extends AnyFunSuite:
 
   test("metric numbers have three digits and a prefix"):
-    assert(Vector(0.0, 950.4, 1310.0, 12_000.0, 1_314_000.0, 5.2e6, 999e6, 2.5e9).map(Figures.metric) ==
+    val numbers = Vector(0.0, 950.4, 1310.0, 12_000.0, 1_314_000.0, 5.2e6, 999e6, 2.5e9)
+    assert(numbers.map(Figures.metric) ==
       Vector("0", "950", "1.31 k", "12.0 k", "1.31 M", "5.20 M", "999 M", "2.50 G"))
 
   test("durations become coarser as they grow"):

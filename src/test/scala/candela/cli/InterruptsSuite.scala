@@ -31,6 +31,7 @@ class InterruptsSuite extends AnyFunSuite:
     assert(!cancellation.isRequested)
 
   test("what fails meanwhile is passed on"):
+    val interrupts = Interrupts.fromSignals(System.err)
     val failure = intercept[IllegalStateException]:
-      Interrupts.fromSignals(System.err).during(Cancellation())(throw IllegalStateException("planted"))
+      interrupts.during(Cancellation())(throw IllegalStateException("planted"))
     assert(failure.getMessage == "planted")

@@ -20,7 +20,8 @@ class MainSuite extends AnyFunSuite:
   test("bad usage prints to standard error and exits with 2"):
     val (code, captured) = run("--spq", "4", "a.pbrt")
     assert(code == 2)
-    assert(captured.err.startsWith("error: `candela render` has no option `--spq`; did you mean `--spp`?"))
+    val message = "error: `candela render` has no option `--spq`; did you mean `--spp`?\n"
+    assert(captured.err.startsWith(message))
     assert(captured.out.isEmpty)
 
   test("a missing scene exits with 1 and offers the nearest one"):
@@ -29,8 +30,10 @@ class MainSuite extends AnyFunSuite:
       for command <- Vector("render", "check") do
         val (code, captured) = run(command, s"$folder/buny.pbrt")
         assert(code == 1)
-        assert(captured.err ==
-          s"error: there is no scene file `$folder/buny.pbrt`\n did you mean `$folder/bunny.pbrt`?\n")
+        assert(captured.err.linesIterator.toVector == Vector(
+          s"error: there is no scene file `$folder/buny.pbrt`",
+          s" did you mean `$folder/bunny.pbrt`?"
+        ))
 
   test("a folder in place of a scene exits with 1 and names the scenes in it"):
     TempFolder.use: folder =>
@@ -38,7 +41,8 @@ class MainSuite extends AnyFunSuite:
         val _ = Files.createFile(folder.resolve(name))
       val (code, captured) = run(folder.toString)
       assert(code == 1)
-      assert(captured.err == s"error: `$folder` is a folder\n name a scene file in it: a.pbrt, b.pbrt\n")
+      assert(captured.err.linesIterator.toVector ==
+        Vector(s"error: `$folder` is a folder", " name a scene file in it: a.pbrt, b.pbrt"))
 
   test("a mistake in a scene exits with 1 and is shown in its place"):
     TempFolder.use: folder =>

@@ -18,11 +18,13 @@ class OutputFilesSuite extends AnyFunSuite:
     assert(names(OutputFiles.ofFilm("a.png")) == Vector("a.png"))
 
   test("formats that are not written become EXR and PNG, with a warning"):
-    for (film, stem) <- Vector("a.tga" -> "a", "a.pfm" -> "a", "a" -> "a", ".hidden" -> ".hidden") do
+    val films = Vector("a.tga" -> "a", "a.pfm" -> "a", "a" -> "a", ".hidden" -> ".hidden")
+    for (film, stem) <- films do
       val files = OutputFiles.ofFilm(film)
       assert(names(files) == Vector(s"$stem.exr", s"$stem.png"))
-      assert(files.warnings.map(_.message) ==
-        Vector(s"the scene's image `$film` is neither .exr nor .png; it is written as `$stem.exr`"))
+      val warning = s"the scene's image `$film` is neither .exr nor .png; " +
+        s"it is written as `$stem.exr`"
+      assert(files.warnings.map(_.message) == Vector(warning))
 
   test("what is asked for is taken as it is, each once"):
     val files = OutputFiles.asked(Vector("a.exr", "b.png", "a.exr"))
@@ -40,7 +42,8 @@ class OutputFilesSuite extends AnyFunSuite:
   test("a folder that is not there is noticed before rendering"):
     TempFolder.use: folder =>
       val path = folder.resolve("none/a.exr")
-      assert(problems(path) == Vector(s"can't write `$path`: there is no folder `${path.getParent}`"))
+      val parent = path.getParent
+      assert(problems(path) == Vector(s"can't write `$path`: there is no folder `$parent`"))
 
   test("a format that is not written is noticed before rendering"):
     TempFolder.use: folder =>

@@ -37,7 +37,9 @@ class ProgressLineSuite extends AnyFunSuite:
     assert(percents == Vector("10%", "20%", "30%", "40%", "50%", "60%", "70%", "80%", "90%"))
 
   test("a log gets nothing about a rendering of seconds"):
-    assert(shown(isInteractive = false)(l => (0 to 100).foreach(i => l.update(Progress(i, 100, i * 0.05)))) == "")
+    val text = shown(isInteractive = false): line =>
+      for i <- 0 to 100 do line.update(Progress(i, 100, i * 0.05))
+    assert(text == "")
 
   test("a terminal is redrawn at most ten times a second"):
     val text = shown(isInteractive = true): line =>

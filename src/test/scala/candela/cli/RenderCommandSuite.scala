@@ -55,14 +55,16 @@ class RenderCommandSuite extends AnyFunSuite:
       val file = folder.resolve("a.exr")
       val _ = run(Captured(), Known("s.pbrt" -> plan(file)), "s.pbrt", "--seed", "7")
       val bytes = String(Files.readAllBytes(file), "ISO-8859-1")
-      val wanted = Vector("software", s"Candela ${Version.current}", "scene", "s.pbrt", "dialect", "v3") ++
-        Vector("samplesPerPixel", "seed", "renderSeconds", "integrator", "formula")
+      val wanted =
+        Vector("software", s"Candela ${Version.current}", "scene", "s.pbrt", "dialect", "v3") ++
+          Vector("samplesPerPixel", "seed", "renderSeconds", "integrator", "formula")
       for text <- wanted do assert(bytes.contains(text), text)
 
   test("--quiet prints nothing when all is well"):
     TempFolder.use: folder =>
       val captured = Captured()
-      val code = run(captured, Known("s.pbrt" -> plan(folder.resolve("a.exr"))), "--quiet", "s.pbrt")
+      val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
+      val code = run(captured, loader, "--quiet", "s.pbrt")
       assert((code, captured.out, captured.err) == (0, "", ""))
 
   test("--verbose adds the phases and what the scene is made of"):
@@ -94,7 +96,8 @@ class RenderCommandSuite extends AnyFunSuite:
       val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
       val captured = Captured()
       assert(run(captured, loader, "s.pbrt", "--outfile", s"$folder/none/b.exr") == 1)
-      assert(captured.err.startsWith(s"error: can't write `$folder/none/b.exr`: there is no folder"))
+      val message = s"error: can't write `$folder/none/b.exr`: there is no folder"
+      assert(captured.err.startsWith(message))
       assert(loader.loaded.isEmpty)
 
   test("a rendering that fails leaves the image that was there, and no other file"):
@@ -106,7 +109,8 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(run(captured, Known("s.pbrt" -> failing), "s.pbrt") == 3)
       assert(Files.readString(file) == "precious")
       assert(TempFolder.names(folder) == Set("a.exr"))
-      assert(captured.err.contains("this is a bug in Candela: java.lang.IllegalStateException: planted"))
+      val message = "error: this is a bug in Candela: java.lang.IllegalStateException: planted"
+      assert(captured.err.contains(message))
       assert(captured.out.isEmpty)
 
   test("samples that are no light are told"):

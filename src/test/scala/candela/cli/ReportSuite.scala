@@ -20,7 +20,8 @@ class ReportSuite extends AnyFunSuite:
   test("problems come by place, each once, and are counted"):
     val b = Problem.error(at(10), "b")
     val a = Problem.error(at(2, 5), "a")
-    val text = report()(r => assert(r.guarded(throw SceneError(Vector(b, a, b))) == ExitCode.BadInput))
+    val text = report(): r =>
+      assert(r.guarded(throw SceneError(Vector(b, a, b))) == ExitCode.BadInput)
     assert(text.linesIterator.toVector ==
       Vector("a.pbrt:2:5: error: a", "a.pbrt:10:1: error: b", "2 errors"))
 
@@ -60,7 +61,8 @@ class ReportSuite extends AnyFunSuite:
 
   test("a failed sample is a bug, with its place; the stack trace only if asked for"):
     val failure = RenderFailure(3, 7, 5, ArithmeticException("/ by zero"))
-    val first = "error: this is a bug in Candela: java.lang.ArithmeticException: / by zero at pixel (3, 7), sample 5"
+    val first = "error: this is a bug in Candela: java.lang.ArithmeticException: / by zero" +
+      " at pixel (3, 7), sample 5"
     val short = report()(r => assert(r.guarded(throw failure) == ExitCode.Bug))
     assert(short.linesIterator.next() == first)
     assert(!short.contains("\tat "))

@@ -47,7 +47,8 @@ class RendererSuite extends AnyFunSuite:
 
   test("of a cropped image only the window is rendered, with the coordinates of the whole"):
     val window = PixelBounds(9, 4, 29, 23)
-    val plan = TinyPlan(crop = Some(window))((where, _) => Rgb(where.x.toFloat, where.y.toFloat, 0f))
+    val plan = TinyPlan(crop = Some(window)): (where, _) =>
+      Rgb(where.x.toFloat, where.y.toFloat, 0f)
     val image = Renderer.render(plan, threads = 2).film.toImage(1f)
     assert((image.width, image.height) == (20, 19))
     assert(pixel(image, 0, 0) == Rgb(9f, 4f, 0f))
@@ -103,8 +104,9 @@ class RendererSuite extends AnyFunSuite:
       if where.sample == 4 then cancellation.request()
       gray
     val rendering = Renderer.render(plan, threads = 3, cancellation)
-    // Samples 0 to 3 are earlier waves; what a worker had begun of them may be unfinished.
-    assert(Set(2, 4).contains(rendering.samplesDone))
+    // Samples 0 to 3 are earlier waves; of those another worker may have had something unfinished.
+    assert(rendering.samplesDone <= 4)
+    assert(rendering.samplesTaken < 40L * 27 * 16)
 
   test("a rendering that is cancelled before it begins takes no sample"):
     val cancellation = Cancellation()
@@ -126,5 +128,5 @@ class RendererSuite extends AnyFunSuite:
   test("a failing report of progress stops the workers and is passed on"):
     val plan = TinyPlan(spp = 1_000_000_000)((_, _) => gray)
     val failure = intercept[IllegalStateException]:
-      Renderer.render(plan, threads = 2, onProgress = _ => throw IllegalStateException("broken pipe"))
-    assert(failure.getMessage == "broken pipe")
+      Renderer.render(plan, 2, onProgress = p => throw IllegalStateException(s"broken ${p.total}"))
+    assert(failure.getMessage == s"broken ${40L * 27 * 1_000_000_000}")

@@ -68,7 +68,7 @@ final class HashSampler(val samplesPerPixel: Int) extends Sampler:
     var z = state
     z = (z ^ (z >>> 30)) * 0xbf58476d1ce4e5b9L
     z = (z ^ (z >>> 27)) * 0x94d049bb133111ebL
-    ((z ^ (z >>> 31)) >>> 40) * 0x1p-24f
+    ((z ^ (z >>> 31)) >>> 40) / 16777216f // 2²⁴
 
   def next2D(): Unit =
     x = next1D()
