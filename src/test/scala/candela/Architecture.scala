@@ -1,0 +1,151 @@
+package candela
+
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** A source file as the rules of the house see it.
+  *
+  * @param path from the root of its tree, with slashes: `bsdf/Lambert.scala`
+  */
+final case class SourceText(path: String, text: String):
+
+  def lines: Vector[String] = text.linesIterator.toVector
+
+  /** The lines without comments and literals: what the rules are about. */
+  lazy val code: Vector[String] = SourceText.withoutProse(text).linesIterator.toVector
+
+  /** The folder right under the root; files outside any have none. */
+  def folder: Option[String] = Option.when(path.contains('/'))(path.takeWhile(_ != '/'))
+
+object SourceText:
+
+  /** All Scala sources of a tree, by path. */
+  def under(root: Path): Vector[SourceText] =
+    Using.resource(Files.walk(root)): found =>
+      found.iterator.asScala.toVector
+        .filter(_.toString.endsWith(".scala"))
+        .map(file =>
+          SourceText(
+            root.relativize(file).iterator.asScala.mkString("/"),
+            Files.readString(file)
+          )
+        )
+        .sortBy(_.path)
+
+  private val prose =
+    """(?s)//[^\n]*|/\*.*?\*/|\"\"\".*?\"\"\"+|"(?:\\.|[^"\\\n])*"|'(?:\\[^\n]+?|[^'\\\n])'""".r
+
+  /** The text with comments and literals blanked, each line still where it was. */
+  def withoutProse(text: String): String =
+    prose.replaceAllIn(text, found => found.matched.filter(_ == '\n'))
+
+/** The rules of docs/ARCHITECTURE.md. Each takes sources and returns what is wrong with them, as
+  * `path:line: what`, so that it can be tried on texts with planted violations.
+  */
+object Architecture:
+
+  /** Lowest first: a package may use those before it. */
+  val runtime: Vector[String] = floors(
+    "base math color geometry sampling image textures shapes bsdf lights cameras accel scene " +
+      "integrators film render"
+  )
+  val file: Vector[String] = floors("base math scenefile")
+
+  private val measure = Set("base", "math", "color", "image")
+  private val bridge = (runtime ++ file).toSet
+
+  /** What each package may use beside itself. */
+  val allowed: Map[String, Set[String]] =
+    def below(tower: Vector[String]) = tower.indices.map(i => tower(i) -> tower.take(i).toSet)
+    below(runtime).toMap ++ below(file) ++ Map(
+      "measure" -> measure,
+      "build" -> bridge,
+      "cli" -> (bridge + "measure" + "build")
+    )
+
+  /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
+  private val libraries = Map("org" -> Set("image"), "scopt" -> Set("cli"), "sun" -> Set("cli"))
+  private val language = Set("candela", "java", "javax", "scala")
+
+  private val use = raw"\bcandela\s*\.\s*(\w+)".r
+  private val vague = raw"\bimport\s+(?:_root_\.)?candela(?:\s*\.\s*[{*]|\s+as\b)".r
+  private val imported = raw"^\s*(?:import|export)\s+(?:_root_\.)?(\w+)\.".r.unanchored
+  private val print = (raw"\b(?:println|printf|printStackTrace|Console)\b|\bprint\(|" +
+    raw"\bSystem\.(?:out|err|in|exit)\b|\bsys\.exit\b|\.halt\(").r
+  private val thread = (raw"\bThread\s*[(:{]|\b(?:extends|new)\s+Thread\b|\bThread\.(?:of|start)|" +
+    raw"\b(?:Executors?|ExecutionContext|ForkJoinPool|CompletableFuture|Future|Timer)\b|" +
+    raw"\bThreadPoolExecutor\b|\bThreadLocal\b|\.par\b|\bparallelStream\b|\.parallel\b").r
+
+  /** Every file lies in the folder of a package that has its floor, and says so once, on top. */
+  def packages(sources: Vector[SourceText]): Vector[String] =
+    sources.flatMap: source =>
+      val said = source.code.zipWithIndex.filter(_._1.startsWith("package "))
+      source.folder match
+        case Some(home) if !allowed.contains(home) =>
+          Vector(s"${source.path}:1: `$home` has no floor in docs/ARCHITECTURE.md")
+        case Some(home) if said.map(_._1.trim) == Vector(s"package candela.$home") => Vector.empty
+        case _ =>
+          val line = said.headOption.fold(1)(_._2 + 1)
+          Vector(s"${source.path}:$line: must say `package candela.<its folder>`, once")
+
+  /** Uses point down: by import or by full name, at places that say which package they mean. */
+  def floors(sources: Vector[SourceText]): Vector[String] =
+    code(sources): (home, line) =>
+      val wrong =
+        for used <- use.findAllMatchIn(line).map(_.group(1)).toVector.distinct
+        if used != home && !allowed.getOrElse(home, Set.empty)(used) && !line.startsWith("package ")
+        yield s"$home may not use $used"
+      val hidden = vague.findFirstIn(line).map(_ => "import a package of candela by its name")
+      wrong ++ hidden
+
+  /** `base` needs but Java and Scala; other libraries stay behind the package they serve. */
+  def foreign(sources: Vector[SourceText]): Vector[String] =
+    code(sources): (home, line) =>
+      line match
+        case imported(root) if !language(root) && !allowed.contains(root) =>
+          Option.when(!libraries.getOrElse(root, Set.empty)(home)):
+            s"$home may not use the library `$root`"
+        case _ => None
+
+  /** Results go up as values; what to tell the user, and when to stop, is for `cli` to say. */
+  def prints(sources: Vector[SourceText]): Vector[String] =
+    code(sources): (home, line) =>
+      val found = if home == "cli" then None else print.findFirstIn(line)
+      found.map(what => s"only cli may print or exit, but here is `$what`")
+
+  /** Only `render` makes threads. A shutdown hook must be one, and is `cli`'s business. */
+  def threads(sources: Vector[SourceText]): Vector[String] =
+    code(sources.filterNot(s => s.folder.contains("render") || s.path == "cli/Interrupts.scala")):
+      (_, line) =>
+        thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
+
+  /** A file fits in the mind, a line on the screen. */
+  def sizes(sources: Vector[SourceText]): Vector[String] =
+    sources.flatMap: source =>
+      val count = source.lines.size
+      val long = Option.when(count > MaxLines)(
+        s"${source.path}:${MaxLines + 1}: $count lines are more than $MaxLines"
+      )
+      long ++ source.lines.zipWithIndex.collect:
+        case (line, i) if width(line) > MaxColumns =>
+          s"${source.path}:${i + 1}: ${width(line)} columns are more than $MaxColumns"
+
+  val MaxLines = 250
+  val MaxColumns = 100
+
+  private def width(line: String): Int = line.codePointCount(0, line.length)
+
+  private def floors(names: String): Vector[String] = names.split(" ").toVector
+
+  /** Applies a rule to each line of code of each package, and puts the place before its answers. */
+  private def code(sources: Vector[SourceText])(
+      rule: (String, String) => IterableOnce[String]
+  ): Vector[String] =
+    for
+      source <- sources
+      home <- source.folder.toVector
+      (line, i) <- source.code.zipWithIndex
+      wrong <- rule(home, line).iterator
+    yield s"${source.path}:${i + 1}: $wrong"

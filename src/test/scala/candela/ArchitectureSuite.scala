@@ -1,0 +1,161 @@
+package candela
+
+import org.scalatest.Assertion
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.nio.file.{Files, Path}
+
+/** The floors of docs/ARCHITECTURE.md, kept true; and each rule seen to fail where it should. */
+class ArchitectureSuite extends AnyFunSuite:
+  private lazy val main = SourceText.under(Path.of("src/main/scala/candela"))
+  private lazy val tests = SourceText.under(Path.of("src/test/scala/candela"))
+
+  private def holds(wrong: Vector[String]): Assertion =
+    assert(wrong.isEmpty, wrong.mkString("\n", "\n", "\n"))
+
+  private def planted(path: String, lines: String*) =
+    Vector(SourceText(path, lines.mkString("\n")))
+
+  test("every package has its floor, and every floor its package"):
+    holds(Architecture.packages(main))
+    assert(main.flatMap(_.folder).toSet == Architecture.allowed.keySet)
+
+  test("every use points to a lower floor"):
+    holds(Architecture.floors(main))
+
+  test("libraries stay behind the package they serve, and base uses none"):
+    holds(Architecture.foreign(main))
+
+  test("only cli prints and exits"):
+    holds(Architecture.prints(main))
+
+  test("only render makes threads"):
+    holds(Architecture.threads(main))
+
+  test("no file and no line is too long, in tests neither"):
+    holds(Architecture.sizes(main) ++ Architecture.sizes(tests))
+
+  test("docs/ARCHITECTURE.md names the same floors in the same order"):
+    val page = Files.readString(Path.of("docs/ARCHITECTURE.md")).split("\\s+").mkString(" ")
+    for tower <- Vector(Architecture.runtime, Architecture.file) do
+      assert(page.contains(tower.mkString(" ")), tower)
+
+  test("a package without a floor, and one that lies about its name, are found"):
+    assert(
+      Architecture.packages(planted("utils/Misc.scala", "package candela.utils")) ==
+        Vector("utils/Misc.scala:1: `utils` has no floor in docs/ARCHITECTURE.md")
+    )
+    for text <- Vector("package candela.accel", "package candela\npackage bsdf", "class Lambert") do
+      assert(
+        Architecture.packages(planted("bsdf/Lambert.scala", text)) ==
+          Vector("bsdf/Lambert.scala:1: must say `package candela.<its folder>`, once"),
+        text
+      )
+    val loose = Architecture.packages(planted("Loose.scala", "package candela"))
+    assert(loose == Vector("Loose.scala:1: must say `package candela.<its folder>`, once"))
+
+  test("an import of a higher floor, of the other tower or of cli is found"):
+    def bsdf(line: String) =
+      Architecture.floors(planted("bsdf/Lambert.scala", "package candela.bsdf", "", line))
+    def wrong(used: String) = Vector(s"bsdf/Lambert.scala:3: bsdf may not use $used")
+    assert(bsdf("import candela.lights.Light") == wrong("lights"))
+    assert(bsdf("  import candela.scenefile.{Param, Parser}") == wrong("scenefile"))
+    assert(bsdf("import candela.math.Vec3, candela.cli.Main") == wrong("cli"))
+    assert(bsdf("import candela.measure.*") == wrong("measure"))
+    assert(bsdf("import _root_.candela.build.Recipe") == wrong("build"))
+    assert(bsdf("import candela.unheard.Of") == wrong("unheard"))
+    assert(bsdf("import candela.math.*") == Vector.empty)
+
+  test("a use by full name is found"):
+    val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")
+    assert(
+      Architecture.floors(source) == Vector("scenefile/A.scala:1: scenefile may not use shapes")
+    )
+
+  test("imports that hide the package are found"):
+    for line <- Vector("import candela.*", "import candela.{math, cli}", "import candela as c") do
+      assert(
+        Architecture.floors(planted("color/Rgb.scala", line)) ==
+          Vector("color/Rgb.scala:1: import a package of candela by its name")
+      )
+
+  test("measure may use images but no renderer"):
+    val imports = Vector("import candela.image.Image", "import candela.film.Film")
+    val source = planted("measure/M.scala", imports*)
+    assert(Architecture.floors(source) == Vector("measure/M.scala:2: measure may not use film"))
+
+  test("a library outside its package is found, and any in base"):
+    def foreign(path: String, line: String) = Architecture.foreign(planted(path, line))
+    val lwjgl = "import org.lwjgl.stb.STBImage"
+    assert(foreign("image/Png.scala", lwjgl) == Vector.empty)
+    assert(
+      foreign("base/Loop.scala", lwjgl) ==
+        Vector("base/Loop.scala:1: base may not use the library `org`")
+    )
+    assert(
+      foreign("render/R.scala", "import com.example.Json") ==
+        Vector("render/R.scala:1: render may not use the library `com`")
+    )
+
+  test("printing and exiting outside cli are found, but not where they are only spoken of"):
+    def lines(path: String)(lines: String*) = Architecture.prints(planted(path, lines*))
+    val bad = Vector(
+      "println(x)",
+      "System.out.write(1)",
+      "System.err.flush()",
+      "Console.print(x)",
+      "sys.exit(1)",
+      "System.exit(2)",
+      "Runtime.getRuntime.halt(3)",
+      "e.printStackTrace()"
+    )
+    for line <- bad do
+      val found = lines("film/Film.scala")(line)
+      assert(found.size == 1 && found.head.startsWith("film/Film.scala:1: only cli may"), line)
+      assert(lines("cli/Main.scala")(line).isEmpty, line)
+    assert(
+      lines("film/Film.scala")(
+        "// println(x)",
+        "/** Never calls",
+        "  * System.exit(1)",
+        "  */",
+        "val a = \"sys.exit(1)\"",
+        "val b = '\"'",
+        "val c = 1 // \"",
+        "def blueprint(n: Int) = n"
+      ).isEmpty
+    )
+
+  test("code behind comments and literals is still read"):
+    val lines = Vector("val a = '\"'; println(a) // '\"'", "/* ok */ sys.exit(0)")
+    val source = planted("film/Film.scala", lines*)
+    assert(Architecture.prints(source).size == 2)
+
+  test("threads outside render are found"):
+    val bad = Vector(
+      "val t = Thread(() => work())",
+      "val t = Thread: () =>",
+      "final class Mine extends Thread",
+      "Thread.ofVirtual().start(x)",
+      "Executors.newFixedThreadPool(2)",
+      "val f = Future(1)",
+      "val local = ThreadLocal.withInitial(() => 1)",
+      "items.parallelStream",
+      "stream.parallel()"
+    )
+    for line <- bad do
+      val found = Architecture.threads(planted("accel/Bvh.scala", line))
+      assert(found.size == 1 && found.head.startsWith("accel/Bvh.scala:1: only render may"), line)
+      assert(Architecture.threads(planted("render/Workers.scala", line)).isEmpty, line)
+    assert(Architecture.threads(planted("accel/Bvh.scala", "val parallel = d.x == 0f")).isEmpty)
+
+  test("long files and long lines are found, counting characters and not bytes"):
+    val exact = Vector.fill(Architecture.MaxLines)("π" * Architecture.MaxColumns)
+    assert(Architecture.sizes(planted("math/A.scala", exact*)).isEmpty)
+    assert(
+      Architecture.sizes(planted("math/A.scala", exact :+ ("x" * 101)*)) ==
+        Vector(
+          "math/A.scala:251: 251 lines are more than 250",
+          "math/A.scala:251: 101 columns are more than 100"
+        )
+    )
