@@ -2,7 +2,6 @@ package candela.bsdf
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** A smooth mirror of the same reflectance at every angle. */
