@@ -5,7 +5,7 @@ import candela.geometry.ShadingPoint
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** Makes the plainest [[Material]] that is right: where no texture varies, the [[Bsdf]] is made once. */
-object Materials:
+object MaterialFactory:
 
   def matte(kd: RgbTexture, sigma: FloatTexture): Material =
     fold(MatteMaterial(kd, sigma), isFixed(kd) && isFixed(sigma))

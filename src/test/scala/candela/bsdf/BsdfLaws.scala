@@ -1,0 +1,143 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+import java.util.SplittableRandom
+import org.scalatest.funsuite.AnyFunSuite
+
+/** What every [[Bsdf]] must obey; a suite calls `obeysLaws` for some parameters of its own.
+  *
+  * Random numbers have fixed seeds, and chance is allowed for at 4.5 standard errors or a probability
+  * of 1e-5: in a few hundred checks, none fails for a right BSDF.
+  */
+abstract class BsdfLaws extends AnyFunSuite:
+
+  /** @param isNarrow   too narrow lobes for integration on a grid: those laws are left to wider ones
+    * @param isLossless all power is scattered
+    * @param compresses refraction scales radiance by the square of the index
+    * @param isReciprocal false where the model itself isn't
+    */
+  protected def obeysLaws(
+      name: String,
+      bsdf: Bsdf,
+      isNarrow: Boolean = false,
+      isLossless: Boolean = false,
+      compresses: Boolean = true,
+      isReciprocal: Boolean = true
+  ): Unit =
+    test(s"$name: is finite and not negative for all directions, however awkward"):
+      staysFinite(bsdf)
+    test(s"$name: a sample's weight is f·cos/pdf, its pdf that of its direction"):
+      samplesConsistently(bsdf, isNarrow)
+    test(s"$name: scatters ${if isLossless then "all the" else "no more"} power than arrives"):
+      conserves(bsdf, isLossless, compresses)
+    if !bsdf.isSpecular && isReciprocal then
+      test(s"$name: is reciprocal, but for the square of the index in refraction"):
+        reciprocates(bsdf)
+    if !bsdf.isSpecular && !isNarrow then
+      test(s"$name: sampled directions are spread like the pdf"):
+        spreadsLikePdf(bsdf)
+      test(s"$name: the mean weight of samples is the integral of f·cos"):
+        weighsLikeIntegral(bsdf)
+
+  private def isSane(c: Rgb): Boolean = c.isFinite && c.r >= 0 && c.g >= 0 && c.b >= 0
+  private def isSane(x: Float): Boolean = java.lang.Float.isFinite(x) && x >= 0
+
+  private def draw(bsdf: Bsdf, wo: Vec3, random: SplittableRandom): BsdfSample =
+    def unit() = Math.min(random.nextDouble().toFloat, OneMinusEpsilon)
+    bsdf.sample(wo, unit(), unit(), unit())
+
+  private def staysFinite(bsdf: Bsdf): Unit =
+    val random = SplittableRandom(1)
+    val corners = Array(0f, 0.25f, 0.5f, 0.75f, OneMinusEpsilon)
+    def corner() = corners(random.nextInt(corners.length))
+    for i <- 0 until 100000 do
+      val (wo, wi) = (Directions.awkward(random), Directions.awkward(random))
+      val (f, pdf) = (bsdf.f(wo, wi), bsdf.pdf(wo, wi))
+      assert(isSane(f) && isSane(pdf), s"f=$f pdf=$pdf at wo=$wo wi=$wi")
+      val s =
+        if i % 4 == 0 then bsdf.sample(wo, corner(), corner(), corner())
+        else draw(bsdf, wo, random)
+      assert(isSane(s.weight) && isSane(s.pdf), s"weight=${s.weight} pdf=${s.pdf} at wo=$wo")
+      // Unit length, to the rounding of a few Float operations.
+      assert(Math.abs(s.wi.length - 1f) < 1e-5f, s"wi=${s.wi} at wo=$wo")
+      assert(bsdf.isTransmissive || s.pdf == 0f || s.wi.z * wo.z >= 0f, s"wi=${s.wi} at wo=$wo")
+      assert(s.isSpecular || !bsdf.isSpecular || s.pdf == 0f)
+
+  private def samplesConsistently(bsdf: Bsdf, isNarrow: Boolean): Unit =
+    val random = SplittableRandom(2)
+    // The facet, found again from two directions, is off by 1e-7: little against the width of a wide
+    // lobe, and 1e-4 of the least width (1e-3), which the tails of the lobe multiply.
+    val tolerance = if isNarrow then 2e-2f else 2e-3f
+    for wo <- Directions.few; _ <- 0 until 2000 do
+      val s = draw(bsdf, wo, random)
+      if s.pdf > 0f && !s.isSpecular && Math.abs(s.wi.z) > 1e-3f then
+        val pdf = bsdf.pdf(wo, s.wi)
+        assert(Math.abs(pdf - s.pdf) <= tolerance * s.pdf, s"pdf $pdf, not ${s.pdf}; $wo ${s.wi}")
+        val expected = bsdf.f(wo, s.wi) * (Math.abs(s.wi.z) / pdf)
+        val off = (s.weight - expected).map(c => Math.abs(c)).max
+        assert(off <= tolerance * expected.max, s"weight ${s.weight}, not $expected; $wo ${s.wi}")
+
+  private def conserves(bsdf: Bsdf, isLossless: Boolean, compresses: Boolean): Unit =
+    val random = SplittableRandom(3)
+    for wo <- Directions.few do
+      val power = Statistics()
+      for _ <- 0 until 20000 do
+        val s = draw(bsdf, wo, random)
+        power.add(s.weight.max * (if compresses then s.eta * s.eta else 1f))
+      assert(power.mean <= 1 + 4.5 * power.error + 1e-5, s"$power at wo=$wo") // 1e-5: rounding
+      if isLossless then assert(power.mean >= 1 - 4.5 * power.error - 1e-5, s"$power at wo=$wo")
+
+  private def reciprocates(bsdf: Bsdf): Unit =
+    val random = SplittableRandom(4)
+    for _ <- 0 until 20000 do
+      val wo = Directions.uniform(random)
+      val s = draw(bsdf, wo, random)
+      if s.pdf > 0f && !s.isSpecular && Math.abs(s.wi.z) > 1e-3f && Math.abs(wo.z) > 1e-3f then
+        val there = bsdf.f(wo, s.wi) * (s.eta * s.eta)
+        val back = bsdf.f(s.wi, wo)
+        // Within the rounding of the narrowest lobe, as above.
+        assert((there - back).map(c => Math.abs(c)).max <= 2e-2f * back.max, s"$wo ${s.wi}")
+
+  private def spreadsLikePdf(bsdf: Bsdf): Unit =
+    val (rows, columns, samples) = (16, 32, 40000)
+    val random = SplittableRandom(5)
+    for wo <- Directions.few do
+      val density = Directions.integrals(rows, columns, fine = 8)(wi => bsdf.pdf(wo, wi))
+      // The grid is good to a thousandth; that is less than chance shows in any cell.
+      assert(density.sum < 1.002, s"at wo=$wo")
+      val seen = new Array[Int](rows * columns + 1)
+      for _ <- 0 until samples do
+        val s = draw(bsdf, wo, random)
+        val nowhere = s.isSpecular || s.pdf == 0f
+        seen(if nowhere then rows * columns else Directions.cell(rows, columns)(s.wi)) += 1
+      val expected = (density :+ Math.max(0.0, 1 - density.sum)).map(_ * samples)
+      val p = ChiSquare.pValue(seen, expected)
+      assert(p > 1e-5, s"at wo=$wo; nowhere: ${seen.last}, expected ${expected.last}")
+
+  private def weighsLikeIntegral(bsdf: Bsdf): Unit =
+    val random = SplittableRandom(6)
+    for wo <- Directions.few do
+      val integral =
+        Directions.integrals(1, 1, fine = 512)(wi => bsdf.f(wo, wi).g * Math.abs(wi.z)).sum
+      val mean = Statistics()
+      for _ <- 0 until 20000 do
+        val s = draw(bsdf, wo, random)
+        mean.add(if s.isSpecular then 0f else s.weight.g)
+      // A thousandth for the grid.
+      val allowed = 4.5 * mean.error + 1e-3 * integral
+      assert(Math.abs(mean.mean - integral) <= allowed, s"$mean, not $integral, at wo=$wo")
+
+/** Mean and standard error of a stream of numbers. */
+final class Statistics:
+  private var n = 0L
+  private var sum, sum2 = 0.0
+
+  def add(x: Double): Unit =
+    n += 1
+    sum += x
+    sum2 += x * x
+
+  def mean: Double = sum / n
+  def error: Double = Math.sqrt(Math.max(0.0, sum2 / n - mean * mean) / n)
+  override def toString: String = s"$mean ± $error"
