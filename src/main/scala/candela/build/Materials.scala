@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.bsdf.{
-  ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, Materials as Make,
+  ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, MaterialMaker as Make,
   ReflectanceCurve, Roughness, RoughnessModel, TabulatedReflectance
 }
 import candela.color.{Colorimetry, Rgb}

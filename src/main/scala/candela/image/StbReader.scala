@@ -41,7 +41,8 @@ private[image] object StbReader:
       if pixels == null then failed()
       try
         val bytes = new Array[Byte](pixels.remaining)
-        pixels.get(0, bytes) // leaves the position alone: `free` goes by it
+        // Absolute: a moved position would be freed instead of the buffer's start.
+        val _ = pixels.get(0, bytes)
         ByteImage(w.get(0), h.get(0), Names(c.get(0) - 1), bytes, Encoding.Srgb)
       finally STBImage.stbi_image_free(pixels)
 

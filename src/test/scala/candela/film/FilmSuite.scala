@@ -1,0 +1,47 @@
+package candela.film
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class FilmSuite extends AnyFunSuite:
+
+  test("a pixel is the weighted mean of its samples, times the scale"):
+    val film = Film(10, 20, 13, 22)
+    film.add(11, 21, 1f, 2f, 3f, 1f)
+    film.add(11, 21, 5f, 6f, 7f, 3f)
+    val image = film.toImage(2f)
+    assert((image.width, image.height) == (3, 2))
+    assert((0 until 3).map(image(1, 1, _)) == Vector(8f, 10f, 12f))
+
+  test("pixels without samples, or with weights that cancel, are black"):
+    val film = Film(0, 0, 2, 1)
+    film.add(0, 0, 4f, 4f, 4f, 1f)
+    film.add(0, 0, 4f, 4f, 4f, -1f)
+    assert(film.toImage(1f).data.forall(_ == 0f))
+
+  test("negative weights count with their sign"):
+    val film = Film(0, 0, 1, 1)
+    film.add(0, 0, 1f, 1f, 1f, 1.5f)
+    film.add(0, 0, 2f, 0f, 1f, -0.5f)
+    assert(film.toImage(1f).data.toVector == Vector(0.5f, 1.5f, 1f))
+
+  test("a million equal samples keep their value"):
+    val film = Film(0, 0, 1, 1)
+    for _ <- 0 until 1000000 do film.add(0, 0, 0.1f, 0.2f, 0.3f, 0.7f)
+    assert(film.toImage(1f).data.toVector == Vector(0.1f, 0.2f, 0.3f))
+
+  test("samples that are not finite are refused and counted, the first pixel by rows kept"):
+    val film = Film(5, 5, 9, 9)
+    assert(film.refused == 0 && film.firstRefused.isEmpty)
+    film.add(6, 7, Float.NaN, 0f, 0f, 1f)
+    film.add(8, 6, 0f, Float.PositiveInfinity, Float.NegativeInfinity, 1f)
+    film.add(7, 8, 0f, 0f, 0f, Float.NaN)
+    film.add(7, 8, Float.PositiveInfinity, 0f, 0f, 0f)
+    assert(film.refused == 4)
+    assert(film.firstRefused.contains((8, 6)))
+    assert(film.toImage(1f).data.forall(_ == 0f))
+
+  test("finite samples are taken however large"):
+    val film = Film(0, 0, 1, 1)
+    film.add(0, 0, Float.MaxValue, Float.MaxValue, 1f, 2f)
+    assert(film.refused == 0)
+    assert(film.toImage(1f).data.toVector == Vector(Float.MaxValue, Float.MaxValue, 1f))

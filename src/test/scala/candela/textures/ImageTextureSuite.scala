@@ -1,0 +1,106 @@
+package candela.textures
+
+import candela.color.{Encoding, Rgb, Srgb}
+import candela.geometry.ShadingPoint
+import candela.image.{ByteImage, Image}
+import org.scalatest.funsuite.AnyFunSuite
+
+class ImageTextureSuite extends AnyFunSuite:
+
+  private val linear: Float => Float = x => x
+
+  /** Gray, rows from the top: 0 1 2 / 10 11 12. */
+  private val rows = Image(3, 2, Vector("Y"), Array(0f, 1f, 2f, 10f, 11f, 12f))
+
+  private def lookup(
+      image: Image,
+      filter: TextureFilter,
+      wrap: Wrap = Wrap.Repeat,
+      bottomUp: Boolean = true
+  ) = ImageLookup(Texels.color(image, linear), wrap, filter, bottomUp)
+
+  private def at(u: Float, v: Float): ShadingPoint =
+    val point = ShadingPoint()
+    point.u = u
+    point.v = v
+    point
+
+  // Sums of four Floats up to 12.
+  private def near(a: Float, b: Float) = Math.abs(a - b) < 1e-5f
+
+  test("texel centres give their texel, v counted from the bottom"):
+    for filter <- TextureFilter.values; x <- 0 until 3; y <- 0 until 2 do
+      val place = TexCoord((x + 0.5f) / 3, 1f - (y + 0.5f) / 2)
+      assert(near(lookup(rows, filter).value(place), 10f * y + x), s"$filter")
+
+  test("v counted from the top turns the picture over"):
+    val down = lookup(rows, TextureFilter.Bilinear, bottomUp = false)
+    for x <- 0 until 3; y <- 0 until 2 do
+      assert(near(down.value(TexCoord((x + 0.5f) / 3, (y + 0.5f) / 2)), 10f * y + x))
+
+  test("halfway between centres, bilinear is the mean and point is one of them"):
+    val place = TexCoord(2 / 6f + 1e-6f, 0.5f)
+    assert(near(lookup(rows, TextureFilter.Bilinear).value(place), 5.5f))
+    assert(Set(0f, 1f, 10f, 11f)(lookup(rows, TextureFilter.Point).value(place)))
+
+  test("beyond the border, the wrap mode decides what is blended in"):
+    val corner = TexCoord(0f, 1f)
+    def value(wrap: Wrap) = lookup(rows, TextureFilter.Bilinear, wrap).value(corner)
+    assert(near(value(Wrap.Repeat), (0f + 2f + 10f + 12f) / 4))
+    assert(near(value(Wrap.Clamp), 0f))
+    assert(near(lookup(rows, TextureFilter.Bilinear, Wrap.Black).value(TexCoord(1f, 0.25f)), 6f))
+    assert(lookup(rows, TextureFilter.Point, Wrap.Black).value(TexCoord(-0.1f, 0.5f)) == 0f)
+    assert(lookup(rows, TextureFilter.Point).value(TexCoord(-0.1f, 2.9f)) == 2f)
+
+  test("colours blend channel by channel"):
+    val image = Image(2, 1, Image.RgbNames, Array(1f, 2f, 4f, 3f, 6f, 0f))
+    for wrap <- Vector(Wrap.Clamp, Wrap.Repeat) do
+      val color = lookup(image, TextureFilter.Bilinear, wrap).color(TexCoord(0.5f, 0.5f))
+      assert(near(color.r, 2f) && near(color.g, 4f) && near(color.b, 2f))
+    assert(lookup(image, TextureFilter.Point).color(TexCoord(0.9f, 0.1f)) == Rgb(3f, 6f, 0f))
+
+  test("bytes decode by their table, and stay bytes"):
+    val codes = Array.tabulate(256 * 3)(i => (i * 7).toByte)
+    val stored = ByteImage(16, 16, Image.RgbNames, codes, Encoding.Srgb)
+    val texels = Texels.color(stored, stored.encoding.decode)
+    assert(texels.isInstanceOf[ByteTexels])
+    for i <- 0 until 256; c <- 0 until 3 do
+      assert(texels(i, c) == Srgb.decode((codes(3 * i + c) & 0xff) / 255f))
+
+  test("alpha is dropped and gray kept in one channel"):
+    val gray = Array[Byte](7, 7, 7, 1, 9, 9, 9, 2)
+    val texels = Texels.color(ByteImage(2, 1, Image.RgbNames :+ "A", gray, Encoding.Srgb), linear)
+    assert(texels.channels == 1)
+    assert(texels(0, 0) == 7 / 255f && texels(1, 0) == 9 / 255f)
+
+  test("numbers from colours: luminance of the stored ones, or the mean of the decoded"):
+    val image = Image(1, 1, Image.RgbNames, Array(0.2f, 0.5f, 0.8f))
+    val squared: Float => Float = x => x * x
+    val y = 0.212671f * 0.2f + 0.715160f * 0.5f + 0.072169f * 0.8f
+    assert(near(Texels.luminance(image, squared)(0, 0), y * y))
+    assert(near(Texels.meanOrAlpha(image, squared)(0, 0), (0.04f + 0.25f + 0.64f) / 3))
+
+  test("numbers from pictures with alpha: the alpha, unless it is 1 everywhere"):
+    def texels(alpha: Float) =
+      val data = Array(0.5f, 0.5f, 0.5f, alpha, 0.5f, 0.5f, 0.5f, 1f)
+      Texels.meanOrAlpha(Image(2, 1, Image.RgbNames :+ "A", data), linear)
+    assert(texels(0.25f)(0, 0) == 0.25f && texels(0.25f)(1, 0) == 1f)
+    assert(texels(1f)(0, 0) == 0.5f)
+
+  test("scale multiplies; invert takes from 1 and stops at 0"):
+    val source = lookup(Image(1, 1, Vector("Y"), Array(0.25f)), TextureFilter.Bilinear)
+    val uv = UvMapping.Identity
+    assert(FloatImageTexture(uv, source, 2f)(at(0.3f, 0.3f)) == 0.5f)
+    assert(FloatImageTexture(uv, source, 2f, invert = true)(at(0.3f, 0.3f)) == 0.5f)
+    assert(FloatImageTexture(uv, source, 8f, invert = true)(at(0.3f, 0.3f)) == 0f)
+    assert(RgbImageTexture(uv, source, 2f, invert = true)(at(0.3f, 0.3f)) == Rgb.gray(0.5f))
+    assert(RgbImageTexture(uv, source)(at(0.3f, 0.3f)) == Rgb.gray(0.25f))
+
+  test("the mapping is applied"):
+    val texture = FloatImageTexture(UvMapping(1f, 1f, 1 / 3f, 0f), lookup(rows, TextureFilter.Bilinear))
+    assert(near(texture(at(0.5f / 3, 0.75f)), 1f))
+
+  test("wild coordinates give a number and no exception"):
+    val wild = Vector(1e30f, -1e30f, Float.PositiveInfinity, Float.NaN, 2.2e9f, -2.2e9f)
+    for wrap <- Wrap.values; filter <- TextureFilter.values; s <- wild; t <- wild do
+      val _ = lookup(rows, filter, wrap).color(TexCoord(s, t))
