@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.bsdf.{
-  ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, MaterialMaker as Make,
+  ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, MaterialFactory as Make,
   ReflectanceCurve, Roughness, RoughnessModel, TabulatedReflectance
 }
 import candela.color.{Colorimetry, Rgb}
