@@ -1,8 +1,8 @@
 package candela.sampling
 
-/** Running sums as flat Float data: those of a row of n weights are n + 1 numbers from 0 to 1 that never
-  * fall. A bin's probability is the difference of its two sums, as stored: what is sampled and what is
-  * reported as density is the same to the last bit, whatever the sums lost by rounding.
+/** Running sums as flat Float data: those of a row of n weights are n + 1 numbers from 0 to 1 that
+  * never fall. A bin's probability is the difference of its two sums, as stored: what is sampled
+  * and what is reported as density is the same to the last bit, whatever the sums lost by rounding.
   */
 private[sampling] object Cdf:
 
@@ -29,8 +29,8 @@ private[sampling] object Cdf:
     cdf(to + count) = 1f
     total
 
-  /** The bin i < `count` whose half-open interval of sums holds `u` in [0, 1). Its probability is above
-    * zero.
+  /** The bin i < `count` whose half-open interval of sums holds `u` in [0, 1). Its probability is
+    * above zero.
     */
   def find(cdf: Array[Float], at: Int, count: Int, u: Float): Int =
     // the last i with sum(i) ≤ u: bins of probability zero have their successor's sum, so they lose

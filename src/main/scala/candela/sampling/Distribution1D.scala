@@ -1,7 +1,7 @@
 package candela.sampling
 
-/** A density over [0, 1) that is constant on n equal bins; an all-zero function counts as a uniform one.
-  * Immutable.
+/** A density over [0, 1) that is constant on n equal bins; an all-zero function counts as a uniform
+  * one. Immutable.
   *
   * Source: PBRT 3rd ed., §13.3.1.
   */

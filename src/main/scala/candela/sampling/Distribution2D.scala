@@ -3,13 +3,12 @@ package candela.sampling
 import candela.base.loop
 import candela.math.*
 
-/** A density over the unit square that is constant on a grid of equal cells; an all-zero function counts
-  * as a uniform one. Immutable. To pick light directions from images.
+/** A density over the unit square that is constant on a grid of equal cells; an all-zero function
+  * counts as a uniform one. Immutable. To pick light directions from images.
   *
   * Source: PBRT 3rd ed., §13.6.7.
   *
-  * @param values of the function, row by row: cell (column, row) is `values(row * columns + column)`,
-  *               where x runs along the columns and y down the rows
+  * @param values of the function, row by row; x runs along a row, y from row to row
   */
 final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int):
   require(columns > 0 && rows > 0, s"a grid of $columns by $rows has no cells")

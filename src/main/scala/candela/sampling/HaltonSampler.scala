@@ -2,18 +2,19 @@ package candela.sampling
 
 import candela.math.*
 
-/** The Halton sequence: dimension `d` is the radical inverse in the `d`-th prime, each pixel scrambled
-  * by itself. Any number of samples will do. A prefix of bᵏ samples puts one point into each of bᵏ
+/** The Halton sequence: dimension `d` is the radical inverse in the `d`-th prime, each pixel
+  * scrambled by itself. Any number of samples will do; those past the number asked for are not
+  * stratified together with the others. A prefix of bᵏ samples puts one point into each of bᵏ
   * intervals of a dimension with base b, and bᵏ·cˡ samples one into each cell of a pair.
   *
   * The scrambling is nested as Owen's, but each digit goes through d → (a·d + c) mod b with random
-  * a ≠ 0 and c instead of one of all b! orders. These maps take any two different digits to any other
-  * two with equal probability, and the variance of the estimate depends on pairs of points only: it
-  * is that of Owen's.
+  * a ≠ 0 and c instead of one of all b! orders. These maps take any two different digits to any
+  * other two with equal probability, and the variance of the estimate depends on pairs of points
+  * only: it is that of Owen's.
   *
   * From dimension [[HaltonSampler.Dimensions]] on, the numbers are independent random ones.
   *
-  * In pbrt: `halton` (v2, v3, v4). There one sequence covers the image; here each pixel has its own.
+  * In pbrt: `halton` (v2, v3, v4). There one sequence covers the image, here each pixel.
   *
   * Sources: Halton, "On the efficiency of certain quasi-random sequences of points in evaluating
   * multi-dimensional integrals", 1960; Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences",

@@ -6,9 +6,9 @@ package candela.sampling
   * interval, for single dimensions and for the pairs of `next2D`. Counts that are no power of two
   * work too, with the error of a prefix. Different requests are independent of each other.
   *
-  * In pbrt: `sobol` and `paddedsobol` (v4), `sobol`, `02sequence`, `lowdiscrepancy` and `maxmindist`
-  * (v3), `lowdiscrepancy` (v2); it also serves for `pmj02bn` (v4), `bestcandidate` and `adaptive`
-  * (v2), whose point sets have no counterpart here.
+  * In pbrt: `sobol` and `paddedsobol` (v4), `sobol`, `02sequence`, `lowdiscrepancy` and
+  * `maxmindist` (v3), `lowdiscrepancy` (v2); it also serves for `pmj02bn` (v4), `bestcandidate` and
+  * `adaptive` (v2), whose point sets have no counterpart here.
   *
   * Source: Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */

@@ -5,9 +5,9 @@ object Permutation:
 
   /** Where `index` goes in the order chosen by `seed`; 0 ≤ `index` < `n`.
     *
-    * A bijection of the next power of two is walked until it leads back below `n`: at most half of
-    * its elements lie outside, so a walk has fewer than two steps on average. Each round adds, multiplies by an odd
-    * number and folds the upper half onto the lower one; all three can be undone.
+    * A bijection of the next power of two is walked until it leads back below `n`: less than half
+    * of its elements lie outside, so a walk has fewer than two steps on average. Each round adds,
+    * multiplies by an odd number and folds the upper half onto the lower one; all can be undone.
     *
     * Source of the idea: Kensler, "Correlated multi-jittered sampling", Pixar TM 13-01, 2013, §3.
     */
@@ -31,5 +31,5 @@ object Permutation:
       do ()
       at
 
-  /** Enough that pairs of elements land uniformly; `PermutationSuite` counts them. */
-  private inline val Rounds = 5
+  /** Enough that pairs of elements land uniformly; `PermutationSuite` refuses 5. */
+  private inline val Rounds = 10

@@ -29,7 +29,7 @@ object SampleHash:
     h = (h ^ (h >>> 13)) * 0xc2b2ae35
     h ^ (h >>> 16)
 
-  /** The counter at dimension 0 of a pixel; pixels of the whole 32-bit plane have different ones. */
+  /** The counter at dimension 0 of a pixel, different for all pixels of the 32-bit plane. */
   def pixel(x: Int, y: Int, seed: Int): Long =
     mix64((x.toLong << 32 | (y & 0xffffffffL)) ^ mix64(seed + Step))
 

@@ -13,8 +13,8 @@ object Sobol:
   /** The second dimension of point `index`, bits reversed.
     *
     * Its generator matrix is Pascal's triangle modulo 2. C(k, j) is odd just when the bits of j are
-    * among those of k (Lucas), so bit j of the product is the parity of all bits k ⊇ j: a subset sum,
-    * done by one step for each of the five bits of a bit's number.
+    * among those of k (Lucas), so bit j of the product is the parity of all bits k ⊇ j: a subset
+    * sum, done by one step for each of the five bits of a bit's number.
     */
   def second(index: Int): Int =
     var v = index
@@ -38,7 +38,8 @@ object Sobol:
     * or not depending on the bits below k and on `seed`.
     *
     * Source: Laine & Karras, "Stratified sampling for stochastic transparency", EGSR 2011; the
-    * constants of Vegdahl, "Building a better LK hash", psychopath.io, 2021, which avalanche better.
+    * constants, which avalanche better, of Vegdahl, "Building a better LK hash", psychopath.io,
+    * 2021.
     */
   def scramble(reversed: Int, seed: Int): Int =
     var v = reversed

@@ -2,14 +2,14 @@ package candela.sampling
 
 import candela.math.*
 
-/** A triangle as seen from a point: directions uniform over its solid angle, and the way back from a
-  * direction to the square. Doubles inside: the areas are small differences of large angles.
+/** A triangle as seen from a point: directions uniform over its solid angle, and the way back from
+  * a direction to the square. Doubles inside: the areas are small differences of large angles.
   *
   * Mutable, one per worker: `set` makes it another triangle.
   *
   * Sources: Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 1995; the area by Van
-  * Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30(2), 1983;
-  * the inverse: PBRT 4th ed., §6.5.4.
+  * Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30(2),
+  * 1983; the inverse: PBRT 4th ed., §6.5.4.
   */
 final class SphericalTriangle:
   import SphericalTriangle.*
@@ -22,9 +22,9 @@ final class SphericalTriangle:
 
   /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`.
     *
-    * @return can it be sampled? Not if it is seen edge-on, has the eye in its plane or at a corner, or is
-    *         smaller than [[MinSolidAngle]]; then sample its surface instead. `sample` and `invert`
-    *         need a true answer.
+    * @return can it be sampled? Not if it is seen edge-on, has the eye in its plane or at a corner,
+    *         or is smaller than [[MinSolidAngle]]; then sample its surface instead. `sample` and
+    *         `invert` need a true answer.
     */
   def set(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Boolean =
     a = towards(from, p0)
@@ -48,7 +48,7 @@ final class SphericalTriangle:
 
   /** The unit direction for a point of the square. */
   def sample(u1: Float, u2: Float): Vec3 =
-    // The corner c moves along its arc to where the part on the side of b has the share u1 of the area.
+    // The corner c moves along its arc until the part that is left has the share u1 of the area.
     val part = u1 * area
     val s = Math.sin(part) * cosAlpha - Math.cos(part) * sinAlpha
     val t = Math.cos(part) * cosAlpha + Math.sin(part) * sinAlpha
@@ -91,7 +91,7 @@ object SphericalTriangle:
   private def areaOf(a: Direction, b: Direction, c: Direction): Double =
     2 * Math.atan2(Math.abs((a cross b) dot c), 1 + (a dot b) + (b dot c) + (c dot a))
 
-  /** The unit vector on the arc from `from` to `to` (and beyond) that has this cosine with `from`. */
+  /** The unit vector on the arc from `from` towards `to` that has this cosine with `from`. */
   private def onArc(from: Direction, to: Direction, cosine: Double): Direction =
     val across = to - from * (from dot to)
     val length = across.length

@@ -2,10 +2,10 @@ package candela.sampling
 
 import candela.math.*
 
-/** Jittered strata: the samples of a pixel fill each cell of an `xSamples` × `ySamples` grid once in
-  * every pair of dimensions, and each of `xSamples · ySamples` intervals once in every single one.
-  * Cells are dealt out in an order of its own for each pixel and dimension. Sample numbers past the
-  * last cell begin another pass over all cells, with new jitter.
+/** Jittered strata: the samples of a pixel fill each cell of an `xSamples` × `ySamples` grid once
+  * in every pair of dimensions, and each of `xSamples · ySamples` intervals once in every single
+  * one. Cells are dealt out in an order of its own for each pixel and dimension. Sample numbers
+  * past the last cell begin another pass over all cells, with new jitter.
   *
   * In pbrt: `stratified` (v2, v3, v4), with its `xsamples`, `ysamples` and `jitter`.
   *

@@ -5,7 +5,7 @@ import candela.math.*
 /** Maps from the unit square to the shapes that rendering samples, with their densities.
   *
   * `u1` and `u2` are in [0, 1). Directions are unit vectors around +z, their densities in sr⁻¹. All
-  * results are [[Vec3]] values, which the compiler keeps off the heap: a point of the disk has z = 0,
+  * results are [[Vec3]] values, which the compiler keeps off the heap: on the disk z is 0,
   * a point of a triangle is its three barycentric weights. Neighbours stay neighbours, so the
   * stratification of the square survives.
   */
@@ -49,8 +49,8 @@ object Warp:
     *
     * Source: PBRT 3rd ed., §13.6.4, in 1 − cos θ, so that narrow cones lose no digits.
     *
-    * @param oneMinusCosMax 1 − cos of the half-angle, in (0, 2]. From its sine s, for angles up to 90°,
-    *                       it is best had as s² / (1 + √(1 − s²)).
+    * @param oneMinusCosMax 1 − cos of the half-angle, in (0, 2]. From its sine s, for angles up to
+    *                       90°, it is best had as s² / (1 + √(1 − s²)).
     */
   def uniformCone(u1: Float, u2: Float, oneMinusCosMax: Float): Vec3 =
     val h = u1 * oneMinusCosMax

@@ -1,8 +1,8 @@
 package candela.sampling
 
 /** One Owen-scrambled (0,2)-sequence for the whole image, dealt out along a Morton curve whose
-  * quadrants are shuffled at every level. Neighbours share out one well-distributed set, so that the
-  * error of an image is high-frequency ("blue") noise, which the eye and filters forgive.
+  * quadrants are shuffled at every level. Neighbours share out one well-distributed set, so that
+  * the error of an image is high-frequency ("blue") noise, which the eye and filters forgive.
   *
   * For every request, the joint samples of each aligned 2ᵏ × 2ᵏ block of pixels put one point into
   * each elementary interval. Prefixes of a pixel's samples have no such promise.
@@ -13,7 +13,8 @@ package candela.sampling
   * hierarchical ordering of pixels", ACM TOG 39(6), 2020.
   *
   * @param requested samples per pixel, rounded up to a power of two
-  * @param width     of the full image in pixels; with `height` it bounds the pixels that `start` takes
+  * @param width     of the full image in pixels; with `height` it bounds the pixels that `start`
+  *                  takes
   */
 final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends Sampler:
   require(requested > 0 && requested <= (1 << 24), s"$requested samples per pixel")
@@ -45,19 +46,22 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
 
   def copy(): ZSobolSampler = ZSobolSampler(requested, width, height, seed)
 
-  /** The point for this place: each base-4 digit goes through a permutation that depends on the digits
-    * above it. If the count of samples is no power of four, the last digit is binary.
+  /** The point for this place: each base-4 digit goes through a permutation that depends on the
+    * digits above it. If the count of samples is no power of four, the last digit is binary.
     */
   private def shuffled(bits: Long): Long =
-    val key = SampleHash.mix64(bits)
+    val key = SampleHash.mix((bits >>> 16).toInt)
     var index = 0L
     var shift = topShift
     while shift >= 0 do
-      val order = SampleHash.mix64(key + (place >>> (shift + 2)) * SampleHash.Step)
       val digit = (place >>> shift).toInt & 3
-      index |= ZSobolSampler.permuted(digit, (order >>> 32).toInt) << shift
+      index |= ZSobolSampler.permuted(digit, random(key, place >>> (shift + 2))) << shift
       shift -= 2
-    if shift == -1 then index | ((place ^ SampleHash.mix64(key - (place >>> 1))) & 1) else index
+    if shift == -1 then index | ((place ^ random(key, place >>> 1)) & 1) else index
+
+  /** For the digit that follows `prefix`. */
+  private def random(key: Int, prefix: Long): Int =
+    SampleHash.mix(key ^ (prefix ^ (prefix >>> 32)).toInt)
 
   private def fraction(reversed: Int): Float = SampleHash.toUnit(Integer.reverse(reversed))
 
@@ -67,7 +71,7 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
 
 object ZSobolSampler:
 
-  /** The 24 orders of 0, 1, 2, 3; each packed into 8 bits, digit d's image in bits 2d and 2d + 1. */
+  /** The 24 orders of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d + 1. */
   private val orders: Array[Int] =
     Vector(0, 1, 2, 3).permutations.map(_.zipWithIndex.map((to, d) => to << 2 * d).sum).toArray
 

@@ -4,11 +4,11 @@ import scala.collection.mutable
 
 import candela.base.loop
 
-/** The neighbourhood of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and stands
-  * for the edge from that vertex to the face's next one as well.
+/** The neighbourhood of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and
+  * stands for the edge from that vertex to the face's next one as well.
   *
-  * Source: Rossignac, Safonova, Szymczak, "3D compression made simple: Edgebreaker on a corner table",
-  * SMI 2001.
+  * Source: Rossignac, Safonova, Szymczak, "3D compression made simple: Edgebreaker on a corner
+  * table", SMI 2001.
   *
   * @param vertices the vertex at each corner
   * @param twins    the same edge seen from the neighbouring face, or −1 on the boundary
@@ -24,8 +24,9 @@ private[shapes] final class CornerTable(
   def vertexCount: Int = start.length
   def faceCount: Int = vertices.length / 3
 
-  /** Writes the neighbours of `vertex` into `ring`: clockwise from anywhere if it is inside (for faces
-    * that wind counter-clockwise), counter-clockwise from edge to edge if it is on the boundary.
+  /** Writes the neighbours of `vertex` into `ring`: clockwise from anywhere if it is inside (for
+    * faces that wind counter-clockwise), counter-clockwise from edge to edge if it is on the
+    * boundary.
     *
     * @return how many, negated on the boundary
     */
@@ -82,9 +83,12 @@ private[shapes] object CornerTable:
         twins(twin) = corner
     CornerTable(vertices, twins, start)
 
-  private def key(from: Int, to: Int): Long = from.toLong << 32 | to
+  /** Different for different edges. The factor spreads it: the map folds the halves together, and
+    * those of the plain key are alike in most edges.
+    */
+  private def key(from: Int, to: Int): Long = (from.toLong << 32 | to) * 0x9e3779b97f4a7c15L
 
-  /** Two faces that run along an edge the same way: is there a third, or is one of the two turned? */
+  /** Two faces run along an edge the same way: is there a third, or is one of the two turned? */
   private def badEdge(vertices: Array[Int], corner: Int, other: Int): MeshError =
     val (from, to) = (vertices(corner), vertices(next(corner)))
     val faces = (0 until vertices.length / 3).filter: f =>

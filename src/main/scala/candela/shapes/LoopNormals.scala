@@ -2,11 +2,11 @@ package candela.shapes
 
 import candela.base.loop
 
-/** Normals of a subdivision surface: products of two tangents, which are weighted sums of a vertex's
-  * neighbours. Conventions: see [[LoopSubdivision]].
+/** Normals of a subdivision surface: products of two tangents, which are weighted sums of a
+  * vertex's neighbours. Conventions: see [[LoopSubdivision]].
   *
-  * Source: Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH 1994, §4; PBRT 3rd ed.,
-  * §3.8.3.
+  * Source: Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH 1994, §4; PBRT 3rd
+  * ed., §3.8.3.
   */
 private[shapes] object LoopNormals:
 
@@ -46,8 +46,8 @@ private[shapes] object LoopNormals:
     if i == 0 then -1 else if i == count - 1 then 1 else 0
 
   /** The weight of neighbour `i` of `count` in the tangent that leads from the boundary into the
-    * surface. Neighbours count relative to the vertex, whose own weight so is minus the sum of theirs;
-    * pbrt's is that for up to four neighbours, and 0 for more, where their weights sum to 0.
+    * surface. Neighbours count relative to the vertex, whose own weight so is minus the sum of
+    * theirs. That is pbrt's for up to four; for more it is 0, which is what their weights sum to.
     */
   private def inwardWeight(i: Int, count: Int): Double =
     val atEdge = i == 0 || i == count - 1

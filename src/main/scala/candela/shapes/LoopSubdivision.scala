@@ -15,22 +15,22 @@ final class SubdividedMesh(
     val indices: Array[Int]
 )
 
-/** Loop subdivision: each level splits every triangle in four and moves the vertices towards a smooth
-  * limit, onto which the last level's vertices are then pushed.
+/** Loop subdivision: each level splits every triangle in four and moves the vertices towards a
+  * smooth limit, onto which the last level's vertices are then pushed.
   *
   * It makes pbrt's mesh (v2, v3 and v4 agree), with pbrt's habits:
   *  - Vertices keep their numbers; those on edges follow, in the order of faces and their edges.
-  *  - Normals come from the limit positions of a vertex's neighbours. They point to the side from which
-  *    the faces wind ''clockwise'', against the right-hand rule, and pbrt makes that the outside of the
-  *    surface. Their lengths weigh them where a triangle interpolates its corners' normals, so they
-  *    are left as they are but for one common factor.
-  *  - On the boundary the limit point has the weights 1/5, 3/5, 1/5, which Hoppe et al. give for other
-  *    refinement rules than those used here (these would have 1/6, 2/3, 1/6).
+  *  - Normals come from the limit positions of a vertex's neighbours. They point to the side from
+  *    which the faces wind ''clockwise'', against the right-hand rule, and pbrt makes that the
+  *    outside of the surface. Their lengths weigh them where a triangle interpolates its corners'
+  *    normals, so they are left as they are but for one common factor.
+  *  - On the boundary the limit point has the weights 1/5, 3/5, 1/5, which Hoppe et al. give for
+  *    other refinement rules than those used here (these would have 1/6, 2/3, 1/6).
   *  - Where several fans of faces touch in one vertex, the fan of the last face shapes it.
   *
   * Sources: Loop, "Smooth subdivision surfaces based on triangles", 1987; Hoppe et al., "Piecewise
-  * smooth surface reconstruction", SIGGRAPH 1994; Warren, "Subdivision methods for geometric design",
-  * 1995 (weights by valence); PBRT 3rd ed., §3.8.
+  * smooth surface reconstruction", SIGGRAPH 1994; Warren, "Subdivision methods for geometric
+  * design", 1995 (weights by valence); PBRT 3rd ed., §3.8.
   */
 object LoopSubdivision:
   import CornerTable.{next, previous}

@@ -24,7 +24,10 @@ class Distribution2DSuite extends AnyFunSuite:
     assert(Math.abs(d.integral - mean) < 1e-6)
 
   test("samples are as frequent as the density says"):
-    val result = ChiSquare.square(1)(u => Some(d.sample(u(), u())), (x, y) => d.pdf(x.toFloat, y.toFloat))
+    val result = ChiSquare.square(1)(
+      u => Some(d.sample(u(), u())),
+      (x, y) => d.pdf(x.toFloat, y.toFloat)
+    )
     assert(result.accepted(tests = 1), result)
 
   test("a sample carries the density of its place, which is above zero, and stays below 1"):

@@ -62,8 +62,8 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
   private def correlation(a: IndexedSeq[Float], b: IndexedSeq[Float]): Double =
     a.indices.map(i => (a(i) - 0.5) * (b(i) - 0.5) * 12).sum / a.size
 
-  // Independent uniform numbers, times √12: products have mean 0 and variance 1, so the mean of 4096
-  // has a deviation of 1/64; 5 of those.
+  // Independent uniform numbers, times √12: products have mean 0 and variance 1, so the mean of
+  // 4096 has a deviation of 1/64; 5 of those.
   private val Uncorrelated = 5.0 / 64
 
   test("pixels are decorrelated"):
@@ -88,11 +88,17 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
       val c = correlation(numbers.map(_(d)), numbers.map(_(e)))
       assert(Math.abs(c) < Uncorrelated, s"dimensions $d and $e: $c")
 
-  /** The root mean square error, over pixels, of ∫∫ f at a number of samples. */
-  protected def error(samples: Int, skip: Int)(f: (Double, Double) => Double, exact: Double): Double =
-    val s = make(samples, 11)
-    val n = s.samplesPerPixel
-    val squares = for px <- 0 until 16; py <- 0 until 8 yield
+  /** The root mean square error, over pixels and seeds, of ∫∫ f at a number of samples. (Image-wide
+    * sequences scramble all pixels alike: seeds are what is independent.)
+    */
+  protected def error(samples: Int, skip: Int)(
+      f: (Double, Double) => Double,
+      exact: Double
+  ): Double =
+    val squares = for seed <- 0 until 64; px <- 0 until 2 yield
+      val s = make(samples, seed)
+      val n = s.samplesPerPixel
+      val py = seed % 8
       val mean = points(s, px, py, n, skip).map((x, y) => f(x, y)).sum / n
       (mean - exact) * (mean - exact)
     Math.sqrt(squares.sum / squares.size)

@@ -6,7 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class SobolSuite extends AnyFunSuite:
 
-  /** The second dimension by its direction numbers: v ← v ^ (v >>> 1), one for each bit of the index. */
+  /** The second dimension by its direction numbers, one for each bit: v ← v ^ (v >>> 1). */
   private def byDirections(index: Int): Int =
     val directions = Iterator.iterate(1 << 31)(v => v ^ (v >>> 1)).take(32).toArray
     (0 until 32).filter(k => (index >>> k & 1) == 1).map(directions(_)).foldLeft(0)(_ ^ _)

@@ -19,13 +19,16 @@ class SphericalTriangleSuite extends AnyFunSuite:
     assert(triangle.set(eye, t._1, t._2, t._3))
     triangle
 
-  /** Möller–Trumbore without the comparisons: the weights of b and c where the ray meets the plane. */
-  private def weights(t: (Vec3, Vec3, Vec3), w: Vec3): (Float, Float) =
+  /** Möller–Trumbore without the comparisons: the weights of b and c where the ray meets the plane,
+    * and its distance.
+    */
+  private def meet(t: (Vec3, Vec3, Vec3), w: Vec3): (Float, Float, Float) =
     val (e1, e2) = (t._2 - t._1, t._3 - t._1)
     val p = w cross e2
     val s = eye - t._1
     val inv = 1 / (e1 dot p)
-    ((s dot p) * inv, (w dot (s cross e1)) * inv)
+    val q = s cross e1
+    ((s dot p) * inv, (w dot q) * inv, (e2 dot q) * inv)
 
   test("an octant has a solid angle of π/2"):
     val octant = SphericalTriangle()
@@ -43,9 +46,8 @@ class SphericalTriangleSuite extends AnyFunSuite:
       val result = ChiSquare.directions(i + 1)(
         u => Some(triangle.sample(u(), u())),
         w =>
-          val (b1, b2) = weights(t, w)
-          val ahead = (w dot (t._1 + t._2 + t._3 - eye * 3)) > 0
-          if ahead && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 then triangle.pdf else 0
+          val (b1, b2, distance) = meet(t, w)
+          if distance > 0 && b1 >= 0 && b2 >= 0 && b1 + b2 <= 1 then triangle.pdf else 0
       )
       assert(result.accepted(tests = 3), s"$t: $result")
 
@@ -53,9 +55,10 @@ class SphericalTriangleSuite extends AnyFunSuite:
     for t <- triangles do
       val triangle = set(t)
       for i <- 0 to 16; j <- 0 to 16 do
-        val w = triangle.sample(Math.min(i / 16f, OneMinusEpsilon), Math.min(j / 16f, OneMinusEpsilon))
+        val (u1, u2) = (Math.min(i / 16f, OneMinusEpsilon), Math.min(j / 16f, OneMinusEpsilon))
+        val w = triangle.sample(u1, u2)
         assert(abs(w.length - 1) < 2e-7f) // rounding of three components
-        val (b1, b2) = weights(t, w)
+        val (b1, b2, _) = meet(t, w)
         // the sliver is 0.01 wide at a distance of 5, where directions round to 3e-7
         assert(b1 > -1e-3f && b2 > -1e-3f && b1 + b2 < 1.001f, s"$t ($i, $j): $b1 $b2")
 

@@ -1,13 +1,13 @@
 package candela.testing
 
-/** Integrals over rectangles of densities that may have peaks and jumps: the 3 × 3 Gauss–Legendre rule
-  * on ever smaller quarters, where they still change the result. The first cut is into 4 × 4 parts, so
-  * that a peak of an eighth of the side can't hide between the rule's points.
+/** Integrals over rectangles of densities that may have peaks and jumps: the 3 × 3 Gauss–Legendre
+  * rule on ever smaller quarters, where they still change the result. The first cut is into 4 × 4
+  * parts, so that a peak of an eighth of the side can't hide between the rule's points.
   */
 final class BinIntegral(f: (Double, Double) => Double):
 
-  /** The integral over [x, x + width] × [y, y + height]; to about 1e-7 where `f` is smooth and a 2⁻⁹th of
-    * the jump across a discontinuity.
+  /** The integral over [x, x + width] × [y, y + height]; to about 1e-7 where `f` is smooth and a
+    * 2⁻⁹th of the jump across a discontinuity.
     */
   def apply(x: Double, y: Double, width: Double, height: Double): Double =
     val (w, h) = (width / 4, height / 4)

@@ -6,10 +6,11 @@ import candela.math.*
 
 /** Pearson's χ² test that samples are spread as their density says.
   *
-  * The domain is cut into bins. A bin's expected count is the number of draws times the integral of the
-  * density over it; draws that return nothing are a bin of their own, which expects what the density
-  * lacks to 1. Bins that expect fewer than five draws are pooled, because χ² needs about that many. The
-  * p-value is the probability that a correct sampler strays at least as far from the expectation.
+  * The domain is cut into bins. A bin's expected count is the number of draws times the integral of
+  * the density over it; draws that return nothing are a bin of their own, which expects what the
+  * density lacks to 1. Bins that expect fewer than five draws are pooled, because χ² needs about
+  * that many. The p-value is the probability that a correct sampler strays at least as far from the
+  * expectation.
   *
   * Use, for a suite that makes 12 such tests in all:
   * {{{
@@ -19,18 +20,18 @@ import candela.math.*
   * )
   * assert(result.accepted(tests = 12), result)
   * }}}
-  * The random numbers are a fixed sequence, so a result never changes from run to run. A draw may use
-  * any number of them; it must use nothing else that is random.
+  * The random numbers are a fixed sequence, so a result never changes from run to run. A draw may
+  * use any number of them; it must use nothing else that is random.
   *
-  * Source: Pharr, Jakob, Humphreys do the same in PBRT's and Jakob in Mitsuba's tests ("testing BSDFs
-  * with χ²"); Pearson 1900.
+  * Source: Pharr, Jakob, Humphreys do the same in PBRT's and Jakob in Mitsuba's tests ("testing
+  * BSDFs with χ²"); Pearson 1900.
   */
 object ChiSquare:
 
   /** @param pooled how many bins were thrown together for expecting too little */
   final case class Result(statistic: Double, degreesOfFreedom: Int, pooled: Int, pValue: Double):
 
-    /** Not refuted, at a chance of `significance` that a file of `tests` correct ones has any refusal.
+    /** Not refuted. That any of `tests` correct samplers is refused has probability `significance`.
       *
       * Source: Šidák, "Rectangular confidence regions for the means of multivariate normal
       * distributions", JASA 62, 1967.
@@ -38,8 +39,8 @@ object ChiSquare:
     def accepted(tests: Int, significance: Double = 0.01): Boolean =
       pValue >= 1 - Math.pow(1 - significance, 1.0 / tests)
 
-  /** Tests a sampler of unit directions against its density in sr⁻¹. Bins are equal in cos θ (about +z)
-    * and φ, so all have the same solid angle.
+  /** Tests a sampler of unit directions against its density in sr⁻¹. Bins are equal in cos θ (about
+    * +z) and φ, so all have the same solid angle.
     *
     * @param draw makes one direction from uniform numbers in [0, 1); None: no sample
     * @param pdf  must integrate to the share of draws that return a direction
@@ -61,7 +62,7 @@ object ChiSquare:
       (s, t) => pdf(direction(s, t)) * 4 * Math.PI
     )
 
-  /** Tests a sampler of points (x, y) of the unit square (z is ignored) against its density there. */
+  /** Tests a sampler of points (x, y) of the unit square (z is ignored) against its density. */
   def square(seed: Long, draws: Int = 200000, columns: Int = 20, rows: Int = 20)(
       draw: (() => Float) => Option[Vec3],
       pdf: (Double, Double) => Double

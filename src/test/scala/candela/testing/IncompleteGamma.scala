@@ -5,8 +5,8 @@ object IncompleteGamma:
 
   /** Q(a, x) = Γ(a, x) / Γ(a), for a > 0 and x ≥ 0; to about 1e-10.
     *
-    * Source: Press et al., "Numerical Recipes", 3rd ed., §6.2: the series for small x, the continued
-    * fraction by Lentz's method for large.
+    * Source: Press et al., "Numerical Recipes", 3rd ed., §6.2: the series for small x, the
+    * continued fraction by Lentz's method for large.
     */
   def upper(a: Double, x: Double): Double =
     require(a > 0 && x >= 0, s"Q($a, $x) is not defined")
@@ -45,7 +45,7 @@ object IncompleteGamma:
       i += 1
     h * Math.exp(-x + a * Math.log(x) - logGamma(a))
 
-  /** ln Γ(z) for z > 0 by Stirling's series, after the recurrence has moved z to where it is exact. */
+  /** ln Γ(z) for z > 0, by recurrence to where Stirling's series is exact enough: to 1e-11. */
   def logGamma(z: Double): Double =
     var shifted = z
     var correction = 0.0
