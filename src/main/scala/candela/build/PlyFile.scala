@@ -23,8 +23,8 @@ final class PlyMesh(
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
   *
   * Faces of four corners become the triangles 0 1 2 and 3 0 2, as in pbrt-v3; larger ones a fan.
-  * Faces of fewer than three corners have no surface and are left out, as is all that is no vertex or
-  * face.
+  * Faces of fewer than three corners have no surface and are left out, as is all that is no vertex
+  * or face.
   */
 object PlyFile:
 

@@ -66,7 +66,8 @@ private[build] object PlyHeader:
         case "end_header" :: Nil => more = false
         case ("comment" | "obj_info" | "") :: _ => ()
         case _ => wrong("a header line with no meaning here")
-    PlyHeader(format.getOrElse(fail(0, "the header has no `format`")), elements.toVector, lines.offset)
+    val known = format.getOrElse(fail(0, "the header has no `format`"))
+    PlyHeader(known, elements.toVector, lines.offset)
 
   private def property(words: List[String]): Option[PlyProperty] = words match
     case "list" :: count :: value :: name :: Nil =>
@@ -74,8 +75,8 @@ private[build] object PlyHeader:
     case value :: name :: Nil => Types.get(value).map(PlyProperty(name, _, None))
     case _ => None
 
-  /** Cuts lines. The first shows how all of them end: `\n`, `\r\n` or `\r`. Binary numbers may follow
-    * the last, so its end must be known exactly.
+  /** Cuts lines. The first shows how all of them end: `\n`, `\r\n` or `\r`. Binary numbers may
+    * follow the last, so its end must be known exactly.
     */
   private final class Lines(bytes: Array[Byte]):
     var offset = 0

@@ -91,7 +91,9 @@ private[build] object PlyNumbers:
     case PlyFormat.Ascii => AsciiPlyNumbers(bytes, header.bodyStart, fail)
     case PlyFormat.LittleEndian =>
       BinaryPlyNumbers(bytes, header.bodyStart, ByteOrder.LITTLE_ENDIAN, fail)
-    case PlyFormat.BigEndian => BinaryPlyNumbers(bytes, header.bodyStart, ByteOrder.BIG_ENDIAN, fail)
+    case PlyFormat.BigEndian =>
+      BinaryPlyNumbers(bytes, header.bodyStart, ByteOrder.BIG_ENDIAN, fail)
 
   /** Without `.0` where it is whole. */
-  def plain(n: Double): String = if n == Math.rint(n) && n.abs < 1e15 then n.toLong.toString else n.toString
+  def plain(n: Double): String =
+    if n == Math.rint(n) && n.abs < 1e15 then n.toLong.toString else n.toString

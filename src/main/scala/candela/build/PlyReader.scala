@@ -40,20 +40,23 @@ private[build] final class PlyReader(
   private def readVertices(element: PlyElement): Unit =
     val names = element.properties.filter(_.countType.isEmpty).map(_.name)
     def has(wanted: Seq[String]) = wanted.forall(names.contains)
-    def room(wanted: Seq[String]) = if has(wanted) then new Array[Float](element.count * wanted.size)
-    else Array.emptyFloatArray
+    def room(wanted: Seq[String]) =
+      new Array[Float](if has(wanted) then element.count * wanted.size else 0)
     if !has(PlyReader.Position) then
       val found = element.properties.map(_.name).mkString("`", "`, `", "`")
       fail(in.offset, s"vertices need `x`, `y` and `z`, but have $found")
-    val uvNames = PlyReader.TextureCoordinates.find(has).getOrElse(PlyReader.TextureCoordinates.head)
+    val uvNames = PlyReader.TextureCoordinates.find(has).getOrElse(PlyReader.NoCoordinates)
     positions = room(PlyReader.Position)
     normals = room(PlyReader.Normal)
     uvs = room(uvNames)
-    // for each property the array it goes to (or null), the array's numbers per vertex, and its place
-    // among these
+    // for each property the array it goes to (or null), the array's numbers per vertex, and its
+    // place among these
     val roles = element.properties.map: p =>
-      val groups = List(PlyReader.Position -> positions, PlyReader.Normal -> normals, uvNames -> uvs)
-      val group = groups.find((g, array) => g.contains(p.name) && array.nonEmpty && p.countType.isEmpty)
+      val arrays = List(positions, normals, uvs)
+      val groups = List(PlyReader.Position, PlyReader.Normal, uvNames)
+        .zip(arrays)
+        .filter((g, array) => g.contains(p.name) && array.nonEmpty)
+      val group = groups.headOption.filter(_ => p.countType.isEmpty)
       group.map((g, array) => (array, g.size, g.indexOf(p.name)))
     val targets = roles.map(_.fold(null)(_._1)).toArray
     val strides = roles.map(_.fold(0)(_._2)).toArray
@@ -78,7 +81,8 @@ private[build] final class PlyReader(
     loop(length)(_ => { val _ = in.next(p.valueType) })
 
   private def readFaces(element: PlyElement, vertexCount: Int): Unit =
-    val corners = element.properties.indexWhere(p => PlyReader.Corners(p.name) && p.countType.nonEmpty)
+    val corners =
+      element.properties.indexWhere(p => PlyReader.Corners(p.name) && p.countType.nonEmpty)
     if corners < 0 then
       val found = element.properties.map(_.name).mkString("`", "`, `", "`")
       fail(in.offset, s"faces need a list `vertex_indices`, but have $found")
@@ -97,7 +101,8 @@ private[build] final class PlyReader(
       triangle(first, second, last)
       loop(length - 3): _ =>
         val next = index(p.valueType, vertexCount)
-        // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's order
+        // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's
+        // order
         if length == 4 then triangle(next, first, last) else triangle(first, last, next)
         last = next
 
@@ -118,6 +123,8 @@ private[build] object PlyReader:
   private val Position = Seq("x", "y", "z")
   private val Normal = Seq("nx", "ny", "nz")
   private val Corners = Set("vertex_indices", "vertex_index")
+
+  private val NoCoordinates = Seq.empty[String]
 
   /** The pairs of names in use for texture coordinates. */
   private val TextureCoordinates = List(

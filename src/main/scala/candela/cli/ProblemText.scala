@@ -18,15 +18,16 @@ object ProblemText:
   def format(p: Problem): String =
     val severity = if p.severity == Severity.Error then "error" else "warning"
     val head = p.at.fold("")(at => s"$at: ") + s"$severity: ${p.message}"
-    val lines = Vector(head) ++ p.at.toVector.flatMap(at => p.excerpt.toVector.flatMap(excerpt(at, _))) ++
-      p.help.map(h => s" $h") ++ p.at.toVector.flatMap(includes)
-    lines.mkString("\n")
+    val shown = p.at.zip(p.excerpt).toVector.flatMap(excerpt)
+    val help = p.help.map(h => s" $h")
+    (Vector(head) ++ shown ++ help ++ p.at.toVector.flatMap(includes)).mkString("\n")
 
   private def excerpt(at: SourcePos, text: String): Vector[String] =
     val number = at.line.toString
     val before = Excerpt.caret(text, at.column) - 1
     // tabs stay tabs, so that the caret keeps its place however wide they are shown
-    val shift = text.codePoints.limit(before).toArray.map(c => if c == '\t' then '\t' else ' ').mkString
+    val characters = text.codePoints.limit(before).toArray
+    val shift = characters.map(c => if c == '\t' then '\t' else ' ').mkString
     Vector(s" $number | $text", s" ${" " * number.length} | ${shift.padTo(before, ' ')}^")
 
   private def includes(at: SourcePos): Vector[String] =

@@ -67,7 +67,8 @@ final class Arguments(
   /** One of the words, without quotes. */
   def word(choices: String*): String =
     if in.current != Token.Word || !choices.contains(in.text) then
-      fail(in.at, s"${directive.name} takes ${choices.mkString("`", "`, `", "`")}, but here is $found")
+      val known = choices.mkString("`", "`, `", "`")
+      fail(in.at, s"${directive.name} takes $known, but here is $found")
     val text = in.text
     in.advance()
     text

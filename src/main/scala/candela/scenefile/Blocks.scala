@@ -51,9 +51,12 @@ final class Blocks(whole: () => Boolean):
     if isDoubtful then Vector.empty
     else
       open.reverse.toVector.map: block =>
-        Problem.error(block.at, s"${block.begin} is never closed", Some(s"write ${block.end} after it"))
+        val help = Some(s"write ${block.end} after it")
+        Problem.error(block.at, s"${block.begin} is never closed", help)
 
-  /** Runs `body` with blocks of its own on top of the present state, and then forgets what it changed. */
+  /** Runs `body` with blocks of its own on top of the present state, and then forgets what it
+    * changed.
+    */
   def isolated(body: => Unit): Vector[Problem] =
     val (savedOpen, savedState) = (open, state)
     open = Nil

@@ -39,8 +39,8 @@ enum ParamType(val spelling: String):
   *
   * @param at       where the quoted type and name begin
   * @param valuesAt where the values begin
-  * @param floats   the numbers of every numeric type but `integer` (empty otherwise); `bools`, `ints`
-  *                 and `strings` likewise for theirs
+  * @param floats   the numbers of every numeric type but `integer` (empty otherwise); `bools`,
+  *                 `ints` and `strings` likewise for theirs
   * @param isDefault came from an `Attribute` statement, which speaks to many: it may fit none here
   */
 final class Param(
@@ -63,7 +63,8 @@ final class Param(
   *
   * @param category what kind of thing is declared, for messages: `Shape`, `Material`, `Camera`, …
   * @param at       where the quoted name stands
-  * @param folder   the folder of the scene (main) file, against which file names in parameters resolve
+  * @param folder   the folder of the scene (main) file, against which file names in parameters
+  *                 resolve
   */
 final case class Declaration(
     category: String,

@@ -2,7 +2,9 @@ package candela.scenefile
 
 import scala.collection.mutable
 
-/** Collects what a file uses, and says which dialect it most likely is. Reading never depends on it. */
+/** Collects what a file uses, and says which dialect it most likely is. Reading never depends on
+  * it.
+  */
 final class DialectGuess:
   private val seen = mutable.HashMap.empty[String, mutable.HashSet[String]]
 
@@ -21,8 +23,8 @@ final class DialectGuess:
 
   private val NoWorldEnd = Evidence("directive", Set.empty, 0, 0, 6)
 
-/** How strongly any of these names speaks for each dialect, once however often it occurs: 10 settles
-  * it, 6 is known to no other, 1 to 3 are habits.
+/** How strongly any of these names speaks for each dialect, once however often it occurs: 10
+  * settles it, 6 is known to no other, 1 to 3 are habits.
   */
 private final case class Evidence(category: String, names: Set[String], v2: Int, v3: Int, v4: Int)
 
@@ -51,7 +53,8 @@ object DialectGuess:
     row("Accelerator", 6, 0, 0)("grid"),
     row("Integrator", 0, 4, 0)("directlighting whitted"),
     row("Integrator", 0, 0, 6)("simplepath simplevolpath lightpath randomwalk function"),
-    row("Material", 3, 3, 0)("matte plastic metal glass mirror uber substrate translucent kdsubsurface"),
+    row("Material", 3, 3, 0)("matte plastic metal glass mirror uber substrate"),
+    row("Material", 3, 3, 0)("translucent kdsubsurface"),
     row("Material", 6, 0, 0)("shinymetal"),
     row("Material", 3, 0, 3)("measured"),
     row("Material", 0, 6, 0)("fourier disney"),

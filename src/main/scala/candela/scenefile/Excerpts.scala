@@ -7,7 +7,9 @@ import candela.base.{Excerpt, Problem, SourcePos}
 /** Adds to problems the lines of the files that they are about. */
 object Excerpts:
 
-  /** The problems in their order, each with its excerpt, if it has a place and the place can be read. */
+  /** The problems in their order, each with its excerpt, if it has a place and the place can be
+    * read.
+    */
   def fill(problems: Vector[Problem]): Vector[Problem] = fill(problems, Map.empty)
 
   /** @param known sources that are no files, by name */

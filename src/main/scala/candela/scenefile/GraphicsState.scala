@@ -9,8 +9,8 @@ enum ActiveTransform:
 
 /** What `AttributeBegin` saves and `AttributeEnd` brings back.
   *
-  * @param transform  the current transform: from the coordinates of what comes next to world space (to
-  *                   camera space before `WorldBegin`)
+  * @param transform  the current transform: from the coordinates of what comes next to world space
+  *                   (to camera space before `WorldBegin`)
   * @param areaLight  what shapes emit
   * @param defaults   parameters of `Attribute` by target ("shape", "light", …)
   */

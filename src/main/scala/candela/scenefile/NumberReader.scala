@@ -15,15 +15,16 @@ final class NumberReader(bytes: Array[Byte]):
   private var mantissa = 0L
   private var exponent = 0
 
-  /** Reads the number that begins at `at`. Returns the offset after it; −1 if there is no number, or
-    * something sticks to its end. The conversions below speak of the number last read.
+  /** Reads the number that begins at `at`. Returns the offset after it; −1 if there is no number,
+    * or something sticks to its end. The conversions below speak of the number last read.
     */
   def scan(at: Int): Int =
     val end = bytes.length
     var i = at
     isNegative = i < end && bytes(i) == '-'
     if i < end && (isNegative || bytes(i) == '+') then i += 1
-    // Digits beyond the 18th change the value by less than 1e-17 of itself: far below a Double's step.
+    // Digits beyond the 18th change the value by less than 1e-17 of itself: far below a Double's
+    // step.
     var m = 0L
     var e = 0
     val whole = i
@@ -64,11 +65,13 @@ final class NumberReader(bytes: Array[Byte]):
   def toFloat: Float =
     if exponent < -LargestPower || exponent > LargestPower then slowFloat
     else
-      // Three roundings: at most 2 units in the last place of a Double, far finer than a Float's step,
-      // so rounding once more is right unless the Double lies that close to halfway between two Floats.
+      // Three roundings: at most 2 units in the last place of a Double, far finer than a Float's
+      // step, so rounding once more is right unless the Double lies that close to halfway between
+      // two Floats.
       val d = mantissa.toDouble * PowersOfTen(exponent + LargestPower)
       val fromHalfway = (doubleToRawLongBits(d) & 0x1fffffffL) - 0x10000000L
-      val isSafe = (fromHalfway > 8 || fromHalfway < -8) && d < 3e38 && (d > 1.2e-38 || mantissa == 0)
+      val isNormal = d < 3e38 && (d > 1.2e-38 || mantissa == 0)
+      val isSafe = isNormal && (fromHalfway > 8 || fromHalfway < -8)
       if !isSafe then slowFloat else if isNegative then -d.toFloat else d.toFloat
 
   def toDouble: Double =

@@ -13,8 +13,8 @@ final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
   private val values = ValueReader(warn)
   private val keys = mutable.HashMap.empty[String, Parameters.Key]
 
-  /** The parameters from the current token on. Of two with one name the last counts, as in all three
-    * renderers.
+  /** The parameters from the current token on. Of two with one name the last counts, as in all
+    * three renderers.
     */
   def list(in: Tokenizer): Vector[Param] =
     var params = Vector.empty[Param]

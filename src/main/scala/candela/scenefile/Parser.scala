@@ -15,7 +15,8 @@ object Parser:
   def parse(file: Path, dialect: Option[Dialect] = None): SceneDescription =
     Source.read(file) match
       case Right(source) => parse(source, folderOf(file), Some(file), dialect)
-      case Left(why) => throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
+      case Left(why) =>
+        throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
   /** The scene of a text.
     *

@@ -50,8 +50,8 @@ private[scenefile] final class ParserRun(
     scene.worldBegin match
       // without its world nothing is at its place; the cause is reported already, or is this:
       case None if problems.errors == 0 =>
-        val message = s"`${source.name}` has no WorldBegin: it is a part to Include, not a whole scene"
-        problems.add(Problem.general(message))
+        val what = "it is a part to Include, not a whole scene"
+        problems.add(Problem.general(s"`${source.name}` has no WorldBegin: $what"))
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
@@ -61,7 +61,8 @@ private[scenefile] final class ParserRun(
   /** @param files the files being read, innermost first */
   private def statements(in: Tokenizer, files: List[Path]): Unit =
     attempt(in)(in.advance())
-    while !isDone && !problems.isFull && in.current != Token.End do attempt(in)(statement(in, files))
+    while !isDone && !problems.isFull && in.current != Token.End do
+      attempt(in)(statement(in, files))
 
   /** Runs `body`; after an error what looks like the next directive becomes the current token. */
   private def attempt(in: Tokenizer)(body: => Unit): Unit =
@@ -117,7 +118,8 @@ private[scenefile] final class ParserRun(
     val message = (directive.place, scene.worldBegin) match
       case (Place.Options, Some(begin)) if directive.name == "WorldBegin" =>
         s"WorldBegin again: the first is at $begin"
-      case (Place.Options, Some(begin)) => s"${directive.name} belongs before WorldBegin (at $begin)"
+      case (Place.Options, Some(begin)) =>
+        s"${directive.name} belongs before WorldBegin (at $begin)"
       case (Place.World, None) => s"${directive.name} belongs after WorldBegin"
       case _ => ""
     if message.nonEmpty && !misplaced.isFull then

@@ -3,7 +3,9 @@ package candela.scenefile
 import candela.base.{Problem, SourcePos}
 import candela.math.Transform
 
-/** An object-to-world transform at the start and the end of the shutter; mostly both are one object. */
+/** An object-to-world transform at the start and the end of the shutter; mostly both are one
+  * object.
+  */
 final case class AnimatedTransform(start: Transform, end: Transform):
   def isAnimated: Boolean = start != end
 
@@ -31,7 +33,11 @@ final case class ShapeDescription(
 
 final case class LightDescription(light: Declaration, lightToWorld: AnimatedTransform)
 
-final case class InstanceDescription(name: String, at: SourcePos, instanceToWorld: AnimatedTransform)
+final case class InstanceDescription(
+    name: String,
+    at: SourcePos,
+    instanceToWorld: AnimatedTransform
+)
 
 /** `Texture "name" "valueType" "class" …`.
   *

@@ -21,5 +21,7 @@ object SceneOptions:
     val name = plain(written)
     Types.getOrElse(
       name,
-      throw SceneError(Problem.error(at, s"no option is called `$name`", Suggest.help(name, Types.keys)))
+      throw SceneError(
+        Problem.error(at, s"no option is called `$name`", Suggest.help(name, Types.keys))
+      )
     )

@@ -26,7 +26,7 @@ final class SceneWriter(
   private val instances = Vector.newBuilder[InstanceDescription]
   private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
   private val objectNames = mutable.HashMap.empty[String, String]
-  private var inObject = Option.empty[(String, mutable.Builder[ShapeDescription, Vector[ShapeDescription]])]
+  private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4)
 
   val blocks: Blocks = Blocks(isV4)
@@ -107,7 +107,10 @@ final class SceneWriter(
       state.insideMedium,
       state.outsideMedium
     )
-    inObject.fold(shapes)(_._2) += described
+    inObject match
+      case Some((_, own)) => own += described
+      case None => shapes += described
+    ()
 
   def light(from: Named): Unit =
     lights += LightDescription(declare("LightSource", from, "light"), state.transform)
@@ -170,7 +173,8 @@ final class SceneWriter(
       change(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
 
   private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
-    if isV4() then fail(at, s"the $kind \"$name\" is defined already", Some("names are used once in v4"))
+    if isV4() then
+      fail(at, s"the $kind \"$name\" is defined already", Some("names are used once in v4"))
 
   def mediumInterface(inside: String, outside: String): Unit =
     change(_.copy(insideMedium = inside, outsideMedium = outside))
@@ -188,7 +192,8 @@ final class SceneWriter(
   // Objects
 
   def beginObject(name: String, at: SourcePos): Unit =
-    if inObject.nonEmpty then fail(at, "ObjectBegin inside of an object", Some("objects don't nest"))
+    if inObject.nonEmpty then
+      fail(at, "ObjectBegin inside of an object", Some("objects don't nest"))
     val unique =
       if names.take("object", name) then name
       else
@@ -197,15 +202,16 @@ final class SceneWriter(
     val _ = names.take("object", unique)
     objectNames(name) = unique
     blocks.begin("ObjectBegin", at)
-    inObject = Some((unique, Vector.newBuilder[ShapeDescription]))
+    inObject = Some((unique, mutable.ArrayBuffer.empty))
 
   def endObject(at: SourcePos): Unit =
-    inObject.foreach((name, shapes) => objects(name) = shapes.result())
+    inObject.foreach((name, shapes) => objects(name) = shapes.toVector)
     inObject = None
     blocks.end("ObjectBegin", at)
 
   def instance(name: String, at: SourcePos): Unit =
-    if inObject.nonEmpty then fail(at, "ObjectInstance inside of an object", Some("objects don't nest"))
+    if inObject.nonEmpty then
+      fail(at, "ObjectInstance inside of an object", Some("objects don't nest"))
     instances += InstanceDescription(objectNames.getOrElse(name, name), at, state.transform)
 
   // Transforms

@@ -4,9 +4,9 @@ import scala.collection.mutable
 
 /** What names of textures and materials mean at one place of a file, where that is not themselves.
   *
-  * v2 and v3 forget definitions at `AttributeEnd` and let a name be defined again; what used it before
-  * keeps the old meaning. A description has one list of each kind, so later definitions get unique
-  * names of their own here, and later uses follow.
+  * v2 and v3 forget definitions at `AttributeEnd` and let a name be defined again; what used it
+  * before keeps the old meaning. A description has one list of each kind, so later definitions get
+  * unique names of their own here, and later uses follow.
   */
 final case class Scope(textures: Map[String, String], materials: Map[String, String]):
 

@@ -5,7 +5,9 @@ import java.nio.charset.StandardCharsets.UTF_8
 
 import candela.base.{Problem, SceneError, SourcePos}
 
-/** What a token can be: a bare word (directive, number, `true`), a quoted text, `[`, `]`, or the end. */
+/** What a token can be: a bare word (directive, number, `true`), a quoted text, `[`, `]`, or the
+  * end.
+  */
 enum Token:
   case Word, Text, Open, Close, End
 
@@ -18,8 +20,8 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private val bytes = source.bytes
   private val number = NumberReader(bytes)
 
-  /** The first byte after the current token, and where its line began. `wide` counts the bytes of this
-    * line that are not characters of their own (UTF-8 continuation).
+  /** The first byte after the current token, and where its line began. `wide` counts the bytes of
+    * this line that are not characters of their own (UTF-8 continuation).
     */
   private var next = source.start
   private var line = 1
@@ -170,7 +172,8 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       next = i.min(bytes.length)
       kind = Token.Text
       content = ""
-      val what = if i >= bytes.length then "the file ends inside this text" else "this text is not closed"
+      val isEnd = i >= bytes.length
+      val what = if isEnd then "the file ends inside this text" else "this text is not closed"
       throw SceneError(Problem.error(at, what, Some("end it with `\"` on the same line")))
     next = i + 1
     kind = Token.Text

@@ -32,8 +32,8 @@ final class ValueReader(warn: Problem => Unit):
       case _ =>
         Param(paramType, name, at, valuesAt, floats = numbers(in, isList))
     open match
-      case Some(openAt) if in.current != Token.Close => throw SceneError(misfit(param, in, Some(openAt)))
-      case Some(_) => in.advance()
+      case Some(_) if in.current == Token.Close => in.advance()
+      case Some(_) => throw SceneError(misfit(param, in, open))
       case None => if count(param) == 0 then throw SceneError(misfit(param, in, None))
     checkCount(param)
     param
@@ -73,6 +73,7 @@ final class ValueReader(warn: Problem => Unit):
     val name = s"`${param.name}`"
     def word = if in.current == Token.Word then in.text else ""
     val isNumber = in.numberHere.nonEmpty
+    val isQuotedNumber = in.current == Token.Text && in.text.toFloatOption.nonEmpty
     val isDirective = word.headOption.exists(_.isUpper)
     openAt match
       case Some(at) if in.current == Token.End =>
@@ -85,7 +86,7 @@ final class ValueReader(warn: Problem => Unit):
         val help =
           if isDirective then "is a `]` missing before it?"
           else if in.current == Token.Open then "lists do not nest"
-          else if in.current == Token.Text && in.text.toFloatOption.nonEmpty then "write it without quotes"
+          else if isQuotedNumber then "write it without quotes"
           else example(param)
         Problem.error(in.at, s"$name takes ${kindOf(param)}, but here is ${in.shown}", Some(help))
 
@@ -116,7 +117,8 @@ final class ValueReader(warn: Problem => Unit):
     val n = count(param)
     val size = param.paramType match
       case ParamType.Point2 | ParamType.Vector2 => 2
-      case ParamType.Point3 | ParamType.Vector3 | ParamType.Normal | ParamType.Rgb | ParamType.Xyz => 3
+      case ParamType.Point3 | ParamType.Vector3 | ParamType.Normal => 3
+      case ParamType.Rgb | ParamType.Xyz => 3
       case ParamType.Spectrum if param.strings.isEmpty => 2
       case _ => 1
     def fail(message: String) =

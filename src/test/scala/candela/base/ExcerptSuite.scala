@@ -15,7 +15,8 @@ class ExcerptSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(Excerpt.caret(line, 200) == 200)
 
   test("of any line at most 200 characters are shown, and the caret meets the same character"):
-    val cases = for length <- Gen.choose(1, 1000); column <- Gen.choose(1, length) yield (length, column)
+    val cases =
+      for length <- Gen.choose(1, 1000); column <- Gen.choose(1, length) yield (length, column)
     forAll(cases): (length, column) =>
       val line = String(Array.tabulate(length)(i => ('a' + i % 26).toChar))
       val shown = excerpt(line, column)

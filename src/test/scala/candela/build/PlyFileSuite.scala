@@ -2,7 +2,7 @@ package candela.build
 
 import java.io.ByteArrayOutputStream
 import java.nio.{ByteBuffer, ByteOrder}
-import java.nio.file.Files
+import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
 import candela.base.{SceneError, SourcePos}
@@ -36,7 +36,8 @@ class PlyFileSuite extends AnyFunSuite:
     write(body)
     head.getBytes("ISO-8859-1") ++ body.array.take(body.position)
 
-  private def big(head: String)(write: ByteBuffer => Unit) = binary(head, ByteOrder.BIG_ENDIAN)(write)
+  private def big(head: String)(write: ByteBuffer => Unit): Array[Byte] =
+    binary(head, ByteOrder.BIG_ENDIAN)(write)
 
   test("a quad is the triangles 0 1 2 and 3 0 2, a pentagon a fan"):
     val quad = mesh(header("ascii", 4, 1) + corners + "4 0 1 2 3\n")
@@ -133,7 +134,8 @@ class PlyFileSuite extends AnyFunSuite:
 
   test("a file that is not there is an error at the place that asks for it"):
     val at = SourcePos("scene.pbrt", 3, 4)
-    val problem = intercept[SceneError](PlyFile.read(java.nio.file.Path.of("no.ply"), Some(at))).problems.head
+    val error = intercept[SceneError](PlyFile.read(Path.of("no.ply"), Some(at)))
+    val problem = error.problems.head
     assert(problem.at.contains(at))
     assert(problem.message == "can't read the mesh `no.ply`: there is no such file")
 
@@ -148,10 +150,12 @@ class PlyFileSuite extends AnyFunSuite:
 
   test("missing elements and properties are named, with what is there instead"):
     val noFaces = header("ascii", 4, 1).replace("element face", "element tristrips")
-    assert(error(noFaces + corners).contains("no face elements in the file, but 4 vertex, 1 tristrips"))
+    val instead = "no face elements in the file, but 4 vertex, 1 tristrips"
+    assert(error(noFaces + corners).contains(instead))
     assert(error(header("ascii", 0, 1)).contains("no vertex elements"))
     val noZ = header("ascii", 4, 1).replace("float z", "float height")
-    assert(error(noZ + corners + "3 0 1 2").contains("need `x`, `y` and `z`, but have `x`, `y`, `height`"))
+    val lacking = "need `x`, `y` and `z`, but have `x`, `y`, `height`"
+    assert(error(noZ + corners + "3 0 1 2").contains(lacking))
     val noCorners = header("ascii", 4, 1).replace("vertex_indices", "corners")
     assert(error(noCorners + corners + "3 0 1 2").contains("need a list `vertex_indices`"))
 
@@ -165,7 +169,8 @@ class PlyFileSuite extends AnyFunSuite:
   test("positions that are not finite are errors; normals that are not finite become 0"):
     val huge = header("ascii", 4, 1) + corners.replace("0.5", "1e99") + "3 0 1 2"
     assert(error(huge).contains("line 14: `z` of vertex 3 is Infinity"))
-    assert(error(header("ascii", 4, 1) + corners.replace("0.5", "nan")).contains("here is no number"))
+    val notNumber = header("ascii", 4, 1) + corners.replace("0.5", "nan") + "3 0 1 2"
+    assert(error(notNumber).contains("here is no number"))
     val head = "ply\nformat binary_big_endian 1.0\n" + rich
     val bytes = big(head)(writeRich)
     val nan = big("")(b => { val _ = b.putFloat(Float.NaN) })
@@ -188,10 +193,12 @@ class PlyFileSuite extends AnyFunSuite:
     val counts = List((2000000000, 1), (4, 2000000000))
     for format <- List("ascii", "binary_little_endian", "binary_big_endian"); (v, f) <- counts do
       val body = if format == "ascii" then corners + "3 0 1 2\n" else "x" * 61
-      assert(error(header(format, v, f) + body).contains("the file is too short for its 2000000000"))
+      val message = error(header(format, v, f) + body)
+      assert(message.contains("the file is too short for its 2000000000"))
     val list = header("binary_big_endian", 1, 1).replace("uchar int", "int int")
-    assert(error(list + "\u0000" * 12 + "\u0040" + "\u0000" * 11).contains("the file ends too early"))
-    assert(error(list + "\u0000" * 12 + "\u00ff\u00ff\u00ff\u00fezzzz").contains("can't have -2 values"))
+    val start = list + "\u0000" * 12
+    assert(error(start + "\u0040" + "\u0000" * 11).contains("the file ends too early"))
+    assert(error(start + "\u00ff\u00ff\u00ff\u00fezzzz").contains("can't have -2 values"))
 
   test("whatever byte of a file is changed, the answer is a sound mesh or a SceneError"):
     val ascii = (header("ascii", 4, 1) + corners + "4 0 1 2 3").getBytes("ISO-8859-1")

@@ -9,9 +9,11 @@ class DialectGuessSuite extends AnyFunSuite:
   private def dialectOf(text: String): Dialect = Parser.parseText("test", text, Path.of("")).dialect
 
   test("directives of one dialect settle it"):
-    for text <- List("SurfaceIntegrator \"path\"", "VolumeIntegrator \"single\"", "Renderer \"sampler\"") do
+    for directive <- List("SurfaceIntegrator", "VolumeIntegrator", "Renderer") do
+      val text = s"$directive \"path\""
       assert(dialectOf(s"$text WorldBegin WorldEnd") == Dialect.V2)
-    for text <- List("ColorSpace \"srgb\"", "Option \"seed\" 1", "Attribute \"shape\" \"float a\" 1") do
+    val attribute = "Attribute \"shape\" \"float a\" 1"
+    for text <- List("ColorSpace \"srgb\"", "Option \"seed\" 1", attribute) do
       assert(dialectOf(s"$text WorldBegin WorldEnd") == Dialect.V4)
 
   test("a v4 file with a WorldEnd left over is v4"):

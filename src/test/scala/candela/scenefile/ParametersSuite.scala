@@ -21,7 +21,8 @@ class ParametersSuite extends AnyFunSuite:
     all.head
 
   private def error(text: String): String =
-    intercept[SceneError](params(text)).problems.map(p => s"${p.at.get.column}: ${p.message}").mkString
+    val problems = intercept[SceneError](params(text)).problems
+    problems.map(p => s"${p.at.get.column}: ${p.message}").mkString
 
   test("each spelling of each type is known"):
     val numbers = Map(
@@ -52,8 +53,10 @@ class ParametersSuite extends AnyFunSuite:
     assert(one("\"spectrum eta\" \"metal-Cu-eta\"").strings == Vector("metal-Cu-eta"))
 
   test("true and false may stand in quotes or bare"):
-    val all = params("\"bool a\" true \"bool b\" [false] \"bool c\" \"true\" \"bool d\" [\"false\" true]")
-    assert(all.map(_.bools) == Vector(Vector(true), Vector(false), Vector(true), Vector(false, true)))
+    def values(text: String) = one("\"bool b\" " + text).bools
+    assert(values("true") == Vector(true) && values("\"true\"") == Vector(true))
+    assert(values("[false]") == Vector(false))
+    assert(values("[\"false\" true]") == Vector(false, true))
 
   test("a spectrum is pairs of numbers, or names"):
     assert(one("\"spectrum L\" [400 1 700 2]").floats.length == 4)

@@ -56,7 +56,8 @@ class ParserSuite extends AnyFunSuite:
   test("matrices are written column by column, with or without brackets"):
     val numbers = "1 0 0 0  0 1 0 0  0 0 1 0  5 6 7 1"
     for text <- List(s"[$numbers]", numbers) do
-      val scene = world(s"Scale 2 2 2 Transform $text Shape \"a\" ConcatTransform $text Shape \"b\"")
+      val statements = s"Transform $text Shape \"a\" ConcatTransform $text Shape \"b\""
+      val scene = world(s"Scale 2 2 2 $statements")
       assert(scene.shapes(0).objectToWorld.start == Transform.translate(5, 6, 7))
       assert(scene.shapes(1).objectToWorld.start == Transform.translate(10, 12, 14))
 
@@ -93,15 +94,16 @@ class ParserSuite extends AnyFunSuite:
 
   test("AttributeEnd brings back everything"):
     val scene = world(
-      """AttributeBegin Translate 1 0 0 Material "matte" AreaLightSource "diffuse" ReverseOrientation
-        |MediumInterface "in" "out" ActiveTransform EndTime Shape "a" AttributeEnd
-        |Translate 0 1 0 Shape "b" """.stripMargin
+      """AttributeBegin Translate 1 0 0 Material "matte" AreaLightSource "diffuse"
+        |ReverseOrientation MediumInterface "in" "out" ActiveTransform EndTime Shape "a"
+        |AttributeEnd Translate 0 1 0 Shape "b" """.stripMargin
     )
     val Vector(a, b) = scene.shapes: @unchecked
     assert(a.areaLight.map(_.name).contains("diffuse") && a.reverseOrientation)
     assert(a.insideMedium == "in" && a.outsideMedium == "out")
     assert(b.material == MaterialRef.Default && b.areaLight.isEmpty && !b.reverseOrientation)
-    assert(b.insideMedium == "" && b.objectToWorld == GraphicsState.still(Transform.translate(0, 1, 0)))
+    assert(b.insideMedium == "")
+    assert(b.objectToWorld == GraphicsState.still(Transform.translate(0, 1, 0)))
 
   test("TransformEnd brings back the transform alone in v2 and v3, everything in v4"):
     val text = "WorldBegin TransformBegin Scale 2 2 2 Material \"\" TransformEnd Shape \"a\""
@@ -115,7 +117,8 @@ class ParserSuite extends AnyFunSuite:
 
   test("lights, textures and volumes keep the transform"):
     val scene = world(
-      """Translate 1 0 0 LightSource "point" Texture "t" "color" "checkerboard" Volume "homogeneous" """
+      """Translate 1 0 0 LightSource "point" Texture "t" "color" "checkerboard"
+        |Volume "homogeneous" """.stripMargin
     )
     val moved = GraphicsState.still(Transform.translate(1, 0, 0))
     assert(scene.lights.head.lightToWorld == moved)
@@ -166,7 +169,8 @@ class ParserSuite extends AnyFunSuite:
         |Material "matte" "texture Kd" "t" "texture bump" "t" Shape "a" """.stripMargin
     )
     val all = scene.textures.map(t => (t.name, t.valueType, t.texture.name)).toSet
-    assert(all.contains(("t (2)", "spectrum", "marble")) && all.contains(("t (2)", "float", "dots")))
+    assert(all.contains(("t (2)", "spectrum", "marble")))
+    assert(all.contains(("t (2)", "float", "dots")))
     val MaterialRef.Inline(material) = scene.shapes.head.material: @unchecked
     assert(material.params.map(_.strings) == Vector(Vector("t (2)"), Vector("t (2)")))
 
@@ -197,7 +201,8 @@ class ParserSuite extends AnyFunSuite:
         |Shape "b" "float zmax" 2 LightSource "point" """.stripMargin,
       Dialect.V4
     )
-    def values(i: Int) = scene.shapes(i).shape.params.map(p => (p.name, p.floats.head, p.isDefault)).toSet
+    def values(i: Int) =
+      scene.shapes(i).shape.params.map(p => (p.name, p.floats.head, p.isDefault)).toSet
     assert(values(0) == Set(("radius", 4f, true), ("zmax", 1f, true)))
     assert(values(1) == Set(("radius", 3f, true), ("zmax", 2f, false)))
     assert(scene.lights.head.light.params.isEmpty)
