@@ -21,9 +21,10 @@ final class Terminal(
 object Terminal:
 
   def ofProcess: Terminal =
-    Terminal(System.out, System.err, isInteractive, Interrupts.fromSignals(System.err))
+    val interrupts = Interrupts.fromSignals(System.err, isInteractive)
+    Terminal(System.out, System.err, isInteractive, interrupts)
 
-  private def isInteractive: Boolean =
+  private lazy val isInteractive: Boolean =
     val attached = Option(System.console()).exists: console =>
       // From JDK 22 on there may be a console without a terminal, and a method that says so.
       val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
