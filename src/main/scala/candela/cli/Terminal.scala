@@ -21,10 +21,10 @@ final class Terminal(
 object Terminal:
 
   def ofProcess: Terminal =
-    val interrupts = Interrupts.fromSignals(System.err, isInteractive)
-    Terminal(System.out, System.err, isInteractive, interrupts)
+    val redraws = isInteractive
+    Terminal(System.out, System.err, redraws, Interrupts.fromSignals(System.err, redraws))
 
-  private lazy val isInteractive: Boolean =
+  private def isInteractive: Boolean =
     val attached = Option(System.console()).exists: console =>
       // From JDK 22 on there may be a console without a terminal, and a method that says so.
       val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
