@@ -21,13 +21,15 @@ object Interrupts:
   object Ignored extends Interrupts:
     def during[A](cancellation: Cancellation)(body: => A): A = body
 
-  def fromSignals(err: PrintStream): Interrupts = Signals(err)
+  /** @param isInteractive whether Ctrl-C leaves its `^C` on the line */
+  def fromSignals(err: PrintStream, isInteractive: Boolean): Interrupts =
+    Signals(err, if isInteractive then "\n" else "")
 
   /** The first SIGINT cancels, the second quits at once. Another request to end (SIGTERM: a batch
     * system, or sbt that passes a Ctrl-C on) cancels too, and waits until `body` has written its
     * image.
     */
-  private final class Signals(err: PrintStream) extends Interrupts:
+  private final class Signals(err: PrintStream, lineEnd: String) extends Interrupts:
     private val interrupt = Signal("INT")
 
     def during[A](cancellation: Cancellation)(body: => A): A =
@@ -39,7 +41,7 @@ object Interrupts:
         if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
         else
           cancellation.request()
-          err.println("\nstopping; Ctrl-C again quits without an image")
+          err.println(s"${lineEnd}stopping; Ctrl-C again quits without an image")
       Runtime.getRuntime.addShutdownHook(onShutdown)
       // Refused if Java was told (-Xrs) to leave signals alone.
       val previous = Try(Signal.handle(interrupt, onInterrupt)).toOption

@@ -3,6 +3,7 @@ package candela.cli
 import candela.render.Progress
 
 import java.io.PrintStream
+import java.util.Locale
 
 /** Shows how far a rendering is: on a terminal one line that is redrawn; elsewhere, in logs, a line
   * now and then.
@@ -62,7 +63,8 @@ object ProgressLine:
 
   private def fraction(p: Progress): Double = if p.total == 0 then 1 else p.done.toDouble / p.total
 
-  private def percent(p: Progress): String = "%3d%%".format((fraction(p) * 100).toInt)
+  private def percent(p: Progress): String =
+    "%3d%%".formatLocal(Locale.ROOT, (fraction(p) * 100).toInt)
 
   private def speed(p: Progress): String =
     if p.done == 0 then "starting"

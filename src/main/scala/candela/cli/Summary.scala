@@ -17,8 +17,8 @@ object Summary:
       val size = s"${r.film.width}x${r.film.height}"
       s"wrote $names  $size, ${r.samplesDone} spp, ${Figures.duration(r.seconds)}, $rates"
     else
-      val samples = s"${r.samplesDone} of ${r.samplesPerPixel} samples per pixel"
-      s"interrupted: wrote $names with $samples"
+      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel"
 
   def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
     Vector(

@@ -21,7 +21,8 @@ final class Terminal(
 object Terminal:
 
   def ofProcess: Terminal =
-    Terminal(System.out, System.err, isInteractive, Interrupts.fromSignals(System.err))
+    val redraws = isInteractive
+    Terminal(System.out, System.err, redraws, Interrupts.fromSignals(System.err, redraws))
 
   private def isInteractive: Boolean =
     val attached = Option(System.console()).exists: console =>

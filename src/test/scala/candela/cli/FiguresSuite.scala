@@ -20,12 +20,3 @@ class FiguresSuite extends AnyFunSuite:
   test("one is singular"):
     assert(Vector(0L, 1L, 2L).map(Figures.count(_, "error")) ==
       Vector("0 errors", "1 error", "2 errors"))
-
-  test("numbers look the same in every locale"):
-    val before = java.util.Locale.getDefault
-    java.util.Locale.setDefault(java.util.Locale.GERMANY)
-    try
-      assert(Figures.metric(1310) == "1.31 k")
-      assert(Figures.duration(3.2) == "3.2 s")
-      assert(Figures.scientific(0.00012345) == "0.0001235")
-    finally java.util.Locale.setDefault(before)

@@ -18,20 +18,20 @@ class InterruptsSuite extends AnyFunSuite:
         pressed = true
         Signal.raise(Signal("INT"))
       Rgb.White
-    val rendering = Interrupts.fromSignals(captured.terminal.err).during(cancellation):
+    val rendering = Interrupts.fromSignals(captured.terminal.err, false).during(cancellation):
       Renderer.render(plan, threads = 1, cancellation)
     assert(cancellation.isRequested)
     assert(!rendering.isComplete)
     assert(rendering.samplesDone >= 2)
-    assert(captured.err.contains("stopping; Ctrl-C again quits without an image"))
+    assert(captured.err == "stopping; Ctrl-C again quits without an image\n")
 
   test("without Ctrl-C nothing is cancelled, and the result is passed on"):
     val cancellation = Cancellation()
-    assert(Interrupts.fromSignals(System.err).during(cancellation)(42) == 42)
+    assert(Interrupts.fromSignals(System.err, false).during(cancellation)(42) == 42)
     assert(!cancellation.isRequested)
 
   test("what fails meanwhile is passed on"):
-    val interrupts = Interrupts.fromSignals(System.err)
+    val interrupts = Interrupts.fromSignals(System.err, false)
     val failure = intercept[IllegalStateException]:
       interrupts.during(Cancellation())(throw IllegalStateException("planted"))
     assert(failure.getMessage == "planted")

@@ -132,6 +132,17 @@ class RenderCommandSuite extends AnyFunSuite:
       current = cancellation
       body
 
+  test("an image that is interrupted before each pixel has a sample is written too, and says so"):
+    TempFolder.use: folder =>
+      val interrupts = AtSample()
+      val plan = TinyPlan(filename = folder.resolve("a.png").toString): (_, _) =>
+        interrupts.press()
+        gray
+      val captured = Captured(interrupts = interrupts)
+      assert(run(captured, Known("s.pbrt" -> plan), "s.pbrt", "--nthreads", "1") == 130)
+      assert(captured.out ==
+        s"interrupted: wrote $folder/a.png with less than 1 of 5 samples per pixel\n")
+
   test("an interrupted rendering is written as far as it is; other scenes are left"):
     TempFolder.use: folder =>
       val interrupts = AtSample()
