@@ -71,7 +71,8 @@ object Architecture:
 
   private val use = raw"\bcandela\s*\.\s*(\w+)".r
   private val vague = raw"\bimport\s+(?:_root_\.)?candela(?:\s*\.\s*[{*]|\s+as\b)".r
-  private val imported = raw"^\s*(?:import|export)\s+(?:_root_\.)?(\w+)\.".r.unanchored
+  private val imported = raw"^(?:import|export)\s+(?:_root_\.)?([a-z]\w*)\.".r
+  private val fullName = raw"(?<![\w.])(org|com|jdk|scopt|sun)\.\w".r // within code, too
   private val print = (raw"\b(?:println|printf|printStackTrace|Console)\b|\bprint\(|" +
     raw"\bSystem\.(?:out|err|in|exit)\b|\bsys\.exit\b|\.halt\(").r
   private val thread = (raw"\bThread\s*[(:{]|\b(?:extends|new)\s+Thread\b|\bThread\.(?:of|start)|" +
@@ -103,11 +104,10 @@ object Architecture:
   /** `base` needs but Java and Scala; other libraries stay behind the package they serve. */
   def foreign(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
-      line match
-        case imported(root) if !language(root) && !allowed.contains(root) =>
-          Option.when(!libraries.getOrElse(root, Set.empty)(home)):
-            s"$home may not use the library `$root`"
-        case _ => None
+      val roots = (imported.findAllMatchIn(line) ++ fullName.findAllMatchIn(line)).map(_.group(1))
+      for root <- roots.toVector.distinct
+      if !language(root) && !libraries.getOrElse(root, Set.empty)(home)
+      yield s"$home may not use the library `$root`"
 
   /** Results go up as values; what to tell the user, and when to stop, is for `cli` to say. */
   def prints(sources: Vector[SourceText]): Vector[String] =

@@ -96,6 +96,11 @@ class ArchitectureSuite extends AnyFunSuite:
       foreign("render/R.scala", "import com.example.Json") ==
         Vector("render/R.scala:1: render may not use the library `com`")
     )
+    assert(
+      foreign("base/Loop.scala", "  val png = org.lwjgl.stb.STBImage.load(x)") ==
+        Vector("base/Loop.scala:1: base may not use the library `org`")
+    )
+    assert(foreign("base/Loop.scala", "  import Loop.start; import java.io.File").isEmpty)
 
   test("printing and exiting outside cli are found, but not where they are only spoken of"):
     def lines(path: String)(lines: String*) = Architecture.prints(planted(path, lines*))
