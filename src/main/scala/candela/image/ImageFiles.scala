@@ -25,7 +25,9 @@ object ImageFiles:
         case e: IOException => throw ImageError(s"$path: can't be read: ${reason(e)}")
         case _: OutOfMemoryError => throw ImageError(s"$path: a file of 2 GB or more")
     try decode(bytes, suffix(path))
-    catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+    catch
+      case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
+      case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
 
   /** What the file begins with outranks its name, which people change: the four marks can't begin a
     * valid TGA file, the one format that has none.
