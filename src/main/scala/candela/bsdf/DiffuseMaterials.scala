@@ -38,7 +38,7 @@ final class CoatedDiffuseMaterial(
 ) extends Material:
   def bsdf(at: ShadingPoint): Bsdf =
     val top = roughness.trowbridgeReitz(at)
-    val coat = if family.length == 1 then family(0) else Coats.nearest(family, top)
+    val coat = if family.length == 1 then family(0) else Coats.between(family, top)
     CoatedDiffuse(reflectance(at).map(c => clamp(c, 0f, 1f)), top, coat, baseHits)
 
 /** [[FresnelBlend]]: a glossy coat on a diffuse base. */

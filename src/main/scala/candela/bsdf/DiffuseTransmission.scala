@@ -28,7 +28,7 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Bs
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val near = Hemisphere.cosineSample(wo, u1, u2)
-    if total == 0f || near.z == 0f then BsdfSample.Absorbed
+    if total == 0f || !Hemisphere.same(wo, near) then BsdfSample.Absorbed
     else if choice < reflects then
       val density = reflects * Hemisphere.cosinePdf(near)
       BsdfSample(near, reflectance * (1f / reflects), density, isSpecular = false)

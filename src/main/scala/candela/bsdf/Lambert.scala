@@ -14,11 +14,11 @@ final class Lambert(albedo: Rgb) extends Bsdf:
   def f(wo: Vec3, wi: Vec3): Rgb = if Hemisphere.same(wo, wi) then value else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+    if !absorbs && Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if absorbs || wi.z == 0f then BsdfSample.Absorbed
+    if absorbs || !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
     else BsdfSample(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
   def isSpecular: Boolean = false

@@ -43,8 +43,10 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       BsdfSample(drawn.wi, drawn.weight * (1f / p), drawn.pdf * p, isSpecular = true, drawn.eta)
     else
       val density = pdf(wo, drawn.wi)
-      val weight = f(wo, drawn.wi) * (Hemisphere.absCos(drawn.wi) / density)
-      BsdfSample(drawn.wi, weight, density, isSpecular = false, drawn.eta)
+      if density <= 0f then BsdfSample.Absorbed
+      else
+        val weight = f(wo, drawn.wi) * (Hemisphere.absCos(drawn.wi) / density)
+        BsdfSample(drawn.wi, weight, density, isSpecular = false, drawn.eta)
 
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)

@@ -76,7 +76,8 @@ abstract class BsdfLaws extends AnyFunSuite:
         assert(Math.abs(pdf - s.pdf) <= tolerance * s.pdf, s"pdf $pdf, not ${s.pdf}; $wo ${s.wi}")
         val expected = bsdf.f(wo, s.wi) * (Math.abs(s.wi.z) / pdf)
         val off = (s.weight - expected).map(c => Math.abs(c)).max
-        assert(off <= tolerance * expected.max, s"weight ${s.weight}, not $expected; $wo ${s.wi}")
+        val message = s"weight ${s.weight}, not $expected; $wo ${s.wi}"
+        assert(off <= tolerance * expected.max, message): Unit
 
   private def conserves(bsdf: Bsdf, isLossless: Boolean, compresses: Boolean): Unit =
     val random = SplittableRandom(3)
@@ -86,7 +87,7 @@ abstract class BsdfLaws extends AnyFunSuite:
         val s = draw(bsdf, wo, random)
         power.add(s.weight.max * (if compresses then s.eta * s.eta else 1f))
       assert(power.mean <= 1 + 4.5 * power.error + 1e-5, s"$power at wo=$wo") // 1e-5: rounding
-      if isLossless then assert(power.mean >= 1 - 4.5 * power.error - 1e-5, s"$power at wo=$wo")
+      assert(!isLossless || power.mean >= 1 - 4.5 * power.error - 1e-5, s"$power at wo=$wo")
 
   private def reciprocates(bsdf: Bsdf): Unit =
     val random = SplittableRandom(4)
@@ -97,7 +98,8 @@ abstract class BsdfLaws extends AnyFunSuite:
         val there = bsdf.f(wo, s.wi) * (s.eta * s.eta)
         val back = bsdf.f(s.wi, wo)
         // Within the rounding of the narrowest lobe, as above.
-        assert((there - back).map(c => Math.abs(c)).max <= 2e-2f * back.max, s"$wo ${s.wi}")
+        val off = (there - back).map(c => Math.abs(c)).max
+        assert(off <= 2e-2f * back.max, s"$there, not $back; $wo ${s.wi}"): Unit
 
   private def spreadsLikePdf(bsdf: Bsdf): Unit =
     val (rows, columns, samples) = (16, 32, 40000)
@@ -119,7 +121,7 @@ abstract class BsdfLaws extends AnyFunSuite:
     val random = SplittableRandom(6)
     for wo <- Directions.few do
       val integral =
-        Directions.integrals(1, 1, fine = 512)(wi => bsdf.f(wo, wi).g * Math.abs(wi.z)).sum
+        Directions.integrals(1, 1, fine = 400)(wi => bsdf.f(wo, wi).g * Math.abs(wi.z)).sum
       val mean = Statistics()
       for _ <- 0 until 20000 do
         val s = draw(bsdf, wo, random)

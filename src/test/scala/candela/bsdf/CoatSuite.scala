@@ -61,13 +61,25 @@ class CoatSuite extends AnyFunSuite:
     assert(coats.of(TrowbridgeReitz(0.2f, 0.2f), 1.5f, 0.01f) eq one)
     assert(coats.of(TrowbridgeReitz(0.2f, 0.3f), 1.5f, 0.01f) ne one)
 
-  test("neighbours in the family of roughnesses differ by less than 0.01"):
-    val family = Coats().family(1.5f, 0.01f)
+  test("between its levels, a family is off by at most 0.003"):
+    val coats = Coats()
+    val family = coats.family(1.5f, 0.01f)
     assert(family.length == Coats.Levels)
-    for (a, b) <- family.zip(family.tail) do
-      assert(Math.abs(a.internalReflectance - b.internalReflectance) < 0.01f)
+    for alpha <- Seq(0.01f, 0.015f, 0.045f, 0.1f, 0.36f, 0.6f, 0.99f) do
+      val top = TrowbridgeReitz(alpha, alpha)
+      val (near, exact) = (Coats.between(family, top), coats.of(top, 1.5f, 0.01f))
+      assert(Math.abs(near.internalReflectance - exact.internalReflectance) < 0.003f)
+      assert(Math.abs(near.meanTransmittance - exact.meanTransmittance) < 0.003f)
       for theta <- 0 to 85 by 5; w = Directions.at(theta, 0) do
-        assert(Math.abs(a.transmittance(w) - b.transmittance(w)) < 0.01f, s"at $theta°")
-    assert(Coats.nearest(family, TrowbridgeReitz(0.5f, 0.5f)) eq family(32))
-    assert(Coats.nearest(family, TrowbridgeReitz(0.25f, 1f)) eq family(32))
-    assert(Coats.nearest(family, TrowbridgeReitz(3f, 3f)) eq family(64))
+        val off = Math.abs(near.transmittance(w) - exact.transmittance(w))
+        assert(off < 0.003f, s"alpha $alpha at $theta°")
+
+  test("a family takes anisotropy by its geometric mean, and ends at a roughness of 1"):
+    val family = Coats().family(1.5f, 0.01f)
+    val w = Directions.at(60, 20)
+    assert(Coats.between(family, TrowbridgeReitz(0.25f, 0.25f)).transmittance(w) ==
+      family(16).transmittance(w))
+    assert(Coats.between(family, TrowbridgeReitz(0.0625f, 1f)).transmittance(w) ==
+      family(16).transmittance(w))
+    assert(Coats.between(family, TrowbridgeReitz(3f, 3f)).transmittance(w) ==
+      family(32).transmittance(w))

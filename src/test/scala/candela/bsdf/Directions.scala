@@ -38,25 +38,44 @@ object Directions:
     val r = Math.sqrt(1 - z * z)
     Vec3((r * Math.cos(phi)).toFloat, (r * Math.sin(phi)).toFloat, (sign * z).toFloat)
 
-  /** ∫ g over the sphere of directions, cell by cell: `rows` bands of equal height times `columns`
-    * sectors, each by the midpoint rule with `fine`² points.
+  /** ∫ g over the sphere of directions, cell by cell: `rows` bands of equal angle times `columns`
+    * sectors, each with `fine`² points, by Gauss's rule down a band and the midpoint rule along it.
     */
   def integrals(rows: Int, columns: Int, fine: Int)(g: Vec3 => Double): Array[Double] =
     val cells = new Array[Double](rows * columns)
-    val (ni, nj) = (rows * fine, columns * fine)
-    val solidAngle = 4 * Math.PI / (ni.toDouble * nj)
-    for i <- 0 until ni do
-      val z = -1 + 2 * (i + 0.5) / ni
-      val r = Math.sqrt(1 - z * z)
-      for j <- 0 until nj do
-        val phi = 2 * Math.PI * (j + 0.5) / nj
+    val (nodes, weights) = gauss(fine)
+    val sectors = columns * fine
+    for row <- 0 until rows; i <- 0 until fine do
+      val theta = (row + (1 + nodes(i)) / 2) * Math.PI / rows
+      val (z, r) = (Math.cos(theta), Math.sin(theta))
+      val solidAngle = r * weights(i) / 2 * Math.PI / rows * 2 * Math.PI / sectors
+      for j <- 0 until sectors do
+        val phi = 2 * Math.PI * (j + 0.5) / sectors
         val w = Vec3((r * Math.cos(phi)).toFloat, (r * Math.sin(phi)).toFloat, z.toFloat)
-        cells(i / fine * columns + j / fine) += g(w) * solidAngle
+        cells(row * columns + j / fine) += g(w) * solidAngle
     cells
+
+  /** Nodes and weights of Gauss and Legendre's rule on [−1, 1]; the nodes by Newton's method. */
+  private def gauss(n: Int): (Array[Double], Array[Double]) =
+    val (nodes, weights) = (new Array[Double](n), new Array[Double](n))
+    for i <- 0 until n do
+      var x = Math.cos(Math.PI * (i + 0.75) / (n + 0.5))
+      var slope = 0.0
+      for _ <- 0 until 6 do
+        var (p, before) = (1.0, 0.0)
+        for k <- 1 to n do
+          val next = ((2 * k - 1) * x * p - (k - 1) * before) / k
+          before = p
+          p = next
+        slope = n * (x * p - before) / (x * x - 1)
+        x -= p / slope
+      nodes(i) = x
+      weights(i) = 2 / ((1 - x * x) * slope * slope)
+    (nodes, weights)
 
   /** The cell of `integrals` that holds `w`. */
   def cell(rows: Int, columns: Int)(w: Vec3): Int =
-    val row = Math.min(((w.z + 1) / 2 * rows).toInt, rows - 1)
+    val row = Math.min((Math.atan2(Math.hypot(w.x, w.y), w.z) / Math.PI * rows).toInt, rows - 1)
     val turn = Math.atan2(w.y, w.x) / (2 * Math.PI)
     val column = Math.min(((if turn < 0 then turn + 1 else turn) * columns).toInt, columns - 1)
     row * columns + column

@@ -80,15 +80,15 @@ class MaterialFactorySuite extends AnyFunSuite:
     val clay = OrenNayar(Rgb.gray(0.5f), 30f)
     assert(matte.bsdf(point(30f, 0.5f)).f(wo, wi) == clay.f(wo, wi))
 
-  test("a varying roughness of a coat keeps its own gloss over the nearest coat of its family"):
+  test("a varying roughness of a coat keeps its own gloss over a coat between two of a family"):
     val roughness = Roughness(FromU, FromU, RoughnessModel.PlainAlpha)
-    val varying = coated(gray(0.5f), roughness).get.bsdf(point(0.5f, 0f))
-    val fixed = coated(gray(0.5f), rough(0.5f)).get.bsdf(point(0f, 0f))
-    assert(varying.f(wo, wi) == fixed.f(wo, wi)) // 0.5 is one of the family
+    val varying = coated(gray(0.5f), roughness).get.bsdf(point(0.25f, 0f))
+    val fixed = coated(gray(0.5f), rough(0.25f)).get.bsdf(point(0f, 0f))
+    assert(varying.f(wo, wi) == fixed.f(wo, wi)) // 0.25 is one of the family
     val between = coated(gray(0.5f), roughness).get.bsdf(point(0.505f, 0f))
     val exact = coated(gray(0.5f), rough(0.505f)).get.bsdf(point(0f, 0f))
-    // Half the difference between neighbours.
-    assert(Math.abs(between.f(wo, wi).r - exact.f(wo, wi).r) < 0.005f * exact.f(wo, wi).r)
+    // The family's error, twice: in and out.
+    assert(Math.abs(between.f(wo, wi).r - exact.f(wo, wi).r) < 0.006f * exact.f(wo, wi).r)
 
   test("reflectances are held to their range"):
     val most = Lambert(Rgb.White).f(wo, wi)
