@@ -40,8 +40,9 @@ object Integrators:
       val _ = (lightSampler(), strategy())
       // v2 lights one vertex more than it counts
       val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
+      val patience = if site.dialect == Dialect.V4 then 1 else 4
       IntegratorPlan(
-        (scene, _) => PathTracer(scene, depth, threshold()),
+        (scene, _) => PathTracer(scene, depth, patience, threshold()),
         samplesBsdf = true,
         s"path, up to $depth scattering events"
       )

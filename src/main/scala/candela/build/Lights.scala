@@ -83,7 +83,7 @@ object Lights:
           map match
             case Some(image) =>
               val layout = if octahedral then EqualAreaMap else LatLongMap
-              Some(ImageEnvironment(toWorld, image.toImage.linear.toRgb, layout, l, complete))
+              Some(ImageEnvironment(toWorld, image.toImage.linear.toRgb, layout, l, smooth = !octahedral, complete))
             case None if p.isDefined => None
             case None => Some(ConstantEnvironment(l * e, complete))
         ,

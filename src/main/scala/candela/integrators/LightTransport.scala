@@ -20,14 +20,17 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
   def raysTraced: Long = rays
 
   /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight` of
-    * its index.
+    * its index and of its density as a function of direction.
     */
-  protected inline def escaped(direction: Vec3, inline weight: (Int, Float) => Float): Rgb =
+  protected inline def escaped(
+      direction: Vec3,
+      inline weight: (Int, Vec3 => Float) => Float
+  ): Rgb =
     var sum = Rgb.Black
     var i = 0
     while i < scene.environments.length do
       val light = scene.environments(i)
-      val w = weight(scene.environmentIndex(i), light.pdf(direction))
+      val w = weight(scene.environmentIndex(i), light.pdf)
       sum += light.radiance(direction) * w
       i += 1
     sum

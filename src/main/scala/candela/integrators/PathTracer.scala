@@ -10,14 +10,19 @@ import candela.scene.Scene
   * roulette.
   *
   * @param maxDepth most scattering events of a path
+  * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed., §13.4.
   */
-final class PathTracer(scene: Scene, maxDepth: Int, rouletteThreshold: Float)
-    extends LightTransport(scene):
+final class PathTracer(
+    scene: Scene,
+    maxDepth: Int,
+    rouletteAfter: Int,
+    rouletteThreshold: Float
+) extends LightTransport(scene):
 
-  def copy(): PathTracer = PathTracer(scene, maxDepth, rouletteThreshold)
+  def copy(): PathTracer = PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     var light = Rgb.Black
@@ -34,7 +39,10 @@ final class PathTracer(scene: Scene, maxDepth: Int, rouletteThreshold: Float)
         val d = ray.direction
         light += throughput * escaped(
           d,
-          (i, pdf) => misWeight(lastPdf, if lastPdf > 0f then scene.selection.probability(lastP, lastN, i) * pdf else 0f)
+          (i, pdf) =>
+            if lastPdf > 0f then
+              misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf(d))
+            else 1f
         )
         alive = false
       else
@@ -74,7 +82,7 @@ final class PathTracer(scene: Scene, maxDepth: Int, rouletteThreshold: Float)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           alive = !throughput.isBlack
-          if alive && depth > 1 then
+          if alive && depth > rouletteAfter then
             val q = throughput.max * etaScale
             if q < rouletteThreshold then
               if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false

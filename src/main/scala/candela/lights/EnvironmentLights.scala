@@ -22,11 +22,12 @@ final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends Environ
     out.pdf = pdf(out.wi)
     out.isInfinite = true
 
-/** Radiance from an image around the scene, bilinear between pixel centres.
+/** Radiance from an image around the scene.
   *
   * @param image    red, green, blue, linear
   * @param layout   how it covers the sphere, in light space
   * @param factor   of the image's values
+  * @param smooth   bilinear between pixel centres (pbrt-v2, v3), or each pixel of one colour (v4)
   * @param complete must `sample` reach every bright pixel? If not, pixels darker than the mean are left
   *                 to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling Techniques in
   *                 Multiple Importance Sampling", TOG 38(6), 2019)
@@ -36,6 +37,7 @@ final class ImageEnvironment(
     image: Image,
     layout: SphereMap,
     factor: Rgb,
+    smooth: Boolean,
     complete: Boolean
 ) extends EnvironmentLight:
   private val (width, height) = (image.width, image.height)
@@ -52,11 +54,11 @@ final class ImageEnvironment(
   private val toLightM = lightToWorld.inverseM.map(_.toFloat)
 
   private val distribution: Distribution2D =
-    // Weight of a pixel: the largest in reach of bilinear lookups from it, times its solid angle
+    // Weight of a pixel: its mean radiance times its solid angle
     val w = new Array[Float](width * height)
     loop(height): y =>
       val share = layout.stretch((y + 0.5f) / height)
-      loop(width)(x => w(y * width + x) = brightest(x, y) * share)
+      loop(width)(x => w(y * width + x) = meanOver(x, y) * share)
     if !complete then
       val mean = (w.foldLeft(0.0)(_ + _) / w.length).toFloat
       val above = w.map(v => Math.max(0f, v - mean))
@@ -66,15 +68,17 @@ final class ImageEnvironment(
 
   override def isSampled: Boolean = distribution.integral > 0.0
 
-  private def brightest(x: Int, y: Int): Float =
-    var most = 0f
-    loop(9): k =>
-      val (i, j) = (x + k % 3 - 1, y + k / 3 - 1)
-      val at = 3 * (layout.wrapY(i, j, width, height) * width + layout.wrapX(i, j, width, height))
-      val l = (data(at) + data(at + 1) + data(at + 2)) * (1f / 3f)
-      val weight = if k == 4 then 1f else 0.25f // a neighbour's share at this pixel's edge or corner
-      if l * weight > most then most = l * weight
-    most
+  /** Of `radiance` over the pixel: what bilinear lookups within it average to. */
+  private def meanOver(x: Int, y: Int): Float =
+    if !smooth then brightness(pixel(x, y))
+    else
+      var sum = 0f
+      loop(9): k =>
+        val (i, j) = (k % 3 - 1, k / 3 - 1)
+        sum += ImageEnvironment.Tent(k) * brightness(pixel(x + i, y + j))
+      sum
+
+  private def brightness(at: Int): Float = (data(at) + data(at + 1) + data(at + 2)) * (1f / 3f)
 
   private def rotate(m: IArray[Float], v: Vec3): Vec3 =
     Vec3(
@@ -85,6 +89,13 @@ final class ImageEnvironment(
 
   def radiance(d: Vec3): Rgb =
     val place = layout.toImage(rotate(toLightM, d))
+    if smooth then between(place)
+    else
+      val x = Math.min((place.x * width).toInt, width - 1)
+      val at = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
+      Rgb(data(at), data(at + 1), data(at + 2))
+
+  private def between(place: Vec3): Rgb =
     val fx = place.x * width - 0.5f
     val fy = place.y * height - 0.5f
     val x = Math.floor(fx).toInt
@@ -122,3 +133,11 @@ final class ImageEnvironment(
     out.radiance = radiance(out.wi)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true
+
+object ImageEnvironment:
+  /** What each pixel of a 3×3 neighbourhood adds to the mean of bilinear lookups in the middle one:
+    * the products of 1/8, 3/4, 1/8.
+    */
+  private val Tent: Array[Float] =
+    val side = Array(0.125f, 0.75f, 0.125f)
+    Array.tabulate(9)(k => side(k % 3) * side(k / 3))
