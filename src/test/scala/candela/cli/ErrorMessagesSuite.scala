@@ -16,9 +16,14 @@ class ErrorMessagesSuite extends AnyFunSuite:
     val problems =
       try Parser.parse(scene).warnings
       catch case e: SceneError => e.problems
-    // places are written relative to the folder, whatever the system's separator
-    val text = problems.map(ProblemText.format).mkString("\n\n")
-    text.replace(folder.toString, "errors").replace('\\', '/') + "\n"
+    // file names as they are where `/` stands between folders
+    val separator = java.io.File.separator
+    problems
+      .map(ProblemText.format)
+      .mkString("", "\n\n", "\n")
+      .replace(s"$folder$separator", "errors/")
+      .replace(s"errors/parts$separator", "errors/parts/")
+      .replace(s"`$folder`", "`errors`")
 
   private val scenes =
     val all = Files.list(folder)
