@@ -56,6 +56,7 @@ lazy val root = (project in file("."))
     Compile / packageDoc / mappings := Nil,
     Universal / javaOptions ++= (jvmOptions :+ "-XX:MaxRAMPercentage=70").map("-J" + _),
 
+    // `sbt test`: a JVM of its own too, suites side by side
     Test / fork := true,
     Test / testForkedParallel := true,
     Test / javaOptions ++= jvmOptions :+ "-Xmx3g",

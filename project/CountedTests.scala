@@ -26,7 +26,8 @@ object CountedTests {
     val unseen = if (failures == 0 && results.overall != TestResult.Passed) 1 else 0
     passed += suites.map(_.passedCount).sum
     failed += failures + unseen
-    skipped += suites.map(s => s.skippedCount + s.ignoredCount + s.canceledCount + s.pendingCount).sum
+    skipped += suites.map(s => s.skippedCount + s.ignoredCount).sum
+    skipped += suites.map(s => s.canceledCount + s.pendingCount).sum
     if (!hooked) {
       hooked = true
       sys.addShutdownHook(report())
@@ -36,7 +37,8 @@ object CountedTests {
   private def report(): Unit = {
     // not Console: by now sbt has taken its own away
     val out = new PrintStream(new FileOutputStream(FileDescriptor.out))
-    out.println(s"$passed passed, $failed failed" + (if (skipped > 0) s", $skipped skipped" else ""))
+    val rest = if (skipped > 0) s", $skipped skipped" else ""
+    out.println(s"$passed passed, $failed failed$rest")
     out.flush()
   }
 }

@@ -14,7 +14,12 @@ import sbt.internal.util.MessageOnlyException
   */
 final class TerminalRun(options: ForkOptions) extends ForkRun(options) {
 
-  override def run(mainClass: String, classpath: Seq[File], args: Seq[String], log: Logger): Try[Unit] = {
+  override def run(
+      mainClass: String,
+      classpath: Seq[File],
+      args: Seq[String],
+      log: Logger
+  ): Try[Unit] = {
     val home = options.javaHome.getOrElse(new File(sys.props("java.home")))
     val java = new File(new File(home, "bin"), "java")
     val command = java.getPath +: (options.runJVMOptions ++
