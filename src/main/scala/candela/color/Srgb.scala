@@ -2,8 +2,8 @@ package candela.color
 
 /** The transfer curve of sRGB, both ways: what 8-bit pictures are stored with and screens expect.
   *
-  * Source: IEC 61966-2-1:1999, §5.2, with the published break points 0.0031308 and 0.04045. Inputs may
-  * leave [0, 1]: below 0 the linear piece goes on, above 1 the power.
+  * Source: IEC 61966-2-1:1999, §5.2, with the published break points 0.0031308 and 0.04045. Inputs
+  * may leave [0, 1]: below 0 the linear piece goes on, above 1 the power.
   */
 object Srgb:
 

@@ -7,8 +7,8 @@ import java.util.concurrent.atomic.AtomicLong
 
 /** What the camera samples add up to, for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
   *
-  * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a pixel's
-  * value does not drift however many samples it gets.
+  * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a
+  * pixel's value does not drift however many samples it gets.
   */
 final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
   require(x1 > x0 && y1 > y0, s"empty film [$x0, $x1) × [$y0, $y1)")
@@ -44,14 +44,14 @@ final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
   /** Samples that were NaN or infinite. */
   def refused: Long = refusals.get
 
-  /** The first pixel, row by row, that got such a sample; the same whatever the order of work was. */
+  /** The first pixel, row by row, that got such a sample, whatever the order of work was. */
   def firstRefused: Option[(Int, Int)] =
     val pixel = firstRefusal.get
     Option.when(pixel != Long.MaxValue):
       ((pixel % width).toInt + x0, (pixel / width).toInt + y0)
 
-  /** The weighted means, times `scale`; pixels without samples are black. May be called while others
-    * add: it then holds what is there.
+  /** The weighted means, times `scale`; pixels without samples are black. May be called while
+    * others add: it then holds what is there.
     */
   def toImage(scale: Float): Image =
     val image = Image.rgb(width, height)

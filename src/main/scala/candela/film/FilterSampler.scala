@@ -2,11 +2,11 @@ package candela.film
 
 import candela.base.loop
 
-/** Chooses where in a filter's extent a camera sample goes, so that samples count (almost) the same:
-  * every pixel then has samples of its own and no two pixels share one.
+/** Chooses where in a filter's extent a camera sample goes, so that samples count (almost) the
+  * same: every pixel then has samples of its own and no two pixels share one.
   *
-  * Along each axis the density is |filter|, interpolated linearly between points 1/32 pixel apart or
-  * closer; box and triangle filters it follows exactly. Mutable, one per worker.
+  * Along each axis the density is |filter|, interpolated linearly between points 1/32 pixel apart
+  * or closer; box and triangle filters it follows exactly. Mutable, one per worker.
   *
   * Source: Ernst, Stamminger, Greiner, "Filter Importance Sampling", IEEE Symposium on Interactive
   * Ray Tracing 2006.
@@ -44,7 +44,12 @@ private object FilterSampler:
     * @param cdf      at the same places, from 0 to 1
     * @param integral of the signed filter
     */
-  private final class Axis(radius: Float, heights: Array[Float], cdf: Array[Float], integral: Float):
+  private final class Axis(
+      radius: Float,
+      heights: Array[Float],
+      cdf: Array[Float],
+      integral: Float
+  ):
     private val cells = heights.length - 1
     private val cellWidth = 2f * radius / cells
     private val cellsPerPixel = cells / (2f * radius)
@@ -81,13 +86,13 @@ private object FilterSampler:
     private val CellsPerPixel = 32
     private val MinCells = 64
 
-    /** Points of the filter within each cell, for its integral: Simpson's rule, whose error is below
-      * that of Float for functions as smooth as filters are in a cell.
+    /** Points of the filter within each cell, for its integral: Simpson's rule, whose error is
+      * below that of Float for functions as smooth as filters are in a cell.
       */
     private val Intervals = 8
 
     def of(radius: Float, filter: Float => Float): Axis =
-      // A multiple of four, so that centre and half radius, where filters have kinks, are cell ends.
+      // A multiple of four: filters have kinks at the centre and half radius, now cell ends.
       val cells = Math.max(MinCells, (2 * radius * CellsPerPixel).ceil.toInt + 3 & ~3)
       def place(i: Double): Float =
         Math.max(-radius, Math.min(radius, (radius * (2 * i / cells - 1)).toFloat))

@@ -37,8 +37,8 @@ object GaussianFilter:
   def ofAlpha(radiusX: Float, radiusY: Float, alpha: Float): GaussianFilter =
     GaussianFilter(radiusX, radiusY, alpha.toDouble)
 
-  /** As in pbrt-v4: `sigma` is the standard deviation in pixels. Defaults: radii 1.5, sigma 0.5, which
-    * is alpha 2.
+  /** As in pbrt-v4: `sigma` is the standard deviation in pixels. Defaults: radii 1.5, sigma 0.5,
+    * which is alpha 2.
     */
   def ofSigma(radiusX: Float, radiusY: Float, sigma: Float): GaussianFilter =
     GaussianFilter(radiusX, radiusY, 1 / (2.0 * sigma * sigma))
@@ -46,7 +46,8 @@ object GaussianFilter:
 /** Two cubic pieces on each side, the outer one negative: sharp, with little ringing. Integrates to
   * 1 for every `b` and `c` when the radii are 2. Defaults: radii 2 / 2, B = C = 1/3.
   *
-  * Source: Mitchell & Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988, eq. 8.
+  * Source: Mitchell & Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988,
+  * eq. 8.
   */
 final class MitchellFilter(radiusX: Float, radiusY: Float, b: Float, c: Float)
     extends Filter(radiusX, radiusY):
@@ -91,7 +92,9 @@ object LanczosSincFilter:
     require(tau > 0f, s"sinc filter with tau $tau")
     new LanczosSincFilter(radiusX, radiusY, 1, 1, 1.0 / tau, 1.0 / tau)
 
-  /** As in pbrt-v2: the window ends at the radius, with `tau` lobes inside. Defaults: radii 4, tau 3. */
+  /** As in pbrt-v2: the window ends at the radius, with `tau` lobes inside. Defaults: radii 4,
+    * tau 3.
+    */
   def stretched(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
     require(tau > 0f, s"sinc filter with tau $tau")
     val (inverseX, inverseY) = (1.0 / radiusX, 1.0 / radiusY)

@@ -4,13 +4,13 @@ package candela.image
   *
   * Reads half, float and integer channels of any names; scanlines and tiles (the finest level); of
   * several parts the first that has colour. The pixels are those of the data window, whatever the
-  * display window is, as in pbrt. Refused, because the decoder can't or does it wrong: DWA, HTJ2K, B44
-  * of float channels, subsampled channels, deep pixels.
+  * display window is, as in pbrt. Refused, because the decoder can't or does it wrong: DWA, HTJ2K,
+  * B44 of float channels, subsampled channels, deep pixels.
   */
 private[image] object Exr:
 
-  /** Channels come in the order R, G, B, A, then the others as in the file. Integers above 2^24 lose
-    * their last bits.
+  /** Channels come in the order R, G, B, A, then the others as in the file. Integers above 2^24
+    * lose their last bits.
     */
   def read(file: Array[Byte]): Image =
     val parts = ExrHeader.parts(file)
@@ -18,12 +18,12 @@ private[image] object Exr:
       names("Y") || Image.RgbNames.forall(names)
     val chosen = Math.max(0, hasColor.indexOf(true))
     val part = parts(chosen)
-    val first = (Image.RgbNames :+ "A").map(n => part.channels.indexWhere(_.name == n)).filter(_ >= 0)
-    val order = first ++ part.channels.indices.filterNot(first.contains)
-    val names = order.map(part.channels(_).name)
-    val image = Image(part.width, part.height, names, new Array[Float](part.width * part.height * names.size))
-    ExrDecoder.decode(file, parts, chosen, order.toArray, image.data)
-    image
+    val inFile = part.channels.map(_.name)
+    val first = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)
+    val order = first ++ inFile.indices.filterNot(first.contains)
+    val data = new Array[Float](part.width * part.height * order.size)
+    ExrDecoder.decode(file, parts, chosen, order.toArray, data)
+    Image(part.width, part.height, order.map(inFile), data)
 
   /** 32-bit floats, ZIP; every channel under its own name. Encoded pictures are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)]): Array[Byte] =

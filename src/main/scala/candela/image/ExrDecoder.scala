@@ -14,8 +14,8 @@ import java.nio.{ByteBuffer, IntBuffer}
 /** Calls of the native decoder, for files whose header [[ExrHeader]] has passed. */
 private[image] object ExrDecoder:
 
-  /** Decodes part `chosen` into `target`, interleaved: channel i of the target is channel `order(i)` of
-    * the file.
+  /** Decodes part `chosen` into `target`, interleaved: channel i of the target is channel
+    * `order(i)` of the file.
     */
   def decode(
       file: Array[Byte],
@@ -95,8 +95,8 @@ private[image] object ExrDecoder:
     val found: IntBuffer = header.pixel_types
     val requested: IntBuffer = header.requested_pixel_types
     loop(header.num_channels): i =>
-      val isInteger = found.get(i) == TINYEXR_PIXELTYPE_UINT
-      val _ = requested.put(i, if isInteger then TINYEXR_PIXELTYPE_UINT else TINYEXR_PIXELTYPE_FLOAT)
+      if found.get(i) != TINYEXR_PIXELTYPE_UINT then
+        val _ = requested.put(i, TINYEXR_PIXELTYPE_FLOAT)
 
   private def gather(
       image: EXRImage,

@@ -34,7 +34,8 @@ private[image] final case class ExrPart(
 private[image] object ExrHeader:
 
   private val Compressions = Vector(
-    "none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB", "HTJ2K256", "HTJ2K32"
+    "none", "RLE", "ZIPS", "ZIP", "PIZ", "PXR24", "B44", "B44A", "DWAA", "DWAB", "HTJ2K256",
+    "HTJ2K32"
   )
 
   /** Rows in a chunk, by compression. */
@@ -42,8 +43,8 @@ private[image] object ExrHeader:
 
   val Half = 1
 
-  /** No compression of the format does better: deflate reaches 1032, over the 3 of 4 bytes that PXR24
-    * keeps. Bounds the memory that a damaged size can ask for.
+  /** No compression of the format does better: deflate reaches 1032, over the 3 of 4 bytes that
+    * PXR24 keeps. Bounds the memory that a damaged size can ask for.
     */
   private val MaxRatio = 1400
   private val MaxAttributes = 128
@@ -54,10 +55,11 @@ private[image] object ExrHeader:
   def parts(file: Array[Byte]): Vector[ExrPart] =
     val in = Reader(file)
     val _ = in.int()
-    val version = in.int()
-    if (version & 0xff) != 2 then throw ImageError(s"EXR version ${version & 0xff} is not supported")
-    val isMultipart = (version & 0x1000) != 0
-    val flags = if isMultipart then 0 else version
+    val word = in.int()
+    val version = word & 0xff
+    if version != 2 then throw ImageError(s"EXR version $version is not supported")
+    val isMultipart = (word & 0x1000) != 0
+    val flags = if isMultipart then 0 else word
     val found = mutable.ArrayBuffer(part(in.attributes(), flags))
     if isMultipart then
       var more = in.attributes()
@@ -80,7 +82,8 @@ private[image] object ExrHeader:
   private def part(attributes: Map[String, (String, ByteBuffer)], flags: Int): ExrPart =
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
       attributes.get(name).map: (found, data) =>
-        if found != kind || data.remaining < size then throw ImageError(s"attribute `$name` is damaged")
+        if found != kind || data.remaining < size then
+          throw ImageError(s"attribute `$name` is damaged")
         data
     def required(name: String, kind: String, size: Int): ByteBuffer =
       value(name, kind, size).getOrElse(throw ImageError(s"attribute `$name` is missing"))
@@ -104,7 +107,8 @@ private[image] object ExrHeader:
 
   private def checkSize(w: Long, h: Long, channels: Int, tiles: Option[(Int, Int)]): Unit =
     val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels
-    if !fits then throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
+    if !fits then
+      throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
     for (tw, th) <- tiles do
       // A tile may exceed the image; the decoder allocates each in full.
       val sane = tw > 0 && th > 0 && tw <= MaxTile && th <= MaxTile &&
@@ -116,7 +120,7 @@ private[image] object ExrHeader:
     if compression >= ChunkRows.size then
       throw ImageError(s"EXR compression $name is not supported; save it with ZIP or PIZ")
     if (name == "B44" || name == "B44A") && channels.exists(_.pixelType != Half) then
-      throw ImageError(s"EXR compression $name is supported for half channels only; save it with ZIP")
+      throw ImageError(s"EXR compression $name is read for half channels only; save it with ZIP")
     for channel <- channels if channel.xSampling != 1 || channel.ySampling != 1 do
       throw ImageError(s"channel `${channel.name}` is subsampled, which is not supported")
 
@@ -126,7 +130,8 @@ private[image] object ExrHeader:
     var name = in.name()
     while name.nonEmpty do
       val pixelType = in.int()
-      if pixelType < 0 || pixelType > 2 then throw ImageError(s"channel `$name` has an unknown type")
+      if pixelType < 0 || pixelType > 2 then
+        throw ImageError(s"channel `$name` has an unknown type")
       val _ = in.int() // the perceptual-linearity hint and padding
       found += ExrChannel(name, pixelType, in.int(), in.int())
       if found.size > MaxChannels then throw ImageError(s"more than $MaxChannels channels")

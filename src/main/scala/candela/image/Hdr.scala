@@ -6,8 +6,8 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 
 /** Radiance RGBE pictures (.hdr), run-length encoded or flat, to R, G and B.
   *
-  * A mantissa byte m with exponent byte e stands for m·2^(e − 136), 0 if e is 0. `EXPOSURE` lines are
-  * not undone, as in pbrt: the values are those of the file.
+  * A mantissa byte m with exponent byte e stands for m·2^(e − 136), 0 if e is 0. `EXPOSURE` lines
+  * are not undone, as in pbrt: the values are those of the file.
   *
   * Source: Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's file format reference, "Picture
   * File Format (.hdr)".
@@ -16,8 +16,8 @@ private[image] object Hdr:
 
   def read(file: Array[Byte]): Image = Reader(file).image()
 
-  /** No coding packs more pixels into a byte: the old runs, 255 pixels in 4 bytes. Bounds the memory
-    * that a damaged size can ask for.
+  /** No coding packs more pixels into a byte: the old runs, 255 pixels in 4 bytes. Bounds the
+    * memory that a damaged size can ask for.
     */
   private val MaxPixelsPerByte = 64
 
@@ -45,7 +45,7 @@ private[image] object Hdr:
       while next.nonEmpty do
         next match
           case s"FORMAT=$format" if format.trim != "32-bit_rle_rgbe" =>
-            throw ImageError(s"pixel format `${format.trim}` is not supported, only 32-bit_rle_rgbe")
+            throw ImageError(s"pixel format `${format.trim}`: only 32-bit_rle_rgbe is supported")
           case _ => ()
         next = line()
 
@@ -93,8 +93,8 @@ private[image] object Hdr:
         else loop(count)(i => row(4 * (x + i) + component) = byte().toByte)
         x += count
 
-    /** Whole pixels; one with mantissas 1, 1, 1 instead repeats the last, e times, and in a sequence of
-      * such pixels each next count weighs 256 times more.
+    /** Whole pixels; one with mantissas 1, 1, 1 instead repeats the last, e times, and in a
+      * sequence of such pixels each next count weighs 256 times more.
       */
     private def flat(row: Array[Byte], width: Int): Unit =
       var x = 0

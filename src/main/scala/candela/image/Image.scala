@@ -3,12 +3,14 @@ package candela.image
 import candela.base.loop
 import candela.color.Encoding
 
-/** A picture that can't be read or written: whose fault it is and what would do, on one line. It is no
-  * bug, so it has no stack trace.
+/** A picture that can't be read or written: whose fault it is and what would do, on one line. It is
+  * no bug, so it has no stack trace.
   */
 final class ImageError(message: String) extends RuntimeException(message, null, false, false)
 
-/** A picture as its file stores it: `channels` numbers for each pixel, interleaved, rows from the top. */
+/** A picture as its file stores it: for each pixel `channels` numbers, interleaved; rows from the
+  * top.
+  */
 sealed abstract class StoredImage:
   def width: Int
   def height: Int
@@ -34,7 +36,7 @@ sealed abstract class StoredImage:
       .orElse(indicesOf(Vector("Y")).map(y => Vector(y.head, y.head, y.head)))
       .getOrElse(throw ImageError(s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"))
 
-/** Pixels in memory: `channels` Floats for each, interleaved, rows from the top; linear unless said. */
+/** A picture of Floats, as [[StoredImage]] lays it out; linear unless said. */
 final class Image(
     val width: Int,
     val height: Int,

@@ -11,8 +11,8 @@ object ImageFiles:
   private val Readable = "EXR, HDR (Radiance), PNG, JPEG and TGA files can be read"
   private val Writable = "pictures are written as .exr or .png"
 
-  /** The picture as Floats. Pictures of 8 and 16 bits hold [0, 1] and say that they are sRGB-encoded;
-    * `linear` decodes them.
+  /** The picture as Floats. Pictures of 8 and 16 bits hold [0, 1] and say that they are
+    * sRGB-encoded; `linear` decodes them.
     */
   def read(path: Path): Image = load(path).toImage
 

@@ -8,7 +8,7 @@ import org.lwjgl.system.{MemoryStack, MemoryUtil}
 
 import java.nio.{ByteBuffer, IntBuffer}
 
-/** PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes are resolved, 1 to 4 channels kept. */
+/** PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes become colours. */
 private[image] object StbReader:
 
   private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")

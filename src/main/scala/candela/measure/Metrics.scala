@@ -10,13 +10,14 @@ final case class LargestDifference(value: Double, x: Int, y: Int, channel: Strin
 /** How a picture differs from its reference; means are over pixels and channels.
   *
   * @param mse         mean squared error, linear light
-  * @param relativeMse mean of ((a − b) / (b + 0.01))², b the reference: what pbrt-v4's `imgtool diff
-  *                    --metric MRSE` prints
-  * @param psnr        decibels, of the values as a screen shows them: sRGB-encoded, clamped to [0, 1],
-  *                    peak 1; infinite for equal pictures
+  * @param relativeMse mean of ((a − b) / (b + 0.01))², b the reference: what pbrt-v4's
+  *                    `imgtool diff --metric MRSE` prints
+  * @param psnr        decibels, of the values as a screen shows them: sRGB-encoded, clamped to [0,
+  *                    1], peak 1; infinite for equal pictures
   * @param meanRatio   of each channel, the mean over that of the reference; 1 if both are 0
   * @param largest     of |a − b|, linear light
-  * @param skipped     pixels left out of all figures, because one of the two is NaN or infinite there
+  * @param skipped     pixels left out of all figures, because one of the two is NaN or infinite
+  *                    there
   */
 final case class Metrics(
     channels: Vector[String],
@@ -33,8 +34,8 @@ object Metrics:
   /** Keeps the relative error of dark pixels finite; the value is pbrt's. */
   val RelativeEpsilon: Double = 0.01
 
-  /** Compares R, G and B if both have them, else requires equal sets of channels. Encoded pictures are
-    * decoded first.
+  /** Compares R, G and B if both have them, else requires equal sets of channels. Encoded pictures
+    * are decoded first.
     *
     * @throws ImageError if sizes or channels differ
     */

@@ -4,8 +4,8 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.lerp
 
-/** Textures made of textures. The `of` methods give the plainest texture that is right: what follows
-  * from constants alone becomes a constant.
+/** Textures made of textures. The `of` methods give the plainest texture that is right: what
+  * follows from constants alone becomes a constant.
   */
 final class ScaledFloat private (a: FloatTexture, b: FloatTexture) extends FloatTexture:
   def apply(at: ShadingPoint): Float = a(at) * b(at)

@@ -17,9 +17,9 @@ enum TextureFilter:
     */
   case Trilinear, Ewa
 
-/** Looks up texels at places of the unit square: s to the right, and t up from the picture's last row
-  * if `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2, EXR).
-  * Texel centres lie at half-integer multiples of the texel size.
+/** Looks up texels at places of the unit square: s to the right, and t up from the picture's last
+  * row if `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2,
+  * EXR). Texel centres lie at half-integer multiples of the texel size.
   */
 final class ImageLookup(texels: Texels, wrap: Wrap, filter: TextureFilter, bottomUp: Boolean):
   private val width = texels.width

@@ -32,8 +32,8 @@ final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
 
 /** Around the texture space's z axis: s is the angle from −x over 2π, t the height.
   *
-  * @param onUnitSphere measure the height after moving the point to the unit sphere, as pbrt-v2 and v3
-  *                     do and v4 does not
+  * @param onUnitSphere measure the height after moving the point to the unit sphere, as pbrt-v2 and
+  *                     v3 do and v4 does not
   */
 final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean) extends Mapping2D:
   private val worldToTexture = textureToWorld.inverse

@@ -4,17 +4,19 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.lerp
 
-/** Unit squares of `even` and `odd` in turn; the one from (0, 0) to (1, 1) is even. Not filtered: its
-  * edges are smoothed by the pixel's samples.
+/** Unit squares of `even` and `odd` in turn; the one from (0, 0) to (1, 1) is even. Not filtered:
+  * its edges are smoothed by the pixel's samples.
   */
 final class CheckerboardFloat(mapping: Mapping2D, even: FloatTexture, odd: FloatTexture)
     extends FloatTexture:
-  def apply(at: ShadingPoint): Float = if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
+  def apply(at: ShadingPoint): Float =
+    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
 
 /** Unit squares of `even` and `odd` in turn, as [[CheckerboardFloat]]. */
 final class CheckerboardRgb(mapping: Mapping2D, even: RgbTexture, odd: RgbTexture)
     extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
+  def apply(at: ShadingPoint): Rgb =
+    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
 
 private object Checkerboard:
   def isEven(c: TexCoord): Boolean =

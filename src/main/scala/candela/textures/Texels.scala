@@ -3,8 +3,8 @@ package candela.textures
 import candela.base.loop
 import candela.image.{ByteImage, Image, StoredImage}
 
-/** The pixels of an image texture as linear numbers, in as little memory as they came: one channel, or
-  * red, green and blue. Rows from the top.
+/** The pixels of an image texture as linear numbers, in as little memory as they came: one channel,
+  * or red, green and blue. Rows from the top.
   */
 abstract class Texels(val width: Int, val height: Int, val channels: Int):
   /** @param texel counted row by row */
@@ -19,8 +19,8 @@ final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
     extends Texels(w, h, channels):
   def apply(texel: Int, channel: Int): Float = values(texel * channels + channel)
 
-/** Texels from pictures. `decode` takes a stored number (0 to 1 for 8 bits) to a linear one; it holds
-  * whatever the scene says of encoding, e.g. `image.encoding.decode`, or for pbrt-v2
+/** Texels from pictures. `decode` takes a stored number (0 to 1 for 8 bits) to a linear one; it
+  * holds whatever the scene says of encoding, e.g. `image.encoding.decode`, or for pbrt-v2
   * x ↦ (scale·x)^gamma.
   */
 object Texels:
@@ -42,8 +42,8 @@ object Texels:
             loop(3)(c => values(3 * i + c) = decode(floats.data(i * floats.channels + channels(c))))
           FloatTexels(floats.width, floats.height, 3, values)
 
-  /** A number for each pixel, as pbrt-v2 and v3 make it: the luminance of the stored colours, decoded.
-    * The weights are those of pbrt's RGB colours.
+  /** A number for each pixel, as pbrt-v2 and v3 make it: the luminance of the stored colours,
+    * decoded. The weights are those of pbrt's RGB colours.
     */
   def luminance(image: StoredImage, decode: Float => Float): Texels =
     val channels = image.colorChannels.toArray

@@ -41,9 +41,10 @@ class FilterSamplerSuite extends AnyFunSuite:
 
   for (name, filter) <- FiltersSuite.all do
     test(s"$name: weighted means reproduce the filter's integrals"):
-      for ((label, _), (found, wanted)) <- functions.zip(estimates(filter).zip(integrals(filter))) do
-        // Five standard deviations of a jittered mean: 5 · range · n^(−3/2), the range of weight · f
-        // being at most 20 here; the midpoint rule's error is smaller.
+      val results = estimates(filter).zip(integrals(filter))
+      for ((label, _), (found, wanted)) <- functions.zip(results) do
+        // Five standard deviations of a jittered mean: 5 · range · n^(−3/2), the range of weight ·
+        // f being at most 20 here; the midpoint rule's error is smaller.
         val tolerance = 5 * 20 * Math.pow(n, -1.5)
         assert(Math.abs(found - wanted) < tolerance, s"$label: $found $wanted")
 

@@ -20,7 +20,8 @@ class FiltersSuite extends AnyFunSuite:
       assert(Math.abs(filter(dx, dy)) <= filter(0f, 0f), s"$name at $dx, $dy")
 
   test("sigma and alpha describe the same Gaussians: alpha = 1 / (2 sigma²)"):
-    val (alpha, sigma) = (GaussianFilter.ofAlpha(1.5f, 2f, 2f), GaussianFilter.ofSigma(1.5f, 2f, 0.5f))
+    val alpha = GaussianFilter.ofAlpha(1.5f, 2f, 2f)
+    val sigma = GaussianFilter.ofSigma(1.5f, 2f, 0.5f)
     for i <- 0 to 40 do assert(alpha(i / 20f, i / 30f) == sigma(i / 20f, i / 30f))
     // exp(−2·0.25) − exp(−2·2.25), worked by hand.
     assert(Math.abs(alpha.x(0.5f) - 0.5954216f) < 1e-6f)
@@ -37,7 +38,7 @@ class FiltersSuite extends AnyFunSuite:
         assert(Math.abs(filter.x(edge - step) - filter.x(edge + step)) < 6e-3f)
     assert(Math.abs(MitchellFilter(2f, 2f, 1 / 3f, 1 / 3f).x(0f) - 8 / 9f) < 1e-6f)
 
-  test("the sinc of v3 and v4 has zeros at whole pixels and at tau; that of v2 scales with the radius"):
+  test("v3's and v4's sinc is 0 at whole pixels and at tau; v2's scales with the radius"):
     val sinc = LanczosSincFilter(4f, 4f, 2.5f)
     for zero <- Vector(1f, 2f, 2.5f, 3f) do assert(Math.abs(sinc.x(zero)) < 1e-7f)
     // sinc(1/2) · sinc(1/5) by hand: 0.63661977 · 0.93548928.

@@ -10,7 +10,8 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     getClass.getResourceAsStream(s"/exr/$name.exr").readAllBytes()
 
   /** What the files in src/test/resources/exr hold; see README.md there. */
-  private def expected(channel: Int, x: Int, y: Int): Float = (channel + 1) * (x / 4 - 2 * (y / 4)) / 8f
+  private def expected(channel: Int, x: Int, y: Int): Float =
+    (channel + 1) * (x / 4 - 2 * (y / 4)) / 8f
 
   private def assertHolds(image: Image, order: Vector[(String, Int)]): Unit =
     assert((image.width, image.height) == (37, 21))
@@ -51,7 +52,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   test("what the decoder can't do right is refused by name"):
     def refusal(name: String) = Samples.attempt(Exr.read(resource(name))).swap.toOption.get
-    assert(refusal("float-b44").contains("B44 is supported for half channels only"))
+    assert(refusal("float-b44").contains("B44 is read for half channels only"))
     assert(refusal("half-dwaa").contains("DWAA is not supported"))
     assert(refusal("half-dwab").contains("DWAB is not supported"))
     assert(refusal("half-htj2k").contains("HTJ2K256 is not supported"))
@@ -89,9 +90,17 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(Samples.attempt { Exr.write(image, Vector("x" * 256 -> "x")); image }.isLeft)
 
   test("damaged files are read or refused, never anything else"):
-    val names = Vector("half-piz", "half-rle", "half-b44a", "float-pxr24", "tiled", "multipart", "many")
+    val names =
+      Vector("half-piz", "half-rle", "half-b44a", "float-pxr24", "tiled", "multipart", "many")
     val outcomes = names.flatMap: name =>
       Samples.damaged(resource(name), 60, seed = name.hashCode).map: file =>
         Samples.attempt(if file.length < 8 then throw ImageError("short") else Exr.read(file))
     assert(outcomes.exists(_.isLeft))
     assert(outcomes.exists(_.isRight))
+
+  test("a size that the file can't hold is refused before memory is asked for"):
+    val file = resource("half-zip")
+    val at = file.indexOfSlice("dataWindow".getBytes) + "dataWindow\u0000box2i\u0000".length + 4
+    // The window's last column, little-endian: 2^24 columns.
+    file(at + 11) = 1
+    assert(intercept[ImageError](Exr.read(file)).getMessage.contains("can't be in a file of"))

@@ -13,10 +13,12 @@ class HdrSuite extends AnyFunSuite:
   private def pixels(width: Int, height: Int, seed: Int): Pixels =
     val random = Random(seed)
     def pixel() =
-      (128 + random.nextInt(128), random.nextInt(256), random.nextInt(256), 100 + random.nextInt(60))
+      val exponent = 100 + random.nextInt(60)
+      (128 + random.nextInt(128), random.nextInt(256), random.nextInt(256), exponent)
+    def length() = 1 + random.nextInt(if random.nextBoolean() then 3 else 300)
     Vector.fill(height):
       Iterator
-        .continually(Vector.fill(1 + random.nextInt(if random.nextBoolean() then 3 else 300))(pixel()))
+        .continually(Vector.fill(length())(pixel()))
         .map(run => if random.nextBoolean() then run.map(_ => run.head) else run)
         .flatten
         .take(width)

@@ -9,7 +9,8 @@ object Samples:
 
   def random(width: Int, height: Int, names: Vector[String], seed: Int): Image =
     val random = Random(seed)
-    Image(width, height, names, Array.fill(width * height * names.size)(random.nextFloat() * 3f - 1f))
+    val data = Array.fill(width * height * names.size)(random.nextFloat() * 3f - 1f)
+    Image(width, height, names, data)
 
   /** Runs `body` in a folder of its own that vanishes afterwards. */
   def inFolder[A](body: Path => A): A =

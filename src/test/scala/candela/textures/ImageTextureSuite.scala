@@ -97,7 +97,8 @@ class ImageTextureSuite extends AnyFunSuite:
     assert(RgbImageTexture(uv, source)(at(0.3f, 0.3f)) == Rgb.gray(0.25f))
 
   test("the mapping is applied"):
-    val texture = FloatImageTexture(UvMapping(1f, 1f, 1 / 3f, 0f), lookup(rows, TextureFilter.Bilinear))
+    val source = lookup(rows, TextureFilter.Bilinear)
+    val texture = FloatImageTexture(UvMapping(1f, 1f, 1 / 3f, 0f), source)
     assert(near(texture(at(0.5f / 3, 0.75f)), 1f))
 
   test("wild coordinates give a number and no exception"):
