@@ -1,0 +1,42 @@
+package candela.render
+
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+import candela.image.{Image, ImageFiles}
+
+/** A scene of the `scenes` folder with the image that pbrt makes of it.
+  *
+  * @param noise     variance of the reference's pixels, measured between two independent halves
+  * @param allowance relative systematic difference that is known, measured and explained
+  */
+final case class ReferenceScene(name: String, noise: Double, allowance: Double):
+  def file: Path = ReferenceScenes.Scenes.resolve(s"$name.pbrt")
+  def image: Image = ImageFiles.read(ReferenceScenes.References.resolve(s"$name.exr"))
+
+/** Finds the scenes that have a reference. */
+object ReferenceScenes:
+  val Scenes: Path = Path.of("scenes")
+  val References: Path = Path.of("reference-images")
+
+  /** Names without their ending. */
+  def names(folder: Path, ending: String): Vector[String] =
+    Using.resource(Files.list(folder)): files =>
+      val all = files.iterator.asScala.map(_.getFileName.toString).filter(_.endsWith(ending))
+      all.map(_.stripSuffix(ending)).toVector.sorted
+
+  /** Rows of `manifest.csv`, by the names of the columns. */
+  lazy val manifest: Vector[Map[String, String]] =
+    val lines = Files.readAllLines(References.resolve("manifest.csv")).asScala.toVector
+    val columns = lines.head.split(',').toVector
+    lines.tail.filter(_.nonEmpty).map(line => columns.zip(line.split(",", columns.size)).toMap)
+
+  lazy val all: Vector[ReferenceScene] =
+    val rows = manifest.map(row => row("scene") -> row).toMap
+    for name <- names(Scenes, ".pbrt") if rows.contains(name) yield
+      val row = rows(name)
+      ReferenceScene(name, row("noise_variance").toDouble, row("allowance").toDouble)
+
+  def named(name: String): ReferenceScene = all.find(_.name == name).get
