@@ -13,29 +13,18 @@ import candela.math.*
   * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every lookup;
   * `CoatedDiffuseSuite` checks against such a walk.
   *
-  * @param albedo   of the base, in [0, 1]
+  * @param series   albedo · Σ (albedo · R)^k, by colour: see the companion
   * @param top      roughness of the outer side of the coat
   * @param coat     what gets through; may stand for a roughness slightly different from `top`
-  * @param baseHits terms of the series: how often light may meet the base
   *
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary Layered
   * BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
-final class CoatedDiffuse(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int)
-    extends Bsdf:
+final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends Bsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
-  private val base = albedo.map(series) * (InvPi / (eta * eta))
+  private val base = series * (InvPi / (eta * eta))
   private val meanBase = base.max * Pi * coat.meanTransmittance
-
-  /** By Horner's scheme: albedo · (1 + x (1 + x (1 + …))) with x = albedo · R. */
-  private def series(albedo: Float): Float =
-    var sum = 0f
-    var k = 0
-    while k < baseHits do
-      sum = albedo * (1f + coat.internalReflectance * sum)
-      k += 1
-    sum
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
@@ -88,3 +77,20 @@ final class CoatedDiffuse(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHit
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+
+object CoatedDiffuse:
+
+  /** @param albedo   of the base, in [0, 1]
+    * @param baseHits how often light may meet the base
+    */
+  def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
+    new CoatedDiffuse(albedo.map(series(_, coat, baseHits)), top, coat)
+
+  /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
+  def series(albedo: Float, coat: Coat, baseHits: Int): Float =
+    var sum = 0f
+    var k = 0
+    while k < baseHits do
+      sum = albedo * (1f + coat.internalReflectance * sum)
+      k += 1
+    sum

@@ -19,6 +19,8 @@ object MaterialFactory:
   /** @param thickness in mean free paths of the coat's absorption
     * @param scattering albedo of the medium between coat and base
     * @param maxDepth  how many times light may meet coat or base from within
+    * @param bySpectrum applies a function to the reflectance, wavelength by wavelength, if that is
+    *                  known: what goes back and forth under the coat grows faster than its colour
     * @return None if the medium scatters or the thickness varies: neither is supported
     */
   def coatedDiffuse(
@@ -28,7 +30,8 @@ object MaterialFactory:
       scattering: RgbTexture,
       eta: Float,
       maxDepth: Int,
-      coats: Coats
+      coats: Coats,
+      bySpectrum: Option[(Float => Float) => Rgb] = None
   ): Option[Material] =
     for
       depth <- thickness.constant
@@ -40,8 +43,16 @@ object MaterialFactory:
         else coats.family(eta, depth)
       // Light meets the base first, then coat and base in turn.
       val hits = (maxDepth + 1) / 2
-      val material = CoatedDiffuseMaterial(reflectance, roughness, family, hits)
-      fold(material, isFixed(reflectance) && roughness.isConstant)
+      bySpectrum.filter(_ => isFixed(reflectance) && roughness.isConstant) match
+        case Some(colored) =>
+          val coat = family(0)
+          val series = colored(CoatedDiffuse.series(_, coat, hits))
+          ConstantMaterial(
+            new CoatedDiffuse(series, roughness.trowbridgeReitz(ShadingPoint()), coat)
+          )
+        case None =>
+          val material = CoatedDiffuseMaterial(reflectance, roughness, family, hits)
+          fold(material, isFixed(reflectance) && roughness.isConstant)
 
   def substrate(kd: RgbTexture, ks: RgbTexture, roughness: Roughness): Material =
     fold(SubstrateMaterial(kd, ks, roughness), isFixed(kd) && isFixed(ks) && roughness.isConstant)

@@ -1,7 +1,9 @@
 package candela.build
 
-import candela.color.Rgb
+import candela.base.loop
+import candela.color.{ColorBasis, Rgb}
 import candela.geometry.Bounds3
+import candela.image.Image
 import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
@@ -83,12 +85,24 @@ object Lights:
           map match
             case Some(image) =>
               val layout = if octahedral then EqualAreaMap else LatLongMap
-              Some(ImageEnvironment(toWorld, image.toImage.linear.toRgb, layout, l, smooth = !octahedral, complete))
+              val pixels = rebased(image.toImage.linear.toRgb, site.resources.basis)
+              Some(ImageEnvironment(toWorld, pixels, layout, l, smooth = !octahedral, complete))
             case None if p.isDefined => None
             case None => Some(ConstantEnvironment(l * e, complete))
         ,
         sampleCount()
       )
+
+  private def rebased(image: Image, basis: ColorBasis): Image =
+    if basis.isSrgb then image
+    else
+      val data = new Array[Float](image.data.length)
+      loop(data.length / 3): i =>
+        val c = basis.fromSrgb(Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2)))
+        data(3 * i) = c.r
+        data(3 * i + 1) = c.g
+        data(3 * i + 2) = c.b
+      Image(image.width, image.height, image.channelNames, data)
 
 /** What an area light statement says; it applies to the shapes that follow. */
 final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val samples: Int):

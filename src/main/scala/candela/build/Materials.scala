@@ -4,7 +4,7 @@ import candela.bsdf.{
   ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, MaterialFactory as Make,
   ReflectanceCurve, Roughness, RoughnessModel, TabulatedReflectance
 }
-import candela.color.{Colorimetry, Rgb}
+import candela.color.{Colorimetry, Rgb, Upsampling}
 
 import candela.scenefile.Dialect
 
@@ -145,9 +145,16 @@ object Materials:
     irrelevant("g", "nsamples") // of a medium that scatters; of the random walk that is not needed here
     protected def make()(using site: Site): Material =
       val coats = site.resources.coats
+      val basis = site.resources.basis
+      // A colour that is the same everywhere can be scattered by wavelength, once and for all
+      val bySpectrum = reflectance().constant.map: color =>
+        val base = Upsampling.spectrum(basis.toSrgb(color))
+        (f: Float => Float) =>
+          basis.fromSrgb(Colorimetry.rgb(nm => f(base(nm)), Colorimetry.White.D65))
       Make
         .coatedDiffuse(
-          reflectance(), roughness(), thickness(), albedo(), Indices.one(eta()), depth(), coats
+          reflectance(), roughness(), thickness(), albedo(), Indices.one(eta()), depth(), coats,
+          bySpectrum
         )
         .getOrElse {
           site.warn(s"a coat that scatters or varies in thickness is not supported yet: $instead")
@@ -161,18 +168,18 @@ object Materials:
     protected def make()(using site: Site): Material =
       reflectance.given_() match
         case Some(r) => Make.conductor(r, roughness())
-        case None => Make.conductor(curve(eta(), k()), roughness())
+        case None =>
+          val curve = reflectanceOf(Indices.spectrum(eta()), Indices.spectrum(k()))
+          Make.conductor(curve, roughness())
 
-    /** A spectral metal is seen under white light once for each angle, not once for eta and once for k. */
-    private def curve(eta: SpectralValue, k: SpectralValue): ReflectanceCurve = (eta, k) match
-      case (SpectralValue.Color(n), SpectralValue.Color(a)) => ConductorReflectance(n, a)
-      case _ =>
-        val (n, a) = (Indices.spectrum(eta), Indices.spectrum(k))
-        TabulatedReflectance.of(128): cosTheta =>
-          Colorimetry.rgb(
-            nm => Fresnel.conductor(cosTheta, Rgb.gray(n(nm)), Rgb.gray(a(nm))).r,
-            Colorimetry.White.D65
-          )
+    /** Fresnel's equations by wavelength, seen under white light, for each angle. */
+    private def reflectanceOf(eta: Float => Float, k: Float => Float)(using site: Site): ReflectanceCurve =
+      TabulatedReflectance.of(128): cosTheta =>
+        val reflected = Colorimetry.rgb(
+          nm => Fresnel.conductor(cosTheta, Rgb.gray(eta(nm)), Rgb.gray(k(nm))).r,
+          Colorimetry.White.D65
+        )
+        site.resources.basis.fromSrgb(reflected)
 
   object Dielectric extends RoughRecipe("dielectric", onlyV4, 0f):
     private val eta = spectrum("eta", "index of refraction")(Indices.glass)
@@ -192,8 +199,7 @@ object Materials:
 
     def spectrum(v: SpectralValue): Float => Float = v match
       case SpectralValue.Wavelengths(s) => s(_)
-      // One of the three at wavelengths where it dominates (crossings of the sRGB matching functions)
-      case SpectralValue.Color(c) => nm => if nm < 490f then c.b else if nm < 580f then c.g else c.r
+      case SpectralValue.Color(c) => Upsampling.unbounded(c)
 
     /** The index at the sodium line (589.3 nm), by which glass is named; dispersion is not modelled. */
     def one(v: SpectralValue)(using site: Site): Float = v match

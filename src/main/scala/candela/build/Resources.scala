@@ -6,12 +6,16 @@ import scala.collection.mutable
 
 import candela.base.Suggest
 import candela.bsdf.Coats
+import candela.color.ColorBasis
 import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
-/** What statements of a scene file can refer to by name: textures, and files. */
-final class Resources:
+/** What statements of a scene file can refer to by name: textures, and files.
+  *
+  * @param basis in which all colours of the scene are given to the runtime
+  */
+final class Resources(val basis: ColorBasis):
   /** Tables of coated materials, shared by all of them that are alike. */
   val coats = Coats()
 

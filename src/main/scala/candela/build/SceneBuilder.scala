@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.base.{Problem, SceneError, Severity}
+import candela.color.ColorBasis
 import candela.render.{PixelBounds, RenderPlan}
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 
@@ -26,7 +27,9 @@ object SceneBuilder:
   /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all errors. */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
     val problems = Findings()
-    val resources = Resources()
+    // pbrt-v4 multiplies spectra, the older ones sRGB components
+    val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
+    val resources = Resources(basis)
     def site(d: Declaration) = Site(d, description.dialect, resources, problems)
     def view[A](given_ : Option[Declaration], recipes: Recipes[A], default: String): A =
       val fallback = Declaration(recipes.category, default, Vector.empty, NoPlace, NoFolder)
@@ -61,6 +64,7 @@ object SceneBuilder:
       filter = filter,
       sampler = sampler,
       integrator = world.integrator,
+      basis = basis,
       maxComponent = film.maxComponent,
       imageScale = film.scale,
       filename = film.filename,

@@ -10,7 +10,7 @@ import candela.scenefile.{Dialect, Param, ParamType}
 enum SpectrumRole:
   case Reflectance, Emission
 
-/** A parameter of type spectrum: a colour, or still a function of wavelength. */
+/** A parameter of type spectrum: a colour in linear sRGB, or still a function of wavelength. */
 enum SpectralValue:
   case Color(rgb: Rgb)
   case Wavelengths(spectrum: Spectrum)
@@ -18,8 +18,11 @@ enum SpectralValue:
 /** Reads the many ways to write a spectrum. */
 object Spectra:
 
-  /** As linear sRGB. None after a problem was reported. */
+  /** As a colour in the basis of the scene. None after a problem was reported. */
   def rgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
+    srgb(p, role, site).map(site.resources.basis.fromSrgb)
+
+  private def srgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     p.paramType match
       case ParamType.Blackbody => blackbody(p, role, site)
       case _ =>

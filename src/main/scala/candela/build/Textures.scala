@@ -193,7 +193,8 @@ object Textures:
       lookup(read).fold(ConstantFloat(0.5f))(FloatImageTexture(mapped(), _, outerScale, invert()))
 
   final class RgbMap(toWorld: Transform) extends ImageMap[RgbTexture](toWorld):
-    protected def make()(using Site): RgbTexture =
-      lookup(Texels.color).fold(ConstantRgb(Rgb.gray(0.5f)))(
-        RgbImageTexture(mapped(), _, outerScale, invert())
-      )
+    protected def make()(using site: Site): RgbTexture =
+      lookup(Texels.color).fold(ConstantRgb(Rgb.gray(0.5f))): found =>
+        val basis = site.resources.basis
+        val image = RgbImageTexture(mapped(), found, outerScale, invert())
+        if basis.isSrgb then image else RebasedTexture(image, basis)

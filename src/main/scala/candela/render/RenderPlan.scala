@@ -1,6 +1,7 @@
 package candela.render
 
 import candela.cameras.Camera
+import candela.color.ColorBasis
 import candela.film.Filter
 import candela.integrators.Integrator
 import candela.sampling.Sampler
@@ -14,6 +15,7 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
 /** A scene made ready to render: just the objects that it needs, each the plainest that is right.
   *
   * @param width        of the full image in pixels, of which `crop` is rendered
+  * @param basis        of the radiance that the integrator returns
   * @param maxComponent radiance samples are scaled down to this (pbrt's `maxcomponentvalue`); if
   *                     infinity, never
   * @param features     what the plan holds and what it left out, for people: (what, value)
@@ -26,6 +28,7 @@ final class RenderPlan(
     val filter: Filter,
     val sampler: Sampler,
     val integrator: Integrator,
+    val basis: ColorBasis,
     val maxComponent: Float,
     val imageScale: Float,
     val filename: String,

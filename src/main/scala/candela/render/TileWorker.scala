@@ -65,7 +65,7 @@ private[render] final class TileWorker(
     val filmX = x + 0.5f + filterSampler.dx
     val filmY = y + 0.5f + filterSampler.dy
     camera.generate(filmX, filmY, sampler.x, sampler.y, ray)
-    val radiance = integrator.radiance(ray, sampler)
+    val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
     if radiance.isFinite then
       val brightest = radiance.max
       val scale = if brightest > plan.maxComponent then plan.maxComponent / brightest else 1f

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.Rgb
+import candela.color.{ColorBasis, Rgb}
 import candela.geometry.ShadingPoint
 import candela.math.lerp
 
@@ -64,3 +64,7 @@ object MixRgb:
       case _ => MixRgb(a, b, amount)
 
   private def mix(t: Float, a: Rgb, b: Rgb): Rgb = a * (1f - t) + b * t
+
+/** A texture of linear sRGB colours, in the components of another basis. */
+final class RebasedTexture(texture: RgbTexture, basis: ColorBasis) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = basis.fromSrgb(texture(at))

@@ -32,6 +32,7 @@ object TinyPlan:
       BoxFilter(0.5f, 0.5f),
       HashSampler(spp),
       Formula(radiance),
+      candela.color.ColorBasis.Srgb,
       maxComponent,
       imageScale,
       filename,
