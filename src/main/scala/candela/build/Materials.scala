@@ -18,7 +18,7 @@ object Materials:
     Vector(
       Matte, Plastic, Metal, Glass, Mirror, Uber, Substrate, Interface(""), Interface("none"),
       Interface("interface"), Diffuse, CoatedDiffuse, Conductor, Dielectric, ThinDielectric,
-      DiffuseTransmission
+      DiffuseTransmission, Measured
     ),
     Vector(
       "mix", "measured", "fourier", "hair", "subsurface", "kdsubsurface", "translucent", "shinymetal",
@@ -189,6 +189,20 @@ object Materials:
   object ThinDielectric extends MaterialRecipe("thindielectric", onlyV4):
     private val eta = spectrum("eta", "index of refraction")(Indices.glass)
     protected def make()(using Site): Material = Make.thinDielectric(Indices.one(eta()))
+
+  /** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and renders a
+    * surface that reflects nothing; so do we.
+    */
+  object Measured extends MaterialRecipe("measured", onlyV2):
+    private val filename = string("filename", "a .brdf file")("")
+    protected def make()(using site: Site): Material =
+      val path = site.declaration.folder.resolve(filename().replace('\\', '/'))
+      if java.nio.file.Files.isRegularFile(path) then
+        site.warn(s"material \"measured\" is not supported yet: $instead")
+        default
+      else
+        site.warn(s"no file `${filename()}`: the surface is black, as pbrt-v2 renders it")
+        Make.diffuse(candela.textures.ConstantRgb(Rgb.Black))
 
   final class Interface(name: String) extends MaterialRecipe(name, sinceV3):
     protected def make()(using Site): Material = InterfaceMaterial

@@ -25,7 +25,7 @@ class AgreementSuite extends AnyFunSuite:
       image.data(3 * (y * width + x) + c) = (value + sigma * random.nextGaussian()).toFloat
     image
 
-  private def same(x: Int, y: Int, v: Double) = v
+  private val same: (Int, Int, Double) => Double = (_, _, v) => v
 
   /** Four renderings with 5 % noise or more, and a reference with 0.6 %. */
   private def compare(seed: Long, allowance: Double = 0)(change: (Int, Int, Double) => Double) =
