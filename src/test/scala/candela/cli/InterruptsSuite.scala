@@ -5,11 +5,20 @@ import candela.render.{Cancellation, Renderer, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import sun.misc.Signal
+import sun.misc.{Signal, SignalHandler}
 
 class InterruptsSuite extends AnyFunSuite:
 
+  /** Started in the background of a script, a JVM ignores SIGINT for good: nothing to test then. */
+  private def isInterruptIgnored: Boolean =
+    val interrupt = Signal("INT")
+    val previous = Signal.handle(interrupt, _ => ())
+    if previous != SignalHandler.SIG_IGN then
+      val _ = Signal.handle(interrupt, previous)
+    previous == SignalHandler.SIG_IGN
+
   test("Ctrl-C ends a rendering that would take years, and says how to quit at once"):
+    assume(!isInterruptIgnored, "SIGINT is ignored in this process")
     val captured = Captured()
     val cancellation = Cancellation()
     @volatile var pressed = false
