@@ -1,7 +1,7 @@
 package candela.sampling
 
-/** A stream of points in [0, 1), one for each choice along a path: indexed by pixel, sample number and
-  * dimension, so that an image depends on neither threads nor the order of pixels.
+/** A stream of points in [0, 1), one for each choice along a path: indexed by pixel, sample number
+  * and dimension, so that an image depends on neither threads nor the order of pixels.
   *
   * Not thread-safe: each worker has a `copy`.
   */
