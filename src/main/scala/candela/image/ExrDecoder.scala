@@ -111,11 +111,12 @@ private[image] object ExrDecoder:
     loop(order.length): to =>
       val from = order(to)
       val isInteger = part.channels(from).pixelType == TINYEXR_PIXELTYPE_UINT
-      part.tileSize match
+      part.tiling match
         case None =>
           val plane = Plane(image.images.get(from), part.width, isInteger)
           plane.copy(target, part.width, order.length, to, 0, 0, part.width, part.height)
-        case Some((tw, th)) =>
+        case Some(tiling) =>
+          val (tw, th) = (tiling.width, tiling.height)
           val tiles = image.tiles
           loop(image.num_tiles): i =>
             val tile = tiles.get(i)

@@ -14,18 +14,44 @@ private[image] final case class ExrChannel(
 
 /** What one part of an EXR file says about itself, as far as it matters for reading it.
   *
-  * @param width    of the data window, as `height`
-  * @param tileSize (width, height), if the part is tiled
+  * @param width  of the data window, as `height`
+  * @param tiling if it is tiled
   */
 private[image] final case class ExrPart(
     channels: Vector[ExrChannel],
     compression: Int,
     width: Int,
     height: Int,
-    tileSize: Option[(Int, Int)]
+    tiling: Option[ExrTiling]
 ):
+  /** Of the finest level, uncompressed. */
   def storedBytes: Long =
     width.toLong * height * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
+
+/** How a part is cut into tiles of `width` × `height`, and into levels of halved resolution:
+  * `levelMode` 0: one, 1: halved in both directions together, 2: in each on its own.
+  */
+private[image] final case class ExrTiling(
+    width: Int,
+    height: Int,
+    levelMode: Int,
+    roundsUp: Boolean
+):
+  /** Tiles of all levels of a part of `w` × `h` pixels. */
+  def tiles(w: Int, h: Int): Long =
+    def levels(size: Int) =
+      val floor = 31 - Integer.numberOfLeadingZeros(size)
+      1 + floor + (if roundsUp && (size & (size - 1)) != 0 then 1 else 0)
+    def count(size: Int, level: Int, tile: Int): Long =
+      val carry = if roundsUp then (1L << level) - 1 else 0L
+      (Math.max(1L, (size + carry) >> level) + tile - 1) / tile
+    levelMode match
+      case 0 => count(w, 0, width) * count(h, 0, height)
+      case 1 =>
+        (0 until levels(Math.max(w, h))).map(l => count(w, l, width) * count(h, l, height)).sum
+      case _ =>
+        val across = (0 until levels(w)).map(count(w, _, width)).sum
+        across * (0 until levels(h)).map(count(h, _, height)).sum
 
 /** Reads and checks EXR headers, so that only what decodes right reaches the native decoder.
   *
@@ -59,7 +85,7 @@ private[image] object ExrHeader:
     val version = word & 0xff
     if version != 2 then throw ImageError(s"EXR version $version is not supported")
     val isMultipart = (word & 0x1000) != 0
-    val flags = if isMultipart then 0 else word
+    val flags = Option.when(!isMultipart)(word)
     val found = mutable.ArrayBuffer(part(in.attributes(), flags))
     if isMultipart then
       var more = in.attributes()
@@ -67,19 +93,20 @@ private[image] object ExrHeader:
         found += part(more, flags)
         more = in.attributes()
     val rest = file.length.toLong - in.position
+    // A chunk has 8 bytes in the table and 8 or more of its own.
     if found.map(chunks).sum * 16 > rest then throw ImageError("the file is cut short")
     for p <- found if p.storedBytes > file.length.toLong * MaxRatio do
       throw ImageError(s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes")
     found.toVector
 
-  /** A chunk has 8 bytes in the table and 8 or more of its own. */
-  private def chunks(part: ExrPart): Long = part.tileSize match
-    case Some((w, h)) => ceilDiv(part.width, w) * ceilDiv(part.height, h)
-    case None => ceilDiv(part.height, ChunkRows(part.compression))
+  private def chunks(part: ExrPart): Long = part.tiling match
+    case Some(tiling) => tiling.tiles(part.width, part.height)
+    case None =>
+      val rows = ChunkRows(part.compression)
+      (part.height.toLong + rows - 1) / rows
 
-  private def ceilDiv(a: Int, b: Int): Long = (a.toLong + b - 1) / b
-
-  private def part(attributes: Map[String, (String, ByteBuffer)], flags: Int): ExrPart =
+  /** @param flags that say the kind of the only part; parts of several say it themselves */
+  private def part(attributes: Map[String, (String, ByteBuffer)], flags: Option[Int]): ExrPart =
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
       attributes.get(name).map: (found, data) =>
         if found != kind || data.remaining < size then
@@ -89,31 +116,41 @@ private[image] object ExrHeader:
       value(name, kind, size).getOrElse(throw ImageError(s"attribute `$name` is missing"))
 
     val kind = value("type", "string", 0).map(UTF_8.decode(_).toString)
-    val isDeep = (flags & 0x800) != 0 || kind.exists(_.startsWith("deep"))
+    val isDeep = flags.exists(f => (f & 0x800) != 0) || kind.exists(_.startsWith("deep"))
     if isDeep then throw ImageError("deep EXR files are not supported")
-    val isTiled = (flags & 0x200) != 0 || kind.contains("tiledimage")
-    val tiles = Option.when(isTiled):
-      val data = required("tiles", "tiledesc", 9)
-      (data.getInt(), data.getInt())
+    val isTiled = flags.fold(kind.contains("tiledimage"))(f => (f & 0x200) != 0)
+    if kind.exists(_ != (if isTiled then "tiledimage" else "scanlineimage")) then
+      throw ImageError(s"parts of type `${kind.mkString}` are not supported")
+    val tiling = Option.when(isTiled)(tilesOf(required("tiles", "tiledesc", 9)))
     val window = required("dataWindow", "box2i", 16)
     val Vector(x0, y0, x1, y1) = Vector.fill(4)(window.getInt().toLong): @unchecked
     val channels = channelList(required("channels", "chlist", 1))
     val compression = required("compression", "compression", 1).get() & 0xff
     val (width, height) = (x1 - x0 + 1, y1 - y0 + 1)
     if width < 1 || height < 1 then throw ImageError("the data window is empty")
-    checkSize(width, height, channels.size, tiles)
+    checkSize(width, height, channels.size, tiling)
     checkCoding(compression, channels)
-    ExrPart(channels, compression, width.toInt, height.toInt, tiles)
+    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling)
+    // The decoder believes this number, and a wrong one ends the process.
+    for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
+      throw ImageError("attribute `chunkCount` is damaged")
+    part
 
-  private def checkSize(w: Long, h: Long, channels: Int, tiles: Option[(Int, Int)]): Unit =
+  private def tilesOf(data: ByteBuffer): ExrTiling =
+    val (width, height, mode) = (data.getInt(), data.getInt(), data.get() & 0xff)
+    if (mode & 15) > 2 || mode >> 4 > 1 then throw ImageError("attribute `tiles` is damaged")
+    ExrTiling(width, height, mode & 15, mode >> 4 == 1)
+
+  private def checkSize(w: Long, h: Long, channels: Int, tiling: Option[ExrTiling]): Unit =
     val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels
     if !fits then
       throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
-    for (tw, th) <- tiles do
+    for t <- tiling do
       // A tile may exceed the image; the decoder allocates each in full.
-      val sane = tw > 0 && th > 0 && tw <= MaxTile && th <= MaxTile &&
-        ceilDiv(w.toInt, tw) * tw * ceilDiv(h.toInt, th) * th <= (Int.MaxValue - 8) / channels
-      if !sane then throw ImageError(s"tiles of $tw×$th pixels are not supported")
+      def padded(size: Long, tile: Long) = (size + tile - 1) / tile * tile
+      val sane = t.width > 0 && t.height > 0 && t.width <= MaxTile && t.height <= MaxTile &&
+        padded(w, t.width) * padded(h, t.height) <= (Int.MaxValue - 8) / channels
+      if !sane then throw ImageError(s"tiles of ${t.width}×${t.height} pixels are not supported")
 
   private def checkCoding(compression: Int, channels: Vector[ExrChannel]): Unit =
     val name = Compressions.lift(compression).getOrElse(s"number $compression")
@@ -175,6 +212,7 @@ private[image] object ExrHeader:
         need(size)
         val value = bytes.slice(bytes.position, size).order(ByteOrder.LITTLE_ENDIAN)
         bytes.position(bytes.position + size)
+        if found.contains(key) then throw ImageError(s"attribute `$key` is there twice")
         found(key) = (kind, value)
         if found.size > MaxAttributes then throw ImageError(s"more than $MaxAttributes attributes")
         key = name()

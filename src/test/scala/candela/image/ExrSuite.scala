@@ -98,6 +98,24 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     assert(outcomes.exists(_.isLeft))
     assert(outcomes.exists(_.isRight))
 
+  test("a wrong number of chunks is refused, which the decoder would not survive"):
+    val file = resource("multipart")
+    val at = file.indexOfSlice("chunkCount".getBytes) + "chunkCount\u0000int\u0000".length + 4
+    for value <- Vector[Byte](-1, 0x7f) do
+      val damaged = file.clone
+      damaged(at + 3) = value
+      val message = intercept[ImageError](Exr.read(damaged)).getMessage
+      assert(message == "attribute `chunkCount` is damaged")
+
+  test("tiles are counted over all levels"):
+    // By hand, for 37×21 pixels in tiles of 16×8: 3·3, halved to 18×10: 2·2, 9×5: 1, 4×2, 2×1, 1×1.
+    assert(ExrTiling(16, 8, 0, roundsUp = false).tiles(37, 21) == 9)
+    assert(ExrTiling(16, 8, 1, roundsUp = false).tiles(37, 21) == 9 + 4 + 1 + 1 + 1 + 1)
+    // Rounding up: 19×11, 10×6, 5×3, 3×2, 2×1, 1×1.
+    assert(ExrTiling(16, 8, 1, roundsUp = true).tiles(37, 21) == 9 + 4 + 1 + 1 + 1 + 1 + 1)
+    // Across 3+2+1+1+1+1, down 3+2+1+1+1.
+    assert(ExrTiling(16, 8, 2, roundsUp = false).tiles(37, 21) == 9 * 8)
+
   test("a size that the file can't hold is refused before memory is asked for"):
     val file = resource("half-zip")
     val at = file.indexOfSlice("dataWindow".getBytes) + "dataWindow\u0000box2i\u0000".length + 4
