@@ -48,6 +48,26 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
         val weight = f(wo, drawn.wi) * (Hemisphere.absCos(drawn.wi) / density)
         BsdfSample(drawn.wi, weight, density, isSpecular = false, drawn.eta)
 
+  private val specular: Float =
+    lobes.indices.filter(lobes(_).isSpecular).map(probabilities(_)).sum
+
+  override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    if specular <= 0f then BsdfSample.Absorbed
+    else
+      // As `sample`, but only the specular lobes share the interval
+      var rest = choice * specular
+      var chosen = -1
+      var i = 0
+      while i < lobes.length do
+        if lobes(i).isSpecular && (chosen < 0 || rest >= 0f) then
+          chosen = i
+          rest -= probabilities(i)
+        i += 1
+      val p = probabilities(chosen) / specular
+      val within = clamp(1f + rest / probabilities(chosen), 0f, OneMinusEpsilon)
+      val drawn = lobes(chosen).sample(wo, within, 0.5f, 0.5f)
+      BsdfSample(drawn.wi, drawn.weight * (1f / p), drawn.pdf * p, drawn.isSpecular, drawn.eta)
+
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
 

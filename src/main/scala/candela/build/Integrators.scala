@@ -56,7 +56,8 @@ object Integrators:
       val (depth, every) = (Math.max(1, maxDepth()), strategy() == "all")
       IntegratorPlan(
         (scene, samples) => DirectLighting(scene, depth, if every then samples else Array.empty),
-        samplesBsdf = true,
+        // Only when each light has its turn can one of them be left to BSDF sampling
+        samplesBsdf = every,
         s"directlighting, ${if every then "all lights" else "one light"} at each point"
       )
 

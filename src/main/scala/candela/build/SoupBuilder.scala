@@ -85,15 +85,10 @@ object SoupBuilder:
         val x = n(3 * i) * sign
         val y = n(3 * i + 1) * sign
         val z = n(3 * i + 2) * sign
-        // Unit length, so that interpolation weights all three corners alike
-        val wx = m(0) * x + m(4) * y + m(8) * z
-        val wy = m(1) * x + m(5) * y + m(9) * z
-        val wz = m(2) * x + m(6) * y + m(10) * z
-        val length = Math.sqrt(wx * wx + wy * wy + wz * wz)
-        val s = if length > 0 then 1 / length else 0.0
-        out(3 * i) = (wx * s).toFloat
-        out(3 * i + 1) = (wy * s).toFloat
-        out(3 * i + 2) = (wz * s).toFloat
+        // Lengths stay different: they weigh the corners in the interpolation, as in pbrt
+        out(3 * i) = (m(0) * x + m(4) * y + m(8) * z).toFloat
+        out(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
+        out(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat
       out
 
   private def joined(parts: ArrayBuffer[Array[Float]]): Array[Float] =

@@ -43,7 +43,15 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     val accelerator = accelerate(primitives)
     val sources = lights.toArray
     val selection = LightSelection.of(sources)
-    val scene = Scene(triangles, solids.toArray, accelerator, materials.toArray, sources, selection)
+    val scene = Scene(
+      triangles,
+      solids.toArray,
+      accelerator,
+      materials.toArray,
+      sources,
+      selection,
+      sidesByGeometry = description.dialect != Dialect.V4
+    )
     if sources.isEmpty then warnOfDarkness()
     World(
       integrator.make(scene, lightSamples.toArray),

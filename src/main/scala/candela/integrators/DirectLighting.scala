@@ -82,9 +82,9 @@ final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int]
     sampler.next2D()
     val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
     // Specular directions are followed by the loop above
-    if bounce.isSpecular || bounce.weight.isBlack then Rgb.Black
+    val wi = at.frame.toWorld(bounce.wi)
+    if bounce.isSpecular || bounce.weight.isBlack || !isOpenSide(wi, wo, bsdf) then Rgb.Black
     else
-      val wi = at.frame.toWorld(bounce.wi)
       bsdfRay.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
       rays += 1
       if scene.closest(bsdfRay, bsdfHit) then

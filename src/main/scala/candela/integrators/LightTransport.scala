@@ -52,9 +52,10 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
     source.sample(at.p, sampler.x, sampler.y, lightSample)
     if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
     else
-      val wi = at.frame.toLocal(lightSample.wi)
       val local = at.frame.toLocal(wo)
-      val f = bsdf.f(local, wi)
+      val wi = onSide(at.frame.toLocal(lightSample.wi), local, bsdf)
+      val isPossible = isOpenSide(lightSample.wi, wo, bsdf)
+      val f = if isPossible then bsdf.f(local, wi) else Rgb.Black
       if f.isBlack || isBlocked() then Rgb.Black
       else
         val pdf = selected * lightSample.pdf
@@ -62,6 +63,16 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
           if combined && !source.isDelta then LightTransport.powerHeuristic(pdf, bsdf.pdf(local, wi))
           else 1f
         f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
+
+  /** Can a BSDF that only reflects send light from `wi` to `wo` (world space) at all? */
+  protected final def isOpenSide(wi: Vec3, wo: Vec3, bsdf: Bsdf): Boolean =
+    !scene.sidesByGeometry || bsdf.isTransmissive ||
+      ((wi dot at.geometricNormal) > 0f) == ((wo dot at.geometricNormal) > 0f)
+
+  /** The local `wi`, put on the side of `wo` if geometry has decided that it is a reflection. */
+  private def onSide(wi: Vec3, wo: Vec3, bsdf: Bsdf): Vec3 =
+    if !scene.sidesByGeometry || bsdf.isTransmissive || (wi.z > 0f) == (wo.z > 0f) then wi
+    else Vec3(wi.x, wi.y, -wi.z)
 
   /** Is something between the shading point and the chosen point on the light? */
   private def isBlocked(): Boolean =
@@ -73,10 +84,7 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
       val end = ShadingPoint.offset(target.p, target.pError, target.n, -lightSample.wi)
       shadowRay.set(origin, end - origin, LightTransport.ShadowEnd)
     rays += 1
-    blocked()
-
-  /** Walks on through surfaces that are mere interfaces. */
-  private def blocked(): Boolean = scene.isOccluded(shadowRay, shadowHit)
+    scene.isOccluded(shadowRay, shadowHit)
 
 object LightTransport:
   /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of its

@@ -81,7 +81,7 @@ final class PathTracer(
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          alive = !throughput.isBlack
+          alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
             val q = throughput.max * etaScale
             if q < rouletteThreshold then

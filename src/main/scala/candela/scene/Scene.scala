@@ -13,14 +13,20 @@ import candela.shapes.{Shape, TriangleSoup}
   */
 final case class ShapeInstance(shape: Shape, material: Int, light: Int)
 
-/** All that a ray can meet, and all that lights it. Immutable; shared by all workers. */
+/** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
+  *
+  * @param sidesByGeometry does the geometric normal say which directions are reflections? So in pbrt-v2
+  *                        and v3, which thereby keep light from leaking through; pbrt-v4 goes by the
+  *                        shading normal alone
+  */
 final class Scene(
     soup: TriangleSoup,
     shapes: Array[ShapeInstance],
     accelerator: Accelerator,
     materials: Array[Material],
     val lights: Array[Light],
-    val selection: LightSelection
+    val selection: LightSelection,
+    val sidesByGeometry: Boolean
 ):
   /** Those of `lights` that surround the scene, with their indices. */
   val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
