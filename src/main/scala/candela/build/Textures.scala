@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.color.{Encoding, Rgb}
-import candela.image.{Image, StoredImage}
+import candela.image.StoredImage
 import candela.math.*
 import candela.scenefile.{Dialect, TextureDescription}
 import candela.textures.*
@@ -168,10 +168,10 @@ object Textures:
           val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
           if gammaFlag.given_().getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
         case Dialect.V4 =>
-          // Only stored integers are encoded: floating-point pictures are linear
-          stored match
-            case _: Image => identity
-            case _ => encoded()
+          // `encoding` speaks of PNG; floating-point pictures are linear, TGA and JPEG sRGB
+          if filename().toLowerCase.endsWith(".png") then encoded()
+          else if stored.encoding == Encoding.Linear then identity
+          else Encoding.Srgb.decode(_)
 
     private def encoded()(using site: Site): Float => Float =
       encoding().split(' ') match

@@ -118,9 +118,10 @@ object Filters:
   object Sinc extends FilterRecipe("sinc"):
     private val size = extents(4f)
     private val tau = float("tau", "cycles before the window ends")(3f)
-    protected def make()(using Site): Filter =
+    protected def make()(using site: Site): Filter =
       val (x, y) = radii(size)
-      LanczosSincFilter(x, y, tau())
+      if site.dialect == Dialect.V2 then LanczosSincFilter.stretched(x, y, tau())
+      else LanczosSincFilter(x, y, tau())
 
 /** What a sampler is made for. */
 final case class SamplerRequest(spp: Option[Int], seed: Int, width: Int, height: Int)

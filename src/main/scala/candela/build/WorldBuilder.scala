@@ -38,7 +38,9 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
       for (sampler, k) <- samplers.zipWithIndex do lights(light + k) = plan.ofTriangle(sampler, area)
-    for l <- description.lights do addLight(l, !integrator.samplesBsdf)
+    // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
+    val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
+    for l <- description.lights do addLight(l, complete)
     val primitives = Primitives(triangles, solids.map(_.shape).toArray)
     val accelerator = accelerate(primitives)
     val sources = lights.toArray

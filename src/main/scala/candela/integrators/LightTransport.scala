@@ -53,14 +53,15 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
     if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
     else
       val local = at.frame.toLocal(wo)
-      val wi = onSide(at.frame.toLocal(lightSample.wi), local, bsdf)
+      val towards = at.frame.toLocal(lightSample.wi)
+      val wi = onSide(towards, local, bsdf)
       val isPossible = isOpenSide(lightSample.wi, wo, bsdf)
       val f = if isPossible then bsdf.f(local, wi) else Rgb.Black
       if f.isBlack || isBlocked() then Rgb.Black
       else
         val pdf = selected * lightSample.pdf
         val weight =
-          if combined && !source.isDelta then LightTransport.powerHeuristic(pdf, bsdf.pdf(local, wi))
+          if combined && !source.isDelta then LightTransport.powerHeuristic(pdf, bsdf.pdf(local, towards))
           else 1f
         f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
 
