@@ -5,8 +5,8 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 
 /** How a point of a surface scatters light. Directions are unit vectors that point away from the
-  * surface, in a local frame whose +z is the shading normal. `wo` is where the radiance goes (to the
-  * camera), `wi` where it comes from. Immutable.
+  * surface, in a local frame whose +z is the shading normal. `wo` is where the radiance goes (to
+  * the camera), `wi` where it comes from. Immutable.
   */
 abstract class Bsdf:
 
@@ -35,8 +35,8 @@ abstract class Bsdf:
 
 /** @param weight     f·|cos θi|/pdf
   * @param pdf        per solid angle; for a specular direction the probability of its choice
-  * @param eta        for transmission the index of refraction on the side of `wi` over that of `wo`,
-  *                   else 1
+  * @param eta        for transmission the index of refraction on the side of `wi` over that of
+  *                   `wo`, else 1
   */
 final class BsdfSample(
     val wi: Vec3,

@@ -3,7 +3,7 @@ package candela.bsdf
 import candela.base.loop
 import candela.math.*
 
-/** What gets through a clear coat and what it throws back inside, on the way to and from a diffuse base.
+/** What gets through a clear coat and what it throws back inside, above a diffuse base.
   *
   * Immutable, and independent of the colour of the base: materials share it ([[Coats]]).
   */
@@ -12,20 +12,20 @@ abstract class Coat:
   /** Index of refraction of the coat over that outside. */
   def eta: Float
 
-  /** The fraction of the power from direction `w`, outside, that arrives at the base: refracted, and
-    * not absorbed on the way. Which side of the surface `w` lies on doesn't matter.
+  /** The fraction of the power from direction `w`, outside, that arrives at the base: refracted,
+    * and not absorbed on the way. Which side of the surface `w` lies on doesn't matter.
     */
   def transmittance(w: Vec3): Float
 
   /** The average of `transmittance` over directions, weighted by the cosine. */
   def meanTransmittance: Float
 
-  /** The fraction of the power that leaves the base, evenly in all directions, and comes back to it. */
+  /** The fraction of the power that comes back to the base, which sends it evenly everywhere. */
   def internalReflectance: Float
 
 object Coat:
 
-  /** What is left of light that crosses the coat once; `cosine` is that of its angle to the normal. */
+  /** What is left of light that crosses the coat once, at this cosine to the normal. */
   private[bsdf] def attenuation(thickness: Float, cosine: Float): Double =
     if thickness <= 0f then 1.0
     else if cosine <= 0f then 0.0
@@ -62,9 +62,9 @@ private object SmoothCoat:
 
 /** The coat whose outer side is rough; what is scattered twice within the roughness is lost.
   *
-  * `transmittance` is a table over the square root of the cosine, because it changes fastest at grazing
-  * angles, and over the square of the azimuth's cosine if the roughness is anisotropic; off by at
-  * most 0.001 (`CoatSuite`).
+  * `transmittance` is a table over the square root of the cosine, because it changes fastest at
+  * grazing angles, and over the square of the azimuth's cosine if the roughness is anisotropic; off
+  * by at most 0.001 (`CoatSuite`).
   */
 final class RoughCoat(top: TrowbridgeReitz, val eta: Float, thickness: Float) extends Coat:
   import RoughCoat.{Azimuths, Cosines}
@@ -134,7 +134,7 @@ private object RoughCoat:
         sum += kept * Coat.attenuation(thickness, up.z) * Coat.attenuation(thickness, down.z)
     (sum / n).toFloat
 
-/** A sequence of points that fills a cube of up to four dimensions evenly, for integrals at build time.
+/** Points that fill a cube of up to four dimensions evenly, for integrals at build time.
   *
   * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: the additive
   * recurrence of the powers of the real root of x⁵ = x + 1.

@@ -5,8 +5,8 @@ import candela.math.*
 
 /** A Lambertian base under a clear coat, with all the light that goes back and forth between them.
   *
-  * The base forgets where light came from, so the sum over all paths separates: what enters from `wo`,
-  * times a geometric series of trips between base and coat, times what leaves to `wi`,
+  * The base forgets where light came from, so the sum over all paths separates: what enters from
+  * `wo`, times a geometric series of trips between base and coat, times what leaves to `wi`,
   *
   *   f = f_top + T(wo) T(wi) / (π eta²) · albedo · Σ (albedo · R)^k,
   *
@@ -17,8 +17,8 @@ import candela.math.*
   * @param top      roughness of the outer side of the coat
   * @param coat     what gets through; may stand for a roughness slightly different from `top`
   *
-  * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary Layered
-  * BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
+  * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
+  * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
 final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends Bsdf:
   private val eta = coat.eta
@@ -38,7 +38,7 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
           Fresnel.dielectric(o dot m, eta) * top.d(m) * top.visibility(o, i, m)
         under + Rgb.gray(reflected)
 
-  /** The probability of sampling the reflection at the outer side: its share of the reflected power. */
+  /** The probability of sampling the outer side: its share of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =
     val under = meanBase * coat.transmittance(wo)
     if reflected + under > 0f then reflected / (reflected + under) else 0f

@@ -19,7 +19,7 @@ final class Coats:
         else RoughCoat(top, eta, thickness)
     )
 
-  /** Coats of `Coats.Levels` isotropic roughnesses from 0 to 1, denser towards 0: for [[Coats.between]]. */
+  /** Coats of isotropic roughnesses from 0 to 1, denser towards 0: for [[Coats.between]]. */
   def family(eta: Float, thickness: Float): IArray[Coat] =
     families.computeIfAbsent(
       (eta, thickness),
@@ -34,8 +34,8 @@ object Coats:
   /** How finely `family` divides the square root of the roughness. */
   inline val Levels = 33
 
-  /** The coat of any roughness from 0 to 1, off by at most 0.003 (`CoatSuite`); for an anisotropic one,
-    * that of the geometric mean.
+  /** The coat of any roughness from 0 to 1, off by at most 0.003 (`CoatSuite`); for an anisotropic
+    * one, that of the geometric mean.
     */
   def between(family: IArray[Coat], top: TrowbridgeReitz): Coat =
     val isotropic = top.alphaX == top.alphaY

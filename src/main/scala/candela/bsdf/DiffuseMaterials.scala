@@ -42,7 +42,8 @@ final class CoatedDiffuseMaterial(
     CoatedDiffuse(reflectance(at).map(c => clamp(c, 0f, 1f)), top, coat, baseHits)
 
 /** [[FresnelBlend]]: a glossy coat on a diffuse base. */
-final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness) extends Material:
+final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness)
+    extends Material:
   def bsdf(at: ShadingPoint): Bsdf = FresnelBlend(
     kd(at).map(c => Math.max(c, 0f)),
     ks(at).map(c => Math.max(c, 0f)),

@@ -5,8 +5,9 @@ import candela.math.*
 
 /** Reflection and refraction of unpolarised light at an ideally flat interface.
   *
-  * Worked in Double: near the critical angle and for metals of small `eta` the differences below lose
-  * up to half the digits of a Float (`FresnelSuite` compares with another form of the equations).
+  * Worked in Double: near the critical angle and for metals of small `eta` the differences below
+  * lose up to half the digits of a Float (`FresnelSuite` compares with another form of the
+  * equations).
   *
   * Source: Born and Wolf, "Principles of Optics", 7th ed., §1.5.2 and §14.2.
   */
@@ -90,7 +91,7 @@ object Fresnel:
     conductor(cosThetaI, eta.b, k.b)
   )
 
-  /** The approximation of `conductor` for metals that absorb well, which drops sin²θ beside `eta² + k²`.
+  /** `conductor`, approximately, for metals that absorb well: drops sin²θ beside `eta² + k²`.
     *
     * Source: PBRT 2nd ed., §8.2.1.
     */

@@ -8,10 +8,10 @@ import candela.math.*
   * Reciprocal. Each of the two is sampled half the time.
   *
   * @param diffuse  reflectance of the base, in [0, 1]
-  * @param specular reflectance of the coat at normal incidence, in [0, 1]; at grazing angles it is 1
+  * @param specular reflectance of the coat at normal incidence, in [0, 1]; at grazing ones it is 1
   *
-  * Source: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools 5(2),
-  * 2000; with Schlick's approximation for the coat.
+  * Source: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools
+  * 5(2), 2000; with Schlick's approximation for the coat.
   */
 final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDistribution)
     extends Bsdf:
@@ -30,7 +30,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
         val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
         under + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
 
-  /** How much of the light at this cosine gets to the base, relative to normal incidence (roughly). */
+  /** Roughly how much of the light at this cosine gets to the base, relative to the normal. */
   private def penetration(cosine: Float): Float = 1f - fifthPower(1f - 0.5f * cosine)
 
   private def fifthPower(x: Float): Float = square(x * x) * x

@@ -1,8 +1,9 @@
 package candela.bsdf
 
 import candela.math.*
+import candela.sampling.Warp
 
-/** The few questions that every lobe asks about directions of the local frame, whose +z is the normal. */
+/** The few questions that every lobe asks about directions of the local frame. */
 private[bsdf] object Hemisphere:
 
   /** Do both lie strictly on the same side of the surface? */
@@ -29,18 +30,7 @@ private[bsdf] object Hemisphere:
   /** The density per solid angle of `cosineSample`. */
   inline def cosinePdf(w: Vec3): Float = Math.abs(w.z) * InvPi
 
-  /** A direction in the hemisphere of `side`, with a density proportional to its cosine.
-    *
-    * Source: Malley's method; the disk by Shirley and Chiu, "A Low Distortion Map Between Disk and
-    * Square", Journal of Graphics Tools 2(3), 1997.
-    */
+  /** A direction in the hemisphere of `side`, with a density proportional to its cosine. */
   def cosineSample(side: Vec3, u1: Float, u2: Float): Vec3 =
-    val a = 2f * u1 - 1f
-    val b = 2f * u2 - 1f
-    if a == 0f && b == 0f then Vec3(0f, 0f, if side.z < 0f then -1f else 1f)
-    else
-      val wide = Math.abs(a) > Math.abs(b)
-      val radius = if wide then a else b
-      val angle = if wide then Pi / 4f * (b / a) else Pi / 2f - Pi / 4f * (a / b)
-      val z = safeSqrt(1f - radius * radius)
-      Vec3(radius * cos(angle), radius * sin(angle), if side.z < 0f then -z else z)
+    val w = Warp.cosineHemisphere(u1, u2)
+    if side.z < 0f then flipped(w) else w

@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
-/** Makes the plainest [[Material]] that is right: where no texture varies, the [[Bsdf]] is made once. */
+/** Makes the plainest [[Material]] that is right: without varying textures, one [[Bsdf]]. */
 object MaterialFactory:
 
   def matte(kd: RgbTexture, sigma: FloatTexture): Material =

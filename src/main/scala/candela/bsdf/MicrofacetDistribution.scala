@@ -2,7 +2,8 @@ package candela.bsdf
 
 import candela.math.*
 
-/** How the normals of the tiny mirrors of a rough surface are spread, and how these hide one another.
+/** How the normals of the tiny mirrors of a rough surface are spread, and how these hide one
+  * another.
   *
   * `m` is a unit microfacet normal with `m.z` > 0. Of `wo` and `wi` only the sizes of the cosines
   * count: the distribution looks the same from below.
@@ -15,8 +16,8 @@ abstract class MicrofacetDistribution:
   /** Area of facets with normal `m`, per unit of surface and solid angle of normals. */
   def d(m: Vec3): Float
 
-  /** G / (4 |cos θo cos θi|): the share of the facets of normal `m` that both directions see, in the
-    * form that stays finite at grazing angles wherever the model does.
+  /** G / (4 |cos θo cos θi|): the share of the facets of normal `m` that both directions see, in
+    * the form that stays finite at grazing angles wherever the model does.
     */
   def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float
 

@@ -7,8 +7,8 @@ import candela.math.*
   *
   * @param scale multiplies what `curve` says the facets reflect
   *
-  * Source: Torrance and Sparrow, "Theory for Off-Specular Reflection From Roughened Surfaces", JOSA 57,
-  * 1967; PBRT 4th ed., §9.6.
+  * Source: Torrance and Sparrow, "Theory for Off-Specular Reflection From Roughened Surfaces", JOSA
+  * 57, 1967; PBRT 4th ed., §9.6.
   */
 final class MicrofacetReflection(
     distribution: MicrofacetDistribution,
@@ -51,7 +51,7 @@ final class MicrofacetReflection(
 
 object MicrofacetReflection:
 
-  /** The density of the direction that a facet `m`, drawn for `wo`, reflects to `wo`; `wo.z` ≥ 0. */
+  /** The density of the direction that a facet `m`, drawn for `wo`, reflects it to; `wo.z` ≥ 0. */
   private[bsdf] def pdf(distribution: MicrofacetDistribution, wo: Vec3, m: Vec3): Float =
     val cosM = wo dot m
     if cosM > 0f then distribution.pdf(wo, m) / (4f * cosM) else 0f

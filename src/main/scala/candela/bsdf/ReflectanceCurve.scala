@@ -49,7 +49,8 @@ final class StrongConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurv
 
 /** A curve given by its values at equally spaced cosines, linear between them.
   *
-  * @param values r, g, b at cosine 0 (grazing), then at the next, up to cosine 1; two or more triples
+  * @param values r, g, b at cosine 0 (grazing), then at the next, up to cosine 1; two or more
+  *               triples
   */
 final class TabulatedReflectance(values: IArray[Float]) extends ReflectanceCurve:
   require(values.length >= 6 && values.length % 3 == 0, s"${values.length} values are no curve")

@@ -5,8 +5,8 @@ import candela.math.*
 
 /** The rough interface of two transparent media: every facet reflects and refracts.
   *
-  * What is scattered twice within the roughness is lost. Refraction scales radiance by the square of
-  * the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
+  * What is scattered twice within the roughness is lost. Refraction scales radiance by the square
+  * of the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
   *
   * @param eta           index of refraction inside (below the surface) over that outside; not 1
   * @param reflectance   multiplies the reflected light
@@ -26,12 +26,12 @@ final class RoughDielectric(
   /** The index on the other side over that on the side of `wo`. */
   private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / eta else eta
 
-  /** The probability that a facet with this Fresnel term is chosen to reflect; NaN if it does neither. */
+  /** The probability that a facet of this Fresnel term is chosen to reflect; NaN: it is black. */
   private def reflects(fresnel: Float): Float =
     val r = fresnel * maxReflectance
     r / (r + (1f - fresnel) * maxTransmittance)
 
-  /** The facet that scatters `o` (above) to `i`; zero if there is none that both see from the front. */
+  /** The facet that scatters `o` (above) to `i`; zero if none faces both. */
   private def facet(o: Vec3, i: Vec3, relative: Float): Vec3 =
     val across = if i.z > 0f then o + i else o + i * relative
     if across.isZero then Vec3.Zero

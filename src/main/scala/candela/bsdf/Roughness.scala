@@ -30,8 +30,8 @@ enum RoughnessModel:
     case AnisotropicExponents => new CosinePower(1f / u, 1f / v)
     case _ => trowbridgeReitz(u, v)
 
-  /** The same for surfaces that only this distribution describes; exponents e become the `alpha` of a
-    * core as wide, √(2/(e + 2)) (Walter et al. 2007, §5.2).
+  /** The same for surfaces that only this distribution describes; exponents e become the `alpha` of
+    * a core as wide, √(2/(e + 2)) (Walter et al. 2007, §5.2).
     */
   def trowbridgeReitz(u: Float, v: Float): TrowbridgeReitz = TrowbridgeReitz(alpha(u), alpha(v))
 
@@ -46,8 +46,8 @@ enum RoughnessModel:
   *
   * @param u            along ∂p/∂u, in the unit of the model
   * @param v            along ∂p/∂v
-  * @param smoothAtZero is a surface of roughness 0 in both directions a perfect mirror, even where the
-  *                     model would make it slightly rough? (the glass of PBRT 3)
+  * @param smoothAtZero is a surface of roughness 0 in both directions a perfect mirror, even where
+  *                     the model would make it slightly rough? (the glass of PBRT 3)
   */
 final class Roughness(
     u: FloatTexture,
@@ -72,7 +72,7 @@ final class Roughness(
 
 object Roughness:
 
-  /** The `alpha` that PBRT 3 gives a roughness in [0, 1]: a fit, meant to make the scale even to the eye.
+  /** The `alpha` that PBRT 3 gives a roughness in [0, 1]: a fit, to make the scale even to the eye.
     *
     * Source: PBRT 3rd ed., §8.4.5; Jakob, "Mitsuba renderer".
     */

@@ -60,8 +60,8 @@ final class SmoothDielectric(
 
   def isTransmissive: Boolean = !transmittance.isBlack
 
-/** A pane with two parallel smooth sides: all that is reflected back and forth within it is counted,
-  * and what passes keeps its direction.
+/** A pane with two parallel smooth sides: all that is reflected back and forth within it is
+  * counted, and what passes keeps its direction.
   *
   * @param eta index of refraction of the pane over that outside
   *

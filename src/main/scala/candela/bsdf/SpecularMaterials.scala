@@ -75,7 +75,9 @@ final class PlasticMaterial(
       .add(MicrofacetReflection(roughness(at), curve, gloss), gloss.max)
       .result
 
-/** Everything at once: diffuse base, gloss, mirror, refraction, and `opacity` to see through it all. */
+/** Everything at once: diffuse base, gloss, mirror, refraction, and `opacity` to see through it
+  * all.
+  */
 final class UberMaterial(
     kd: RgbTexture,
     ks: RgbTexture,

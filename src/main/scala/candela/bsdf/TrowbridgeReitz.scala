@@ -4,8 +4,8 @@ import candela.math.*
 
 /** The normals of an ellipsoid (also called GGX): a narrow peak with long tails.
   *
-  * Shadowing and masking after Smith, correlated in height. Normals are sampled in proportion to the
-  * area that `wo` sees.
+  * Shadowing and masking after Smith, correlated in height. Normals are sampled in proportion to
+  * the area that `wo` sees.
   *
   * @param alphaX roughness along x (∂p/∂u): the root mean square slope of the core, unitless
   * @param alphaY the same along y

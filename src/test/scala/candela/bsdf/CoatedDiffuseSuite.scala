@@ -32,7 +32,8 @@ class CoatedDiffuseSuite extends BsdfLaws:
     for wo <- Directions.few do
       val power = Statistics()
       for _ <- 0 until 20000 do
-        power.add(bsdf.sample(wo, random.nextFloat(), random.nextFloat(), random.nextFloat()).weight.r)
+        val s = bsdf.sample(wo, random.nextFloat(), random.nextFloat(), random.nextFloat())
+        power.add(s.weight.r)
       // 1e-4: the integrals of the coat, magnified by the series.
       assert(Math.abs(power.mean - 1) < 4.5 * power.error + 1e-4, s"$power at $wo")
 
@@ -49,11 +50,13 @@ class CoatedDiffuseSuite extends BsdfLaws:
   )
 
   for (ax, ay, albedo) <- cases do
-    test(s"alpha $ax, $ay on a base of albedo $albedo scatters like random walks through the layers"):
+    test(s"alpha $ax, $ay, base of albedo $albedo: scatters like walks through the layers"):
       for (theta, phi) <- Seq((20.0, 0.0), (65.0, 60.0)) do
         agreesWithWalks(coated(Rgb.gray(albedo), ax, ay), ax, ay, albedo, Directions.at(theta, phi))
 
-  /** Compares the power that leaves into each of eight parts of the hemisphere, at the top and below. */
+  /** Compares the power that leaves into each of eight parts of the hemisphere, at the top and
+    * below.
+    */
   private def agreesWithWalks(bsdf: Bsdf, ax: Float, ay: Float, albedo: Float, wo: Vec3): Unit =
     val n = 100000
     val random = SplittableRandom(9)

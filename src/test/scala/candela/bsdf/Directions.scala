@@ -39,39 +39,25 @@ object Directions:
     Vec3((r * Math.cos(phi)).toFloat, (r * Math.sin(phi)).toFloat, (sign * z).toFloat)
 
   /** ∫ g over the sphere of directions, cell by cell: `rows` bands of equal angle times `columns`
-    * sectors, each with `fine`² points, by Gauss's rule down a band and the midpoint rule along it.
+    * sectors, each by one random point in each of `fine`² parts. (A fixed grid would be partial
+    * where `g` jumps at a parallel, as refraction by rough surfaces does.)
     */
   def integrals(rows: Int, columns: Int, fine: Int)(g: Vec3 => Double): Array[Double] =
+    val random = SplittableRandom(11)
     val cells = new Array[Double](rows * columns)
-    val (nodes, weights) = gauss(fine)
-    val sectors = columns * fine
-    for row <- 0 until rows; i <- 0 until fine do
-      val theta = (row + (1 + nodes(i)) / 2) * Math.PI / rows
-      val (z, r) = (Math.cos(theta), Math.sin(theta))
-      val solidAngle = r * weights(i) / 2 * Math.PI / rows * 2 * Math.PI / sectors
-      for j <- 0 until sectors do
-        val phi = 2 * Math.PI * (j + 0.5) / sectors
-        val w = Vec3((r * Math.cos(phi)).toFloat, (r * Math.sin(phi)).toFloat, z.toFloat)
-        cells(row * columns + j / fine) += g(w) * solidAngle
+    val (bands, sectors) = (rows * fine, columns * fine)
+    val (height, width) = (Math.PI / bands, 2 * Math.PI / sectors)
+    for i <- 0 until bands; j <- 0 until sectors do
+      val theta = (i + random.nextDouble()) * height
+      val phi = (j + random.nextDouble()) * width
+      val r = Math.sin(theta)
+      val w = Vec3(
+        (r * Math.cos(phi)).toFloat,
+        (r * Math.sin(phi)).toFloat,
+        Math.cos(theta).toFloat
+      )
+      cells(i / fine * columns + j / fine) += g(w) * r * height * width
     cells
-
-  /** Nodes and weights of Gauss and Legendre's rule on [−1, 1]; the nodes by Newton's method. */
-  private def gauss(n: Int): (Array[Double], Array[Double]) =
-    val (nodes, weights) = (new Array[Double](n), new Array[Double](n))
-    for i <- 0 until n do
-      var x = Math.cos(Math.PI * (i + 0.75) / (n + 0.5))
-      var slope = 0.0
-      for _ <- 0 until 6 do
-        var (p, before) = (1.0, 0.0)
-        for k <- 1 to n do
-          val next = ((2 * k - 1) * x * p - (k - 1) * before) / k
-          before = p
-          p = next
-        slope = n * (x * p - before) / (x * x - 1)
-        x -= p / slope
-      nodes(i) = x
-      weights(i) = 2 / ((1 - x * x) * slope * slope)
-    (nodes, weights)
 
   /** The cell of `integrals` that holds `w`. */
   def cell(rows: Int, columns: Int)(w: Vec3): Int =

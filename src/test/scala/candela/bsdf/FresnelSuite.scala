@@ -53,7 +53,7 @@ class FresnelSuite extends AnyFunSuite:
       // The rounding of angle and index.
       assert(Math.abs(actual - expected) < 1e-6)
 
-  test("all is reflected at grazing incidence and past the critical angle, nothing if nothing changes"):
+  test("all is reflected at grazing angles and past the critical one, nothing by an index of 1"):
     assert(Fresnel.dielectric(0f, 1.5f) == 1f)
     val critical = Math.asin(1 / 1.5)
     assert(Fresnel.dielectric(-Math.cos(critical + 1e-3).toFloat, 1.5f) == 1f)

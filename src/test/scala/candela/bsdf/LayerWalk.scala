@@ -11,9 +11,10 @@ final case class Way(x: Double, y: Double, z: Double):
   def unit: Way = this * (1 / Math.sqrt(this dot this))
   def flipped: Way = Way(x, y, -z)
 
-/** Light that walks at random between a rough coat and a diffuse base: what [[CoatedDiffuse]] claims to
-  * be the mean of. Shares no code with it: in Double, with the sampling of Heitz ("Sampling the GGX
-  * Distribution of Visible Normals", JCGT 7(4), 2018) and the textbook's tangents.
+/** Light that walks at random between a rough coat and a diffuse base: what [[CoatedDiffuse]]
+  * claims to be the mean of. Shares no code with it: in Double, with the sampling of Heitz
+  * ("Sampling the GGX Distribution of Visible Normals", JCGT 7(4), 2018) and the textbook's
+  * tangents.
   *
   * @param alphaX   roughness; 0 in both directions is smooth
   * @param maxDepth events below the coat, base and coat in turn

@@ -46,7 +46,7 @@ class TrowbridgeReitzSuite extends AnyFunSuite:
         val m = shape.sample(wo, i / 32f, j / 32f)
         assert(m.z > 0f && (m dot wo) > -1e-6f, s"$m for $wo") // rounding
 
-  test("surfaces smoother than a thousandth count as smooth only if they are so in both directions"):
+  test("roughness below a thousandth counts as none only if it is so in both directions"):
     assert(TrowbridgeReitz(0.0009f, 0f).isSmooth)
     assert(!TrowbridgeReitz(0f, 0.1f).isSmooth && !TrowbridgeReitz(0.001f, 0.001f).isSmooth)
     val m = TrowbridgeReitz(0f, 0.1f).sample(Directions.at(30, 30), 0.3f, 0.6f)
