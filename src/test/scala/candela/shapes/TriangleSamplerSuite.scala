@@ -1,0 +1,42 @@
+package candela.shapes
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.geometry.{Hit, Ray}
+import candela.math.*
+import candela.testing.{Draws, Soups}
+
+class TriangleSamplerSuite extends AnyFunSuite:
+  private val triangle = (Vec3(1f, 0f, 2f), Vec3(3f, 0.5f, 2f), Vec3(1f, 4f, 1f))
+  private val soup = Soups.of(Seq(triangle))
+  private val sampler = TriangleSampler(soup, 0)
+  private val ray = Ray()
+  private val hit = Hit()
+
+  private val see: SampledShapes.Visible = (from, w) =>
+    ray.set(from, w, Float.PositiveInfinity)
+    Option.when(TriangleTest.intersect(soup.positions, 0, ray, hit))(
+      (ray.at(ray.tMax), sampler.normal)
+    )
+
+  test("area and normal are those of the triangle"):
+    // |(2, 0.5, 0) × (0, 4, −1)| / 2 = |(−0.5, 2, 8)| / 2
+    assert(abs(sampler.area - 0.5f * sqrt(0.25f + 4f + 64f)) < 1e-6f)
+    assert((sampler.normal - Vec3(-0.5f, 2f, 8f).normalized).length < 1e-6f)
+    val flipped = TriangleSampler(Soups.of(Seq(triangle), flipped = true), 0)
+    assert(flipped.normal == -sampler.normal)
+
+  test("directions to samples are as dense as the pdf says, from either side"):
+    for (from, i) <- Seq(Vec3(1f, 1f, 4f), Vec3(2f, 1f, -1f), Vec3(1.5f, 1.5f, 2.2f)).zipWithIndex do
+      val result = SampledShapes.chiSquare(seed = i, sampler, see, from)
+      assert(result.accepted(tests = 3), s"$from $result")
+
+  test("sample and pdf agree"):
+    val draws = Draws(1)
+    for _ <- 0 until 20 do SampledShapes.pdfAgrees(sampler, draws.vec(-5, 5), draws)
+
+  test("a point in the triangle's plane gets no sample"):
+    val out = SurfaceSample()
+    val floor = TriangleSampler(Soups.of(Seq((Vec3.Zero, Vec3.X, Vec3.Y))), 0)
+    floor.sample(Vec3(3f, 3f, 0f), 0.3f, 0.6f, out)
+    assert(out.pdf == 0f && floor.pdf(Vec3(3f, 3f, 0f), out.p, out.n) == 0f)
