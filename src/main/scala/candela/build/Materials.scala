@@ -2,7 +2,7 @@ package candela.build
 
 import candela.bsdf.{
   ConductorReflectance, Edition, Fresnel, InterfaceMaterial, Material, MaterialFactory as Make,
-  ReflectanceCurve, Roughness, RoughnessModel, TabulatedReflectance
+  ReflectanceCurve, Roughness, StrongConductorReflectance, RoughnessModel, TabulatedReflectance
 }
 import candela.color.{Colorimetry, Rgb, Upsampling}
 
@@ -123,7 +123,12 @@ object Materials:
       def rgb(v: SpectralValue): Rgb = v match
         case SpectralValue.Color(c) => c
         case SpectralValue.Wavelengths(s) => Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
-      Make.conductor(ConductorReflectance(rgb(eta()), rgb(k())), roughness())
+      val (n, a) = (rgb(eta()), rgb(k()))
+      // pbrt-v2 has the approximation for strongly absorbing metals
+      val curve =
+        if site.dialect == Dialect.V2 then StrongConductorReflectance(n, a)
+        else ConductorReflectance(n, a)
+      Make.conductor(curve, roughness())
 
   object Diffuse extends MaterialRecipe("diffuse", onlyV4):
     private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.5f))
@@ -176,7 +181,7 @@ object Materials:
     private def reflectanceOf(eta: Float => Float, k: Float => Float)(using site: Site): ReflectanceCurve =
       TabulatedReflectance.of(128): cosTheta =>
         val reflected = Colorimetry.rgb(
-          nm => Fresnel.conductor(cosTheta, Rgb.gray(eta(nm)), Rgb.gray(k(nm))).r,
+          nm => Fresnel.conductor(cosTheta, eta(nm), k(nm)),
           Colorimetry.White.D65
         )
         site.resources.basis.fromSrgb(reflected)

@@ -3,7 +3,7 @@ package candela.build
 import candela.base.{Problem, SceneError, Severity}
 import candela.color.ColorBasis
 import candela.render.{PixelBounds, RenderPlan}
-import candela.scenefile.{Declaration, Dialect, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
 
 /** What the person at the command line asks for beside what the scene says.
   *
@@ -55,7 +55,7 @@ object SceneBuilder:
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
     warnOfWholes(description, problems)
     val world = WorldBuilder(description, resources, problems).build(integrator)
-    if problems.hasErrors then throw SceneError(problems.result.sortBy(place))
+    if problems.hasErrors then throw SceneError(Excerpts.fill(problems.result.sortBy(place)))
     val plan = RenderPlan(
       width = width,
       height = height,
@@ -71,7 +71,7 @@ object SceneBuilder:
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features
     )
-    (plan, problems.result)
+    (plan, Excerpts.fill(problems.result))
 
   private val NoPlace = candela.base.SourcePos("", 0, 0)
   private val NoFolder = java.nio.file.Path.of("")

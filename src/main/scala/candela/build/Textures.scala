@@ -150,6 +150,8 @@ object Textures:
               case "clamp" => Wrap.Clamp
               case "octahedralsphere" => Wrap.OctahedralSphere
               case _ => Wrap.Repeat
+            for f <- filter.given_() if f != "point" && f != "bilinear" do
+              site.warn(s"filter `$f` is not supported yet: the finest level is read bilinearly")
             val filtering = filter() match
               case "point" => TextureFilter.Point
               case "trilinear" => TextureFilter.Trilinear

@@ -54,7 +54,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       selection,
       sidesByGeometry = description.dialect != Dialect.V4
     )
-    if sources.isEmpty then warnOfDarkness()
+    if sources.isEmpty && !problems.hasErrors then warnOfDarkness()
     World(
       integrator.make(scene, lightSamples.toArray),
       Vector(
