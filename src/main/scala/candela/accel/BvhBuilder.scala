@@ -85,9 +85,11 @@ private[accel] final class BvhBuilder(bounds: Array[Float], maxLeaf: Int):
       i += 1
     val axis = (0 until 3).maxBy(k => high(k) - low(k))
     val extent = high(axis) - low(axis)
-    if !(extent > 0f) || depth >= BvhBuilder.MaxSahDepth then if n <= maxLeaf then -1 else (first + end) / 2
+    val scale = BvhBuilder.Bins * (1f - 1e-6f) / extent
+    // An extent of zero, or so small that its inverse overflows, has no bins
+    val isPoint = !(scale < Float.PositiveInfinity)
+    if isPoint || depth >= BvhBuilder.MaxSahDepth then if n <= maxLeaf then -1 else (first + end) / 2
     else
-      val scale = BvhBuilder.Bins * (1f - 1e-6f) / extent
       fillBins(first, end, axis, low(axis), scale)
       val (bin, cost) = cheapest()
       val whole = new Array[Float](6)

@@ -115,7 +115,10 @@ object Transform:
     for
       z <- unit(sub(look, eye))
       u <- unit(up)
-      x <- unit(cross(u, z))
+      across = cross(u, z)
+      // Of parallel unit vectors rounding leaves some 1e-16
+      if across.exists(Math.abs(_) > 1e-13)
+      x <- unit(across)
       y = cross(z, x)
       cameraToWorld <- fromRows(
         Vector(0, 1, 2).flatMap(i => Vector(x(i), y(i), z(i), eye(i))) ++ Vector(0.0, 0.0, 0.0, 1.0)
@@ -144,24 +147,38 @@ object Transform:
       val (r, c) = (i / 4 * 4, i % 4)
       a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
 
-  /** Gauss–Jordan with full row pivoting. */
+  /** Gauss–Jordan with row pivoting. Beside each number runs a bound of its rounding error, that of the
+    * input included: a pivot within it may as well be zero, so the rows depend on each other.
+    *
+    * Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., §3.3 (running error
+    * analysis).
+    */
   private def invert(rows: IArray[Double]): Option[IArray[Double]] =
     val a = Array.tabulate(4, 8): (r, c) =>
       if c < 4 then rows(r * 4 + c) else if c - 4 == r then 1.0 else 0.0
+    val unit = 4 * Math.ulp(1.0)
+    val error = Array.tabulate(4, 4)((r, c) => unit * Math.abs(rows(r * 4 + c)))
     var regular = rows.forall(java.lang.Double.isFinite)
     var column = 0
     while regular && column < 4 do
       val pivot = (column until 4).maxBy(r => Math.abs(a(r)(column)))
-      if a(pivot)(column) == 0 then regular = false
+      if !(Math.abs(a(pivot)(column)) > error(pivot)(column)) then regular = false
       else
         val row = a(pivot)
         a(pivot) = a(column)
         a(column) = row
+        val rowError = error(pivot)
+        error(pivot) = error(column)
+        error(column) = rowError
         val scale = 1 / row(column)
         for c <- 0 until 8 do row(c) *= scale
+        for c <- 0 until 4 do rowError(c) = rowError(c) * Math.abs(scale) + unit * Math.abs(row(c))
         for r <- 0 until 4 if r != column do
           val factor = a(r)(column)
+          val factorError = error(r)(column) + unit * Math.abs(factor)
           for c <- 0 until 8 do a(r)(c) -= factor * row(c)
+          for c <- 0 until 4 do
+            error(r)(c) += factorError * Math.abs(row(c)) + Math.abs(factor) * rowError(c)
         column += 1
     Option.when(regular && a.forall(_.forall(java.lang.Double.isFinite)))(
       IArray.tabulate(16)(i => a(i / 4)(4 + i % 4))

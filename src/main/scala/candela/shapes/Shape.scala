@@ -9,8 +9,8 @@ abstract class Shape extends SurfaceSampler:
   /** Contains the whole surface. */
   def bounds: Bounds3
 
-  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance, and `hit.u`, `hit.v` are
-    * the surface parameters; `hit.primitive` is left to the caller.
+  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance; `hit.u` and `hit.v` may
+    * hold what `surface` wants to know again, `hit.primitive` is left to the caller.
     */
   def intersect(ray: Ray, hit: Hit): Boolean
 

@@ -104,12 +104,7 @@ final class Sphere(
     val pz = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
     val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
     val (x, y, z) = (px * scale, py * scale, pz * scale)
-    val w = toWorld
-    at.p = Vec3(
-      (w(0) * x + w(1) * y + w(2) * z + w(3)).toFloat,
-      (w(4) * x + w(5) * y + w(6) * z + w(7)).toFloat,
-      (w(8) * x + w(9) * y + w(10) * z + w(11)).toFloat
-    )
+    at.p = worldPoint(x, y, z)
     at.pError = TriangleSoup.roundingError(at.p)
     val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
@@ -119,6 +114,14 @@ final class Sphere(
       (thetaMax - thetaMin)).toFloat
     val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
     at.frame = Frame.along(at.geometricNormal, dpdu)
+
+  private def worldPoint(x: Double, y: Double, z: Double): Vec3 =
+    val m = toWorld
+    Vec3(
+      (m(0) * x + m(1) * y + m(2) * z + m(3)).toFloat,
+      (m(4) * x + m(5) * y + m(6) * z + m(7)).toFloat,
+      (m(8) * x + m(9) * y + m(10) * z + m(11)).toFloat
+    )
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 
@@ -137,13 +140,14 @@ final class Sphere(
 
   /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world area. */
   private def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val z = lerp(u1, zMin, zMax)
-    val r = safeSqrt(square(radius) - square(z))
-    val phi = u2 * phiMax
-    val p = Vec3(r * cos(phi), r * sin(phi), z)
-    out.p = objectToWorld.point(p)
+    // In Double up to the world point, for whose rounding alone `pError` stands (SpawnedRaySuite)
+    val z = zMin + u1.toDouble * (zMax.toDouble - zMin)
+    val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
+    val phi = u2.toDouble * phiMax
+    val (x, y) = (r * Math.cos(phi), r * Math.sin(phi))
+    out.p = worldPoint(x, y, z)
     out.pError = TriangleSoup.roundingError(out.p)
-    val n = objectToWorld.normal(p)
+    val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
     val stretch = Math.abs(Sphere.determinant(toWorld)).toFloat * n.length / radius
     out.n = n.normalized

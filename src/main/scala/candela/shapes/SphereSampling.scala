@@ -6,30 +6,34 @@ import candela.math.*
 /** Sampling the part of a sphere that a point outside sees: uniform over the cone of directions.
   *
   * Source: Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", TOG
-  * 15(1), 1996; small cones as in Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., §6.2.4.
+  * 15(1), 1996. Doubles inside: seen from afar the cone is too narrow for Float cosines, and from close by
+  * so is the angle at the centre that most of the cone spans (SphereSamplingSuite).
   */
 object SphereSampling:
 
-  /** 1 − cos of the cone's half-angle, given sin² of it; a series where the difference would cancel
-    * (sin² < 1e-4, where the next term is below 1e-9 of the result).
-    */
-  private def oneMinusCos(sin2: Float): Float =
-    if sin2 < 1e-4f then sin2 * (0.5f + sin2 * 0.125f) else 1f - safeSqrt(1f - sin2)
+  /** 1 − cos of the cone's half-angle, given sin² of it, without the cancellation of the plain words. */
+  private def oneMinusCos(sin2: Double): Double = sin2 / (1 + Math.sqrt(Math.max(0.0, 1 - sin2)))
+
+  private def distanceSquared(a: Vec3, b: Vec3): Double =
+    val (x, y, z) = (a.x.toDouble - b.x, a.y.toDouble - b.y, a.z.toDouble - b.z)
+    x * x + y * y + z * z
 
   def cone(center: Vec3, radius: Float, from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val toCenter = center - from
-    val distance2 = toCenter.lengthSquared
-    val sin2Max = square(radius) / distance2
-    val spread = oneMinusCos(sin2Max)
+    val radius2 = radius.toDouble * radius
+    val distance2 = distanceSquared(center, from)
+    val distance = Math.sqrt(distance2)
+    val spread = oneMinusCos(radius2 / distance2)
     // θ is the angle at `from`, α the angle at the centre between the sample and `from`
     val oneMinusCosTheta = spread * u1
-    val sin2Theta = Math.max(0f, oneMinusCosTheta * (2f - oneMinusCosTheta))
-    val cosTheta = 1f - oneMinusCosTheta
-    val sinMax = sqrt(sin2Max)
-    val cosAlpha = sin2Theta / sinMax + cosTheta * safeSqrt(1f - sin2Theta / sin2Max)
-    val sinAlpha = safeSqrt(1f - square(cosAlpha))
+    val sin2Theta = oneMinusCosTheta * (2 - oneMinusCosTheta)
+    val cosTheta = 1 - oneMinusCosTheta
+    val halfChord = Math.sqrt(Math.max(0.0, radius2 - distance2 * sin2Theta))
+    // d cos θ − half the chord, by the product of both crossings: nothing cancels close to the sphere
+    val toSample = (distance2 - radius2) / (distance * cosTheta + halfChord)
+    val sinAlpha = (toSample * Math.sqrt(sin2Theta) / radius).toFloat
+    val cosAlpha = ((distance - toSample * cosTheta) / radius).toFloat
     val phi = u2 * TwoPi
-    val frame = Frame.around(toCenter * (-1f / sqrt(distance2)))
+    val frame = Frame.around((from - center).normalized)
     val n = frame.toWorld(Vec3(sinAlpha * cos(phi), sinAlpha * sin(phi), cosAlpha))
     out.n = n
     out.p = center + n * radius
@@ -39,8 +43,8 @@ object SphereSampling:
       (Math.abs(center.y) + Math.abs(n.y) * radius) * gamma(5),
       (Math.abs(center.z) + Math.abs(n.z) * radius) * gamma(5)
     )
-    out.pdf = 1f / (TwoPi * spread)
+    out.pdf = (1 / (2 * Math.PI * spread)).toFloat
 
   def conePdf(center: Vec3, radius: Float, from: Vec3): Float =
-    val sin2Max = square(radius) / (center - from).lengthSquared
-    1f / (TwoPi * oneMinusCos(sin2Max))
+    val sin2Max = radius.toDouble * radius / distanceSquared(center, from)
+    (1 / (2 * Math.PI * oneMinusCos(sin2Max))).toFloat

@@ -51,6 +51,10 @@ object AcceleratorScenes:
       "at voxel faces, far from the origin" -> mixed:
         Soups.latticeQuads(draws, 108, 18)(draws.below(3)).map: (a, b, c) =>
           (a + far, b + far, c + far)
+      ,
+      // The grid has 64 voxels a side, each some 16 Floats wide
+      "many small ones, far from the origin" -> mixed:
+        Soups.around(draws, 10000, 0.03f)(far + anywhere)
     )
 
   private def flatten(t: Soups.Triangle): Soups.Triangle =

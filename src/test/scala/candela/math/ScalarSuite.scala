@@ -18,7 +18,7 @@ class ScalarSuite extends AnyFunSuite:
       val truth = exact(a) * exact(b) - exact(c) * exact(d)
       // The class claims 1.5 ulp
       val off = (exact(differenceOfProducts(a, b, c, d)) - truth).abs
-      assert(off <= BigDecimal(1.5 * Math.ulp(truth.toFloat).toDouble), s"$a·$b − $c·$d")
+      assert(off <= BigDecimal(1.5 * Math.ulp(truth.toFloat).toDouble), s"${a}·$b − ${c}·$d")
 
   test("a difference of equal products is zero, where rounding would leave rubbish"):
     val x = 1.1f

@@ -82,9 +82,9 @@ class TransformSuite extends AnyFunSuite:
     val back = Transform.lookAt(Seq(0, 0, 10), Seq(0, 0, 0), Seq(0, 1, 0)).get
     near(back.vector(Vec3.X), -Vec3.X)
     near(back.point(Vec3.Zero), Vec3.Z * 10f)
-    // A camera that looks down x with z up has its right hand at −y
+    // Left-handed: looking down x with z up, y is on the right
     val down = Transform.lookAt(Seq(0, 0, 0), Seq(1, 0, 0), Seq(0, 0, 1)).get
-    near(down.vector(Vec3.Y), -Vec3.X)
+    near(down.vector(Vec3.Y), Vec3.X)
     near(down.vector(Vec3.Z), Vec3.Y)
 
   test("lookAt keeps lengths, puts the target straight ahead and up in the upper half plane"):

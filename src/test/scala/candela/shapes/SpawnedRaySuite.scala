@@ -16,7 +16,8 @@ class SpawnedRaySuite extends AnyFunSuite:
   /** Spheres and disks of size 1e-3 to 1e4, up to 300 sizes away from the origin. */
   private def placement(draws: Draws): (Transform, Float) =
     val size = draws.magnitude(1e-3, 1e4)
-    (draws.translation(size * draws.magnitude(1e-3, 300)) * draws.rotation() * draws.stretch(), size)
+    val move = draws.translation(size * draws.magnitude(1e-3, 300))
+    (move * draws.rotation() * draws.stretch(), size)
 
   /** Aims at the shape from around it, and answers whether the hit's geometry is now in `at`. */
   private def land(draws: Draws, shape: Shape): Boolean =
@@ -102,8 +103,8 @@ class SpawnedRaySuite extends AnyFunSuite:
     val sample = SurfaceSample()
     for _ <- 0 until Tries do
       val (toWorld, size) = placement(draws)
-      val rigid = toWorld * draws.rotation()
-      val sphere = Soups.sphere(if draws.coin() then rigid else draws.translation(size), size)
+      // Stretched ones are sampled by area, the others by the cone that is seen
+      val sphere = Soups.sphere(if draws.coin() then toWorld else draws.translation(size), size)
       val from = sphere.bounds.center + draws.direction() * (size * draws.between(5, 50))
       sphere.sample(from, draws.unit(), draws.unit(), sample)
       val d = draws.above(sample.n)

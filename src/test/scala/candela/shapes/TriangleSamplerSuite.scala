@@ -27,9 +27,11 @@ class TriangleSamplerSuite extends AnyFunSuite:
     assert(flipped.normal == -sampler.normal)
 
   test("directions to samples are as dense as the pdf says, from either side"):
-    for (from, i) <- Seq(Vec3(1f, 1f, 4f), Vec3(2f, 1f, -1f), Vec3(1.5f, 1.5f, 2.2f)).zipWithIndex do
+    val eyes = Seq(Vec3(1f, 1f, 4f), Vec3(2f, 1f, -1f), Vec3(1.5f, 1.5f, 2.2f))
+    for (from, i) <- eyes.zipWithIndex do
       val result = SampledShapes.chiSquare(seed = i, sampler, see, from)
       assert(result.accepted(tests = 3), s"$from $result")
+      SampledShapes.integrates(sampler, see, from, Draws(i))(w => 1 + w.x + w.y * w.z)
 
   test("sample and pdf agree"):
     val draws = Draws(1)

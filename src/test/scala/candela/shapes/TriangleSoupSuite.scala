@@ -106,7 +106,7 @@ class TriangleSoupSuite extends AnyFunSuite:
         look(TriangleSoup(positions, Array(0, 1, 2), Array(0), Array(mesh), true), 0.3f, 0.3f, 0)
         // round-offs of corners of size 2, over areas down to 0.1 · 0.1
         assert((at.frame.s - a).length < 1e-4f)
-        assert(abs(at.frame.s dot at.frame.n) < 1e-6f)
+        assert(abs(at.frame.s dot at.frame.n) < 1e-6f): Unit
 
   test("with degenerate uvs there is a frame nevertheless"):
     look(soup(uvs = Array(0.5f, 0.5f, 0.5f, 0.5f, 0.5f, 0.5f)), 0.2f, 0.2f)

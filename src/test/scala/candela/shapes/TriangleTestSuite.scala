@@ -34,7 +34,7 @@ class TriangleTestSuite extends AnyFunSuite:
       // below 1e-4 of the sides
       if n.length > 0.1f && (n.normalized absDot d) > 0.1f * d.length then
         assert(meets(corners(a, b, c), o, d))
-        assert(abs(ray.tMax - 1f) < 1e-4f && abs(hit.u - u) < 1e-4f && abs(hit.v - v) < 1e-4f)
+        assert(abs(ray.tMax - 1f) < 1e-4f && abs(hit.u - u) < 1e-4f && abs(hit.v - v) < 1e-4f): Unit
 
   test("both sides are hit alike"):
     val v = corners(Vec3.Zero, Vec3.X, Vec3.Y)
@@ -80,4 +80,4 @@ class TriangleTestSuite extends AnyFunSuite:
       val o = draws.vec(-3, 3)
       val v = corners(a, a + d, other)
       val hasNoArea = ((a + d - a) cross (other - a)).isZero
-      if hasNoArea then assert(!meets(v, o, target - o))
+      assert(!hasNoArea || !meets(v, o, target - o))
