@@ -32,15 +32,16 @@ final class Field[T](
   */
 abstract class Recipe[A](val name: String, val dialects: Set[Dialect] = Dialect.values.toSet)
     extends Fields:
-  private val declared = mutable.LinkedHashMap.empty[String, Field[?]]
+  private val declared = mutable.ArrayBuffer.empty[Field[?]]
   private val unsupported = mutable.LinkedHashMap.empty[String, String]
 
   protected def make()(using Site): A
 
-  final def fields: Vector[Field[?]] = declared.values.toVector
+  /** All parameters; a name may stand for one in one dialect and for another in the next. */
+  final def fields: Vector[Field[?]] = declared.toVector
 
   protected final def register[T](field: Field[T]): Field[T] =
-    declared(field.name) = field
+    declared += field
     field
 
   /** A parameter that pbrt knows and Candela does not: named in a warning, with what is done instead. */
@@ -52,19 +53,19 @@ abstract class Recipe[A](val name: String, val dialects: Set[Dialect] = Dialect.
 
   final def build(site: Site): A =
     for p <- site.declaration.params do
-      val field = declared.get(p.name)
+      val named = declared.filter(_.name == p.name)
       if unsupported.contains(p.name) then
         site.problems.warn(p.at, s"`${p.name}` of \"$name\" is not supported yet: ${unsupported(p.name)}")
-      else if field.exists(f => !f.dialects(site.dialect)) then
+      else if named.nonEmpty && !named.exists(_.dialects(site.dialect)) then
         site.problems.warn(
           p.at,
           s"`${p.name}` is no parameter of \"$name\" in ${site.dialect.toString.toLowerCase}; it has no effect"
         )
-      else if field.isEmpty && !ignored(p.name) then
+      else if named.isEmpty && !ignored(p.name) then
         site.problems.warn(
           p.at,
           s"`${p.name}` is not a parameter of \"$name\"; it has no effect",
-          Suggest.help(p.name, declared.values.filter(_.dialects(site.dialect)).map(_.name))
+          Suggest.help(p.name, declared.filter(_.dialects(site.dialect)).map(_.name))
         )
     make()(using site)
 

@@ -103,6 +103,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   def probability(p: Vec3, n: Vec3, light: Int): Float =
     if lights(light).bounds.isEmpty then (if lights(light).isSampled then infiniteShare else 0f)
     else if trail(light) < 0 then 0f
+    else if children(0) < 0 && nodes(0).importance(p, n) <= 0f then 0f
     else
       var bits = trail(light)
       var node = 0

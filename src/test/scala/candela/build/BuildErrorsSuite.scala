@@ -1,0 +1,117 @@
+package candela.build
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.{Problem, Severity}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+/** What the builder says about scenes that ask for something that is not there. */
+final class BuildErrorsSuite extends AnyFunSuite:
+  private val sphere = "Shape \"sphere\""
+
+  /** The one problem of a world that holds the statement in its second line, with a light. */
+  private def only(statement: String, dialect: Dialect = Dialect.V3): Problem =
+    val text = s"WorldBegin\n$statement\nLightSource \"point\"\n"
+    val found = SceneTexts.problems(text, dialect)
+    assert(found.size == 1, found)
+    assert(found.head.at.map(_.line).contains(2), found.head)
+    found.head
+
+  private def assertError(p: Problem, message: String, help: String = ""): Unit =
+    assert(p.severity == Severity.Error && p.message.contains(message), p)
+    assert(help.isEmpty || p.help.exists(_.contains(help)), p): Unit
+
+  private def assertWarning(p: Problem, message: String, help: String = ""): Unit =
+    assert(p.severity == Severity.Warning && p.message.contains(message), p)
+    assert(help.isEmpty || p.help.exists(_.contains(help)), p): Unit
+
+  test("a misspelt parameter is a warning with the nearest name, at its place"):
+    val p = only("Shape \"sphere\" \"float raduis\" 2")
+    assertWarning(p, "`raduis` is not a parameter of \"sphere\"", "`radius`")
+    assert(p.at.map(_.column).contains(16))
+
+  test("a parameter of another dialect is a warning that says so"):
+    assertWarning(only("LightSource \"point\" \"float power\" 5"), "no parameter of \"point\" in v3")
+
+  test("unknown shapes, materials and lights are errors with the nearest name"):
+    assertError(only("Shape \"shpere\""), "no shape is named `shpere`", "`sphere`")
+    assertError(only(s"Material \"mate\" $sphere"), "no material is named `mate`", "`matte`")
+    assertError(only("LightSource \"piont\""), "no light is named `piont`", "`point`")
+    assertError(only(s"AreaLightSource \"difuse\" $sphere"), "is named `difuse`", "`diffuse`")
+    val texture = "Texture \"t\" \"float\" \"constnat\""
+    assertError(only(texture), "no float texture is named `constnat`", "`constant`")
+
+  test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
+    assertWarning(only("Shape \"cylinder\""), "\"cylinder\" is not supported yet")
+    assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
+    assertWarning(only(s"Material \"hair\" $sphere"), "grey diffuse")
+    assertWarning(only("Shape \"sphere\" \"texture alpha\" \"a\""), "`alpha` of \"sphere\"")
+
+  test("values of the wrong type or number are errors"):
+    assertError(only("Shape \"sphere\" \"string radius\" \"big\""), "takes one number")
+    assertError(only("Shape \"sphere\" \"float radius\" [1 2]"), "found 2 of type float")
+    assertError(only("LightSource \"point\" \"point from\" [1 2 3 4 5 6]"), "takes 3 numbers")
+    assertError(only("LightSource \"point\" \"string I\" \"red\""), "takes a colour or a spectrum")
+    assertError(only("AreaLightSource \"diffuse\" \"string twosided\" \"x\" " + sphere), "one bool")
+
+  test("values out of range are errors"):
+    assertError(only("Shape \"sphere\" \"float radius\" -1"), "radius must be above 0")
+    assertError(only("Shape \"disk\" \"float innerradius\" 3"), "innerradius")
+    assertError(
+      only("LightSource \"distant\" \"point from\" [1 1 1] \"point to\" [1 1 1]"),
+      "the same point"
+    )
+    val mesh = "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" "
+    assertError(only(mesh + "[0 1 3]"), "names vertex 3, but `P` has 3")
+    assertError(only(mesh + "[0 1]"), "not triples")
+
+  test("a texture that no statement made is an error with the nearest name"):
+    val made = "Texture \"wood\" \"spectrum\" \"constant\" "
+    val p = only(s"$made Material \"matte\" \"texture Kd\" \"wodo\" $sphere")
+    assertError(p, "no spectrum texture is named `wodo`", "`wood`")
+
+  test("a texture of the wrong kind is an error that names both"):
+    val made = "Texture \"t\" \"float\" \"constant\" "
+    val p = only(s"$made Material \"matte\" \"texture Kd\" \"t\" $sphere")
+    assertError(p, "texture `t` is of type float; `Kd` takes spectrum")
+
+  test("files that are not there are errors, with the nearest name in their folder"):
+    val folder = Files.createTempDirectory("candela-build")
+    val near = Files.createFile(folder.resolve("bunny.ply"))
+    try
+      val text = "WorldBegin\nShape \"plymesh\" \"string filename\" \"buny.ply\"\n" +
+        "Texture \"t\" \"float\" \"imagemap\" \"string filename\" \"nowhere.png\"\n"
+      val found = SceneTexts.problems(text, Dialect.V3, folder)
+      val mesh = found.find(_.message.contains("no file `buny.ply`")).get
+      assertError(mesh, "no file", "`bunny.ply`")
+      assert(mesh.at.map(_.line).contains(2))
+      val texture = found.find(_.message.contains("no file `nowhere.png`")).get
+      assert(texture.severity == Severity.Error && texture.at.map(_.line).contains(3))
+    finally
+      Files.delete(near)
+      Files.delete(folder)
+
+  test("all errors of a scene are named in one go, in the order of their places"):
+    val text = "WorldBegin\nShape \"shpere\"\nLightSource \"piont\"\nShape \"dsik\"\n"
+    val errors = SceneTexts.problems(text).filter(_.severity == Severity.Error)
+    assert(errors.flatMap(_.at).map(_.line) == Vector(2, 3, 4))
+
+  test("a problem shows the line that it is about"):
+    assert(only("Shape \"shpere\"").excerpt.contains("Shape \"shpere\""))
+
+  test("an unknown camera, film or integrator falls back with a message"):
+    val text = "Camera \"environment\"\nIntegrator \"bdpt\"\nWorldBegin\nLightSource \"point\"\n"
+    val found = SceneTexts.problems(text)
+    assert(found.map(_.severity).toSet == Set(Severity.Warning))
+    assert(found.exists(_.message.contains("\"environment\"")))
+    assert(found.exists(_.message.contains("\"bdpt\"")))
+
+  test("gamma of an image texture is a number in v2 and a flag in v3, and neither is a surprise"):
+    val v2 = "Texture \"t\" \"float\" \"imagemap\" \"float gamma\" 2.2"
+    val v3 = "Texture \"t\" \"float\" \"imagemap\" \"bool gamma\" \"true\""
+    // The file is missing in both: that is the only problem
+    assertError(only(v2, Dialect.V2), "needs a `filename`")
+    assertError(only(v3, Dialect.V3), "needs a `filename`")

@@ -1,0 +1,52 @@
+package candela.build
+
+import java.nio.file.Path
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.{Severity, SourcePos}
+import candela.color.ColorBasis
+import candela.scenefile.{Declaration, Dialect}
+
+/** What holds for every recipe of a category.
+  *
+  * @param demanding recipes that cannot do without some parameter
+  * @param use       makes what the recipe gives, if it gives a function
+  */
+abstract class RecipeLaws[A](
+    recipes: Recipes[A],
+    demanding: Set[String] = Set.empty,
+    use: A => Any = (a: A) => a
+) extends AnyFunSuite:
+  private val place = SourcePos("laws.pbrt", 1, 1)
+
+  private def site(name: String, dialect: Dialect): Site =
+    Site(
+      Declaration(recipes.category, name, Vector.empty, place, Path.of("")),
+      dialect,
+      Resources(ColorBasis.Srgb),
+      Findings()
+    )
+
+  for recipe <- recipes.all; dialect <- Dialect.values if recipe.dialects(dialect) do
+    val called = s"${recipes.category} \"${recipe.name}\" in $dialect"
+    if demanding(recipe.name) then
+      test(s"$called says what it needs"):
+        val here = site(recipe.name, dialect)
+        recipe.build(here): Unit
+        assert(here.problems.result.exists(_.severity == Severity.Error))
+    else
+      test(s"$called builds with its defaults"):
+        val here = site(recipe.name, dialect)
+        assert(use(recipe.build(here)) != null)
+        assert(!here.problems.hasErrors, here.problems.result)
+
+  for recipe <- recipes.all if recipe.fields.nonEmpty do
+    test(s"${recipes.category} \"${recipe.name}\": each parameter has a meaning, a type and a dialect"):
+      for f <- recipe.fields do
+        assert(f.doc.trim.nonEmpty && f.typeName.nonEmpty && f.dialects.nonEmpty, f.name)
+
+    test(s"${recipes.category} \"${recipe.name}\": a name means one thing in each dialect"):
+      for dialect <- Dialect.values do
+        val names = recipe.fields.filter(_.dialects(dialect)).map(_.name)
+        assert(names.distinct == names)

@@ -1,0 +1,48 @@
+package candela.build
+
+import candela.bsdf.Material
+import candela.cameras.Camera
+import candela.film.Filter
+import candela.math.Transform
+import candela.sampling.Sampler
+import candela.textures.{FloatTexture, RgbTexture}
+
+final class FilmRecipesSuite extends RecipeLaws[FilmSettings](Films.all)
+
+final class FilterRecipesSuite extends RecipeLaws[Filter](Filters.all)
+
+final class SamplerRecipesSuite
+    extends RecipeLaws[SamplerRequest => Sampler](
+      Samplers.all,
+      use = make => make(SamplerRequest(None, 0, 8, 8))
+    )
+
+final class CameraRecipesSuite
+    extends RecipeLaws[(Transform, Int, Int) => Camera](
+      Cameras.all,
+      use = make => make(Transform.Identity, 8, 8)
+    )
+
+final class ShapeRecipesSuite
+    extends RecipeLaws[Option[ShapeGeometry]](
+      Shapes.all,
+      demanding = Set("trianglemesh", "plymesh", "loopsubdiv")
+    )
+
+final class MaterialRecipesSuite extends RecipeLaws[Material](Materials.all)
+
+final class LightRecipesSuite
+    extends RecipeLaws[LightPlan](
+      Lights.all,
+      use = plan => plan.make(Transform.Identity, true).get
+    )
+
+final class AreaLightRecipesSuite extends RecipeLaws[AreaLightPlan](AreaLights.all)
+
+final class IntegratorRecipesSuite extends RecipeLaws[IntegratorPlan](Integrators.all)
+
+final class FloatTextureRecipesSuite
+    extends RecipeLaws[FloatTexture](Textures.floats(Transform.Identity), Set("imagemap"))
+
+final class RgbTextureRecipesSuite
+    extends RecipeLaws[RgbTexture](Textures.colors(Transform.Identity), Set("imagemap"))

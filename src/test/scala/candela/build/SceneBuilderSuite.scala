@@ -1,0 +1,119 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.SceneError
+import candela.film.{BoxFilter, GaussianFilter}
+import candela.integrators.{DirectLighting, PathTracer}
+import candela.render.{PixelBounds, RenderPlan}
+import candela.sampling.{HaltonSampler, OwenSobolSampler, ZSobolSampler}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+final class SceneBuilderSuite extends AnyFunSuite:
+  private val nothing = "WorldBegin\n"
+  private val film = """Film "image" "integer xresolution" 80 "integer yresolution" 40"""
+
+  private def feature(plan: RenderPlan, name: String): String =
+    plan.features.collectFirst { case (`name`, v) => v }.get
+
+  test("where the scene says nothing, pbrt-v2's defaults hold"):
+    val plan = SceneTexts.plan(nothing, Dialect.V2)
+    assert((plan.width, plan.height) == (640, 480))
+    assert(plan.filter.isInstanceOf[BoxFilter] && plan.filter.radiusX == 0.5f)
+    assert(plan.sampler.isInstanceOf[OwenSobolSampler] && plan.sampler.samplesPerPixel == 4)
+    assert(plan.integrator.isInstanceOf[DirectLighting])
+    assert(plan.basis.isSrgb)
+
+  test("where the scene says nothing, pbrt-v3's defaults hold"):
+    val plan = SceneTexts.plan(nothing, Dialect.V3)
+    assert((plan.width, plan.height) == (1280, 720))
+    assert(plan.filter.isInstanceOf[BoxFilter] && plan.filter.radiusX == 0.5f)
+    assert(plan.sampler.isInstanceOf[HaltonSampler] && plan.sampler.samplesPerPixel == 16)
+    assert(plan.integrator.isInstanceOf[PathTracer])
+    assert(plan.basis.isSrgb)
+
+  test("where the scene says nothing, pbrt-v4's defaults hold"):
+    val plan = SceneTexts.plan(nothing, Dialect.V4)
+    assert((plan.width, plan.height) == (1280, 720))
+    assert(plan.filter.isInstanceOf[GaussianFilter] && plan.filter.radiusX == 1.5f)
+    assert(plan.sampler.isInstanceOf[ZSobolSampler] && plan.sampler.samplesPerPixel == 16)
+    assert(plan.integrator.isInstanceOf[PathTracer])
+    assert(!plan.basis.isSrgb)
+
+  test("the whole image is rendered unless the scene or the caller crops it"):
+    assert(SceneTexts.plan(s"$film\n$nothing").crop == PixelBounds(0, 0, 80, 40))
+    val cropped = s"$film \"float cropwindow\" [0.25 0.5 0.5 1]\n$nothing"
+    assert(SceneTexts.plan(cropped).crop == PixelBounds(20, 20, 40, 40))
+    val pixels = s"$film \"integer pixelbounds\" [3 7 5 9]\n$nothing"
+    assert(SceneTexts.plan(pixels).crop == PixelBounds(3, 5, 7, 9))
+    val asked = BuildOptions(cropWindow = Some((0f, 0.1f, 0f, 0.1f)))
+    assert(SceneTexts.plan(cropped, options = asked).crop == PixelBounds(0, 0, 8, 4))
+
+  test("a crop window without a pixel is an error"):
+    val empty = BuildOptions(cropWindow = Some((0.5f, 0.5f, 0f, 1f)))
+    val error = intercept[SceneError](SceneTexts.plan(s"$film\n$nothing", options = empty))
+    assert(error.getMessage.contains("no pixel"))
+
+  test("quick: a sixteenth of the pixels with one sample each"):
+    val plan = SceneTexts.plan(s"$film\n$nothing", options = BuildOptions(quick = true))
+    assert((plan.width, plan.height, plan.sampler.samplesPerPixel) == (20, 10, 1))
+
+  test("the caller's number of samples replaces the scene's"):
+    val scene = s"Sampler \"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 3\n$nothing"
+    assert(SceneTexts.plan(scene).sampler.samplesPerPixel == 6)
+    val asked = BuildOptions(spp = Some(12))
+    assert(SceneTexts.plan(scene, options = asked).sampler.samplesPerPixel == 12)
+
+  test("film settings reach the plan"):
+    val scene = s"$film \"string filename\" \"a.png\" \"float scale\" 2\n$nothing"
+    val plan = SceneTexts.plan(scene)
+    assert(plan.filename == "a.png" && plan.imageScale == 2f)
+
+  private val triangle =
+    """Shape "trianglemesh" "integer indices" [0 1 2] "point P" [0 0 0 1 0 0 0 1 0]"""
+
+  test("shapes of an object appear where its instances are, and only there"):
+    val scene = s"""WorldBegin
+                   |ObjectBegin "leaf"
+                   |$triangle
+                   |Shape "sphere"
+                   |ObjectEnd
+                   |ObjectInstance "leaf"
+                   |Translate 5 0 0
+                   |ObjectInstance "leaf"
+                   |WorldEnd""".stripMargin
+    val plan = SceneTexts.plan(scene)
+    assert(feature(plan, "triangles") == "2" && feature(plan, "other shapes") == "2")
+    val unused = scene.replace("ObjectInstance \"leaf\"", "")
+    assert(feature(SceneTexts.plan(unused), "triangles") == "0")
+
+  test("an instance of no object is an error with the nearest name"):
+    val scene = s"WorldBegin\nObjectBegin \"leaf\"\n$triangle\nObjectEnd\nObjectInstance \"laef\"\n"
+    val problem = SceneTexts.problems(scene).find(_.message.contains("no object is named `laef`")).get
+    assert(problem.help.exists(_.contains("`leaf`")) && problem.at.map(_.line).contains(5))
+
+  test("a named material is made once, however many shapes have it"):
+    val scene = s"""WorldBegin
+                   |MakeNamedMaterial "red" "string type" "matte" "rgb Kd" [1 0 0]
+                   |NamedMaterial "red"
+                   |$triangle
+                   |$triangle
+                   |WorldEnd""".stripMargin
+    assert(feature(SceneTexts.plan(scene), "materials").startsWith("1,"))
+
+  test("a material name that nothing has is an error with the nearest name"):
+    val scene = s"WorldBegin\nMakeNamedMaterial \"red\" \"string type\" \"matte\"\n" +
+      s"NamedMaterial \"rde\"\n$triangle\n"
+    val problem = SceneTexts.problems(scene).find(_.message.contains("no material is named")).get
+    assert(problem.help.exists(_.contains("`red`")))
+
+  test("every triangle of a mesh that emits is a light"):
+    val scene = s"WorldBegin\nAreaLightSource \"diffuse\"\n$triangle\n$triangle\nShape \"disk\"\n"
+    assert(feature(SceneTexts.plan(scene), "lights").startsWith("3 lights"))
+
+  test("a world without light says that it will be black"):
+    val scene = s"Camera \"perspective\"\nWorldBegin\n$triangle\n"
+    assert(SceneTexts.problems(scene).exists(_.message.contains("no light")))
+    val lit = scene + "LightSource \"point\"\n"
+    assert(SceneTexts.problems(lit).isEmpty)

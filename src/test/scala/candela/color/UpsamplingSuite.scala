@@ -1,0 +1,31 @@
+package candela.color
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.color.Colorimetry.White
+
+final class UpsamplingSuite extends AnyFunSuite:
+  private val steps = Seq(0.02f, 0.3f, 0.6f, 0.95f)
+
+  private def assertSame(found: Rgb, wanted: Rgb, tolerance: Float): Unit =
+    for (a, b) <- Seq(found.r -> wanted.r, found.g -> wanted.g, found.b -> wanted.b) do
+      assert(Math.abs(a - b) < tolerance, s"$found, wanted $wanted")
+
+  test("the spectrum has the colour it was made for, and lies between 0 and 1"):
+    for r <- steps; g <- steps; b <- steps do
+      val wanted = Rgb(r, g, b)
+      val s = Upsampling.spectrum(wanted)
+      // Greys are taken as constants, white to 1e-3: see ColorimetrySuite. Others are fitted closer
+      assertSame(Colorimetry.rgb(s, White.D65), wanted, 1e-3f)
+      for nm <- 360 to 830 by 5 do assert(s(nm.toFloat) >= 0f && s(nm.toFloat) <= 1f)
+
+  test("black and the primaries are held to where the fit is smooth"):
+    for c <- Seq(Rgb.Black, Rgb.White, Rgb(1, 0, 0), Rgb(0, 1, 0), Rgb(0, 0, 1)) do
+      // 1e-3 by the clamp, 1e-3 as above
+      assertSame(Colorimetry.rgb(Upsampling.spectrum(c), White.D65), c, 2e-3f)
+
+  test("values above 1 are scaled down and up again"):
+    val wanted = Rgb(2.5f, 1.5f, 0.5f)
+    // 1e-3 as above, times the scale of 5
+    assertSame(Colorimetry.rgb(Upsampling.unbounded(wanted), White.D65), wanted, 5e-3f)
+    assert(Upsampling.unbounded(Rgb.Black)(500f) == 0f)

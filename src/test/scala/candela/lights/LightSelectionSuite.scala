@@ -1,0 +1,77 @@
+package candela.lights
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.color.Rgb
+import candela.math.*
+import candela.shapes.Disk
+import candela.testing.Draws
+
+final class LightSelectionSuite extends AnyFunSuite:
+  private val Draws_ = 20000
+
+  private def disks(draws: Draws, count: Int): Seq[Light] = Seq.fill(count):
+    val toWorld = draws.translation(5) * draws.rotation()
+    val disk = Disk(toWorld, 0f, 0.3f, 0f, TwoPi, false)
+    val (axis, spread) = disk.normals
+    AreaLight(disk, Rgb.gray(draws.between(0.1f, 10f)), draws.coin(), disk.bounds, axis, spread)
+
+  private def points(draws: Draws, count: Int): Seq[Light] =
+    Seq.fill(count)(PointLight(draws.vec(-5, 5), Rgb.gray(draws.between(0.1f, 10f))))
+
+  private val sky = ConstantEnvironment(Rgb.White, complete = true)
+  private val sun = DistantLight(Vec3.Z, Rgb.White)
+  private val unused = ConstantEnvironment(Rgb.White, complete = false)
+
+  private val sets: Seq[(String, Seq[Light])] =
+    val draws = Draws(21)
+    Seq(
+      "one light" -> Seq(sky),
+      "two at infinity" -> Seq(sky, sun),
+      "points" -> points(draws, 7),
+      "disks" -> disks(draws, 13),
+      "one disk and the sun" -> (disks(draws, 1) :+ sun),
+      "all kinds" -> (Seq(sky) ++ points(draws, 3) ++ Seq(sun, unused) ++ disks(draws, 6))
+    )
+
+  for (name, lights) <- sets do
+    val selection = LightSelection.of(lights.toArray)
+
+    test(s"$name: probabilities are those with which lights are chosen"):
+      val draws = Draws(22)
+      for round <- 1 to 20 do
+        val p = draws.vec(-6, 6)
+        val n = if round % 2 == 0 then draws.direction() else Vec3.Zero
+        val counts = new Array[Int](lights.size + 1)
+        for i <- 0 until Draws_ do counts(selection.choose(p, n, (i + 0.5f) / Draws_) + 1) += 1
+        val chances = lights.indices.map(selection.probability(p, n, _))
+        for i <- lights.indices do
+          // Evenly spaced numbers are right to one in 20000 at each of the tree's borders
+          assert(Math.abs(counts(i + 1).toFloat / Draws_ - chances(i)) < 5e-4f, s"light $i")
+        // What is missing to 1 is no light at all; rounding of the sum
+        assert(Math.abs(chances.sum + counts(0).toFloat / Draws_ - 1f) < 5e-4f)
+
+    test(s"$name: a light that sends light to a point may be chosen there"):
+      val draws = Draws(23)
+      val out = LightSample()
+      for _ <- 1 to 2000; i <- lights.indices do
+        val (p, n) = (draws.vec(-6, 6), draws.direction())
+        lights(i).sample(p, draws.unit(), draws.unit(), out)
+        val edgeOn = !out.isInfinite && !out.target.n.isZero &&
+          Math.abs(out.wi dot out.target.n) < 1e-3f // all digits lost
+        if out.pdf > 0f && !edgeOn && Math.abs(out.wi dot n) > 1e-3f then
+          assert(selection.probability(p, n, i) > 0f, s"light $i at $p"): Unit
+
+  test("points that face all around always find one of some point lights"):
+    val lights = points(Draws(31), 9)
+    val selection = LightSelection.of(lights.toArray)
+    val sum = lights.indices.map(selection.probability(Vec3(1, 2, 3), Vec3.Zero, _)).sum
+    assert(Math.abs(sum - 1f) < 1e-5f) // rounding
+
+  test("no lights: none is chosen"):
+    assert(LightSelection.of(Array.empty[Light]).choose(Vec3.Zero, Vec3.Z, 0.5f) == -1)
+
+  test("uniform selection takes all lights alike"):
+    val uniform = UniformSelection(4)
+    assert(Seq(0f, 0.3f, 0.6f, 0.999f).map(uniform.choose(Vec3.Zero, Vec3.Z, _)) == Seq(0, 1, 2, 3))
+    assert(uniform.probability(Vec3.Zero, Vec3.Z, 2) == 0.25f)

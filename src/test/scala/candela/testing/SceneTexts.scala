@@ -1,0 +1,38 @@
+package candela.testing
+
+import java.nio.file.Path
+
+import candela.base.{Problem, SceneError}
+import candela.build.{BuildOptions, SceneBuilder}
+import candela.color.Rgb
+import candela.render.{Renderer, RenderPlan}
+import candela.scenefile.{Dialect, Parser, SceneDescription}
+
+/** Scenes written in a test: to plans, problems and pictures. */
+object SceneTexts:
+
+  def parse(text: String, dialect: Dialect, folder: Path = Path.of("")): SceneDescription =
+    Parser.parseText("test.pbrt", text, folder, Some(dialect))
+
+  def plan(
+      text: String,
+      dialect: Dialect = Dialect.V3,
+      options: BuildOptions = BuildOptions()
+  ): RenderPlan = SceneBuilder.build(parse(text, dialect), options)._1
+
+  /** All that building has to say, warnings or errors. */
+  def problems(
+      text: String,
+      dialect: Dialect = Dialect.V3,
+      folder: Path = Path.of("")
+  ): Vector[Problem] =
+    try SceneBuilder.build(parse(text, dialect, folder), BuildOptions())._2
+    catch case e: SceneError => e.problems
+
+  /** The mean of all pixels, in linear sRGB. */
+  def mean(text: String, dialect: Dialect = Dialect.V3): Rgb =
+    val made = plan(text, dialect)
+    val data = Renderer.render(made, threads = 1).film.toImage(made.imageScale).data
+    def channel(c: Int) =
+      (data.indices.by(3).map(i => data(i + c).toDouble).sum * 3 / data.length).toFloat
+    Rgb(channel(0), channel(1), channel(2))
