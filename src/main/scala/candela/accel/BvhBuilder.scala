@@ -88,7 +88,8 @@ private[accel] final class BvhBuilder(bounds: Array[Float], maxLeaf: Int):
     val scale = BvhBuilder.Bins * (1f - 1e-6f) / extent
     // An extent of zero, or so small that its inverse overflows, has no bins
     val isPoint = !(scale < Float.PositiveInfinity)
-    if isPoint || depth >= BvhBuilder.MaxSahDepth then if n <= maxLeaf then -1 else (first + end) / 2
+    if isPoint || depth >= BvhBuilder.MaxSahDepth then
+      if n <= maxLeaf then -1 else (first + end) / 2
     else
       fillBins(first, end, axis, low(axis), scale)
       val (bin, cost) = cheapest()

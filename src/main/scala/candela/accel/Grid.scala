@@ -6,13 +6,14 @@ import candela.math.*
 
 /** A uniform voxel grid, walked voxel by voxel along the ray.
   *
-  * Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics 1987;
-  * the resolution, 3·∛n voxels along the longest side and at most 64 a side, as in PBRT's `grid`.
+  * Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
+  * 1987; the resolution, 3·∛n voxels along the longest side and at most 64 a side, as in PBRT's
+  * `grid`.
   *
-  * All places are relative to the lower corner, so that a grid far from the origin loses no digits. A
-  * primitive is listed in every voxel that its box overlaps, padded against the rounding of the walk:
-  * 64 steps of half an ulp make 2.5e-4 voxels, and a ray from D sides away adds 1.2e-5·D. A hundredth
-  * of a voxel is enough for D up to 800.
+  * All places are relative to the lower corner, so that a grid far from the origin loses no digits.
+  * A primitive is listed in every voxel that its box overlaps, padded against the rounding of the
+  * walk: 64 steps of half an ulp make 2.5e-4 voxels, and a ray from D sides away adds 1.2e-5·D. A
+  * hundredth of a voxel is enough for D up to 800.
   */
 final class Grid(primitives: Primitives) extends Accelerator:
   private val boxes = primitives.bounds
@@ -61,7 +62,9 @@ final class Grid(primitives: Primitives) extends Accelerator:
         y += 1
       z += 1
 
-  /** Voxel number along an axis of the box side `side` (0–2 lower, 3–5 upper), moved by `pad` voxels. */
+  /** Voxel number along an axis of the box side `side` (0–2 lower, 3–5 upper), moved by `pad`
+    * voxels.
+    */
   private def voxelOf(i: Int, side: Int, pad: Float): Int =
     val axis = side % 3
     if width(axis) > 0f then

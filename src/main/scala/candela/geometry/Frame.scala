@@ -31,8 +31,8 @@ object Frame:
     val s = along - n * (along dot n)
     val length2 = s.lengthSquared
     if length2 > 1e-12f * along.lengthSquared && length2 > 0f then
-      // Once more: of a vector nearly along n, the difference above is mostly rounding (Parlett, "The
-      // Symmetric Eigenvalue Problem", §6.9: twice is enough)
+      // Once more: of a vector nearly along n, the difference above is mostly rounding (Parlett,
+      // "The Symmetric Eigenvalue Problem", §6.9: twice is enough)
       val once = s.normalized
       val unit = (once - n * (once dot n)).normalized
       Frame(unit, n cross unit, n)

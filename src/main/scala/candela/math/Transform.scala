@@ -2,8 +2,8 @@ package candela.math
 
 /** An affine or projective map of space with its inverse.
   *
-  * @param m       16 numbers, row by row, to be applied to column vectors; Double, so that long chains
-  *                of scene statements lose nothing that Float coordinates could show
+  * @param m       16 numbers, row by row, to be applied to column vectors; Double, so that long
+  *                chains of scene statements lose nothing that Float coordinates could show
   * @param inverse the same for the inverse map
   */
 final class Transform private (val m: IArray[Double], val inverseM: IArray[Double]):
@@ -67,7 +67,9 @@ object Transform:
     val m = IArray.from(rows)
     invert(m).map(inverse => Transform(m, inverse))
 
-  /** The same from columns: the order in which scene files write `Transform` and `ConcatTransform`. */
+  /** The same from columns: the order in which scene files write `Transform` and
+    * `ConcatTransform`.
+    */
   def fromColumns(columns: IndexedSeq[Double]): Option[Transform] =
     fromRows(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
 
@@ -102,8 +104,8 @@ object Transform:
       )
       Transform(m, transposed(m))
 
-  /** World to camera, for a camera at `eye` that looks at `look`; left-handed, y up, z forward, as in
-    * PBRT. None if the three don't span a frame.
+  /** World to camera, for a camera at `eye` that looks at `look`; left-handed, y up, z forward, as
+    * in PBRT. None if the three don't span a frame.
     */
   def lookAt(eye: Seq[Double], look: Seq[Double], up: Seq[Double]): Option[Transform] =
     def sub(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ - _)
@@ -125,8 +127,8 @@ object Transform:
       )
     yield cameraToWorld.inverse
 
-  /** Perspective projection onto z in [0, 1] for depths in [near, far]; `fov` in degrees is the full
-    * angle that [-1, 1] spans.
+  /** Perspective projection onto z in [0, 1] for depths in [near, far]; `fov` in degrees is the
+    * full angle that [-1, 1] spans.
     */
   def perspective(fov: Double, near: Double, far: Double): Transform =
     val inv = 1 / Math.tan(Math.toRadians(fov) / 2)
@@ -147,8 +149,8 @@ object Transform:
       val (r, c) = (i / 4 * 4, i % 4)
       a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
 
-  /** Gauss–Jordan with row pivoting. Beside each number runs a bound of its rounding error, that of the
-    * input included: a pivot within it may as well be zero, so the rows depend on each other.
+  /** Gauss–Jordan with row pivoting. Beside each number runs a bound of its rounding error, that of
+    * the input included: a pivot within it may as well be zero, so the rows depend on each other.
     *
     * Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., §3.3 (running error
     * analysis).

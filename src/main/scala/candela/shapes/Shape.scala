@@ -9,8 +9,8 @@ abstract class Shape extends SurfaceSampler:
   /** Contains the whole surface. */
   def bounds: Bounds3
 
-  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance; `hit.u` and `hit.v` may
-    * hold what `surface` wants to know again, `hit.primitive` is left to the caller.
+  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance; `hit.u` and `hit.v`
+    * may hold what `surface` wants to know again, `hit.primitive` is left to the caller.
     */
   def intersect(ray: Ray, hit: Hit): Boolean
 
@@ -32,8 +32,8 @@ abstract class SurfaceSampler:
   /** Chooses a point that may be visible from `from`; `out.pdf` is 0 if there is none. */
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit
 
-  /** The density per solid angle at `from` with which `sample` returns the point `p` of this surface,
-    * whose unit normal is `n`.
+  /** The density per solid angle at `from` with which `sample` returns the point `p` of this
+    * surface, whose unit normal is `n`.
     */
   def pdf(from: Vec3, p: Vec3, n: Vec3): Float
 

@@ -6,12 +6,14 @@ import candela.math.*
 /** Sampling the part of a sphere that a point outside sees: uniform over the cone of directions.
   *
   * Source: Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", TOG
-  * 15(1), 1996. Doubles inside: seen from afar the cone is too narrow for Float cosines, and from close by
-  * so is the angle at the centre that most of the cone spans (SphereSamplingSuite).
+  * 15(1), 1996. Doubles inside: seen from afar the cone is too narrow for Float cosines, and from
+  * close by so is the angle at the centre that most of the cone spans (SphereSamplingSuite).
   */
 object SphereSampling:
 
-  /** 1 − cos of the cone's half-angle, given sin² of it, without the cancellation of the plain words. */
+  /** 1 − cos of the cone's half-angle, given sin² of it, without the cancellation of the plain
+    * words.
+    */
   private def oneMinusCos(sin2: Double): Double = sin2 / (1 + Math.sqrt(Math.max(0.0, 1 - sin2)))
 
   private def distanceSquared(a: Vec3, b: Vec3): Double =
@@ -28,7 +30,8 @@ object SphereSampling:
     val sin2Theta = oneMinusCosTheta * (2 - oneMinusCosTheta)
     val cosTheta = 1 - oneMinusCosTheta
     val halfChord = Math.sqrt(Math.max(0.0, radius2 - distance2 * sin2Theta))
-    // d cos θ − half the chord, by the product of both crossings: nothing cancels close to the sphere
+    // d cos θ − half the chord, by the product of both crossings: nothing cancels close to the
+    // sphere
     val toSample = (distance2 - radius2) / (distance * cosTheta + halfChord)
     val sinAlpha = (toSample * Math.sqrt(sin2Theta) / radius).toFloat
     val cosAlpha = ((distance - toSample * cosTheta) / radius).toFloat

@@ -31,7 +31,7 @@ object SampledShapes:
   def chiSquare(seed: Long, surface: SurfaceSampler, see: Visible, from: Vec3): ChiSquare.Result =
     val out = SurfaceSample()
     // Bins so small that what their integrals miss at the surface's edge is below their noise
-    ChiSquare.directions(seed, cosBins = 60, phiBins = 60)(
+    ChiSquare.directions(seed, draws = 100000, cosBins = 40, phiBins = 40)(
       u =>
         surface.sample(from, u(), u(), out)
         Option.when(out.pdf > 0 && isSeen(from, out.p, see))((out.p - from).normalized)
