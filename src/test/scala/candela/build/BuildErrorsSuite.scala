@@ -4,8 +4,8 @@ import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Problem, Severity}
-import candela.scenefile.Dialect
+import candela.base.{Problem, SceneError, Severity}
+import candela.scenefile.{Dialect, Parser}
 import candela.testing.SceneTexts
 
 /** What the builder says about scenes that ask for something that is not there. */
@@ -99,8 +99,13 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val errors = SceneTexts.problems(text).filter(_.severity == Severity.Error)
     assert(errors.flatMap(_.at).map(_.line) == Vector(2, 3, 4))
 
-  test("a problem shows the line that it is about"):
-    assert(only("Shape \"shpere\"").excerpt.contains("Shape \"shpere\""))
+  test("a problem in a file shows the line that it is about"):
+    val file = Files.createTempFile("shpere", ".pbrt")
+    try
+      Files.writeString(file, "WorldBegin\nShape \"shpere\"\nWorldEnd\n"): Unit
+      val error = intercept[SceneError](SceneBuilder.build(Parser.parse(file), BuildOptions()))
+      assert(error.problems.flatMap(_.excerpt) == Vector("Shape \"shpere\""))
+    finally Files.delete(file)
 
   test("an unknown camera, film or integrator falls back with a message"):
     val text = "Camera \"environment\"\nIntegrator \"bdpt\"\nWorldBegin\nLightSource \"point\"\n"
