@@ -95,8 +95,12 @@ object Architecture:
   def floors(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
       val wrong =
-        for used <- use.findAllMatchIn(line).map(_.group(1)).toVector.distinct
-        if used != home && !allowed.getOrElse(home, Set.empty)(used) && !line.startsWith("package ")
+        for
+          used <- use.findAllMatchIn(line).map(_.group(1)).toVector.distinct
+          if used != home && !allowed.getOrElse(
+            home,
+            Set.empty
+          )(used) && !line.startsWith("package ")
         yield s"$home may not use $used"
       val hidden = vague.findFirstIn(line).map(_ => "import a package of candela by its name")
       wrong ++ hidden
@@ -105,8 +109,9 @@ object Architecture:
   def foreign(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
       val roots = (imported.findAllMatchIn(line) ++ fullName.findAllMatchIn(line)).map(_.group(1))
-      for root <- roots.toVector.distinct
-      if !language(root) && !libraries.getOrElse(root, Set.empty)(home)
+      for
+        root <- roots.toVector.distinct
+        if !language(root) && !libraries.getOrElse(root, Set.empty)(home)
       yield s"$home may not use the library `$root`"
 
   /** Results go up as values; what to tell the user, and when to stop, is for `cli` to say. */

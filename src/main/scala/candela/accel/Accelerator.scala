@@ -2,11 +2,13 @@ package candela.accel
 
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** Finds what a ray meets among many primitives. Immutable; the work space of a walk is in the ray. */
+/** Finds what a ray meets among many primitives. Immutable; the work space of a walk is in the
+  * ray.
+  */
 abstract class Accelerator:
 
-  /** The closest hit in (0, `ray.tMax`): shortens the ray, fills `hit`. Otherwise sets `hit.primitive`
-    * to −1.
+  /** The closest hit in (0, `ray.tMax`): shortens the ray, fills `hit`. Otherwise sets
+    * `hit.primitive` to −1.
     */
   def closest(ray: Ray, hit: Hit): Boolean
 

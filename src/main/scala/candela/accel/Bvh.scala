@@ -4,18 +4,20 @@ import candela.geometry.{Bounds3, Hit, Ray}
 
 /** A bounding volume hierarchy of two children a node.
   *
-  * A node is 16 Floats (one cache line): the left child's box (min x y z, max x y z), the right one's,
-  * then as raw bits left child, right child, and their sizes if they are leaves. A child ≥ 0 is the
-  * index of its node's first Float; below 0 it is a leaf whose first slot is its complement.
+  * A node is 16 Floats (one cache line): the left child's box (min x y z, max x y z), the right
+  * one's, then as raw bits left child, right child, and their sizes if they are leaves. A child ≥ 0
+  * is the index of its node's first Float; below 0 it is a leaf whose first slot is its complement.
   *
   * Having both boxes in the parent tests them from one line, and visits no node in vain.
-  * Source of the walk: Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG 2009.
+  * Source of the walk: Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG
+  * 2009.
   */
 final class Bvh(primitives: Primitives, maxLeaf: Int = 4) extends Accelerator:
   private val boxes = primitives.bounds
   private val builder = BvhBuilder(boxes, maxLeaf)
   private val packed = primitives.packed(builder.order)
-  private val nodes = java.util.Arrays.copyOf(builder.nodes, builder.nodeCount * BvhBuilder.NodeFloats)
+  private val nodes =
+    java.util.Arrays.copyOf(builder.nodes, builder.nodeCount * BvhBuilder.NodeFloats)
   private val root = builder.root
   private val rootCount = builder.rootCount
   val bounds: Bounds3 = Accelerator.union(boxes)
@@ -54,7 +56,8 @@ final class Bvh(primitives: Primitives, maxLeaf: Int = 4) extends Accelerator:
     var going = primitives.count > 0
     while going do
       if node >= 0 then
-        // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): such a slab is passed
+        // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): such a slab is
+        // passed
         var near = 0f
         var far = ray.tMax
         var t = (b(node + nx) - ox) * ix
@@ -127,8 +130,8 @@ final class Bvh(primitives: Primitives, maxLeaf: Int = 4) extends Accelerator:
     private inline def toRawBits: Int = java.lang.Float.floatToRawIntBits(x)
 
 object Bvh:
-  /** 1 + 2γ(3): keeps the rounding of the slab distances from missing a box that is grazed (Ize, "Robust
-    * BVH Ray Traversal", JCGT 2(2), 2013).
+  /** 1 + 2γ(3): keeps the rounding of the slab distances from missing a box that is grazed (Ize,
+    * "Robust BVH Ray Traversal", JCGT 2(2), 2013).
     */
   private inline val FarSlack = 1.0000004f
 

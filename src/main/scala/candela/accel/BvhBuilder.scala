@@ -4,8 +4,8 @@ import candela.base.loop
 
 /** Builds a binary hierarchy top-down by the surface area heuristic over 16 bins of centroids.
   *
-  * Sources: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007; the cost
-  * model of Goldsmith and Salmon, "Automatic Creation of Object Hierarchies", 1987.
+  * Sources: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007; the
+  * cost model of Goldsmith and Salmon, "Automatic Creation of Object Hierarchies", 1987.
   *
   * @param bounds six Floats a primitive
   */
@@ -20,7 +20,9 @@ private[accel] final class BvhBuilder(bounds: Array[Float], maxLeaf: Int):
   var nodeCount = 0
 
   private val centroids: Array[Float] =
-    Array.tabulate(3 * count)(i => 0.5f * (bounds(6 * (i / 3) + i % 3) + bounds(6 * (i / 3) + 3 + i % 3)))
+    Array.tabulate(3 * count)(i =>
+      0.5f * (bounds(6 * (i / 3) + i % 3) + bounds(6 * (i / 3) + 3 + i % 3))
+    )
 
   private val binCount = new Array[Int](BvhBuilder.Bins)
   private val binBox = new Array[Float](6 * BvhBuilder.Bins)
@@ -71,7 +73,9 @@ private[accel] final class BvhBuilder(bounds: Array[Float], maxLeaf: Int):
     val z = box(at + 5) - box(at + 2)
     if x < 0f then 0f else x * y + y * z + z * x
 
-  /** Reorders order[first, end) into two parts and answers where the second begins; −1: make a leaf. */
+  /** Reorders order[first, end) into two parts and answers where the second begins; −1: make a
+    * leaf.
+    */
   private def split(first: Int, end: Int, depth: Int): Int =
     val n = end - first
     val low = Array.fill(3)(Float.PositiveInfinity)
@@ -96,10 +100,12 @@ private[accel] final class BvhBuilder(bounds: Array[Float], maxLeaf: Int):
       val whole = new Array[Float](6)
       unionInto(first, end, whole, 0)
       val leafCost = n.toFloat
-      val splitCost = BvhBuilder.TraversalCost + cost / Math.max(halfArea(whole, 0), Float.MinPositiveValue)
+      val splitCost =
+        BvhBuilder.TraversalCost + cost / Math.max(halfArea(whole, 0), Float.MinPositiveValue)
       if n <= maxLeaf && leafCost <= splitCost then -1
       else
-        val middle = partition(first, end, c => ((centroids(3 * c + axis) - low(axis)) * scale).toInt <= bin)
+        val middle =
+          partition(first, end, c => ((centroids(3 * c + axis) - low(axis)) * scale).toInt <= bin)
         if middle == first || middle == end then (first + end) / 2 else middle
 
   private def fillBins(first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =

@@ -35,7 +35,8 @@ final class Grid(primitives: Primitives) extends Accelerator:
   private val cells: Array[Int] = if primitives.count == 0 then Array.empty else fill()
 
   def describe: String =
-    s"grid: ${primitives.count} primitives in ${resolution.mkString("×")} voxels, ${cells.length} entries"
+    val voxels = resolution.mkString("×")
+    s"grid: ${primitives.count} primitives in $voxels voxels, ${cells.length} entries"
 
   private def fill(): Array[Int] =
     loop(primitives.count)(i => overlapped(i)(v => starts(v + 1) += 1))

@@ -35,11 +35,15 @@ object Problem:
   def warning(at: SourcePos, message: String, help: Option[String] = None): Problem =
     Problem(Severity.Warning, Some(at), message, help)
 
-  /** An error that belongs to no place in a scene file, e.g. an output folder that can't be written. */
+  /** An error that belongs to no place in a scene file, e.g. an output folder that can't be
+    * written.
+    */
   def general(message: String, help: Option[String] = None): Problem =
     Problem(Severity.Error, None, message, help)
 
-/** Thrown where reading cannot go on; caught once, in `cli`. It is no bug, so it has no stack trace. */
+/** Thrown where reading cannot go on; caught once, in `cli`. It is no bug, so it has no stack
+  * trace.
+  */
 final class SceneError(val problems: Vector[Problem])
     extends RuntimeException(problems.map(_.message).mkString("; "), null, false, false):
   def this(problem: Problem) = this(Vector(problem))

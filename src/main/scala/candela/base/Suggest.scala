@@ -3,8 +3,8 @@ package candela.base
 /** The nearest known name, for "did you mean". */
 object Suggest:
 
-  /** The known name that differs from `name` by the fewest edits, if that is few enough to be a slip:
-    * at most a third of the longer name's length. Upper and lower case count as equal.
+  /** The known name that differs from `name` by the fewest edits, if that is few enough to be a
+    * slip: at most a third of the longer name's length. Upper and lower case count as equal.
     */
   def nearest(name: String, known: Iterable[String]): Option[String] =
     known.toVector.sorted

@@ -76,7 +76,12 @@ trait Fields:
       if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
 
   /** A colour that is no texture: light, or an index of refraction. */
-  protected final def color(name: String, doc: String, role: SpectrumRole, in: Set[Dialect] = every)(
+  protected final def color(
+      name: String,
+      doc: String,
+      role: SpectrumRole,
+      in: Set[Dialect] = every
+  )(
       default: Dialect ?=> Rgb
   ): Field[Rgb] = field(name, "rgb", doc, in, default)(Spectra.rgb(_, role, _))
 

@@ -21,15 +21,19 @@ object Integrators:
     "integrator",
     Vector(Path("path"), Path("volpath"), Direct, WhittedRecipe),
     Vector(
-      "bdpt", "mlt", "sppm", "ao", "ambientocclusion", "photonmap", "exphotonmap", "igi", "irradiancecache",
+      "bdpt", "mlt", "sppm", "ao", "ambientocclusion", "photonmap", "exphotonmap", "igi",
+      "irradiancecache",
       "dipolesubsurface", "diffuseprt", "glossyprt", "useprobes", "lightpath", "simplepath",
       "simplevolpath", "randomwalk", "function", "metropolis"
-    ).map(_ -> "the path integrator is used, which has the same mean where that one is unbiased").toMap
+    ).map(
+      _ -> "the path integrator is used, which has the same mean where that one is unbiased"
+    ).toMap
   )
 
   final class Path(name: String) extends Recipe[IntegratorPlan](name):
     private val maxDepth = integer("maxdepth", "most scattering events of a path")(5)
-    private val threshold = float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
+    private val threshold =
+      float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
     private val lightSampler = string("lightsampler", "how lights are chosen", onlyV4)("bvh")
     private val strategy = string("lightsamplestrategy", "how lights are chosen", onlyV3)("spatial")
     notYet("regularize", "BSDFs stay as they are")
@@ -49,7 +53,8 @@ object Integrators:
 
   object Direct extends Recipe[IntegratorPlan]("directlighting", untilV3):
     private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
-    private val strategy = oneOf("strategy", "sample all lights or one at random", "all", "one", "weighted")("all")
+    private val strategy =
+      oneOf("strategy", "sample all lights or one at random", "all", "one", "weighted")("all")
     notYet("pixelbounds", "the film's crop window is rendered")
 
     protected def make()(using Site): IntegratorPlan =

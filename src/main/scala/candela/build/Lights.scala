@@ -9,8 +9,8 @@ import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{Shape, SurfaceSampler, TriangleSampler}
 
-/** A light to be placed: `make` takes its transform and whether every direction must be sampled (only
-  * integrators without BSDF sampling need that).
+/** A light to be placed: `make` takes its transform and whether every direction must be sampled
+  * (only integrators without BSDF sampling need that).
   *
   * @param samples how often v2's and v3's direct lighting samples it
   */
@@ -44,7 +44,8 @@ object Lights:
       LightPlan((toWorld, _) => Some(PointLight(toWorld.point(p), i)), sampleCount())
 
   object Distant extends LightRecipe("distant"):
-    private val radiance = color("L", "irradiance on a facing plane", SpectrumRole.Emission)(Rgb.White)
+    private val radiance =
+      color("L", "irradiance on a facing plane", SpectrumRole.Emission)(Rgb.White)
     private val from = point("from", "with `to`: the direction of light")(Vec3.Zero)
     private val to = point("to", "where it shines to")(Vec3.Z)
     private val illuminance = float("illuminance", "on a facing plane; scales `L`", onlyV4)(-1f)
@@ -59,7 +60,8 @@ object Lights:
       )
 
   object Infinite extends LightRecipe("infinite"):
-    private val radiance = color("L", "radiance, or factor of the image", SpectrumRole.Emission)(Rgb.White)
+    private val radiance =
+      color("L", "radiance, or factor of the image", SpectrumRole.Emission)(Rgb.White)
     private val mapname = string("mapname", "equirectangular image", untilV3)("")
     private val filename = string("filename", "equal-area octahedral image", onlyV4)("")
     private val illuminance = float("illuminance", "on a plane; scales the light", onlyV4)(-1f)
@@ -79,7 +81,9 @@ object Lights:
         )
       val e = if illuminance() > 0f then Rgb.gray(illuminance() / Pi) else Rgb.White
       if illuminance() > 0f && map.isDefined then
-        site.warn("`illuminance` of an image light is not supported yet; the image is used as it is")
+        site.warn(
+          "`illuminance` of an image light is not supported yet; the image is used as it is"
+        )
       LightPlan(
         (toWorld, complete) =>
           map match
@@ -115,7 +119,9 @@ final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val sam
     else emitted
 
   def ofTriangle(triangle: TriangleSampler, meshArea: Float): Light =
-    AreaLight(triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f)
+    AreaLight(
+      triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f
+    )
 
   def ofShape(shape: Shape): Light =
     val (axis, cosSpread) = shape.normals
@@ -123,7 +129,8 @@ final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val sam
 
 /** Recipes of lights that are surfaces. */
 object AreaLights:
-  val all: Recipes[AreaLightPlan] = Recipes("area light", Vector(Diffuse("diffuse"), Diffuse("area")))
+  val all: Recipes[AreaLightPlan] =
+    Recipes("area light", Vector(Diffuse("diffuse"), Diffuse("area")))
 
   final class Diffuse(name: String) extends Recipe[AreaLightPlan](name):
     private val radiance = color("L", "emitted radiance", SpectrumRole.Emission)(Rgb.White)

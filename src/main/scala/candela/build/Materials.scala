@@ -8,7 +8,6 @@ import candela.color.{Colorimetry, Rgb, Upsampling}
 
 import candela.scenefile.Dialect
 
-
 /** Recipes of materials: what the dialects call them, and their parameters. */
 object Materials:
   private val instead = "a grey diffuse surface is used"
@@ -21,7 +20,8 @@ object Materials:
       DiffuseTransmission, Measured
     ),
     Vector(
-      "mix", "measured", "fourier", "hair", "subsurface", "kdsubsurface", "translucent", "shinymetal",
+      "mix", "measured", "fourier", "hair", "subsurface", "kdsubsurface", "translucent",
+      "shinymetal",
       "coatedconductor", "disney"
     ).map(_ -> instead).toMap
   )
@@ -31,7 +31,8 @@ object Materials:
 
   def build(site: Site): Material = all.build(site).getOrElse(default)
 
-  abstract class MaterialRecipe(name: String, dialects: Set[Dialect]) extends Recipe[Material](name, dialects):
+  abstract class MaterialRecipe(name: String, dialects: Set[Dialect])
+      extends Recipe[Material](name, dialects):
     notYet("bumpmap", "the surface is smooth")
     notYet("displacement", "the surface is smooth")
     notYet("normalmap", "the surface is smooth")
@@ -122,7 +123,8 @@ object Materials:
     protected def make()(using site: Site): Material =
       def rgb(v: SpectralValue): Rgb = v match
         case SpectralValue.Color(c) => c
-        case SpectralValue.Wavelengths(s) => Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
+        case SpectralValue.Wavelengths(s) =>
+          Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
       val (n, a) = (rgb(eta()), rgb(k()))
       // pbrt-v2 has the approximation for strongly absorbing metals
       val curve =
@@ -147,7 +149,10 @@ object Materials:
     private val albedo = rgbTexture("albedo", "of the medium in the coat")(Rgb.Black)
     private val eta = spectrum("eta", "index of refraction of the coat")(Indices.glass)
     private val depth = integer("maxdepth", "most interactions within the layers")(10)
-    irrelevant("g", "nsamples") // of a medium that scatters; of the random walk that is not needed here
+    irrelevant(
+      "g",
+      "nsamples"
+    ) // of a medium that scatters; of the random walk that is not needed here
     protected def make()(using site: Site): Material =
       val coats = site.resources.coats
       val basis = site.resources.basis
@@ -169,7 +174,8 @@ object Materials:
   object Conductor extends RoughRecipe("conductor", onlyV4, 0f):
     private val eta = spectrum("eta", "index of refraction")(copper("eta"))
     private val k = spectrum("k", "absorption coefficient")(copper("k"))
-    private val reflectance = rgbTexture("reflectance", "at normal incidence, instead of eta and k")(Rgb.White)
+    private val reflectance =
+      rgbTexture("reflectance", "at normal incidence, instead of eta and k")(Rgb.White)
     protected def make()(using site: Site): Material =
       reflectance.given_() match
         case Some(r) => Make.conductor(r, roughness())
@@ -178,7 +184,9 @@ object Materials:
           Make.conductor(curve, roughness())
 
     /** Fresnel's equations by wavelength, seen under white light, for each angle. */
-    private def reflectanceOf(eta: Float => Float, k: Float => Float)(using site: Site): ReflectanceCurve =
+    private def reflectanceOf(eta: Float => Float, k: Float => Float)(using
+        site: Site
+    ): ReflectanceCurve =
       TabulatedReflectance.of(128): cosTheta =>
         val reflected = Colorimetry.rgb(
           nm => Fresnel.conductor(cosTheta, eta(nm), k(nm)),
@@ -195,8 +203,8 @@ object Materials:
     private val eta = spectrum("eta", "index of refraction")(Indices.glass)
     protected def make()(using Site): Material = Make.thinDielectric(Indices.one(eta()))
 
-  /** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and renders a
-    * surface that reflects nothing; so do we.
+  /** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and
+    * renders a surface that reflects nothing; so do we.
     */
   object Measured extends MaterialRecipe("measured", onlyV2):
     private val filename = string("filename", "a .brdf file")("")
@@ -220,7 +228,9 @@ object Materials:
       case SpectralValue.Wavelengths(s) => s(_)
       case SpectralValue.Color(c) => Upsampling.unbounded(c)
 
-    /** The index at the sodium line (589.3 nm), by which glass is named; dispersion is not modelled. */
+    /** The index at the sodium line (589.3 nm), by which glass is named; dispersion is not
+      * modelled.
+      */
     def one(v: SpectralValue)(using site: Site): Float = v match
       case SpectralValue.Color(c) => c.average
       case SpectralValue.Wavelengths(s) =>

@@ -78,7 +78,9 @@ private[build] final class PlyReader(
 
   private def skip(p: PlyProperty): Unit =
     val length = p.countType.fold(1)(in.length)
-    loop(length)(_ => { val _ = in.next(p.valueType) })
+    loop(length)(_ =>
+      val _ = in.next(p.valueType)
+    )
 
   private def readFaces(element: PlyElement, vertexCount: Int): Unit =
     val corners =
@@ -93,7 +95,10 @@ private[build] final class PlyReader(
 
   private def readCorners(p: PlyProperty, vertexCount: Int): Unit =
     val length = in.length(p.countType.get)
-    if length < 3 then loop(length)(_ => { val _ = index(p.valueType, vertexCount) })
+    if length < 3 then
+      loop(length)(_ =>
+        val _ = index(p.valueType, vertexCount)
+      )
     else
       val first = index(p.valueType, vertexCount)
       val second = index(p.valueType, vertexCount)

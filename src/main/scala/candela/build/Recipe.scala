@@ -25,10 +25,12 @@ final class Field[T](
   def given_()(using site: Site): Option[T] =
     site.declaration.param(name).filter(_ => dialects(site.dialect)).flatMap(read(_, site))
 
-/** How one name of a scene file becomes a runtime object: its parameters, declared once, and `make`.
+/** How one name of a scene file becomes a runtime object: its parameters, declared once, and
+  * `make`.
   *
-  * The declarations are the documentation, the defaults, the type checks and the list of what is not
-  * used; nothing else in the program knows a parameter's name. Each kind of field is in [[Fields]].
+  * The declarations are the documentation, the defaults, the type checks and the list of what is
+  * not used; nothing else in the program knows a parameter's name. Each kind of field is in
+  * [[Fields]].
   */
 abstract class Recipe[A](val name: String, val dialects: Set[Dialect] = Dialect.values.toSet)
     extends Fields:
@@ -44,7 +46,9 @@ abstract class Recipe[A](val name: String, val dialects: Set[Dialect] = Dialect.
     declared += field
     field
 
-  /** A parameter that pbrt knows and Candela does not: named in a warning, with what is done instead. */
+  /** A parameter that pbrt knows and Candela does not: named in a warning, with what is done
+    * instead.
+    */
   protected final def notYet(name: String, instead: String): Unit = unsupported(name) = instead
 
   /** A parameter that has no meaning here (a cache size, a quality hint): silently accepted. */
@@ -55,11 +59,15 @@ abstract class Recipe[A](val name: String, val dialects: Set[Dialect] = Dialect.
     for p <- site.declaration.params do
       val named = declared.filter(_.name == p.name)
       if unsupported.contains(p.name) then
-        site.problems.warn(p.at, s"`${p.name}` of \"$name\" is not supported yet: ${unsupported(p.name)}")
-      else if named.nonEmpty && !named.exists(_.dialects(site.dialect)) then
         site.problems.warn(
           p.at,
-          s"`${p.name}` is no parameter of \"$name\" in ${site.dialect.toString.toLowerCase}; it has no effect"
+          s"`${p.name}` of \"$name\" is not supported yet: ${unsupported(p.name)}"
+        )
+      else if named.nonEmpty && !named.exists(_.dialects(site.dialect)) then
+        val dialect = site.dialect.toString.toLowerCase
+        site.problems.warn(
+          p.at,
+          s"`${p.name}` is no parameter of \"$name\" in $dialect; it has no effect"
         )
       else if named.isEmpty && !ignored(p.name) then
         site.problems.warn(
@@ -79,8 +87,8 @@ final class Recipes[A](
     pending: Map[String, String] = Map.empty
 ):
 
-  /** Follows the recipe that the declaration names. A name that is pending is a warning; one that nobody
-    * knows is an error, with the nearest known.
+  /** Follows the recipe that the declaration names. A name that is pending is a warning; one that
+    * nobody knows is an error, with the nearest known.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name

@@ -43,9 +43,16 @@ final class Resources(val basis: ColorBasis):
     val name = p.strings.headOption.getOrElse("")
     in.get(name).orElse {
       if others(name) then
-        problems.error(p.valuesAt, s"texture `$name` is of type $otherKind; `${p.name}` takes $kind")
+        problems.error(
+          p.valuesAt,
+          s"texture `$name` is of type $otherKind; `${p.name}` takes $kind"
+        )
       else
-        problems.error(p.valuesAt, s"no $kind texture is named `$name`", Suggest.help(name, in.keys))
+        problems.error(
+          p.valuesAt,
+          s"no $kind texture is named `$name`",
+          Suggest.help(name, in.keys)
+        )
       None
     }
 

@@ -24,7 +24,9 @@ final case class BuildOptions(
   */
 object SceneBuilder:
 
-  /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all errors. */
+  /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all
+    * errors.
+    */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
     val problems = Findings()
     // pbrt-v4 multiplies spectra, the older ones sRGB components
@@ -76,13 +78,18 @@ object SceneBuilder:
   private val NoPlace = candela.base.SourcePos("", 0, 0)
   private val NoFolder = java.nio.file.Path.of("")
 
-  private[build] val Motion = "motion is not supported yet: it stands still as at the start of the shutter"
+  private[build] val Motion =
+    "motion is not supported yet: it stands still as at the start of the shutter"
 
   /** Statements that are understood and have no effect on the picture yet. */
   private def warnOfWholes(d: SceneDescription, problems: Findings): Unit =
     for r <- d.renderer if !Set("sampler", "sample").contains(r.name) do
-      problems.warn(r.at, s"renderer \"${r.name}\" is not supported yet: the surface integrator is used")
-    for v <- d.volumes do problems.warn(v.light.at, s"volumes are not supported yet: it is left out")
+      problems.warn(
+        r.at,
+        s"renderer \"${r.name}\" is not supported yet: the surface integrator is used"
+      )
+    for v <- d.volumes do
+      problems.warn(v.light.at, s"volumes are not supported yet: it is left out")
     for (name, m) <- d.media do
       problems.warn(m.at, s"participating media are not supported yet: `$name` is left out")
 
@@ -102,7 +109,11 @@ object SceneBuilder:
     val bounds = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
     if bounds.width < 1 || bounds.height < 1 then
       throw SceneError(
-        Problem(Severity.Error, None, s"the crop window $x0 $x1 $y0 $y1 holds no pixel of $width×$height")
+        Problem(
+          Severity.Error,
+          None,
+          s"the crop window $x0 $x1 $y0 $y1 holds no pixel of $width×$height"
+        )
       )
     bounds
 

@@ -7,8 +7,8 @@ import candela.shapes.{Disk, LoopSubdivision, MeshError, Shape, Sphere}
 
 /** What a shape statement describes, before it is placed in the world. */
 enum ShapeGeometry:
-  /** Triangles in object space: x y z a vertex, three vertices a triangle; normals (x y z) and uvs may
-    * be empty.
+  /** Triangles in object space: x y z a vertex, three vertices a triangle; normals (x y z) and uvs
+    * may be empty.
     */
   case Triangles(
       positions: Array[Float],
@@ -26,7 +26,8 @@ object Shapes:
     Recipes(
       "shape",
       Vector(SphereRecipe, DiskRecipe, TriangleMeshRecipe, PlyMeshRecipe, LoopSubdivRecipe),
-      Vector("cylinder", "cone", "paraboloid", "hyperboloid", "heightfield", "nurbs", "curve", "bilinearmesh")
+      Vector("cylinder", "cone", "paraboloid", "hyperboloid", "heightfield", "nurbs", "curve",
+        "bilinearmesh")
         .map(_ -> "it is left out")
         .toMap
     )
@@ -38,8 +39,10 @@ object Shapes:
 
   object SphereRecipe extends ShapeRecipe("sphere"):
     private val radius = float("radius", "radius")(1f)
-    private val zmin = float("zmin", "z of the lower clip plane; below -radius: none")(Float.NegativeInfinity)
-    private val zmax = float("zmax", "z of the upper clip plane; above radius: none")(Float.PositiveInfinity)
+    private val zmin =
+      float("zmin", "z of the lower clip plane; below -radius: none")(Float.NegativeInfinity)
+    private val zmax =
+      float("zmax", "z of the upper clip plane; above radius: none")(Float.PositiveInfinity)
     private val phimax = float("phimax", "sweep about z, degrees")(360f)
 
     protected def make()(using site: Site): Option[ShapeGeometry] =
@@ -72,7 +75,8 @@ object Shapes:
         Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed)))
 
   object TriangleMeshRecipe extends ShapeRecipe("trianglemesh"):
-    private val indices = integers("indices", "three vertices a triangle; may be absent for 3 points")
+    private val indices =
+      integers("indices", "three vertices a triangle; may be absent for 3 points")
     private val points = numbers("P", "point3[]", "vertex positions")
     private val normals = numbers("N", "normal[]", "shading normals, one a vertex")
     private val uv = numbers("uv", "point2[]", "texture coordinates, one pair a vertex")
@@ -144,12 +148,14 @@ object Shapes:
       val vertices = positions.length / 3
       def problem(what: String): Option[String] = Some(what)
       val wrong =
-        if positions.length % 3 != 0 then problem(s"`P` holds ${positions.length} numbers, not triples")
+        if positions.length % 3 != 0 then
+          problem(s"`P` holds ${positions.length} numbers, not triples")
         else if indices.length % 3 != 0 then
           problem(s"`indices` holds ${indices.length} numbers, not triples")
         else
           indices.find(i => i < 0 || i >= vertices) match
-            case Some(i) => problem(s"`indices` names vertex $i, but `P` has $vertices (0 to ${vertices - 1})")
+            case Some(i) =>
+              problem(s"`indices` names vertex $i, but `P` has $vertices (0 to ${vertices - 1})")
             case None =>
               if positions.exists(x => !java.lang.Float.isFinite(x)) then
                 problem("`P` holds a number that is not finite")
@@ -168,12 +174,19 @@ object Shapes:
             )
           )
 
-    /** Attributes that don't match the number of vertices are dropped with a warning, as pbrt does. */
+    /** Attributes that don't match the number of vertices are dropped with a warning, as pbrt
+      * does.
+      */
     private def matching(name: String, values: Array[Float], vertices: Int, each: Int)(using
         site: Site
     ): Array[Float] =
       if values.length == 0 || values.length == vertices * each then values
       else
-        val kind = if site.declaration.param(name).exists(_.paramType == ParamType.Float) then "numbers" else "values"
-        site.warn(s"`$name` holds ${values.length} $kind; $vertices vertices need ${vertices * each}; it is ignored")
+        val kind = if site.declaration.param(name).exists(_.paramType == ParamType.Float) then
+          "numbers"
+        else "values"
+        val needed = vertices * each
+        site.warn(
+          s"`$name` holds ${values.length} $kind; $vertices vertices need $needed; it is ignored"
+        )
         Array.empty

@@ -18,7 +18,8 @@ final class SoupBuilder:
 
   /** Adds a mesh; answers the number of its first triangle.
     *
-    * @param flipNormals turn the given shading normals around too (pbrt-v4 does with ReverseOrientation)
+    * @param flipNormals turn the given shading normals around too (pbrt-v4 does with
+    *                    ReverseOrientation)
     * @param firstLight  of its triangles' lights, −1: it does not emit
     */
   def add(

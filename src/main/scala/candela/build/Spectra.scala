@@ -30,8 +30,8 @@ object Spectra:
           case SpectralValue.Color(c) => c
           case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
 
-  /** pbrt-v2 and v3 weight all wavelengths alike; v4 sees reflectances under D65 and scales emission
-    * to luminance 1.
+  /** pbrt-v2 and v3 weight all wavelengths alike; v4 sees reflectances under D65 and scales
+    * emission to luminance 1.
     */
   def toRgb(s: Spectrum, role: SpectrumRole, dialect: Dialect): Rgb =
     if dialect != Dialect.V4 then Colorimetry.rgb(s(_), White.EqualEnergy)
@@ -48,7 +48,8 @@ object Spectra:
       case ParamType.Float if p.floats.length == 1 =>
         // Older scenes write "float eta" where a spectrum is due; a constant is what they mean
         Some(SpectralValue.Color(Rgb.gray(p.floats(0))))
-      case ParamType.Spectrum if p.strings.nonEmpty => named(p, site).map(SpectralValue.Wavelengths(_))
+      case ParamType.Spectrum if p.strings.nonEmpty =>
+        named(p, site).map(SpectralValue.Wavelengths(_))
       case ParamType.Spectrum if p.floats.length >= 2 && p.floats.length % 2 == 0 =>
         pairs(p.floats, p, site).map(SpectralValue.Wavelengths(_))
       case other =>

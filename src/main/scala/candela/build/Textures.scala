@@ -6,8 +6,8 @@ import candela.math.*
 import candela.scenefile.{Dialect, TextureDescription}
 import candela.textures.*
 
-/** Recipes of textures: numbers and colours over a surface. A texture's own transform is that of its
-  * statement.
+/** Recipes of textures: numbers and colours over a surface. A texture's own transform is that of
+  * its statement.
   */
 object Textures:
   private val pending =
@@ -17,7 +17,8 @@ object Textures:
 
   def floats(toWorld: Transform): Recipes[FloatTexture] = Recipes(
     "float texture",
-    Vector(FloatConstant, FloatScale, FloatMix, FloatChecks(toWorld), FloatBilerp(toWorld), FloatMap(toWorld)),
+    Vector(FloatConstant, FloatScale, FloatMix, FloatChecks(toWorld), FloatBilerp(toWorld),
+      FloatMap(toWorld)),
     pending
   )
 
@@ -51,7 +52,8 @@ object Textures:
     private val tex = floatTexture("tex", "one factor", onlyV4)(1f)
     private val scale = floatTexture("scale", "the other", onlyV4)(1f)
     protected def make()(using site: Site): FloatTexture =
-      if site.dialect == Dialect.V4 then ScaledFloat.of(tex(), scale()) else ScaledFloat.of(tex1(), tex2())
+      if site.dialect == Dialect.V4 then ScaledFloat.of(tex(), scale())
+      else ScaledFloat.of(tex1(), tex2())
 
   object RgbScale extends Recipe[RgbTexture]("scale"):
     private val tex1 = rgbTexture("tex1", "one factor", untilV3)(Rgb.White)
@@ -59,7 +61,8 @@ object Textures:
     private val tex = rgbTexture("tex", "the colour", onlyV4)(Rgb.White)
     private val scale = floatTexture("scale", "its factor", onlyV4)(1f)
     protected def make()(using site: Site): RgbTexture =
-      if site.dialect == Dialect.V4 then ScaledRgb.of(tex(), scale()) else ProductRgb.of(tex1(), tex2())
+      if site.dialect == Dialect.V4 then ScaledRgb.of(tex(), scale())
+      else ProductRgb.of(tex1(), tex2())
 
   object FloatMix extends Recipe[FloatTexture]("mix"):
     private val tex1 = floatTexture("tex1", "where `amount` is 0")(0f)
@@ -68,7 +71,8 @@ object Textures:
     protected def make()(using Site): FloatTexture = MixFloat.of(tex1(), tex2(), amount())
 
   object RgbMix extends Recipe[RgbTexture]("mix"):
-    private val tex1 = rgbTexture("tex1", "where `amount` is 0")(if v4 then Rgb.Black else Rgb.Black)
+    private val tex1 =
+      rgbTexture("tex1", "where `amount` is 0")(if v4 then Rgb.Black else Rgb.Black)
     private val tex2 = rgbTexture("tex2", "where `amount` is 1")(Rgb.White)
     private val amount = floatTexture("amount", "between the two, 0 to 1")(0.5f)
     protected def make()(using Site): RgbTexture = MixRgb.of(tex1(), tex2(), amount())
@@ -76,7 +80,9 @@ object Textures:
   /** The parameters of a two-dimensional mapping, which many textures share. */
   abstract class Mapped[A](name: String, toWorld: Transform) extends Recipe[A](name):
     private val mapping =
-      oneOf("mapping", "how the surface gets coordinates", "uv", "spherical", "cylindrical", "planar")("uv")
+      oneOf(
+        "mapping", "how the surface gets coordinates", "uv", "spherical", "cylindrical", "planar"
+      )("uv")
     private val uscale = float("uscale", "repetitions along u")(1f)
     private val vscale = float("vscale", "repetitions along v")(1f)
     private val udelta = float("udelta", "moves along u")(0f)
@@ -114,31 +120,37 @@ object Textures:
       CheckerboardRgb(mapped(), tex1(), tex2())
 
   final class FloatBilerp(toWorld: Transform) extends Mapped[FloatTexture]("bilerp", toWorld):
-    private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map: (n, d) =>
-      float(n, s"value at the corner $n")(d)
+    private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
+      (n, d) =>
+        float(n, s"value at the corner $n")(d)
     protected def make()(using Site): FloatTexture =
       BilerpFloat(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
   final class RgbBilerp(toWorld: Transform) extends Mapped[RgbTexture]("bilerp", toWorld):
-    private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map: (n, d) =>
-      color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
+    private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
+      (n, d) =>
+        color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
     protected def make()(using Site): RgbTexture =
       BilerpRgb(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
   abstract class ImageMap[A](toWorld: Transform) extends Mapped[A]("imagemap", toWorld):
     private val filename = string("filename", "png, tga, jpg, exr or hdr")("")
-    private val wrap = oneOf("wrap", "beyond the image", "repeat", "black", "clamp", "octahedralsphere")("repeat")
+    private val wrap =
+      oneOf("wrap", "beyond the image", "repeat", "black", "clamp", "octahedralsphere")("repeat")
     protected val scale = float("scale", "factor of the values")(1f)
     protected val invert = bool("invert", "1 − value", onlyV4)(false)
     private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
     private val gammaFlag = bool("gamma", "are values sRGB-encoded?", onlyV3)(true)
-    private val encoding = string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("sRGB")
+    private val encoding =
+      string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("sRGB")
     private val filter =
       oneOf("filter", "of the lookup", "point", "bilinear", "trilinear", "ewa", "EWA")("bilinear")
     irrelevant("trilinear", "maxanisotropy")
 
     /** The picture's lookup; None after a problem was reported. */
-    protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using site: Site): Option[ImageLookup] =
+    protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using
+        site: Site
+    ): Option[ImageLookup] =
       site.declaration.param("filename").filter(_ => filename().nonEmpty) match
         case None =>
           site.error("an imagemap needs a `filename`")

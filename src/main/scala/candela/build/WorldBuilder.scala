@@ -24,7 +24,9 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   private val lights = ArrayBuffer.empty[Light]
   private val lightSamples = ArrayBuffer.empty[Int]
 
-  /** Lights of mesh triangles can be made only when all triangles are known: (plan, first, count). */
+  /** Lights of mesh triangles can be made only when all triangles are known: (plan, first,
+    * count).
+    */
   private val meshLights = ArrayBuffer.empty[(AreaLightPlan, Int, Int, Int)]
 
   private def site(d: Declaration) = Site(d, description.dialect, resources, problems)
@@ -37,7 +39,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     for (plan, first, count, light) <- meshLights do
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
-      for (sampler, k) <- samplers.zipWithIndex do lights(light + k) = plan.ofTriangle(sampler, area)
+      for (sampler, k) <- samplers.zipWithIndex do
+        lights(light + k) = plan.ofTriangle(sampler, area)
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
     val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
     for l <- description.lights do addLight(l, complete)
@@ -76,7 +79,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       case Some(d) if d.name == "bvh" => Bvh(primitives)
       case Some(d) =>
         val what = if d.name == "kdtree" then "" else "unknown "
-        problems.warn(d.at, s"${what}accelerator \"${d.name}\": a bvh is used, with the same picture")
+        problems.warn(
+          d.at,
+          s"${what}accelerator \"${d.name}\": a bvh is used, with the same picture"
+        )
         Bvh(primitives)
       case None => Bvh(primitives)
 
@@ -129,7 +135,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     val count = mesh.indices.length / 3
     if soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
       here.error(
-        s"more than ${WorldBuilder.MostTriangles} triangles: each instance is a copy until instancing is supported"
+        s"more than ${WorldBuilder.MostTriangles} triangles: until instancing is supported, " +
+          "each instance is a copy"
       )
     else
       val firstLight = light.fold(-1)(_ => lights.length)

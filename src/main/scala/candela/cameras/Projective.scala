@@ -64,8 +64,8 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   *
   * @param fov full angle in degrees that [-1, 1] of the screen spans
   *
-  * Source: Kolb, Mitchell, Hanrahan, "A Realistic Camera Model for Computer Graphics", SIGGRAPH 1995,
-  * for the thin lens; PBRT 3rd ed., §6.2.
+  * Source: Kolb, Mitchell, Hanrahan, "A Realistic Camera Model for Computer Graphics", SIGGRAPH
+  * 1995, for the thin lens; PBRT 3rd ed., §6.2.
   */
 final class PerspectiveCamera(setup: ProjectiveSetup, fov: Float) extends ProjectiveCamera(setup):
   private val spread = Math.tan(Math.toRadians(fov.toDouble) / 2).toFloat

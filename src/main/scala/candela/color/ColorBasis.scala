@@ -1,11 +1,11 @@
 package candela.color
 
-/** The three components in which light is multiplied on its way through a scene, as a linear map from
-  * and to linear sRGB that keeps white (1, 1, 1).
+/** The three components in which light is multiplied on its way through a scene, as a linear map
+  * from and to linear sRGB that keeps white (1, 1, 1).
   *
   * Light is scattered wavelength by wavelength, and the product of two colours' spectra has another
-  * colour than the product of their sRGB components: bounces off coloured surfaces drift. A basis with
-  * sharper primaries drifts less, at no cost for each ray.
+  * colour than the product of their sRGB components: bounces off coloured surfaces drift. A basis
+  * with sharper primaries drifts less, at no cost for each ray.
   *
   * Source of the idea: Ward and Eydelberg-Vileshin, "Picture Perfect RGB Rendering Using Spectral
   * Prefiltering and Sharp Color Primaries", Eurographics Workshop on Rendering 2002.
@@ -25,10 +25,11 @@ object ColorBasis:
   /** The components of sRGB themselves: how pbrt-v2 and v3 multiply colours. */
   val Srgb: ColorBasis = ColorBasis(identity, identity)
 
-  /** For pbrt-v4, which renders wavelengths. Fitted so that products of the spectra of a light and up to
-    * four surfaces, smooth and mostly of low saturation, have the colours that they have by wavelength.
-    * Over 1,200 such products it is off by 4.7 % of a channel (root mean square; sRGB: 7.4 %), on average
-    * by 0.1 % in blue (sRGB: 2.0 %). Every sRGB colour has components that are not negative.
+  /** For pbrt-v4, which renders wavelengths. Fitted so that products of the spectra of a light and
+    * up to four surfaces, smooth and mostly of low saturation, have the colours that they have by
+    * wavelength. Over 1,200 such products it is off by 4.7 % of a channel (root mean square; sRGB:
+    * 7.4 %), on average by 0.1 % in blue (sRGB: 2.0 %). Every sRGB colour has components that are
+    * not negative.
     */
   val Sharp: ColorBasis = ofRows(
     Array(

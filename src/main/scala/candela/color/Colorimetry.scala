@@ -2,7 +2,9 @@ package candela.color
 
 import scala.io.{Codec, Source}
 
-/** From spectra to linear sRGB, with the CIE 1931 observer, and the spectra that scenes can name. */
+/** From spectra to linear sRGB, with the CIE 1931 observer, and the spectra that scenes can
+  * name.
+  */
 object Colorimetry:
 
   /** Which light a spectrum is seen under. */
@@ -45,7 +47,9 @@ object Colorimetry:
   val names: Vector[String] =
     val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
     metals.flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k")) ++
-      Vector("BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11").map(g => s"glass-$g") :+ "stdillum-D65"
+      Vector(
+        "BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11"
+      ).map(g => s"glass-$g") :+ "stdillum-D65"
 
   def named(name: String): Option[Spectrum] =
     val file = name.stripPrefix("stdillum-")

@@ -1,6 +1,8 @@
 package candela.color
 
-/** Linear light in the primaries of sRGB (Rec. 709): radiance, reflectance, or a weight; immutable. */
+/** Linear light in the primaries of sRGB (Rec. 709): radiance, reflectance, or a weight;
+  * immutable.
+  */
 final class Rgb(val r: Float, val g: Float, val b: Float):
   def +(c: Rgb): Rgb = Rgb(r + c.r, g + c.g, b + c.b)
   def -(c: Rgb): Rgb = Rgb(r - c.r, g - c.g, b - c.b)

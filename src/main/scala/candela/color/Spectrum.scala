@@ -31,8 +31,8 @@ object Spectrum:
 
   def constant(value: Float): Spectrum = Spectrum(Array(550f), Array(value))
 
-  /** Spectral radiance of a black body of `kelvin`, scaled to a maximum of 1 (Planck's law; the maximum
-    * by Wien's displacement law).
+  /** Spectral radiance of a black body of `kelvin`, scaled to a maximum of 1 (Planck's law; the
+    * maximum by Wien's displacement law).
     */
   def blackbody(kelvin: Float): Spectrum =
     val peak = planck(2.8977721e-3 / kelvin, kelvin)

@@ -2,8 +2,8 @@ package candela.color
 
 import candela.math.clamp
 
-/** The smooth spectrum, between 0 and 1, that looks like a given reflectance under D65: the logistic
-  * function of a parabola over wavelength, as pbrt-v4 gives every RGB colour.
+/** The smooth spectrum, between 0 and 1, that looks like a given reflectance under D65: the
+  * logistic function of a parabola over wavelength, as pbrt-v4 gives every RGB colour.
   *
   * Source: Jakob and Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling",
   * Eurographics 2019. Fitted here by Newton's method along the way from grey to the colour.

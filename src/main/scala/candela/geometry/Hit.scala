@@ -5,5 +5,7 @@ final class Hit:
   /** Which primitive, as the accelerator numbers them; −1: none. */
   var primitive: Int = -1
 
-  /** For a triangle the barycentric weights of its second and third vertex; shapes use them freely. */
+  /** For a triangle the barycentric weights of its second and third vertex; shapes use them
+    * freely.
+    */
   var u, v: Float = 0f

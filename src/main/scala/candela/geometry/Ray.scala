@@ -4,8 +4,8 @@ import candela.math.*
 
 /** A half-line with an end, and what every intersection test wants to know of its direction.
   *
-  * Mutable, one per worker and purpose: the kernels read its fields, so that tracing a ray allocates
-  * nothing. `tMax` shrinks to the closest hit found so far.
+  * Mutable, one per worker and purpose: the kernels read its fields, so that tracing a ray
+  * allocates nothing. `tMax` shrinks to the closest hit found so far.
   */
 final class Ray:
   var ox, oy, oz = 0f
@@ -16,14 +16,14 @@ final class Ray:
   var invX, invY, invZ = 0f
 
   /** The axis along which the direction is longest, and the other two in an order that keeps the
-    * handedness; with the shear that turns the ray into +z. Source: Woop, Benthin, Wald, "Watertight
-    * Ray/Triangle Intersection", JCGT 2(1), 2013.
+    * handedness; with the shear that turns the ray into +z. Source: Woop, Benthin, Wald,
+    * "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
     */
   var kx, ky, kz = 0
   var shearX, shearY, shearZ = 0f
 
-  /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree that
-    * the builder makes.
+  /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree
+    * that the builder makes.
     */
   val stack: Array[Long] = new Array[Long](128)
 

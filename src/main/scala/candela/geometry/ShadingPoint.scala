@@ -30,8 +30,8 @@ final class ShadingPoint:
   /** Index into the scene's lights if this surface emits, else −1. */
   var areaLight: Int = -1
 
-  /** Where a ray in `direction` starts, so that it can't meet the surface it leaves: moved along the
-    * geometric normal out of the box that `pError` spans, then rounded outwards.
+  /** Where a ray in `direction` starts, so that it can't meet the surface it leaves: moved along
+    * the geometric normal out of the box that `pError` spans, then rounded outwards.
     *
     * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.5.
     */

@@ -10,7 +10,8 @@ import candela.scene.Scene
 /** Light that comes straight from the sources, or by way of mirrors and glass only.
   *
   * @param maxDepth     most specular bounces, plus one
-  * @param lightSamples how often each light is sampled at a point; empty: one light, chosen at random
+  * @param lightSamples how often each light is sampled at a point; empty: one light, chosen at
+  *                     random
   *
   * Where a surface both mirrors and refracts, one of the two is followed at random instead of both:
   * the same mean at a cost that does not double with each bounce.

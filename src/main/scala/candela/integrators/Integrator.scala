@@ -4,8 +4,8 @@ import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.Sampler
 
-/** Estimates the radiance that arrives along a ray. One object for each worker (it owns mutable work
-  * space); `copy` makes the next worker's.
+/** Estimates the radiance that arrives along a ray. One object for each worker (it owns mutable
+  * work space); `copy` makes the next worker's.
   */
 abstract class Integrator:
   def radiance(ray: Ray, sampler: Sampler): Rgb

@@ -19,8 +19,8 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
 
   def raysTraced: Long = rays
 
-  /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight` of
-    * its index and of its density as a function of direction.
+  /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight`
+    * of its index and of its density as a function of direction.
     */
   protected inline def escaped(
       direction: Vec3,
@@ -61,7 +61,8 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
       else
         val pdf = selected * lightSample.pdf
         val weight =
-          if combined && !source.isDelta then LightTransport.powerHeuristic(pdf, bsdf.pdf(local, towards))
+          if combined && !source.isDelta then
+            LightTransport.powerHeuristic(pdf, bsdf.pdf(local, towards))
           else 1f
         f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
 
@@ -88,14 +89,15 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
     scene.isOccluded(shadowRay, shadowHit)
 
 object LightTransport:
-  /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of its
-    * two ends must not reach the light's own surface.
+  /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of
+    * its two ends must not reach the light's own surface.
     */
   inline val ShadowEnd = 0.9999f
 
   /** Weight of a sample drawn with density `a` where `b` could have drawn it too.
     *
-    * Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9.2.4, β = 2.
+    * Source: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §9.2.4, β =
+    * 2.
     */
   def powerHeuristic(a: Float, b: Float): Float =
     if a == Float.PositiveInfinity then 1f

@@ -13,7 +13,8 @@ import candela.scene.Scene
   * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
   *
-  * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed., §13.4.
+  * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
+  * §13.4.
   */
 final class PathTracer(
     scene: Scene,
@@ -70,7 +71,9 @@ final class PathTracer(
             val chosen = scene.selection.choose(at.p, n, choice)
             if chosen >= 0 then
               val selected = scene.selection.probability(at.p, n, chosen)
-              light += throughput * sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+              light += throughput * sampleLight(
+                chosen, selected, bsdf, wo, sampler, combined = true
+              )
           val choice = sampler.next1D()
           sampler.next2D()
           val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
@@ -88,6 +91,8 @@ final class PathTracer(
               if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
     light
 
-  /** Weight of light that a sampled direction met, which light sampling finds with density `pdf`. */
+  /** Weight of light that a sampled direction met, which light sampling finds with density
+    * `pdf`.
+    */
   private def misWeight(sampled: Float, pdf: Float): Float =
     if sampled > 0f then LightTransport.powerHeuristic(sampled, pdf) else 1f

@@ -6,12 +6,13 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Recursive ray tracing: every light is sampled once at each point, and mirrors and glass are followed.
+/** Recursive ray tracing: every light is sampled once at each point, and mirrors and glass are
+  * followed.
   *
   * @param maxDepth most specular bounces, plus one
   *
-  * Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; one random
-  * specular branch instead of a tree, as in [[DirectLighting]].
+  * Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; one
+  * random specular branch instead of a tree, as in [[DirectLighting]].
   */
 final class Whitted(scene: Scene, maxDepth: Int) extends LightTransport(scene):
 

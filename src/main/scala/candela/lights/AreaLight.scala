@@ -5,8 +5,8 @@ import candela.geometry.{Bounds3, ShadingPoint}
 import candela.math.*
 import candela.shapes.SurfaceSampler
 
-/** A surface that emits the same `emitted` radiance from each point in all directions of its outside
-  * (`twoSided`: of both sides).
+/** A surface that emits the same `emitted` radiance from each point in all directions of its
+  * outside (`twoSided`: of both sides).
   *
   * @param box contains the surface
   * @param axis mean of its normals, and the cosine of the largest angle that a normal makes with it

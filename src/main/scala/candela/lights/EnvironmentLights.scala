@@ -8,8 +8,8 @@ import candela.sampling.{Distribution2D, Warp}
 
 /** The same radiance from all directions.
   *
-  * @param complete must `sample` find it? If not it is left to BSDF sampling, which serves a uniform
-  *                 light at least as well and costs no shadow ray
+  * @param complete must `sample` find it? If not it is left to BSDF sampling, which serves a
+  *                 uniform light at least as well and costs no shadow ray
   */
 final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends EnvironmentLight:
   override def isSampled: Boolean = complete && !emitted.isBlack
@@ -28,9 +28,9 @@ final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends Environ
   * @param layout   how it covers the sphere, in light space
   * @param factor   of the image's values
   * @param smooth   bilinear between pixel centres (pbrt-v2, v3), or each pixel of one colour (v4)
-  * @param complete must `sample` reach every bright pixel? If not, pixels darker than the mean are left
-  *                 to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling Techniques in
-  *                 Multiple Importance Sampling", TOG 38(6), 2019)
+  * @param complete must `sample` reach every bright pixel? If not, pixels darker than the mean are
+  *                 left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
+  *                 Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
   */
 final class ImageEnvironment(
     lightToWorld: Transform,

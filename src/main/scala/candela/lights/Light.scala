@@ -19,7 +19,9 @@ abstract class Light:
   /** Can a ray never meet it by chance? Then only `sample` finds it. */
   def isDelta: Boolean
 
-  /** Where it is and how strong, for choosing between lights; None: it is everywhere (at infinity). */
+  /** Where it is and how strong, for choosing between lights; None: it is everywhere (at
+    * infinity).
+    */
   def bounds: Option[LightBounds]
 
 /** What [[Light.sample]] chose; mutable, one per worker. */
@@ -27,8 +29,8 @@ final class LightSample:
   /** Unit vector towards the light. */
   var wi: Vec3 = Vec3.Z
 
-  /** Radiance that would arrive if nothing is in the way; for delta lights the irradiance on a plane
-    * facing the light, with `pdf` 1.
+  /** Radiance that would arrive if nothing is in the way; for delta lights the irradiance on a
+    * plane facing the light, with `pdf` 1.
     */
   var radiance: Rgb = Rgb.Black
 

@@ -3,16 +3,17 @@ package candela.lights
 import candela.geometry.Bounds3
 import candela.math.*
 
-/** Where lights are, where they shine and how much: enough to guess how much they matter at a point.
+/** Where lights are, where they shine and how much: enough to guess how much they matter at a
+  * point.
   *
   * @param axis         unit mean direction of the surfaces' normals
   * @param cosNormals   of the largest angle between a normal and `axis` (θo)
   * @param cosEmission  of the largest angle between a normal and light that it sends out (θe)
   * @param power        in watts, any common scale
   *
-  * Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree Splitting",
-  * PACMCGIT 1(2), 2018; the bound for cones as in Pharr, Jakob, Humphreys, "Physically Based
-  * Rendering", 4th ed., §12.6.3.
+  * Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
+  * Splitting", PACMCGIT 1(2), 2018; the bound for cones as in Pharr, Jakob, Humphreys, "Physically
+  * Based Rendering", 4th ed., §12.6.3.
   */
 final case class LightBounds(
     box: Bounds3,
@@ -26,8 +27,8 @@ final case class LightBounds(
   private val radius2 = square(box.radius)
   private val minDistance2 = Math.max(radius2, square(box.extent.length * 0.5f))
 
-  /** Larger where these lights may bring more light to `p` with normal `n` (zero vector: a point that
-    * takes light from all around). Zero only where they can bring none.
+  /** Larger where these lights may bring more light to `p` with normal `n` (zero vector: a point
+    * that takes light from all around). Zero only where they can bring none.
     */
   def importance(p: Vec3, n: Vec3): Float =
     val toCenter = center - p

@@ -1,12 +1,13 @@
 package candela.lights
 
-
 import candela.math.*
 
 /** Which light to sample at a point. Immutable. */
 abstract class LightSelection:
 
-  /** Chooses a light for the point `p` with normal `n`: its index, or −1 if none can bring light. */
+  /** Chooses a light for the point `p` with normal `n`: its index, or −1 if none can bring
+    * light.
+    */
   def choose(p: Vec3, n: Vec3, u: Float): Int
 
   /** The probability with which `choose` returns `light`. */
@@ -26,13 +27,14 @@ final class UniformSelection(lights: Int) extends LightSelection:
   def probability(p: Vec3, n: Vec3, light: Int): Float = 1f / lights
   def describe: String = s"$lights lights, uniformly"
 
-/** By a binary tree of [[LightBounds]], going down at each node by the importance of its children; the
-  * lights at infinity are chosen each as often as the whole tree.
+/** By a binary tree of [[LightBounds]], going down at each node by the importance of its children;
+  * the lights at infinity are chosen each as often as the whole tree.
   *
   * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
   */
 final class LightTree(lights: Array[Light]) extends LightSelection:
-  private val infinite: Array[Int] = lights.indices.filter(i => lights(i).bounds.isEmpty && lights(i).isSampled).toArray
+  private val infinite: Array[Int] =
+    lights.indices.filter(i => lights(i).bounds.isEmpty && lights(i).isSampled).toArray
   private val finite: Array[(Int, LightBounds)] =
     for i <- lights.indices.toArray; b <- lights(i).bounds.toArray if b.power > 0f yield (i, b)
 
@@ -41,7 +43,9 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private val children = new Array[Int](nodes.length)
   private var used = 0
 
-  /** Per light: the way from the root as bits, low bit first, 1 = second child; −1: not in the tree. */
+  /** Per light: the way from the root as bits, low bit first, 1 = second child; −1: not in the
+    * tree.
+    */
   private val trail = Array.fill(lights.length)(-1L)
 
   if finite.nonEmpty then build(finite, 0L, 0): Unit
@@ -68,7 +72,8 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
     all
 
   /** Halves by the axis on which centres spread most: depth stays at log2 of the count. */
-  private def split(part: Array[(Int, LightBounds)]): (Array[(Int, LightBounds)], Array[(Int, LightBounds)]) =
+  private def split(part: Array[(Int, LightBounds)])
+      : (Array[(Int, LightBounds)], Array[(Int, LightBounds)]) =
     val centers = candela.geometry.Bounds3.of(part.map(_._2.box.center)).extent
     val axis = (0 until 3).maxBy(k => centers(k))
     part.sortBy(_._2.box.center(axis)).splitAt(part.length / 2)

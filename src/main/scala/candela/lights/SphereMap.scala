@@ -2,7 +2,9 @@ package candela.lights
 
 import candela.math.*
 
-/** How an image covers the sphere of directions; (x, y) are in [0, 1], y down from the image's top. */
+/** How an image covers the sphere of directions; (x, y) are in [0, 1], y down from the image's
+  * top.
+  */
 abstract class SphereMap:
 
   /** Image place of the unit direction `d`, as (x, y, 0). */
@@ -44,7 +46,8 @@ object EqualAreaMap extends SphereMap:
     val (ax, ay, az) = (Math.abs(d.x), Math.abs(d.y), Math.abs(d.z))
     val r = safeSqrt(1f - az)
     val phi = // of the first octant, in [0, 1]
-      if ax == 0f && ay == 0f then 0f else Math.atan2(ay.toDouble, ax.toDouble).toFloat * (2f * InvPi)
+      if ax == 0f && ay == 0f then 0f
+      else Math.atan2(ay.toDouble, ax.toDouble).toFloat * (2f * InvPi)
     val v0 = phi * r
     val u0 = r - v0
     val u = if d.z < 0f then 1f - v0 else u0

@@ -97,10 +97,22 @@ object Transform:
       val c = Math.cos(Math.toRadians(degrees))
       val k = 1 - c
       val m = IArray[Double](
-        ax * ax * k + c, ax * ay * k - az * s, ax * az * k + ay * s, 0, //
-        ax * ay * k + az * s, ay * ay * k + c, ay * az * k - ax * s, 0, //
-        ax * az * k - ay * s, ay * az * k + ax * s, az * az * k + c, 0, //
-        0, 0, 0, 1
+        ax * ax * k + c,
+        ax * ay * k - az * s,
+        ax * az * k + ay * s,
+        0, //
+        ax * ay * k + az * s,
+        ay * ay * k + c,
+        ay * az * k - ax * s,
+        0, //
+        ax * az * k - ay * s,
+        ay * az * k + ax * s,
+        az * az * k + c,
+        0, //
+        0,
+        0,
+        0,
+        1
       )
       Transform(m, transposed(m))
 
@@ -134,10 +146,22 @@ object Transform:
     val inv = 1 / Math.tan(Math.toRadians(fov) / 2)
     fromRows(
       Vector(
-        inv, 0, 0, 0, //
-        0, inv, 0, 0, //
-        0, 0, far / (far - near), -far * near / (far - near), //
-        0, 0, 1, 0
+        inv,
+        0,
+        0,
+        0, //
+        0,
+        inv,
+        0,
+        0, //
+        0,
+        0,
+        far / (far - near),
+        -far * near / (far - near), //
+        0,
+        0,
+        1,
+        0
       )
     ).get
 

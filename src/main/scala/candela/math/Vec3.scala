@@ -1,7 +1,7 @@
 package candela.math
 
-/** A point, direction or offset in space, or a normal: three Floats, immutable. What it stands for is
-  * said by the name that holds it; [[Transform]] has one method for each meaning.
+/** A point, direction or offset in space, or a normal: three Floats, immutable. What it stands for
+  * is said by the name that holds it; [[Transform]] has one method for each meaning.
   */
 final class Vec3(val x: Float, val y: Float, val z: Float):
   def +(b: Vec3): Vec3 = Vec3(x + b.x, y + b.y, z + b.z)
@@ -22,7 +22,9 @@ final class Vec3(val x: Float, val y: Float, val z: Float):
   def lengthSquared: Float = x * x + y * y + z * z
   def length: Float = sqrt(lengthSquared)
 
-  /** Unit length; NaN for the zero vector. Doubles inside, so lengths of 1e±30 neither over- nor underflow. */
+  /** Unit length; NaN for the zero vector. Doubles inside, so lengths of 1e±30 neither over- nor
+    * underflow.
+    */
   def normalized: Vec3 =
     val (dx, dy, dz) = (x.toDouble, y.toDouble, z.toDouble)
     val s = 1.0 / Math.sqrt(dx * dx + dy * dy + dz * dz)

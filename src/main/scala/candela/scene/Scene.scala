@@ -15,9 +15,9 @@ final case class ShapeInstance(shape: Shape, material: Int, light: Int)
 
 /** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
   *
-  * @param sidesByGeometry does the geometric normal say which directions are reflections? So in pbrt-v2
-  *                        and v3, which thereby keep light from leaking through; pbrt-v4 goes by the
-  *                        shading normal alone
+  * @param sidesByGeometry does the geometric normal say which directions are reflections? So in
+  *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
+  *                        goes by the shading normal alone
   */
 final class Scene(
     soup: TriangleSoup,

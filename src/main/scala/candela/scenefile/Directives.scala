@@ -41,7 +41,8 @@ object Directives:
     option("VolumeIntegrator"),
     Directive("TransformTimes", "start end", Options): (in, scene) =>
       val times = in.numbers(2)
-      scene.transformTimes(times(0).toFloat, times(1).toFloat),
+      scene.transformTimes(times(0).toFloat, times(1).toFloat)
+    ,
     Directive("WorldBegin", "", Options)((in, scene) => scene.beginWorld(in.at))
   )
 
@@ -49,15 +50,18 @@ object Directives:
     Directive("Identity", "", Anywhere)((_, scene) => scene.transform(_ => Transform.Identity)),
     Directive("Translate", "x y z", Anywhere): (in, scene) =>
       val v = in.numbers(3)
-      scene.transform(_ * Transform.translate(v(0), v(1), v(2))),
+      scene.transform(_ * Transform.translate(v(0), v(1), v(2)))
+    ,
     Directive("Scale", "x y z", Anywhere): (in, scene) =>
       val v = in.numbers(3)
       val scale = regular(in.at, "a scale of zero")(Transform.scale(v(0), v(1), v(2)))
-      scene.transform(_ * scale),
+      scene.transform(_ * scale)
+    ,
     Directive("Rotate", "degrees axis.x axis.y axis.z", Anywhere): (in, scene) =>
       val v = in.numbers(4)
       val rotation = regular(in.at, "an axis of length 0")(Transform.rotate(v(0), v(1), v(2), v(3)))
-      scene.transform(_ * rotation),
+      scene.transform(_ * rotation)
+    ,
     Directive("LookAt", "eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z", Anywhere):
       (in, scene) =>
         val v = in.numbers(9)
@@ -67,15 +71,18 @@ object Directives:
     ,
     Directive("Transform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
       val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
-      scene.transform(_ => matrix),
+      scene.transform(_ => matrix)
+    ,
     Directive("ConcatTransform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
       val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
-      scene.transform(_ * matrix),
+      scene.transform(_ * matrix)
+    ,
     Directive("CoordinateSystem", "\"name\"", Anywhere): (in, scene) =>
       scene.nameCoordinates(in.quoted("a name")._1),
     Directive("CoordSysTransform", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
-      scene.useCoordinates(name, at),
+      scene.useCoordinates(name, at)
+    ,
     Directive("ActiveTransform", "All | StartTime | EndTime", Anywhere): (in, scene) =>
       scene.activate(ActiveTransform.valueOf(in.word("All", "StartTime", "EndTime")))
   )
@@ -95,7 +102,8 @@ object Directives:
     Directive("ObjectEnd", "", World)((in, scene) => scene.endObject(in.at)),
     Directive("ObjectInstance", "\"name\"", World): (in, scene) =>
       val (name, at) = in.quoted("an object's name")
-      scene.instance(name, at),
+      scene.instance(name, at)
+    ,
     Directive("WorldEnd", "", World)((in, scene) => scene.worldEnd = Some(in.at))
   )
 
@@ -110,7 +118,8 @@ object Directives:
     declaration("Volume")(_.volume(_)),
     Directive("NamedMaterial", "\"name\"", World): (in, scene) =>
       val (name, at) = in.quoted("a material's name")
-      scene.namedMaterial(name, at),
+      scene.namedMaterial(name, at)
+    ,
     Directive("ReverseOrientation", "", World)((_, scene) => scene.reverseOrientation()),
     Directive("Texture", "\"name\" \"float|spectrum\" \"class\" parameters", World): (in, scene) =>
       val (name, at) = in.quoted("a name")
@@ -129,24 +138,29 @@ object Directives:
   private val others: List[Directive] = List(
     Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
       val from = in.named("a target")
-      scene.attribute(from.name, from.at, from.params),
+      scene.attribute(from.name, from.at, from.params)
+    ,
     Directive("ColorSpace", "\"name\"", Anywhere): (in, _) =>
       val (name, at) = in.quoted("a name")
       if name != "srgb" then
         val message = s"the color space `$name` is not supported: colors are taken as sRGB"
-        in.report(Problem.warning(at, message)),
+        in.report(Problem.warning(at, message))
+    ,
     Directive("Import", "\"file\"", World): (in, scene) =>
       val (file, at) = in.quoted("a file name")
-      scene.blocks.isolated(in.include(file, at)).foreach(in.report),
+      scene.blocks.isolated(in.include(file, at)).foreach(in.report)
+    ,
     Directive("Include", "\"file\"", Anywhere): (in, _) =>
       val (file, at) = in.quoted("a file name")
-      in.include(file, at),
+      in.include(file, at)
+    ,
     Directive("MakeNamedMedium", "\"name\" \"string type\" \"…\" parameters", Anywhere):
       (in, scene) => scene.makeNamedMedium(in.named())
     ,
     Directive("MediumInterface", "\"inside\" \"outside\"", Anywhere): (in, scene) =>
       val (inside, _) = in.quoted("a medium's name")
-      scene.mediumInterface(inside, in.another.getOrElse(inside)),
+      scene.mediumInterface(inside, in.another.getOrElse(inside))
+    ,
     Directive("Option", "\"name\" value", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
       scene.option(in.value(SceneOptions.typeOf(name, at), SceneOptions.plain(name)))

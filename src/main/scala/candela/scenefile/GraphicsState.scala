@@ -33,8 +33,7 @@ final case class GraphicsState(
       case ActiveTransform.All if start eq end => GraphicsState.still(change(start))
       case ActiveTransform.All => AnimatedTransform(change(start), change(end))
       case ActiveTransform.StartTime => AnimatedTransform(change(start), end)
-      case ActiveTransform.EndTime => AnimatedTransform(start, change(end))
-    )
+      case ActiveTransform.EndTime => AnimatedTransform(start, change(end)))
 
   /** With the transforms of `other`, and all else as it is. */
   def withTransformsOf(other: GraphicsState): GraphicsState =

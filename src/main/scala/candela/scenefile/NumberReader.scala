@@ -90,7 +90,8 @@ final class NumberReader(bytes: Array[Byte]):
   /** Does the number, without its fraction, fit an Int? */
   def fitsInt: Boolean =
     if exponent == 0 then mantissa <= Int.MaxValue || (isNegative && mantissa == 1L << 31)
-    else { val d = toDouble; d > -2147483649.0 && d < 2147483648.0 }
+    else
+      val d = toDouble; d > -2147483649.0 && d < 2147483648.0
 
   /** The number without its fraction; meaningful if [[fitsInt]]. */
   def toInt: Int =

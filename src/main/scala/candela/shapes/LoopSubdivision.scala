@@ -146,7 +146,8 @@ object LoopSubdivision:
       vertices(back) = odd(behind)
       vertices(middle) = odd(corner)
       val (twin, twinBehind) = (table.twins(corner), table.twins(behind))
-      twins(own) = if twin < 0 then -1 else
+      twins(own) = if twin < 0 then -1
+      else
         val there = next(twin) // the same vertex, in the neighbour
         turned(child(there, there % 3), there, twin)
       twins(back) = if twinBehind < 0 then -1 else child(twinBehind, twinBehind % 3)

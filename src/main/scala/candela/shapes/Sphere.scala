@@ -3,11 +3,12 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** A sphere, perhaps cut by two planes of constant z and swept over less than a full turn, anywhere in
-  * the world and of any affine shape.
+/** A sphere, perhaps cut by two planes of constant z and swept over less than a full turn, anywhere
+  * in the world and of any affine shape.
   *
-  * The quadratic is solved in Double: Float data give a discriminant that is exact enough for spheres
-  * a million radii away (stability suite), and the hit point's error is that of its rounding alone.
+  * The quadratic is solved in Double: Float data give a discriminant that is exact enough for
+  * spheres a million radii away (stability suite), and the hit point's error is that of its
+  * rounding alone.
   *
   * @param zMin, zMax clip planes in object space; −radius, radius for a full sphere
   * @param phiMax     sweep in radians, 2π for a full sphere
@@ -127,7 +128,8 @@ final class Sphere(
 
   def area: Float =
     // Exact for uniform scales; a non-uniform one is sampled by its bounding ellipsoid's mean
-    val scale2 = square(uniformScale.getOrElse(Math.cbrt(Math.abs(Sphere.determinant(toWorld))).toFloat))
+    val scale2 =
+      square(uniformScale.getOrElse(Math.cbrt(Math.abs(Sphere.determinant(toWorld))).toFloat))
     phiMax * radius * (zMax - zMin) * scale2
 
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
@@ -138,7 +140,9 @@ final class Sphere(
       out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
     if reversed then out.n = -out.n
 
-  /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world area. */
+  /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world
+    * area.
+    */
   private def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     // In Double up to the world point, for whose rounding alone `pError` stands (SpawnedRaySuite)
     val z = zMin + u1.toDouble * (zMax.toDouble - zMin)

@@ -20,7 +20,14 @@ object SphereSampling:
     val (x, y, z) = (a.x.toDouble - b.x, a.y.toDouble - b.y, a.z.toDouble - b.z)
     x * x + y * y + z * z
 
-  def cone(center: Vec3, radius: Float, from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  def cone(
+      center: Vec3,
+      radius: Float,
+      from: Vec3,
+      u1: Float,
+      u2: Float,
+      out: SurfaceSample
+  ): Unit =
     val radius2 = radius.toDouble * radius
     val distance2 = distanceSquared(center, from)
     val distance = Math.sqrt(distance2)

@@ -77,7 +77,8 @@ final class TriangleSoup(
     at.frame =
       if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
     at.material = mesh.material
-    at.areaLight = if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
+    at.areaLight =
+      if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
 
   private def mix(p0: Vec3, p1: Vec3, p2: Vec3, b1: Double, b2: Double): Vec3 =
     val b0 = 1.0 - b1 - b2

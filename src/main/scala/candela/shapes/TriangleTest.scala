@@ -3,16 +3,16 @@ package candela.shapes
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 
-/** The ray–triangle test: watertight, so that a ray through a closed mesh's edge or vertex always meets
-  * one of the triangles that share it.
+/** The ray–triangle test: watertight, so that a ray through a closed mesh's edge or vertex always
+  * meets one of the triangles that share it.
   *
-  * Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; the bound on
-  * the error of t from Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.6.
+  * Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; the bound
+  * on the error of t from Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.6.
   */
 object TriangleTest:
 
-  /** Tests the nine Floats of `v` from `at` on: the corners' coordinates. On a hit in (0, `ray.tMax`)
-    * shortens the ray, writes the barycentric weights, and is true.
+  /** Tests the nine Floats of `v` from `at` on: the corners' coordinates. On a hit in (0,
+    * `ray.tMax`) shortens the ray, writes the barycentric weights, and is true.
     */
   def intersect(v: Array[Float], at: Int, ray: Ray, hit: Hit): Boolean =
     test(v, at, ray, hit, write = true)

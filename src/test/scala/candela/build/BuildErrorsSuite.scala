@@ -34,7 +34,10 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assert(p.at.map(_.column).contains(16))
 
   test("a parameter of another dialect is a warning that says so"):
-    assertWarning(only("LightSource \"point\" \"float power\" 5"), "no parameter of \"point\" in v3")
+    assertWarning(
+      only("LightSource \"point\" \"float power\" 5"),
+      "no parameter of \"point\" in v3"
+    )
 
   test("unknown shapes, materials and lights are errors with the nearest name"):
     assertError(only("Shape \"shpere\""), "no shape is named `shpere`", "`sphere`")

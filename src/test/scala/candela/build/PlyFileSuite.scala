@@ -173,9 +173,15 @@ class PlyFileSuite extends AnyFunSuite:
     assert(error(notNumber).contains("here is no number"))
     val head = "ply\nformat binary_big_endian 1.0\n" + rich
     val bytes = big(head)(writeRich)
-    val nan = big("")(b => { val _ = b.putFloat(Float.NaN) })
-    val z = big("")(b => { val _ = b.putFloat(2f) })
-    val normal = big("")(b => { val _ = b.putFloat(1f) })
+    val nan = big("")(b =>
+      val _ = b.putFloat(Float.NaN)
+    )
+    val z = big("")(b =>
+      val _ = b.putFloat(2f)
+    )
+    val normal = big("")(b =>
+      val _ = b.putFloat(1f)
+    )
     val body = head.length + 25
     val firstZ = bytes.indexOfSlice(z, body)
     val message = intercept[SceneError](mesh(bytes.patch(firstZ, nan, 4))).problems.head.message

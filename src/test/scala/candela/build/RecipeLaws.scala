@@ -42,7 +42,9 @@ abstract class RecipeLaws[A](
         assert(!here.problems.hasErrors, here.problems.result)
 
   for recipe <- recipes.all if recipe.fields.nonEmpty do
-    test(s"${recipes.category} \"${recipe.name}\": each parameter has a meaning, a type and a dialect"):
+    test(
+      s"${recipes.category} \"${recipe.name}\": each parameter has a meaning, a type and a dialect"
+    ):
       for f <- recipe.fields do
         assert(f.doc.trim.nonEmpty && f.typeName.nonEmpty && f.dialects.nonEmpty, f.name)
 

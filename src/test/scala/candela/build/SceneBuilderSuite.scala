@@ -90,7 +90,8 @@ final class SceneBuilderSuite extends AnyFunSuite:
 
   test("an instance of no object is an error with the nearest name"):
     val scene = s"WorldBegin\nObjectBegin \"leaf\"\n$triangle\nObjectEnd\nObjectInstance \"laef\"\n"
-    val problem = SceneTexts.problems(scene).find(_.message.contains("no object is named `laef`")).get
+    val problem =
+      SceneTexts.problems(scene).find(_.message.contains("no object is named `laef`")).get
     assert(problem.help.exists(_.contains("`leaf`")) && problem.at.map(_.line).contains(5))
 
   test("a named material is made once, however many shapes have it"):

@@ -52,7 +52,8 @@ final class ProjectiveSuite extends AnyFunSuite:
 
   test("rays through the whole lens meet in the plane of focus, where the pinhole ray does"):
     val draws = Draws(3)
-    val (sharp, pinhole) = (PerspectiveCamera(setup(lens = 0.5f), 60f), PerspectiveCamera(setup(), 60f))
+    val (sharp, pinhole) =
+      (PerspectiveCamera(setup(lens = 0.5f), 60f), PerspectiveCamera(setup(), 60f))
     for _ <- 1 to 200 do
       val (x, y) = (draws.between(0, 200), draws.between(0, 100))
       val through = ray(sharp, x, y, draws.unit(), draws.unit())

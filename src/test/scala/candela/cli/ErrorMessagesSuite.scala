@@ -15,7 +15,8 @@ class ErrorMessagesSuite extends AnyFunSuite:
   private def messages(scene: Path): String =
     val problems =
       try Parser.parse(scene).warnings
-      catch case e: SceneError => e.problems
+      catch
+        case e: SceneError => e.problems
     // file names as they are where `/` stands between folders
     val separator = java.io.File.separator
     problems

@@ -18,7 +18,8 @@ final class ColorimetrySuite extends AnyFunSuite:
 
   test("colours are linear in the spectrum"):
     val s = Colorimetry.named("metal-Cu-k").get
-    val (one, three) = (Colorimetry.rgb(s(_), White.D65), Colorimetry.rgb(nm => 3 * s(nm), White.D65))
+    val (one, three) =
+      (Colorimetry.rgb(s(_), White.D65), Colorimetry.rgb(nm => 3 * s(nm), White.D65))
     assert(Math.abs(three.r - 3 * one.r) < 1e-4f * one.r) // rounding
 
   test("emission is scaled to luminance 1"):

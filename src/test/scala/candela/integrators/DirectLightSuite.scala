@@ -92,8 +92,8 @@ final class DirectLightSuite extends AnyFunSuite:
 
   for name <- Seq("whitted", "directlighting") do
     test(s"\"$name\" follows the mirror among other lobes"):
-      // In a uniform environment the diffuse part shows its albedo: 1 % is 5 deviations of Whitted's
-      // 65536 uniform samples of the sphere, and the mirror's part is 5 times that
+      // In a uniform environment the diffuse part shows its albedo: 1 % is 5 deviations of
+      // Whitted's 65536 uniform samples of the sphere, and the mirror's part is 5 times that
       val scene = LitPlane.scene(s"\"$name\"", spp = 4096, sky, glossy)
       assertRadiance(scene, 0.5f + mirrored, 0.02f)
 

@@ -1,6 +1,8 @@
 package candela.integrators
 
-/** Scenes in pbrt's language that look, under 45°, at one point of a plane z = 0 around the origin. */
+/** Scenes in pbrt's language that look, under 45°, at one point of a plane z = 0 around the
+  * origin.
+  */
 object LitPlane:
 
   val Albedo = 0.5f
@@ -14,7 +16,8 @@ object LitPlane:
        |Integrator $integrator
        |""".stripMargin
 
-  def matte(albedo: Float = Albedo): String = s"""Material "matte" "rgb Kd" [$albedo $albedo $albedo]"""
+  def matte(albedo: Float = Albedo): String =
+    s"""Material "matte" "rgb Kd" [$albedo $albedo $albedo]"""
 
   def scene(
       integrator: String,

@@ -55,8 +55,9 @@ final class PathTracerSuite extends AnyFunSuite:
 
   for depth <- Seq(0, 1, 2, 5, 12) do
     test(s"maxdepth $depth: inside a glowing sphere all light of up to $depth bounces is seen"):
-      // Points chosen by area on a sphere from within have no noise in each bounce. Russian roulette
-      // after the fourth changes what is left of ρ⁵ = 0.17 by a factor of deviation ~1: 0.2 %
+      // Points chosen by area on a sphere from within have no noise in each bounce. Russian
+      // roulette after the fourth changes what is left of ρ⁵ = 0.17 by a factor of deviation ~1:
+      // 0.2 %
       val seen = SceneTexts.mean(oven(0.7f, depth)).g
       val expected = bounces(0.7f, depth)
       assert(Math.abs(seen - expected) < 0.01f * expected, s"$seen, expected $expected")

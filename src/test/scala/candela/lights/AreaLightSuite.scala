@@ -16,7 +16,12 @@ final class AreaLightSuite extends AnyFunSuite:
   private val corners = (Vec3(-1, -1, 2), Vec3(0, 1, 2.5f), Vec3(1.5f, -0.5f, 2.2f))
 
   /** A light and the surface that it is, alone in the world. */
-  private final class Case(val name: String, soup: TriangleSoup, shapes: Seq[Shape], val light: AreaLight):
+  private final class Case(
+      val name: String,
+      soup: TriangleSoup,
+      shapes: Seq[Shape],
+      val light: AreaLight
+  ):
     private val world = Bvh(Primitives(soup, shapes.toArray))
     private val (ray, hit, at) = (Ray(), Hit(), ShadingPoint())
 

@@ -31,7 +31,10 @@ final class DeltaLightsSuite extends AnyFunSuite:
       val p = draws.direction() * draws.between(0.1f, 10f)
       assert(bounds.importance(p, Vec3.Zero) > 0f)
       assert(bounds.importance(p, p.normalized) > 0f)
-    assert(bounds.importance(Vec3(0, 0, 1), Vec3.Zero) > bounds.importance(Vec3(0, 0, 2), Vec3.Zero))
+    assert(bounds.importance(Vec3(0, 0, 1), Vec3.Zero) > bounds.importance(
+      Vec3(0, 0, 2),
+      Vec3.Zero
+    ))
 
   test("a distant light comes from one direction, alike everywhere"):
     val light = DistantLight(Vec3.Y, Rgb(1f, 2f, 3f))

@@ -22,13 +22,18 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
     val image = if layout eq LatLongMap then picture(16, 8) else picture(12, 12)
     ImageEnvironment(turned, image, layout, Rgb(1f, 0.5f, 2f), smooth, complete)
 
-  private val all = for
-    (name, layout) <- Seq("latitude-longitude" -> LatLongMap, "equal-area" -> EqualAreaMap)
-    smooth <- Seq(true, false)
-    complete <- Seq(true, false)
-  yield
-    val words = s"$name, ${if smooth then "smooth" else "blocky"}"
-    (s"$words, ${if complete then "" else "in"}complete", light(layout, smooth, complete), complete)
+  private val all =
+    for
+      (name, layout) <- Seq("latitude-longitude" -> LatLongMap, "equal-area" -> EqualAreaMap)
+      smooth <- Seq(true, false)
+      complete <- Seq(true, false)
+    yield
+      val words = s"$name, ${if smooth then "smooth" else "blocky"}"
+      (
+        s"$words, ${if complete then "" else "in"}complete",
+        light(layout, smooth, complete),
+        complete
+      )
 
   private val constant =
     ("constant", ConstantEnvironment(Rgb(1f, 2f, 3f), complete = true), true)
@@ -80,4 +85,11 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
     assert(!ConstantEnvironment(Rgb.White, complete = false).isSampled)
     assert(ConstantEnvironment(Rgb.White, complete = false).pdf(Vec3.Z) == 0f)
     assert(!ConstantEnvironment(Rgb.Black, complete = true).isSampled)
-    assert(!ImageEnvironment(turned, Image.rgb(4, 4), EqualAreaMap, Rgb.White, true, true).isSampled)
+    assert(!ImageEnvironment(
+      turned,
+      Image.rgb(4, 4),
+      EqualAreaMap,
+      Rgb.White,
+      true,
+      true
+    ).isSampled)

@@ -2,7 +2,9 @@ package candela.lights
 
 import candela.math.*
 
-/** Integrals over directions by brute force: the middles of 512 × 512 cells of equal solid angle. */
+/** Integrals over directions by brute force: the middles of 512 × 512 cells of equal solid
+  * angle.
+  */
 object Skies:
   private val Side = 512
 

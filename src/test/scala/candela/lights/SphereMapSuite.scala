@@ -25,7 +25,10 @@ final class SphereMapSuite extends AnyFunSuite:
         val d = map.toDirection(x, y)
         assert(Math.abs(d.length - 1f) < 1e-5f)
         val p = map.toImage(d)
-        assert(Math.abs(p.x - x) < 1e-3f && Math.abs(p.y - y) < 1e-3f, s"($x, $y) to $p") // as above
+        assert(
+          Math.abs(p.x - x) < 1e-3f && Math.abs(p.y - y) < 1e-3f,
+          s"($x, $y) to $p"
+        ) // as above
 
     test(s"$name: stretch is the solid angle of a piece of the image"):
       val draws = Draws(3)
@@ -34,7 +37,8 @@ final class SphereMapSuite extends AnyFunSuite:
         val h = 2e-3f
         def at(i: Float, j: Float) = map.toDirection(x + i * h, y + j * h)
         val area = ((at(1, 0) - at(-1, 0)) cross (at(0, 1) - at(0, -1))).length / (4 * h * h)
-        // Central differences of 2e-3 lose three digits of seven; folds of the octahedron are left out
+        // Central differences of 2e-3 lose three digits of seven; folds of the octahedron are left
+        // out
         val folds = (map eq EqualAreaMap) && {
           val (u, v) = (Math.abs(2 * x - 1), Math.abs(2 * y - 1))
           Math.min(Math.min(u, v), Math.abs(u + v - 1)) < 0.05f

@@ -13,7 +13,8 @@ class AgreementSuite extends AnyFunSuite:
   private val significance = 0.001
 
   /** A gradient with some dark and some bright places. */
-  private def truth(x: Int, y: Int, c: Int): Double = 0.1 + (x + c) / 100.0 + (if y > 60 then 0.4 else 0)
+  private def truth(x: Int, y: Int, c: Int): Double =
+    0.1 + (x + c) / 100.0 + (if y > 60 then 0.4 else 0)
 
   private def noisy(seed: Long, relative: Double, change: (Int, Int, Double) => Double): Image =
     val random = java.util.Random(seed)

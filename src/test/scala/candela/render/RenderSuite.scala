@@ -10,9 +10,10 @@ import org.scalatest.funsuite.AnyFunSuite
 
 /** Scene files go in, and images come out that agree with the real pbrt's.
   *
-  * Every scene of the `scenes` folder that `reference-images` has an image of is rendered with a few
-  * samples and several seeds, and compared as [[Agreement]] says. The seeds are fixed: an unchanged
-  * renderer always gets the same answer. Images that disagree are left under `target/render-diff`.
+  * Every scene of the `scenes` folder that `reference-images` has an image of is rendered with a
+  * few samples and several seeds, and compared as [[Agreement]] says. The seeds are fixed: an
+  * unchanged renderer always gets the same answer. Images that disagree are left under
+  * `target/render-diff`.
   */
 class RenderSuite extends AnyFunSuite:
   import RenderSuite.*
@@ -32,7 +33,8 @@ class RenderSuite extends AnyFunSuite:
     assert(images == ReferenceScenes.all.map(_.name))
     assert(ReferenceScenes.all.forall(s => s.noise > 0 && s.allowance >= 0))
 
-  // The same comparison must see when something is wrong: (scene, what is broken, as written, instead)
+  // The same comparison must see when something is wrong: (scene, what is broken, as written,
+  // instead)
   private val broken = Vector(
     ("v3-matte-directlighting", "an albedo 5 % too high", "[.7 .3 .2]", "[.735 .315 .21]"),
     ("v3-matte-whitted", "a rough surface taken for a smooth one", "\"float sigma\" 60", ""),
@@ -42,8 +44,18 @@ class RenderSuite extends AnyFunSuite:
     ("v3-environment-map", "a sky turned by 2 degrees", "Rotate 130", "Rotate 132"),
     ("v3-filter-mitchell", "another filter", "PixelFilter \"mitchell\"", "PixelFilter \"box\""),
     ("v4-conductor", "gold without its colour", "metal-Au-", "metal-Ag-"),
-    ("v4-dielectric", "an index of refraction 0.05 too high", "\"float eta\" 1.3", "\"float eta\" 1.35"),
-    ("v4-depth-of-field", "a lens 40 % too wide", "\"float lensradius\" .18", "\"float lensradius\" .25")
+    (
+      "v4-dielectric",
+      "an index of refraction 0.05 too high",
+      "\"float eta\" 1.3",
+      "\"float eta\" 1.35"
+    ),
+    (
+      "v4-depth-of-field",
+      "a lens 40 % too wide",
+      "\"float lensradius\" .18",
+      "\"float lensradius\" .25"
+    )
   )
 
   for (name, what, written, instead) <- broken do
@@ -65,8 +77,8 @@ class RenderSuite extends AnyFunSuite:
       assert(!one.data.map(bits).sameElements(other.data.map(bits)), s"$name: the seed is ignored")
 
 object RenderSuite:
-  /** Renderings of each scene, and the samples of each: enough for a noise of some 0.5 % in the mean of
-    * a small block, where the broken scenes above must show.
+  /** Renderings of each scene, and the samples of each: enough for a noise of some 0.5 % in the
+    * mean of a small block, where the broken scenes above must show.
     */
   private val Seeds = 4
   private val SamplesPerPixel = 16

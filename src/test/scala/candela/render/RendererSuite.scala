@@ -119,7 +119,12 @@ class RendererSuite extends AnyFunSuite:
   test("progress never falls, and ends with everything done"):
     val reports = Vector.newBuilder[Progress]
     val plan = TinyPlan()((_, _) => gray)
-    val _ = Renderer.render(plan, threads = 2, onProgress = p => { val _ = reports += p })
+    val _ = Renderer.render(
+      plan,
+      threads = 2,
+      onProgress = p =>
+        val _ = reports += p
+    )
     val done = reports.result().map(_.done)
     assert(done == done.sorted)
     assert(reports.result().forall(_.total == 40L * 27 * 5))

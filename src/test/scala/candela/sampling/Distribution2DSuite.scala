@@ -40,8 +40,8 @@ class Distribution2DSuite extends AnyFunSuite:
   test("the density integrates to 1"):
     val n = 97
     val many = Distribution2D(Array.tabulate(n * n)(i => 1f + (i * 31L % 1009).toFloat), n, n)
-    val sum = (for i <- 0 until n; j <- 0 until n yield
-      many.pdf((i + 0.5f) / n, (j + 0.5f) / n).toDouble).sum
+    val sum = (for i <- 0 until n; j <- 0 until n
+    yield many.pdf((i + 0.5f) / n, (j + 0.5f) / n).toDouble).sum
     assert(Math.abs(sum / (n * n) - 1) < 1e-6) // one Float rounding per product
 
   test("all-zero values count as uniform"):

@@ -95,12 +95,13 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
       f: (Double, Double) => Double,
       exact: Double
   ): Double =
-    val squares = for seed <- 0 until 64; px <- 0 until 2 yield
-      val s = make(samples, seed)
-      val n = s.samplesPerPixel
-      val py = seed % 8
-      val mean = points(s, px, py, n, skip).map((x, y) => f(x, y)).sum / n
-      (mean - exact) * (mean - exact)
+    val squares =
+      for seed <- 0 until 64; px <- 0 until 2 yield
+        val s = make(samples, seed)
+        val n = s.samplesPerPixel
+        val py = seed % 8
+        val mean = points(s, px, py, n, skip).map((x, y) => f(x, y)).sum / n
+        (mean - exact) * (mean - exact)
     Math.sqrt(squares.sum / squares.size)
 
   test("the error of a smooth integral falls as fast as it should"):

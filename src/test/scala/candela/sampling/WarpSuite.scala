@@ -8,8 +8,9 @@ import candela.testing.ChiSquare
 
 class WarpSuite extends AnyFunSuite:
   private val Tests = 6
-  private val grid = for i <- 0 to 32; j <- 0 to 32 yield
-    (Math.min(i / 32f, OneMinusEpsilon), Math.min(j / 32f, OneMinusEpsilon))
+  private val grid =
+    for i <- 0 to 32; j <- 0 to 32
+    yield (Math.min(i / 32f, OneMinusEpsilon), Math.min(j / 32f, OneMinusEpsilon))
 
   private def agrees(seed: Long)(sample: (Float, Float) => Vec3, pdf: Vec3 => Float): Assertion =
     val result = ChiSquare.directions(seed)(u => Some(sample(u(), u())), pdf)

@@ -36,8 +36,9 @@ class ZSobolSamplerSuite extends SamplerLaws(ZSobolSampler(_, 64, 64, _), sharpe
       val errors = Array.tabulate(64, 64): (px, py) =>
         points(s, px, py, 4, 1).map(f).sum / 4 - exact
       // means over 4 × 4 pixels that straddle the quadrants of the curve
-      val means = for bx <- 2 to 58 by 4; by <- 2 to 58 by 4 yield
-        (for dx <- 0 until 4; dy <- 0 until 4 yield errors(bx + dx)(by + dy)).sum / 16
+      val means =
+        for bx <- 2 to 58 by 4; by <- 2 to 58 by 4
+        yield (for dx <- 0 until 4; dy <- 0 until 4 yield errors(bx + dx)(by + dy)).sum / 16
       Math.sqrt(means.map(m => m * m).sum / means.size)
     // a factor of 2 at equal samples is what makes the scheme worth its cost
     assert(blurredError(ZSobolSampler(4, 64, 64, 1)) * 2 < blurredError(OwenSobolSampler(4, 1)))

@@ -88,7 +88,11 @@ class DiskSuite extends AnyFunSuite:
     "ring, stretched and mirrored" ->
       Disk(
         Transform.rotate(50, 1, 2, 3).get * Transform.scale(-2, 1, 1).get,
-        0f, 1f, 0.5f, 4f, true
+        0f,
+        1f,
+        0.5f,
+        4f,
+        true
       )
   )
 

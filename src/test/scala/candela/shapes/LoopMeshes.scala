@@ -22,7 +22,12 @@ object LoopMeshes:
   /** Each side is two triangles; corner i has the bits of i as x, y, z. */
   val cube: Mesh =
     val sides = Seq(
-      (0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)
+      (0, 2, 3, 1),
+      (4, 5, 7, 6),
+      (0, 1, 5, 4),
+      (2, 6, 7, 3),
+      (0, 4, 6, 2),
+      (1, 3, 7, 5)
     )
     Mesh(
       sides.flatMap((a, b, c, d) => Seq(a, b, c, a, c, d)).toArray,

@@ -62,6 +62,7 @@ class SphereSamplingSuite extends AnyFunSuite:
       SphereSampling.cone(c, size, from, draws.unit(), draws.unit(), out)
       val (x, y, z) = (out.p.x.toDouble - c.x, out.p.y.toDouble - c.y, out.p.z.toDouble - c.z)
       val r = Math.sqrt(x * x + y * y + z * z)
-      val reach = (Math.abs(x) * out.pError.x + Math.abs(y) * out.pError.y +
-        Math.abs(z) * out.pError.z) / r
+      val reach =
+        (Math.abs(x) * out.pError.x + Math.abs(y) * out.pError.y +
+          Math.abs(z) * out.pError.z) / r
       assert(Math.abs(r - size) <= reach, s"$c $size ${out.p}")

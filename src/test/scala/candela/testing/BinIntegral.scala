@@ -11,8 +11,15 @@ final class BinIntegral(f: (Double, Double) => Double):
     */
   def apply(x: Double, y: Double, width: Double, height: Double): Double =
     val (w, h) = (width / 4, height / 4)
-    (for i <- 0 until 4; j <- 0 until 4 yield
-      refined(x + i * w, y + j * h, w, h, rule(x + i * w, y + j * h, w, h), BinIntegral.Levels)).sum
+    (for i <- 0 until 4; j <- 0 until 4
+    yield refined(
+      x + i * w,
+      y + j * h,
+      w,
+      h,
+      rule(x + i * w, y + j * h, w, h),
+      BinIntegral.Levels
+    )).sum
 
   private def refined(
       x: Double,

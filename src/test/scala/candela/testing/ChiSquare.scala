@@ -58,7 +58,8 @@ object ChiSquare:
       u =>
         draw(u).map: w =>
           val turns = Math.atan2(w.y, w.x) / (2 * Math.PI)
-          Vec3((w.z + 1) / 2, (if turns < 0 then turns + 1 else turns).toFloat, 0f),
+          Vec3((w.z + 1) / 2, (if turns < 0 then turns + 1 else turns).toFloat, 0f)
+      ,
       (s, t) => pdf(direction(s, t)) * 4 * Math.PI
     )
 
