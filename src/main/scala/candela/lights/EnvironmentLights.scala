@@ -87,13 +87,14 @@ final class ImageEnvironment(
       m(8) * v.x + m(9) * v.y + m(10) * v.z
     ).normalized
 
-  def radiance(d: Vec3): Rgb =
-    val place = layout.toImage(rotate(toLightM, d))
+  def radiance(d: Vec3): Rgb = at(layout.toImage(rotate(toLightM, d)))
+
+  private def at(place: Vec3): Rgb =
     if smooth then between(place)
     else
       val x = Math.min((place.x * width).toInt, width - 1)
-      val at = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
-      Rgb(data(at), data(at + 1), data(at + 2))
+      val first = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
+      Rgb(data(first), data(first + 1), data(first + 2))
 
   private def between(place: Vec3): Rgb =
     val fx = place.x * width - 0.5f
@@ -130,7 +131,7 @@ final class ImageEnvironment(
     val place = distribution.sample(u1, u2)
     val s = layout.stretch(place.y)
     out.wi = rotate(toWorldM, layout.toDirection(place.x, place.y))
-    out.radiance = radiance(out.wi)
+    out.radiance = at(place)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true
 
