@@ -131,7 +131,8 @@ final class ImageEnvironment(
     val place = distribution.sample(u1, u2)
     val s = layout.stretch(place.y)
     out.wi = rotate(toWorldM, layout.toDirection(place.x, place.y))
-    out.radiance = at(place)
+    // Within a pixel of one colour the place needs no way back from the direction
+    out.radiance = if smooth then radiance(out.wi) else at(place)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true
 

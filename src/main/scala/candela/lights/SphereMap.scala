@@ -45,14 +45,24 @@ object EqualAreaMap extends SphereMap:
   def toImage(d: Vec3): Vec3 =
     val (ax, ay, az) = (Math.abs(d.x), Math.abs(d.y), Math.abs(d.z))
     val r = safeSqrt(1f - az)
-    val phi = // of the first octant, in [0, 1]
-      if ax == 0f && ay == 0f then 0f
-      else Math.atan2(ay.toDouble, ax.toDouble).toFloat * (2f * InvPi)
+    // Of the first octant, in [0, 1]
+    val (longer, shorter) = if ax >= ay then (ax, ay) else (ay, ax)
+    val half = if longer == 0f then 0f else arcTangent(shorter / longer) * (2f * InvPi)
+    val phi = if ax >= ay then half else 1f - half
     val v0 = phi * r
     val u0 = r - v0
     val u = if d.z < 0f then 1f - v0 else u0
     val v = if d.z < 0f then 1f - u0 else v0
     Vec3((Math.copySign(u, d.x) + 1f) * 0.5f, (Math.copySign(v, d.y) + 1f) * 0.5f, 0f)
+
+  /** For `x` in [0, 1], off by at most 2e-8 and rounding; `Math.atan2` took 6 % of a render under
+    * an image. Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, 4.4.49.
+    */
+  private def arcTangent(x: Float): Float =
+    val z = x * x
+    val high = (((0.0028662257f * z - 0.0161657367f) * z + 0.0429096138f) * z - 0.0752896400f) * z
+    x * (((((high + 0.1065626393f) * z - 0.1420889944f) * z + 0.1999355085f) * z -
+      0.3333314528f) * z + 1f)
 
   def toDirection(x: Float, y: Float): Vec3 =
     val (u, v) = (2f * x - 1f, 2f * y - 1f)
