@@ -53,8 +53,8 @@ final class SoupBuilder:
     for (mesh, i) <- meshes.zipWithIndex do
       java.util.Arrays.fill(meshOf, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
     TriangleSoup(
-      SoupBuilder.joined(positions),
-      SoupBuilder.joinedInts(indices),
+      Array.concat(positions.toSeq*),
+      Array.concat(indices.toSeq*),
       meshOf,
       meshes.toArray,
       tangents
@@ -91,19 +91,3 @@ object SoupBuilder:
         out(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
         out(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat
       out
-
-  private def joined(parts: ArrayBuffer[Array[Float]]): Array[Float] =
-    val all = new Array[Float](parts.map(_.length).sum)
-    var at = 0
-    for part <- parts do
-      System.arraycopy(part, 0, all, at, part.length)
-      at += part.length
-    all
-
-  private def joinedInts(parts: ArrayBuffer[Array[Int]]): Array[Int] =
-    val all = new Array[Int](parts.map(_.length).sum)
-    var at = 0
-    for part <- parts do
-      System.arraycopy(part, 0, all, at, part.length)
-      at += part.length
-    all

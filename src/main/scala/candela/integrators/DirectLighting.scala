@@ -18,43 +18,14 @@ import candela.scene.Scene
   * Source: PBRT 3rd ed., §14.3; multiple importance sampling as in Veach 1997, §9.2.
   */
 final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
-    extends LightTransport(scene):
+    extends SpecularWalk(scene, maxDepth):
   private val bsdfRay = Ray()
   private val bsdfHit = Hit()
   private val met = ShadingPoint()
 
   def copy(): DirectLighting = DirectLighting(scene, maxDepth, lightSamples)
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
-    var light = Rgb.Black
-    var throughput = Rgb.White
-    var depth = 0
-    var alive = true
-    while alive do
-      rays += 1
-      if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray.direction, (_, _) => 1f)
-        alive = false
-      else
-        scene.surface(ray, hit, at)
-        val wo = -ray.direction
-        if at.areaLight >= 0 then light += throughput * scene.surfaceLight(at).radiance(at, wo)
-        if scene.isInterface(at) then
-          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
-        else
-          val bsdf = scene.bsdf(at)
-          if !bsdf.isSpecular then light += throughput * direct(bsdf, wo, sampler)
-          depth += 1
-          alive = depth < maxDepth
-          if alive then
-            val bounce = bsdf.sampleSpecular(at.frame.toLocal(wo), sampler.next1D())
-            throughput = throughput * bounce.weight
-            alive = !throughput.isBlack
-            val wi = at.frame.toWorld(bounce.wi)
-            ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-    light
-
-  private def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+  protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
       val chosen = scene.selection.choose(at.p, at.frame.n, sampler.next1D())

@@ -1,0 +1,47 @@
+package candela.integrators
+
+import candela.bsdf.Bsdf
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** What Whitted's method and direct lighting share: mirrors and glass are followed, and at each
+  * other surface on the way the light that comes straight from the sources is gathered.
+  *
+  * @param maxDepth most specular bounces, plus one
+  */
+abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(scene):
+
+  /** Light that the sources send to `at` and on to `wo` (world space). */
+  protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    var light = Rgb.Black
+    var throughput = Rgb.White
+    var depth = 0
+    var alive = true
+    while alive do
+      rays += 1
+      if !scene.closest(ray, hit) then
+        light += throughput * escaped(ray.direction, (_, _) => 1f)
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        val wo = -ray.direction
+        if at.areaLight >= 0 then light += throughput * scene.surfaceLight(at).radiance(at, wo)
+        if scene.isInterface(at) then
+          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+        else
+          val bsdf = scene.bsdf(at)
+          if !bsdf.isSpecular then light += throughput * direct(bsdf, wo, sampler)
+          depth += 1
+          alive = depth < maxDepth
+          if alive then
+            val bounce = bsdf.sampleSpecular(at.frame.toLocal(wo), sampler.next1D())
+            throughput = throughput * bounce.weight
+            alive = !throughput.isBlack
+            val wi = at.frame.toWorld(bounce.wi)
+            ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+    light
