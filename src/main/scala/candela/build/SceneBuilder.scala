@@ -90,8 +90,9 @@ object SceneBuilder:
       )
     for v <- d.volumes do
       problems.warn(v.light.at, s"volumes are not supported yet: it is left out")
-    for (name, m) <- d.media do
-      problems.warn(m.at, s"participating media are not supported yet: `$name` is left out")
+    for m <- d.media do
+      val what = "participating media are not supported yet"
+      problems.warn(m.medium.at, s"$what: `${m.name}` is left out")
 
   private def cropOf(
       film: FilmSettings,

@@ -65,12 +65,14 @@ final class Param(
   * @param at       where the quoted name stands
   * @param folder   the folder of the scene (main) file, against which file names in parameters
   *                 resolve
+  * @param colorSpace of the parameters' colours, as v4 calls it
   */
 final case class Declaration(
     category: String,
     name: String,
     params: Vector[Param],
     at: SourcePos,
-    folder: java.nio.file.Path
+    folder: java.nio.file.Path,
+    colorSpace: String = "srgb"
 ):
   def param(name: String): Option[Param] = params.find(_.name == name)

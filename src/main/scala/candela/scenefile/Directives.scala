@@ -140,8 +140,9 @@ object Directives:
       val from = in.named("a target")
       scene.attribute(from.name, from.at, from.params)
     ,
-    Directive("ColorSpace", "\"name\"", Anywhere): (in, _) =>
+    Directive("ColorSpace", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
+      scene.colorSpace(name)
       if name != "srgb" then
         val message = s"the color space `$name` is not supported: colors are taken as sRGB"
         in.report(Problem.warning(at, message))

@@ -23,7 +23,8 @@ final case class GraphicsState(
     insideMedium: String = "",
     outsideMedium: String = "",
     scope: Scope = Scope.Empty,
-    defaults: Map[String, Vector[Param]] = Map.empty
+    defaults: Map[String, Vector[Param]] = Map.empty,
+    colorSpace: String = "srgb"
 ):
 
   /** With the active transforms replaced by what `change` makes of them. */

@@ -31,7 +31,19 @@ final case class ShapeDescription(
     outsideMedium: String = ""
 )
 
-final case class LightDescription(light: Declaration, lightToWorld: AnimatedTransform)
+/** @param medium the name of the one that the light shines in; empty: none */
+final case class LightDescription(
+    light: Declaration,
+    lightToWorld: AnimatedTransform,
+    medium: String = ""
+)
+
+/** `MakeNamedMedium "name" …`; the transform places what varies in space. */
+final case class MediumDescription(
+    name: String,
+    medium: Declaration,
+    mediumToWorld: AnimatedTransform
+)
 
 final case class InstanceDescription(
     name: String,
@@ -54,11 +66,12 @@ final case class TextureDescription(
   *
   * @param integrator     v2's `SurfaceIntegrator`, v3's and v4's `Integrator`
   * @param worldToCamera  the transform at the `Camera` statement
+  * @param cameraMedium   the name of the medium around the camera; empty: none
   * @param textures       in the order of their statements (a texture may use only earlier ones)
   * @param namedMaterials in the order of their statements. Every name here (and of textures and
   *                       objects) is unique: where a file defines one again, [[Scope]] renames the
   *                       new one and its uses
-  * @param objects        shapes by the name of their `ObjectBegin`
+  * @param objects        shapes by the name of their `ObjectBegin`, in the order of these
   * @param transformTimes the times at which the start and the end of an [[AnimatedTransform]] hold
   * @param warnings       what was noticed on the way
   */
@@ -66,6 +79,7 @@ final case class SceneDescription(
     dialect: Dialect,
     camera: Option[Declaration] = None,
     worldToCamera: AnimatedTransform = AnimatedTransform(Transform.Identity, Transform.Identity),
+    cameraMedium: String = "",
     film: Option[Declaration] = None,
     sampler: Option[Declaration] = None,
     filter: Option[Declaration] = None,
@@ -80,7 +94,7 @@ final case class SceneDescription(
     shapes: Vector[ShapeDescription] = Vector.empty,
     objects: Map[String, Vector[ShapeDescription]] = Map.empty,
     instances: Vector[InstanceDescription] = Vector.empty,
-    media: Vector[(String, Declaration)] = Vector.empty,
+    media: Vector[MediumDescription] = Vector.empty,
     volumes: Vector[LightDescription] = Vector.empty,
     transformTimes: (Float, Float) = (0f, 1f),
     warnings: Vector[Problem] = Vector.empty

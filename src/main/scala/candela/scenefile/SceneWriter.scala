@@ -1,6 +1,7 @@
 package candela.scenefile
 
 import java.nio.file.Path
+import scala.collection.immutable.VectorMap
 import scala.collection.mutable
 
 import candela.base.{Problem, SceneError, SourcePos, Suggest}
@@ -43,10 +44,12 @@ final class SceneWriter(
   def description(dialect: Dialect, warnings: Vector[Problem]): SceneDescription =
     result.copy(
       dialect = dialect,
+      // v4 looks when it meets the camera, v2 and v3 when the world ends
+      cameraMedium = if dialect == Dialect.V4 then result.cameraMedium else state.outsideMedium,
       textures = textures.result(),
       lights = lights.result(),
       shapes = shapes.result(),
-      objects = objects.toMap,
+      objects = VectorMap.from(objects),
       instances = instances.result(),
       warnings = warnings
     )
@@ -57,7 +60,7 @@ final class SceneWriter(
     evidence.uses(category, from.name)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
     val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
-    Declaration(category, from.name, state.scope.resolve(all), from.at, folder)
+    Declaration(category, from.name, state.scope.resolve(all), from.at, folder, state.colorSpace)
 
   /** The declaration whose name is the value of "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
@@ -67,7 +70,7 @@ final class SceneWriter(
       case Some(t) =>
         evidence.uses(category, t.strings.head)
         val params = whole.params.filterNot(_ eq t)
-        Declaration(category, t.strings.head, params, t.valuesAt, folder)
+        Declaration(category, t.strings.head, params, t.valuesAt, folder, state.colorSpace)
       case None => fail(from.at, s"\"${from.name}\" has no \"string type\"", missing)
 
   /** A statement of the options part: each overrides the one before. */
@@ -76,7 +79,7 @@ final class SceneWriter(
     result = directive match
       case "Camera" =>
         coordinateSystems("camera") = GraphicsState.inverse(state.transform)
-        result.copy(camera = d, worldToCamera = state.transform)
+        result.copy(camera = d, worldToCamera = state.transform, cameraMedium = state.outsideMedium)
       case "Film" => result.copy(film = d)
       case "Sampler" => result.copy(sampler = d)
       case "PixelFilter" => result.copy(filter = d)
@@ -113,7 +116,8 @@ final class SceneWriter(
     ()
 
   def light(from: Named): Unit =
-    lights += LightDescription(declare("LightSource", from, "light"), state.transform)
+    val light = declare("LightSource", from, "light")
+    lights += LightDescription(light, state.transform, state.outsideMedium)
 
   def volume(from: Named): Unit =
     val described = LightDescription(declare("Volume", from), state.transform)
@@ -148,8 +152,10 @@ final class SceneWriter(
 
   def makeNamedMedium(from: Named): Unit =
     val medium = declareByType("Medium", from, "medium")
-    if result.media.exists(_._1 == from.name) then refuseInV4(from.at, "medium", from.name)
-    result = result.copy(media = result.media.filterNot(_._1 == from.name) :+ (from.name -> medium))
+    val (same, others) = result.media.partition(_.name == from.name)
+    if same.nonEmpty then refuseInV4(from.at, "medium", from.name)
+    val described = MediumDescription(from.name, medium, state.transform)
+    result = result.copy(media = others :+ described)
 
   /** `name` is what the file calls the texture, `from.name` its class. */
   def texture(name: String, at: SourcePos, valueType: String, from: Named): Unit =
@@ -186,6 +192,8 @@ final class SceneWriter(
     val earlier = state.defaults.getOrElse(target, Vector.empty)
     val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(_.asDefault)
     change(s => s.copy(defaults = s.defaults.updated(target, all)))
+
+  def colorSpace(name: String): Unit = change(_.copy(colorSpace = name))
 
   def reverseOrientation(): Unit = change(s => s.copy(reverseOrientation = !s.reverseOrientation))
 

@@ -213,7 +213,7 @@ class ParserSuite extends AnyFunSuite:
         |MakeNamedMedium "fog" "string type" "homogeneous" "float scale" 2 WorldBegin""".stripMargin
     )
     assert(scene.options.map(_.name) == Vector("disablepixeljitter", "rendercoordsys"))
-    assert(scene.media.map((name, d) => (name, d.name, d.params.map(_.name))) ==
+    assert(scene.media.map(m => (m.name, m.medium.name, m.medium.params.map(_.name))) ==
       Vector(("fog", "homogeneous", Vector("scale"))))
 
   test("MediumInterface with one name means it on both sides"):
