@@ -6,14 +6,6 @@ import candela.math.Vec3
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
-// Which dialects have a parameter or a recipe
-private[build] val every: Set[Dialect] = Dialect.values.toSet
-private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
-private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
-private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
-private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
-private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
-
 /** The kinds of parameters that a recipe can declare. A default may depend on the dialect:
   * `float("xradius", "…")(if v4 then 1.5f else 2f)`.
   */
@@ -24,55 +16,119 @@ trait Fields:
   protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
   protected final def v4(using d: Dialect): Boolean = d == Dialect.V4
 
-  protected final def float(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> Float
-  ): Field[Float] = field(name, "float", doc, in, default)(floats(1, _, _).map(_(0)))
+  protected final def float(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Float): Field[Float] =
+    field(name, "float", doc, in, unit, shown, default)(DefaultText.number)(
+      floats(1, _, _).map(_(0))
+    )
 
-  protected final def integer(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> Int
-  ): Field[Int] = field(name, "integer", doc, in, default): (p, site) =>
-    if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
-    else wrong(p, site, "one integer")
+  protected final def integer(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Int): Field[Int] =
+    field(name, "integer", doc, in, unit, shown, default)(_.toString): (p, site) =>
+      if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
+      else wrong(p, site, "one integer")
 
-  protected final def bool(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> Boolean
-  ): Field[Boolean] = field(name, "bool", doc, in, default): (p, site) =>
-    if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
-    else wrong(p, site, "one bool")
+  protected final def bool(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Boolean): Field[Boolean] =
+    field(name, "bool", doc, in, "", shown, default)(_.toString): (p, site) =>
+      if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
+      else wrong(p, site, "one bool")
 
-  protected final def string(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> String
-  ): Field[String] = field(name, "string", doc, in, default): (p, site) =>
-    if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
-    else wrong(p, site, "one string")
+  protected final def string(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> String): Field[String] =
+    field(name, "string", doc, in, "", shown, default)(DefaultText.quoted): (p, site) =>
+      if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
+      else wrong(p, site, "one string")
 
   /** A string out of a closed set. */
-  protected final def oneOf(name: String, doc: String, values: String*)(
-      default: Dialect ?=> String
-  ): Field[String] = field(name, "string", doc, every, default): (p, site) =>
-    p.strings.headOption.filter(values.contains).orElse {
-      val found = p.strings.headOption.getOrElse("")
-      site.problems.error(
-        p.valuesAt,
-        s"`$name` is one of ${values.mkString(", ")}; found `$found`",
-        Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
-      )
-      None
-    }
+  protected final def oneOf(
+      name: String,
+      doc: String,
+      values: Seq[String],
+      in: Set[Dialect] = every
+  )(default: Dialect ?=> String): Field[String] =
+    val words = s"$doc: ${values.mkString(", ")}"
+    field(name, "string", words, in, "", "", default)(DefaultText.quoted): (p, site) =>
+      if p.paramType != ParamType.String || p.strings.size != 1 then wrong(p, site, "one string")
+      else
+        p.strings.headOption.filter(values.contains).orElse {
+          val found = p.strings.headOption.getOrElse("")
+          site.problems.error(
+            p.valuesAt,
+            s"`$name` is one of ${values.mkString(", ")}; found `$found`",
+            Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
+          )
+          None
+        }
 
-  protected final def point(name: String, doc: String)(default: Dialect ?=> Vec3): Field[Vec3] =
-    field(name, "point3", doc, every, default): (p, site) =>
+  protected final def point(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("point3", name, doc, in, shown, default)
+
+  protected final def vector(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("vector3", name, doc, in, shown, default)
+
+  private def triple(
+      typeName: String,
+      name: String,
+      doc: String,
+      in: Set[Dialect],
+      shown: String,
+      default: Dialect ?=> Vec3
+  ): Field[Vec3] =
+    field(name, typeName, doc, in, "", shown, default)(DefaultText.triple): (p, site) =>
       floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
 
-  /** Any number of numbers. */
-  protected final def numbers(name: String, typeName: String, doc: String): Field[Array[Float]] =
-    field(name, typeName, doc, every, Array.emptyFloatArray): (p, site) =>
+  /** Any number of numbers; none if the scene gives none.
+    *
+    * @param typeName as scene files spell it, with `[]` and the count if there is a right one
+    */
+  protected final def numbers(
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = "none"
+  ): Field[Array[Float]] =
+    field(name, typeName, doc, in, unit, shown, Array.emptyFloatArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
       else if Fields.numeric(p.paramType) then Some(p.floats)
       else wrong(p, site, "numbers")
 
-  protected final def integers(name: String, doc: String): Field[Array[Int]] =
-    field(name, "integer[]", doc, every, Array.emptyIntArray): (p, site) =>
+  protected final def integers(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      typeName: String = "integer[]",
+      shown: String = "none"
+  ): Field[Array[Int]] =
+    field(name, typeName, doc, in, "", shown, Array.emptyIntArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
 
   /** A colour that is no texture: light, or an index of refraction. */
@@ -80,29 +136,51 @@ trait Fields:
       name: String,
       doc: String,
       role: SpectrumRole,
-      in: Set[Dialect] = every
-  )(
-      default: Dialect ?=> Rgb
-  ): Field[Rgb] = field(name, "rgb", doc, in, default)(Spectra.rgb(_, role, _))
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Rgb): Field[Rgb] =
+    field(name, "spectrum", doc, in, unit, shown, default)(DefaultText.color)(
+      Spectra.rgb(_, role, _)
+    )
 
   /** A function of wavelength, or a colour. */
-  protected final def spectrum(name: String, doc: String)(
-      default: Dialect ?=> SpectralValue
-  ): Field[SpectralValue] = field(name, "spectrum", doc, every, default)(Spectra.value(_, _))
+  protected final def spectrum(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> SpectralValue): Field[SpectralValue] =
+    field(name, "spectrum", doc, in, unit, shown, default)(DefaultText.spectrum)(
+      Spectra.value(_, _)
+    )
 
-  protected final def floatTexture(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> Float
-  ): Field[FloatTexture] =
-    field(name, "float texture", doc, in, ConstantFloat(default)): (p, site) =>
-      if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
-      else floats(1, p, site).map(v => ConstantFloat(v(0)))
+  protected final def floatTexture(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Float): Field[FloatTexture] =
+    val text = (d: Dialect) => DefaultText.number(default(using d))
+    textured(name, "float texture", doc, in, unit, shown, text, ConstantFloat(default)):
+      (p, site) =>
+        if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
+        else floats(1, p, site).map(v => ConstantFloat(v(0)))
 
-  protected final def rgbTexture(name: String, doc: String, in: Set[Dialect] = every)(
-      default: Dialect ?=> Rgb
-  ): Field[RgbTexture] =
-    field(name, "spectrum texture", doc, in, ConstantRgb(default)): (p, site) =>
-      if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
-      else Spectra.rgb(p, SpectrumRole.Reflectance, site).map(ConstantRgb(_))
+  protected final def rgbTexture(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Rgb): Field[RgbTexture] =
+    val text = (d: Dialect) => DefaultText.color(default(using d))
+    textured(name, "spectrum texture", doc, in, unit, shown, text, ConstantRgb(default)):
+      (p, site) =>
+        if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
+        else Spectra.rgb(p, SpectrumRole.Reflectance, site).map(ConstantRgb(_))
 
   private def floats(count: Int, p: Param, site: Site): Option[Array[Float]] =
     val values =
@@ -126,9 +204,25 @@ trait Fields:
       typeName: String,
       doc: String,
       in: Set[Dialect],
+      unit: String,
+      shown: String,
+      default: Dialect ?=> T
+  )(text: T => String)(read: (Param, Site) => Option[T]): Field[T] =
+    val written = (d: Dialect) => if shown.nonEmpty then shown else text(default(using d))
+    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
+
+  private def textured[T](
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect],
+      unit: String,
+      shown: String,
+      text: Dialect => String,
       default: Dialect ?=> T
   )(read: (Param, Site) => Option[T]): Field[T] =
-    register(Field(name, typeName, doc, in, d => default(using d), read))
+    val written = (d: Dialect) => if shown.nonEmpty then shown else text(d)
+    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
 
 object Fields:
   private[build] val numeric: Set[ParamType] = Set(

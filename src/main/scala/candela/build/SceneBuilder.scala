@@ -38,7 +38,7 @@ object SceneBuilder:
       given_.flatMap(d => recipes.build(site(d))).getOrElse(recipes.build(site(fallback)).get)
 
     val defaults = Defaults(description.dialect)
-    val film = view(description.film, Films.all, "image")
+    val film = view(description.film, Films.all, defaults.film)
     val (width, height) =
       if options.quick then (Math.max(1, film.width / 4), Math.max(1, film.height / 4))
       else (film.width, film.height)
@@ -122,10 +122,15 @@ object SceneBuilder:
     p.at.fold(("", 0, 0))(a => (a.file, a.line, a.column))
 
 /** What each dialect does where the scene says nothing. */
-private final case class Defaults(filter: String, sampler: String, integrator: String)
+private final case class Defaults(
+    film: String,
+    filter: String,
+    sampler: String,
+    integrator: String
+)
 
 private object Defaults:
   def apply(dialect: Dialect): Defaults = dialect match
-    case Dialect.V2 => Defaults("box", "lowdiscrepancy", "directlighting")
-    case Dialect.V3 => Defaults("box", "halton", "path")
-    case Dialect.V4 => Defaults("gaussian", "zsobol", "volpath")
+    case Dialect.V2 => Defaults("image", "box", "lowdiscrepancy", "directlighting")
+    case Dialect.V3 => Defaults("image", "box", "halton", "path")
+    case Dialect.V4 => Defaults("rgb", "gaussian", "zsobol", "volpath")

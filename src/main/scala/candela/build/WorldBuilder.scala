@@ -29,10 +29,12 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     */
   private val meshLights = ArrayBuffer.empty[(AreaLightPlan, Int, Int, Int)]
 
-  private def site(d: Declaration) = Site(d, description.dialect, resources, problems)
+  private def site(d: Declaration, toWorld: Transform = Transform.Identity) =
+    Site(d, description.dialect, resources, problems, toWorld)
 
   def build(integrator: IntegratorPlan): World =
-    for t <- description.textures do Textures.define(t, site(t.texture))
+    for t <- description.textures do
+      Textures.define(t, site(t.texture, t.textureToWorld.start))
     for s <- description.shapes do add(s)
     for i <- description.instances; s <- instantiated(i) do add(s)
     val triangles = soup.result(tangents = materials.exists(_.isAnisotropic))

@@ -42,7 +42,7 @@ final class AreaLightRecipesSuite extends RecipeLaws[AreaLightPlan](AreaLights.a
 final class IntegratorRecipesSuite extends RecipeLaws[IntegratorPlan](Integrators.all)
 
 final class FloatTextureRecipesSuite
-    extends RecipeLaws[FloatTexture](Textures.floats(Transform.Identity), Set("imagemap"))
+    extends RecipeLaws[FloatTexture](Textures.floats, Set("imagemap"))
 
 final class RgbTextureRecipesSuite
-    extends RecipeLaws[RgbTexture](Textures.colors(Transform.Identity), Set("imagemap"))
+    extends RecipeLaws[RgbTexture](Textures.colors, Set("imagemap"))

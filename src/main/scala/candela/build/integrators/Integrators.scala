@@ -19,7 +19,12 @@ final case class IntegratorPlan(
 object Integrators:
   val all: Recipes[IntegratorPlan] = Recipes(
     "integrator",
-    Vector(Path("path"), Path("volpath"), Direct, WhittedRecipe),
+    Vector(
+      Path("path", "path tracing", every),
+      Path("volpath", "path tracing, through media", sinceV3),
+      Direct,
+      WhittedRecipe
+    ),
     Vector(
       "bdpt", "mlt", "sppm", "ao", "ambientocclusion", "photonmap", "exphotonmap", "igi",
       "irradiancecache",
@@ -30,14 +35,19 @@ object Integrators:
     ).toMap
   )
 
-  final class Path(name: String) extends Recipe[IntegratorPlan](name):
+  final class Path(name: String, meaning: String, dialects: Set[Dialect])
+      extends Recipe[IntegratorPlan](name, meaning, dialects):
     private val maxDepth = integer("maxdepth", "most scattering events of a path")(5)
     private val threshold =
       float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
     private val lightSampler = string("lightsampler", "how lights are chosen", onlyV4)("bvh")
     private val strategy = string("lightsamplestrategy", "how lights are chosen", onlyV3)("spatial")
-    notYet("regularize", "BSDFs stay as they are")
-    notYet("pixelbounds", "the film's crop window is rendered")
+    notYet("BSDFs stay as they are")(
+      bool("regularize", "roughen what a path meets late", onlyV4)(false)
+    )
+    notYet("the film's crop window is rendered")(
+      integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
+    )
 
     protected def make()(using site: Site): IntegratorPlan =
       // All of them have the same mean; Candela's tree serves for each
@@ -51,11 +61,17 @@ object Integrators:
         s"path, up to $depth scattering events"
       )
 
-  object Direct extends Recipe[IntegratorPlan]("directlighting", untilV3):
+  object Direct extends Recipe[IntegratorPlan](
+        "directlighting",
+        "light that comes straight from lights",
+        untilV3
+      ):
     private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
     private val strategy =
-      oneOf("strategy", "sample all lights or one at random", "all", "one", "weighted")("all")
-    notYet("pixelbounds", "the film's crop window is rendered")
+      oneOf("strategy", "which lights are sampled", Vector("all", "one", "weighted"))("all")
+    notYet("the film's crop window is rendered")(
+      integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
+    )
 
     protected def make()(using Site): IntegratorPlan =
       val (depth, every) = (Math.max(1, maxDepth()), strategy() == "all")
@@ -66,9 +82,12 @@ object Integrators:
         s"directlighting, ${if every then "all lights" else "one light"} at each point"
       )
 
-  object WhittedRecipe extends Recipe[IntegratorPlan]("whitted", untilV3):
+  object WhittedRecipe
+      extends Recipe[IntegratorPlan]("whitted", "mirrors, glass and hard shadows alone", untilV3):
     private val maxDepth = integer("maxdepth", "most specular bounces, plus one")(5)
-    notYet("pixelbounds", "the film's crop window is rendered")
+    notYet("the film's crop window is rendered")(
+      integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
+    )
 
     protected def make()(using Site): IntegratorPlan =
       val depth = Math.max(1, maxDepth())

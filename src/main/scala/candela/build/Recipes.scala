@@ -1,0 +1,44 @@
+package candela.build
+
+import candela.base.Suggest
+
+/** All recipes of a category, by name.
+  *
+  * @param category in messages
+  * @param pending  names whose parameters are not declared yet, with what happens instead
+  */
+final class Recipes[A](
+    val category: String,
+    val all: Vector[Recipe[A]],
+    pending: Map[String, String] = Map.empty
+):
+
+  /** Follows the recipe that the declaration names. A type that is pending is a warning; a name
+    * that nobody knows is an error, with the nearest known.
+    */
+  def build(site: Site): Option[A] =
+    val name = site.declaration.name
+    val candidates = all.filter(_.name == name)
+    candidates.find(_.dialects(site.dialect)).orElse(candidates.headOption) match
+      case Some(recipe) =>
+        for instead <- recipe.pending do
+          site.warn(s"$category \"$name\" is not supported yet: $instead")
+        Some(recipe.build(inDialectOf(recipe, site)))
+      case None if pending.contains(name) =>
+        site.warn(s"$category \"$name\" is not supported yet: ${pending(name)}")
+        None
+      case None =>
+        val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
+        site.error(s"no $category is named `$name`", Suggest.help(name, known))
+        None
+
+  /** A type of another dialect is made as that one makes it. */
+  private def inDialectOf(recipe: Recipe[A], site: Site): Site =
+    if recipe.dialects(site.dialect) then site
+    else
+      val nearest = Dialects.nearest(site.dialect, recipe.dialects)
+      site.warn(
+        s"$category \"${recipe.name}\" is of ${Dialects.list(recipe.dialects)}, not of " +
+          s"${Dialects.name(site.dialect)}: it is made as ${Dialects.name(nearest)} does"
+      )
+      site.in(nearest)

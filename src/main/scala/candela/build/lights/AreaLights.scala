@@ -1,0 +1,52 @@
+package candela.build
+
+import candela.color.Rgb
+import candela.geometry.Bounds3
+import candela.lights.*
+import candela.math.*
+import candela.scenefile.Dialect
+import candela.shapes.{Shape, SurfaceSampler, TriangleSampler}
+
+/** Recipes of lights that are surfaces. */
+object AreaLights:
+  val all: Recipes[AreaLightPlan] =
+    Recipes("area light", Vector(DiffuseLight("diffuse", every), DiffuseLight("area", untilV3)))
+
+/** What an area light statement says; it applies to the shapes that follow. */
+final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val samples: Int):
+
+  /** Emission of the whole shape of `area`: v4's `power` fixes it, whatever the area. */
+  private def radiance(area: Float): Rgb =
+    if power > 0f then
+      val sides = if twoSided then 2f else 1f
+      emitted * (power / (area * Pi * sides))
+    else emitted
+
+  def ofTriangle(triangle: TriangleSampler, meshArea: Float): Light =
+    AreaLight(
+      triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f
+    )
+
+  def ofShape(shape: Shape): Light =
+    val (axis, cosSpread) = shape.normals
+    AreaLight(shape: SurfaceSampler, radiance(shape.area), twoSided, shape.bounds, axis, cosSpread)
+
+final class DiffuseLight(name: String, dialects: Set[Dialect])
+    extends Recipe[AreaLightPlan](name, "every point of the surface emits evenly", dialects):
+  private val radiance = color("L", "emitted radiance", SpectrumRole.Emission)(Rgb.White)
+  private val scale = color("scale", "factor of `L`", SpectrumRole.Reflectance)(Rgb.White)
+  private val twoSided = bool("twosided", "does the inside emit too?")(false)
+  private val power = float("power", "total; scales `L`", onlyV4)(-1f)
+  private val nsamples = integer("nsamples", "light samples of directlighting", untilV3)(1)
+  private val samples = integer("samples", "another name of `nsamples`", untilV3)(1)
+  notYet("the surface emits `L` all over")(
+    string("filename", "image over the surface's uv", onlyV4, shown = "none")("")
+  )
+
+  protected def make()(using Site): AreaLightPlan =
+    AreaLightPlan(
+      radiance() * scale(),
+      power(),
+      twoSided(),
+      Math.max(1, samples.given_().getOrElse(nsamples()))
+    )

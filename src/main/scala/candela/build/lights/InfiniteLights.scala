@@ -1,0 +1,60 @@
+package candela.build
+
+import candela.base.loop
+import candela.color.{ColorBasis, Rgb}
+import candela.image.Image
+import candela.lights.*
+import candela.math.*
+import candela.scenefile.Dialect
+
+object InfiniteLights
+    extends LightRecipe("infinite", "surrounds the scene, in one colour or as an image"):
+  private val radiance =
+    color("L", "radiance, or factor of the image", SpectrumRole.Emission)(Rgb.White)
+  private val mapname = string("mapname", "equirectangular image", untilV3)("")
+  private val filename = string("filename", "equal-area octahedral image", onlyV4)("")
+  private val illuminance = float("illuminance", "on a plane; scales the light", onlyV4)(-1f)
+  notYet("the light shines from all sides")(
+    numbers("portal", "point3[4]", "corners of the window that light comes through", onlyV4)
+  )
+
+  protected def make()(using site: Site): LightPlan =
+    val named = if site.dialect == Dialect.V4 then "filename" else "mapname"
+    val given_ = if site.dialect == Dialect.V4 then filename() else mapname()
+    val p = site.declaration.param(named).filter(_ => given_.nonEmpty)
+    val map = p.flatMap(site.resources.image(_, site.declaration, site.problems))
+    val l = scaled(radiance())
+    val octahedral = site.dialect == Dialect.V4
+    for image <- map if octahedral && image.width != image.height do
+      site.error(
+        s"`$given_` is ${image.width}×${image.height}; an equal-area map is square",
+        Some("pbrt-v4's `imgtool makeequiarea` turns an equirectangular image into one")
+      )
+    val e = if illuminance() > 0f then Rgb.gray(illuminance() / Pi) else Rgb.White
+    if illuminance() > 0f && map.isDefined then
+      site.warn(
+        "`illuminance` of an image light is not supported yet; the image is used as it is"
+      )
+    LightPlan(
+      (toWorld, complete) =>
+        map match
+          case Some(image) =>
+            val layout = if octahedral then EqualAreaMap else LatLongMap
+            val pixels = rebased(image.toImage.linear.toRgb, site.resources.basis)
+            Some(ImageEnvironment(toWorld, pixels, layout, l, smooth = !octahedral, complete))
+          case None if p.isDefined => None
+          case None => Some(ConstantEnvironment(l * e, complete))
+      ,
+      sampleCount()
+    )
+
+private def rebased(image: Image, basis: ColorBasis): Image =
+  if basis.isSrgb then image
+  else
+    val data = new Array[Float](image.data.length)
+    loop(data.length / 3): i =>
+      val c = basis.fromSrgb(Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2)))
+      data(3 * i) = c.r
+      data(3 * i + 1) = c.g
+      data(3 * i + 2) = c.b
+    Image(image.width, image.height, image.channelNames, data)

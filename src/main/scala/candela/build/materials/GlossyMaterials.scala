@@ -1,0 +1,45 @@
+package candela.build
+
+import candela.bsdf.{Material, MaterialFactory as Make, Roughness, RoughnessModel}
+import candela.color.Rgb
+import candela.scenefile.Dialect
+
+object Plastic extends RoughRecipe("plastic", "diffuse with a glossy coat", untilV3, 0.1f):
+  private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
+  private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
+  protected def make()(using site: Site): Material =
+    Make.plastic(kd(), ks(), roughness(), edition(site.dialect))
+
+object Uber extends RoughRecipe(
+      "uber",
+      "diffuse, gloss, mirror and glass in one, with opacity",
+      untilV3,
+      0.1f
+    ):
+  private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
+  private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
+  private val kr = rgbTexture("Kr", "factor of mirror reflection")(Rgb.Black)
+  private val kt = rgbTexture("Kt", "factor of refraction", onlyV3)(Rgb.Black)
+  private val opacity = rgbTexture("opacity", "what does not pass straight through")(Rgb.White)
+  private val eta = floatTexture("eta", "index of refraction", onlyV3)(1.5f)
+  private val index = floatTexture("index", "index of refraction")(1.5f)
+  protected def make()(using site: Site): Material =
+    val n = eta.given_().getOrElse(index())
+    Make.uber(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
+
+object Substrate extends MaterialRecipe(
+      "substrate",
+      "diffuse under a glossy coat, by Ashikhmin and Shirley",
+      untilV3
+    ):
+  private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
+  private val ks = rgbTexture("Ks", "gloss at normal incidence")(Rgb.gray(0.5f))
+  private val u = floatTexture("uroughness", "along u")(0.1f)
+  private val v = floatTexture("vroughness", "along v")(0.1f)
+  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", onlyV3)(true)
+  protected def make()(using site: Site): Material =
+    val model =
+      if site.dialect == Dialect.V2 then RoughnessModel.AnisotropicExponents
+      else if remap() then RoughnessModel.PolynomialAlpha
+      else RoughnessModel.BoundedAlpha
+    Make.substrate(kd(), ks(), Roughness(u(), v(), model))

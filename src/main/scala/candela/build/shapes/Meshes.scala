@@ -1,0 +1,49 @@
+package candela.build
+
+import candela.base.SceneError
+
+object TriangleMeshRecipe extends ShapeRecipe("trianglemesh", "triangles that share vertices"):
+  private val indices =
+    integers("indices", "three vertices a triangle; may be absent for 3 points")
+  private val points = numbers("P", "point3[]", "vertex positions")
+  private val normals = numbers("N", "normal[]", "shading normals, one a vertex")
+  private val uv = numbers("uv", "point2[]", "texture coordinates, one pair a vertex")
+  private val st = numbers("st", "point2[]", "another name of `uv`")
+  noMeaning("tangents come from uv")(
+    numbers("S", "vector3[]", "tangents, one a vertex")
+  )
+  noMeaning("degenerate uv are never used")(
+    bool("discarddegenerateUVs", "drop uv that don't span the surface", untilV3)(false)
+  )
+  noMeaning("nothing reads them")(integers("faceIndices", "numbers of faces, for Ptex", sinceV3))
+
+  protected def make()(using site: Site): Option[ShapeGeometry] =
+    val p = points()
+    val uvs = if uv().nonEmpty then uv() else st()
+    val given_ = indices()
+    val index = if given_.isEmpty && p.length == 9 then Array(0, 1, 2) else given_
+    if p.isEmpty || index.isEmpty then
+      site.error("a trianglemesh needs `P` and `indices`")
+      None
+    else MeshArrays.checked(p, normals(), uvs, index)
+
+object PlyMeshRecipe extends ShapeRecipe("plymesh", "a mesh from a PLY file", sinceV3):
+  private val filename = string("filename", "a .ply file (or .ply.gz)")("")
+  notYet("the mesh is not displaced")(
+    floatTexture("displacement", "along the normal", onlyV4, "scene units", "none")(0f)
+  )
+
+  protected def make()(using site: Site): Option[ShapeGeometry] =
+    site.declaration.param("filename") match
+      case Some(p) if filename().nonEmpty =>
+        site.resources.file(p, site.declaration, site.problems).flatMap: path =>
+          try
+            val mesh = PlyFile.read(path)
+            MeshArrays.checked(mesh.positions, mesh.normals, mesh.uvs, mesh.indices)
+          catch
+            case e: SceneError =>
+              e.problems.foreach(x => site.problems.error(p.valuesAt, x.message, x.help))
+              None
+      case _ =>
+        site.error("a plymesh needs a `filename`")
+        None

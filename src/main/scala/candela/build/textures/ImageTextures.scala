@@ -1,0 +1,94 @@
+package candela.build
+
+import candela.color.{Encoding, Rgb}
+import candela.image.StoredImage
+import candela.math.*
+import candela.scenefile.Dialect
+import candela.textures.*
+
+abstract class ImageMap[A] extends Mapped[A]("imagemap", "a picture"):
+  private val filename = string("filename", "png, tga, jpg, exr or hdr")("")
+  private val wrap =
+    oneOf("wrap", "beyond the image", ImageMap.Wraps)("repeat")
+  protected val scale = float("scale", "factor of the values")(1f)
+  protected val invert = bool("invert", "1 − value", onlyV4)(false)
+  private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
+  private val gammaFlag = bool("gamma", "are values sRGB-encoded?", onlyV3)(true)
+  private val encoding =
+    string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("sRGB")
+  private val filter =
+    oneOf("filter", "of the lookup", ImageMap.Filters, onlyV4)("bilinear")
+  noMeaning("images are read bilinearly")(
+    bool("trilinear", "filter between levels of detail, not along the footprint", untilV3)(false),
+    float("maxanisotropy", "longest footprint over its width")(8f)
+  )
+
+  /** The picture's lookup; None after a problem was reported. */
+  protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using
+      site: Site
+  ): Option[ImageLookup] =
+    site.declaration.param("filename").filter(_ => filename().nonEmpty) match
+      case None =>
+        site.error("an imagemap needs a `filename`")
+        None
+      case Some(p) =>
+        for stored <- site.resources.image(p, site.declaration, site.problems) yield
+          val wrapping = wrap() match
+            case "black" => Wrap.Black
+            case "clamp" => Wrap.Clamp
+            case "octahedralsphere" => Wrap.OctahedralSphere
+            case _ => Wrap.Repeat
+          for f <- filter.given_() if f != "point" && f != "bilinear" do
+            site.warn(s"filter `$f` is not supported yet: the finest level is read bilinearly")
+          val filtering = filter() match
+            case "point" => TextureFilter.Point
+            case "trilinear" => TextureFilter.Trilinear
+            case "ewa" | "EWA" => TextureFilter.Ewa
+            case _ => TextureFilter.Bilinear
+          val bottomUp = site.dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
+          ImageLookup(texels(stored, decoding(stored)), wrapping, filtering, bottomUp)
+
+  private def decoding(stored: StoredImage)(using site: Site): Float => Float =
+    site.dialect match
+      case Dialect.V2 =>
+        // Scaled before the exponent, as v2 does; `scale` is therefore not applied again
+        val (s, g) = (scale(), gammaNumber())
+        x => pow(s * x, g)
+      case Dialect.V3 =>
+        val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
+        if gammaFlag.given_().getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
+      case Dialect.V4 =>
+        // `encoding` speaks of PNG; floating-point pictures are linear, TGA and JPEG sRGB
+        if filename().toLowerCase.endsWith(".png") then encoded()
+        else if stored.encoding == Encoding.Linear then identity
+        else Encoding.Srgb.decode(_)
+
+  private def encoded()(using site: Site): Float => Float =
+    encoding().split(' ') match
+      case Array("sRGB") => Encoding.Srgb.decode(_)
+      case Array("linear") => identity
+      case Array("gamma", g) if g.toFloatOption.exists(_ > 0f) =>
+        val exponent = g.toFloat
+        x => pow(x, exponent)
+      case _ =>
+        site.error(s"`encoding` is sRGB, linear or gamma and a number; found `${encoding()}`")
+        identity
+
+  protected def outerScale(using site: Site): Float =
+    if site.dialect == Dialect.V2 then 1f else scale()
+
+object FloatMap extends ImageMap[FloatTexture]:
+  protected def make()(using site: Site): FloatTexture =
+    val read = if site.dialect == Dialect.V4 then Texels.meanOrAlpha else Texels.luminance
+    lookup(read).fold(ConstantFloat(0.5f))(FloatImageTexture(mapped(), _, outerScale, invert()))
+
+object RgbMap extends ImageMap[RgbTexture]:
+  protected def make()(using site: Site): RgbTexture =
+    lookup(Texels.color).fold(ConstantRgb(Rgb.gray(0.5f))): found =>
+      val basis = site.resources.basis
+      val image = RgbImageTexture(mapped(), found, outerScale, invert())
+      if basis.isSrgb then image else RebasedTexture(image, basis)
+
+private object ImageMap:
+  val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
+  val Filters: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")

@@ -1,0 +1,28 @@
+package candela.build
+
+import candela.math.*
+import candela.scenefile.Dialect
+import candela.textures.*
+
+/** The parameters of a two-dimensional mapping, which many textures share. */
+abstract class Mapped[A](name: String, meaning: String) extends Recipe[A](name, meaning):
+  private val mapping =
+    oneOf("mapping", "how the surface gets coordinates", Mapped.Mappings)("uv")
+  private val uscale = float("uscale", "repetitions along u")(1f)
+  private val vscale = float("vscale", "repetitions along v")(1f)
+  private val udelta = float("udelta", "moves along u")(0f)
+  private val vdelta = float("vdelta", "moves along v")(0f)
+  private val axis1 = vector("v1", "of `planar`: the direction of s")(Vec3.X)
+  private val axis2 = vector("v2", "of `planar`: the direction of t")(Vec3.Y)
+
+  protected def mapped()(using site: Site): Mapping2D = mapping() match
+    case "spherical" => SphericalMapping(site.toWorld)
+    case "cylindrical" =>
+      CylindricalMapping(site.toWorld, onUnitSphere = site.dialect != Dialect.V4)
+    case "planar" =>
+      val space = if site.dialect == Dialect.V4 then site.toWorld else Transform.Identity
+      PlanarMapping(space, axis1(), axis2(), udelta(), vdelta())
+    case _ => UvMapping(uscale(), vscale(), udelta(), vdelta())
+
+private object Mapped:
+  val Mappings: Vector[String] = Vector("uv", "spherical", "cylindrical", "planar")
