@@ -48,7 +48,7 @@ final class SoupBuilder:
     triangles += mesh.indices.length / 3
     first
 
-  def result(tangents: Boolean): TriangleSoup =
+  def result(tangents: Boolean, turnsTangents: Boolean): TriangleSoup =
     val meshOf = new Array[Int](triangles)
     for (mesh, i) <- meshes.zipWithIndex do
       java.util.Arrays.fill(meshOf, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
@@ -57,7 +57,8 @@ final class SoupBuilder:
       Array.concat(indices.toSeq*),
       meshOf,
       meshes.toArray,
-      tangents
+      tangents,
+      turnsTangents
     )
 
 object SoupBuilder:

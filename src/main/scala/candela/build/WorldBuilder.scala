@@ -37,7 +37,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       Textures.define(t, site(t.texture, t.textureToWorld.start))
     for s <- description.shapes do add(s)
     for i <- description.instances; s <- instantiated(i) do add(s)
-    val triangles = soup.result(tangents = materials.exists(_.isAnisotropic))
+    val triangles = soup.result(
+      tangents = materials.exists(_.isAnisotropic),
+      turnsTangents = description.dialect != Dialect.V4
+    )
     for (plan, first, count, light) <- meshLights do
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val area = samplers.foldLeft(0.0)(_ + _.area).toFloat

@@ -5,8 +5,11 @@ import candela.math.*
 /** Where a ray met a surface, with all that textures, materials and lights ask about it.
   *
   * Mutable, one per worker; filled once for the closest hit, by the shape that was hit.
+  *
+  * @param wantsPartials are the partial derivatives asked for? Decided once for a scene: a shape
+  *                      fills them in only then, by `setPartials`
   */
-final class ShadingPoint:
+final class ShadingPoint(val wantsPartials: Boolean = false):
   /** World space. */
   var p: Vec3 = Vec3.Zero
 
@@ -24,6 +27,30 @@ final class ShadingPoint:
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
 
+  /** How the point moves with `u` and `v`, and how the unit normal `frame.n` turns. */
+  var dpdu, dpdv: Vec3 = Vec3.Zero
+  var dndu, dndv: Vec3 = Vec3.Zero
+
+  /** What displacements are added to: `dpdu` and `dpdv`, but tangent to `frame.n` on meshes with
+    * interpolated normals.
+    */
+  var tangentU, tangentV: Vec3 = Vec3.Zero
+
+  /** How far the point moves, and its parameters, from one place on the film to the next to the
+    * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
+    * unknown, or not wanted: textures then show their finest detail.
+    */
+  var dpdx, dpdy: Vec3 = Vec3.Zero
+  var dudx, dvdx, dudy, dvdy: Float = 0f
+
+  def setPartials(dpdu: Vec3, dpdv: Vec3, dndu: Vec3, dndv: Vec3): Unit =
+    this.dpdu = dpdu
+    this.dpdv = dpdv
+    this.dndu = dndu
+    this.dndv = dndv
+    tangentU = dpdu
+    tangentV = dpdv
+
   /** Index into the scene's materials. */
   var material: Int = 0
 
@@ -39,6 +66,15 @@ final class ShadingPoint:
     ShadingPoint.offset(p, pError, geometricNormal, direction)
 
 object ShadingPoint:
+
+  /** The derivative of n/|n| of a normal `n` that may have any length, along with whose own
+    * derivative `dn`.
+    */
+  def turn(n: Vec3, dn: Vec3): Vec3 =
+    val inverse = 1f / n.length
+    val unit = n * inverse
+    (dn - unit * (unit dot dn)) * inverse
+
   def offset(p: Vec3, pError: Vec3, n: Vec3, direction: Vec3): Vec3 =
     val d = Math.abs(n.x) * pError.x + Math.abs(n.y) * pError.y + Math.abs(n.z) * pError.z
     val side = if (direction dot n) < 0f then -d else d

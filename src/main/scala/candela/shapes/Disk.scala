@@ -78,6 +78,15 @@ final class Disk(
     at.u = phi / phiMax
     at.v = (radius - sqrt(square(local.x) + square(local.y))) / (radius - innerRadius)
     at.frame = Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f)))
+    if at.wantsPartials then
+      val r = sqrt(square(local.x) + square(local.y))
+      val inwards = if r > 0f then (innerRadius - radius) / r else 0f
+      at.setPartials(
+        objectToWorld.vector(Vec3(-local.y * phiMax, local.x * phiMax, 0f)),
+        objectToWorld.vector(Vec3(local.x * inwards, local.y * inwards, 0f)),
+        Vec3.Zero,
+        Vec3.Zero
+      )
 
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     val r = sqrt(lerp(u1, square(innerRadius), square(radius)))

@@ -115,6 +115,25 @@ final class Sphere(
       (thetaMax - thetaMin)).toFloat
     val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
     at.frame = Frame.along(at.geometricNormal, dpdu)
+    if at.wantsPartials then partials(x, y, z, at)
+
+  private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
+    val perU = phiMax.toDouble
+    val perV = thetaMax - thetaMin
+    val r = Math.sqrt(x * x + y * y)
+    // At a pole any direction is as good
+    val (c, s) = if r > 0 then (x / r, y / r) else (1.0, 0.0)
+    val alongU = Vec3((-y * perU).toFloat, (x * perU).toFloat, 0f)
+    val alongV = Vec3((z * c * perV).toFloat, (z * s * perV).toFloat, (-r * perV).toFloat)
+    // The normal of an untransformed sphere is the point itself, over the radius
+    val side = if reversed then -1f / radius else 1f / radius
+    val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat) * side)
+    at.setPartials(
+      objectToWorld.vector(alongU),
+      objectToWorld.vector(alongV),
+      ShadingPoint.turn(n, objectToWorld.normal(alongU * side)),
+      ShadingPoint.turn(n, objectToWorld.normal(alongV * side))
+    )
 
   private def worldPoint(x: Double, y: Double, z: Double): Vec3 =
     val m = toWorld

@@ -30,13 +30,15 @@ final class Mesh(
   * @param indices   three vertices a triangle, counted over all meshes
   * @param meshOf    the mesh of each triangle
   * @param tangents  does any material ask for the direction of u? If not, it isn't computed
+  * @param turnsTangents see [[TrianglePartials]]; so in pbrt-v2 and v3
   */
 final class TriangleSoup(
     val positions: Array[Float],
     val indices: Array[Int],
     val meshOf: Array[Int],
     val meshes: Array[Mesh],
-    tangents: Boolean
+    tangents: Boolean,
+    turnsTangents: Boolean = false
 ):
   def count: Int = meshOf.length
 
@@ -76,6 +78,8 @@ final class TriangleSoup(
     uv(mesh, i0, i1, i2, b1, b2, at)
     at.frame =
       if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
+    if at.wantsPartials then
+      TrianglePartials.fill(mesh, i0, i1, i2, b1, b2, e1, e2, turnsTangents, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle

@@ -1,0 +1,78 @@
+package candela.shapes
+
+import candela.geometry.{Frame, ShadingPoint}
+import candela.math.*
+
+/** How point and normal change over a triangle. */
+private[shapes] object TrianglePartials:
+
+  /** Fills in the partial derivatives at the point with the weights `b1` and `b2`, once its frame
+    * is known.
+    *
+    * A triangle whose corners' u and v do not span an area gets tangents of unit length in any
+    * direction. Where a mesh has normals, the tangents for displacements follow them; pbrt-v2 and
+    * v3 make these unit vectors and turn them half around, so that bumps appear as dents.
+    *
+    * @param e1, e2 edges from the first corner to the second and to the third
+    * @param turned make them so?
+    */
+  def fill(
+      mesh: Mesh,
+      i0: Int,
+      i1: Int,
+      i2: Int,
+      b1: Float,
+      b2: Float,
+      e1: Vec3,
+      e2: Vec3,
+      turned: Boolean,
+      at: ShadingPoint
+  ): Unit =
+    val (k0, k1, k2) = (i0 - mesh.firstVertex, i1 - mesh.firstVertex, i2 - mesh.firstVertex)
+    val t = mesh.uvs
+    // Differences of the parameters along the two edges; those without any are (0,0), (1,0), (1,1)
+    val isPlain = t.length == 0
+    val u1 = if isPlain then 1f else t(2 * k1) - t(2 * k0)
+    val v1 = if isPlain then 0f else t(2 * k1 + 1) - t(2 * k0 + 1)
+    val u2 = if isPlain then 1f else t(2 * k2) - t(2 * k0)
+    val v2 = if isPlain then 1f else t(2 * k2 + 1) - t(2 * k0 + 1)
+    val determinant = differenceOfProducts(u1, v2, u2, v1)
+    val isDegenerate = Math.abs(determinant) < Degenerate
+    val n = mesh.normals
+    if isDegenerate then
+      val any = Frame.around(at.geometricNormal)
+      at.setPartials(any.s, any.t, Vec3.Zero, Vec3.Zero)
+    else
+      val inverse = 1f / determinant
+      val dpdu = (e1 * v2 - e2 * v1) * inverse
+      val dpdv = (e2 * u1 - e1 * u2) * inverse
+      if n.length == 0 then at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
+      else
+        val n0 = normal(n, k0)
+        val n1 = normal(n, k1)
+        val n2 = normal(n, k2)
+        val sum = n0 * (1f - b1 - b2) + n1 * b1 + n2 * b2
+        val (d1, d2) = (n1 - n0, n2 - n0)
+        if sum.lengthSquared > 0f then
+          val dndu = ShadingPoint.turn(sum, (d1 * v2 - d2 * v1) * inverse)
+          val dndv = ShadingPoint.turn(sum, (d2 * u1 - d1 * u2) * inverse)
+          at.setPartials(dpdu, dpdv, dndu, dndv)
+        else at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
+    if n.length > 0 then tangents(at, turned)
+
+  private def tangents(at: ShadingPoint, turned: Boolean): Unit =
+    val ns = at.frame.n
+    val along = Frame.along(ns, at.dpdu)
+    if turned then
+      at.tangentU = -along.s
+      at.tangentV = -along.t
+    else
+      val length = (ns cross at.dpdu).length
+      at.tangentU = along.s * length
+      at.tangentV = along.t * length
+
+  private def normal(n: Array[Float], vertex: Int): Vec3 =
+    Vec3(n(3 * vertex), n(3 * vertex + 1), n(3 * vertex + 2))
+
+  /** Of the determinant of u and v; pbrt's. */
+  private val Degenerate = 1e-8f
