@@ -4,9 +4,16 @@ import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray}
 import candela.shapes.{Shape, TriangleSoup, TriangleTest}
 
-/** All that a ray can meet, numbered: the triangles of the soup first, then the other shapes. */
-final class Primitives(val soup: TriangleSoup, val shapes: Array[Shape]):
-  def count: Int = soup.count + shapes.length
+/** All that a ray can meet, numbered: the triangles of the soup first, then the other shapes, then
+  * the instances of objects.
+  */
+final class Primitives(
+    val soup: TriangleSoup,
+    val shapes: Array[Shape],
+    val instances: Instances = Instances.None
+):
+  private val firstInstance = soup.count + shapes.length
+  def count: Int = firstInstance + instances.count
 
   /** Lower and upper corner of each primitive's box: six Floats. */
   def bounds: Array[Float] =
@@ -15,7 +22,9 @@ final class Primitives(val soup: TriangleSoup, val shapes: Array[Shape]):
     all
 
   private def boundsOf(i: Int): Bounds3 =
-    if i < soup.count then soup.bounds(i) else shapes(i - soup.count).bounds
+    if i < soup.count then soup.bounds(i)
+    else if i < firstInstance then shapes(i - soup.count).bounds
+    else instances.bounds(i - firstInstance)
 
   private def write(to: Array[Float], at: Int, b: Bounds3): Unit =
     to(at) = b.min.x
@@ -33,19 +42,22 @@ final class Primitives(val soup: TriangleSoup, val shapes: Array[Shape]):
       if triangle < soup.count then
         loop(9): k =>
           corners(9 * slot + k) = soup.positions(3 * soup.indices(3 * triangle + k / 3) + k % 3)
-    PackedPrimitives(order, corners, soup.count, shapes)
+    PackedPrimitives(order, corners, soup.count, shapes, instances)
 
 /** Primitives in the order in which an accelerator's leaves hold them.
   *
   * @param order   which primitive is in each slot
-  * @param corners nine Floats a slot: x, y, z of a triangle's corners; unused for other shapes
+  * @param corners nine Floats a slot: x, y, z of a triangle's corners; unused for the others
   */
 final class PackedPrimitives(
     order: Array[Int],
     corners: Array[Float],
     triangles: Int,
-    shapes: Array[Shape]
+    shapes: Array[Shape],
+    instances: Instances
 ):
+  private val firstInstance = triangles + shapes.length
+
   /** Tests the slots from `first` until `end`; on a hit shortens the ray and fills `hit`. */
   def intersect(first: Int, end: Int, ray: Ray, hit: Hit): Boolean =
     var found = false
@@ -54,7 +66,7 @@ final class PackedPrimitives(
       val primitive = order(slot)
       val here =
         if primitive < triangles then TriangleTest.intersect(corners, 9 * slot, ray, hit)
-        else shapes(primitive - triangles).intersect(ray, hit)
+        else other(primitive, ray, hit)
       if here then
         hit.primitive = primitive
         found = true
@@ -68,6 +80,14 @@ final class PackedPrimitives(
       val primitive = order(slot)
       found =
         if primitive < triangles then TriangleTest.isHit(corners, 9 * slot, ray, hit)
-        else shapes(primitive - triangles).isHit(ray)
+        else isOtherHit(primitive, ray, hit)
       slot += 1
     found
+
+  private def other(primitive: Int, ray: Ray, hit: Hit): Boolean =
+    if primitive < firstInstance then shapes(primitive - triangles).intersect(ray, hit)
+    else instances.intersect(primitive - firstInstance, ray, hit)
+
+  private def isOtherHit(primitive: Int, ray: Ray, hit: Hit): Boolean =
+    if primitive < firstInstance then shapes(primitive - triangles).isHit(ray)
+    else instances.isHit(primitive - firstInstance, ray, hit)

@@ -3,12 +3,12 @@ package candela.build
 import scala.collection.mutable
 import scala.collection.mutable.ArrayBuffer
 
-import candela.accel.{Accelerator, Bvh, Grid, Primitives}
+import candela.accel.{Accelerator, Bvh, Grid, Instances, Primitives}
 import candela.bsdf.{InterfaceMaterial, Material}
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
 import candela.math.Transform
-import candela.scene.{Scene, ShapeInstance}
+import candela.scene.{Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
 import candela.shapes.TriangleSampler
 
@@ -19,8 +19,7 @@ final class World(val integrator: Integrator, val features: Vector[(String, Stri
 final class WorldBuilder(description: SceneDescription, resources: Resources, problems: Findings):
   private val materials = ArrayBuffer.empty[Material]
   private val materialOf = mutable.HashMap.empty[MaterialRef, Int]
-  private val soup = SoupBuilder()
-  private val solids = ArrayBuffer.empty[ShapeInstance]
+  private val world = SurfaceBuilder()
   private val lights = ArrayBuffer.empty[Light]
   private val lightSamples = ArrayBuffer.empty[Int]
 
@@ -35,12 +34,17 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   def build(integrator: IntegratorPlan): World =
     for t <- description.textures do
       Textures.define(t, site(t.texture, t.textureToWorld.start))
-    for s <- description.shapes do add(s)
-    for i <- description.instances; s <- instantiated(i) do add(s)
-    val triangles = soup.result(
-      tangents = materials.exists(_.isAnisotropic),
-      turnsTangents = description.dialect != Dialect.V4
-    )
+    val uses = ObjectUses(description, problems)
+    for s <- description.shapes ++ uses.copied do add(s, world)
+    val objectBuilders = uses.shared.map: placed =>
+      val builder = SurfaceBuilder()
+      for s <- placed.shapes do add(s, builder)
+      builder
+    val tangents = materials.exists(_.isAnisotropic)
+    val turnsTangents = description.dialect != Dialect.V4
+    val surfaces = world.result(tangents, turnsTangents)
+    val objects = objectBuilders.map(_.result(tangents, turnsTangents))
+    val triangles = surfaces.soup
     for (plan, first, count, light) <- meshLights do
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
@@ -49,13 +53,13 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
     val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
     for l <- description.lights do addLight(l, complete)
-    val primitives = Primitives(triangles, solids.map(_.shape).toArray)
-    val accelerator = accelerate(primitives)
+    val instanced = instances(objects, uses.shared.map(_.places))
+    val accelerator = accelerate(surfaces, instanced.instances)
     val sources = lights.toArray
     val selection = LightSelection.of(sources)
     val scene = Scene(
-      triangles,
-      solids.toArray,
+      surfaces,
+      instanced,
       accelerator,
       materials.toArray,
       sources,
@@ -67,8 +71,9 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       integrator.make(scene, lightSamples.toArray),
       Vector(
         "accelerator" -> accelerator.describe,
-        "triangles" -> soup.triangleCount.toString,
-        "other shapes" -> solids.length.toString,
+        "triangles" -> triangles.count.toString,
+        "other shapes" -> surfaces.solids.length.toString,
+        "instances" -> instanced.describe,
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
       )
@@ -78,7 +83,13 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     for c <- description.camera do
       problems.warn(c.at, "the scene has no light: its image will be black")
 
-  private def accelerate(primitives: Primitives): Accelerator =
+  private def instances(objects: Vector[Surfaces], places: Vector[Vector[Transform]]): Instanced =
+    val accelerators = objects.map(accelerate(_, Instances.None))
+    val all = places.zipWithIndex.flatMap((transforms, o) => transforms.map(t => (o, t)))
+    Instanced(objects.toArray, Instances.of(accelerators.toArray, all))
+
+  private def accelerate(surfaces: Surfaces, instances: Instances): Accelerator =
+    val primitives = Primitives(surfaces.soup, surfaces.solids.map(_.shape), instances)
     description.accelerator match
       case Some(d) if d.name == "grid" || d.name == "none" => Grid(primitives)
       case Some(d) if d.name == "bvh" => Bvh(primitives)
@@ -91,28 +102,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
         Bvh(primitives)
       case None => Bvh(primitives)
 
-  /** The shapes of an object, moved to where an instance puts them. */
-  private def instantiated(i: InstanceDescription): Vector[ShapeDescription] =
-    description.objects.get(i.name) match
-      case None =>
-        problems.error(
-          i.at,
-          s"no object is named `${i.name}`",
-          candela.base.Suggest.help(i.name, description.objects.keys)
-        )
-        Vector.empty
-      case Some(shapes) =>
-        shapes.map: s =>
-          val t = i.instanceToWorld
-          s.copy(
-            objectToWorld = AnimatedTransform(
-              t.start * s.objectToWorld.start,
-              t.end * s.objectToWorld.end
-            ),
-            areaLight = None
-          )
-
-  private def add(s: ShapeDescription): Unit =
+  private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
     if s.objectToWorld.isAnimated then problems.warn(s.shape.at, SceneBuilder.Motion)
     val toWorld = s.objectToWorld.start
     val here = site(s.shape)
@@ -120,14 +110,15 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       val material = materialIndex(s.material)
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
       geometry match
-        case mesh: ShapeGeometry.Triangles => addMesh(s, mesh, toWorld, material, light, here)
+        case mesh: ShapeGeometry.Triangles =>
+          addMesh(s, mesh, toWorld, material, light, here, to.soup)
         case ShapeGeometry.Solid(make) =>
           val shape = make(toWorld, s.reverseOrientation)
           val index = light.fold(-1): plan =>
             lights += plan.ofShape(shape)
             lightSamples += plan.samples
             lights.length - 1
-          solids += ShapeInstance(shape, material, index)
+          to.solids += ShapeInstance(shape, material, index)
 
   private def addMesh(
       s: ShapeDescription,
@@ -135,14 +126,12 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       toWorld: Transform,
       material: Int,
       light: Option[AreaLightPlan],
-      here: Site
+      here: Site,
+      soup: SoupBuilder
   ): Unit =
     val count = mesh.indices.length / 3
     if soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
-      here.error(
-        s"more than ${WorldBuilder.MostTriangles} triangles: until instancing is supported, " +
-          "each instance is a copy"
-      )
+      here.error(s"more than ${WorldBuilder.MostTriangles} triangles in the world or in one object")
     else
       val firstLight = light.fold(-1)(_ => lights.length)
       val flipNormals = description.dialect == Dialect.V4

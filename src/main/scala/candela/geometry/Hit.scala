@@ -5,6 +5,9 @@ final class Hit:
   /** Which primitive, as the accelerator numbers them; −1: none. */
   var primitive: Int = -1
 
+  /** If that is an instance: which primitive of its object. */
+  var inner: Int = -1
+
   /** For a triangle the barycentric weights of its second and third vertex; shapes use them
     * freely.
     */

@@ -31,13 +31,25 @@ final class Ray:
   def direction: Vec3 = Vec3(dx, dy, dz)
   def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)
 
+  private var within: Option[Ray] = None
+
+  /** A ray of its own for the way through something inside, in that thing's space; made when it is
+    * first asked for.
+    */
+  def nested: Ray =
+    if within.isEmpty then within = Some(Ray())
+    within.get
+
   def set(origin: Vec3, direction: Vec3, end: Float): Unit =
-    ox = origin.x
-    oy = origin.y
-    oz = origin.z
-    dx = direction.x
-    dy = direction.y
-    dz = direction.z
+    set(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end)
+
+  def set(ox: Float, oy: Float, oz: Float, dx: Float, dy: Float, dz: Float, end: Float): Unit =
+    this.ox = ox
+    this.oy = oy
+    this.oz = oz
+    this.dx = dx
+    this.dy = dy
+    this.dz = dz
     tMax = end
     invX = 1f / dx
     invY = 1f / dy

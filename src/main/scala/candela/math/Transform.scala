@@ -45,6 +45,9 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
     m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
       m(2) * (m(4) * m(9) - m(5) * m(8)) < 0
 
+  /** Does it keep parallels parallel? (The last row is 0 0 0 1.) */
+  def isAffine: Boolean = m(12) == 0 && m(13) == 0 && m(14) == 0 && m(15) == 1
+
   def isIdentity: Boolean = this == Transform.Identity
 
   override def equals(other: Any): Boolean = other match

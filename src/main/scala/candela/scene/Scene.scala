@@ -4,7 +4,7 @@ import candela.accel.Accelerator
 import candela.bsdf.{Bsdf, InterfaceMaterial, Material}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
-import candela.shapes.{Shape, TriangleSoup}
+import candela.shapes.Shape
 
 /** A shape that is no triangle, with what it looks like.
   *
@@ -15,19 +15,22 @@ final case class ShapeInstance(shape: Shape, material: Int, light: Int)
 
 /** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
   *
+  * @param surfaces        numbered as the accelerator's primitives; instances follow
   * @param sidesByGeometry does the geometric normal say which directions are reflections? So in
   *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
   *                        goes by the shading normal alone
   */
 final class Scene(
-    soup: TriangleSoup,
-    shapes: Array[ShapeInstance],
+    surfaces: Surfaces,
+    instanced: Instanced,
     accelerator: Accelerator,
     materials: Array[Material],
     val lights: Array[Light],
     val selection: LightSelection,
     val sidesByGeometry: Boolean
 ):
+  private val firstInstance = surfaces.count
+
   /** Those of `lights` that surround the scene, with their indices. */
   val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
   val environmentIndex: Array[Int] =
@@ -44,12 +47,8 @@ final class Scene(
   /** Works out the geometry of the hit that `closest` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val primitive = hit.primitive
-    if primitive < soup.count then soup.surface(primitive, hit, at)
-    else
-      val instance = shapes(primitive - soup.count)
-      instance.shape.surface(ray, hit, at)
-      at.material = instance.material
-      at.areaLight = instance.light
+    if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
+    else instanced.fill(primitive - firstInstance, ray, hit, at)
 
   /** Does light pass here as if nothing were there? */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial

@@ -83,7 +83,9 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
         assert(found == (hit.primitive >= 0), at)
         if hit.primitive == expected.primitive && found then
           val isTriangle = hit.primitive < primitives.soup.count
-          val isSame = !isTriangle || (hit.u == expected.u && hit.v == expected.v)
+          val isInstance = hit.primitive >= primitives.count - primitives.instances.count
+          val isSame = (!isTriangle || (hit.u == expected.u && hit.v == expected.v)) &&
+            (!isInstance || hit.inner == expected.inner)
           assert(isSame && ray.tMax == expectedRay.tMax, at): Unit
         else if ray.tMax != expectedRay.tMax then
           // Which of two is closer is decided to the rounding of their distances, a few round-offs

@@ -11,6 +11,22 @@ object AcceleratorScenes:
     val soup = if triangles.isEmpty then TriangleSoup.Empty else Soups.of(triangles)
     Primitives(soup, shapes.toArray)
 
+  /** Instances of three objects (triangles, shapes, both), turned, stretched and mirrored. */
+  def instances(draws: Draws, count: Int, size: Float)(centre: => Vec3): Instances =
+    def near = draws.vec(-1, 1)
+    val objects = Array[Accelerator](
+      Bvh(mixed(Soups.around(draws, 60, 0.3f)(near))),
+      BruteForce(mixed(Nil, Soups.shapes(draws, 5, 1)(near))),
+      Grid(mixed(Soups.around(draws, 20, 0.5f)(near), Soups.shapes(draws, 5, 0.5f)(near)))
+    )
+    Instances.of(
+      objects,
+      Vector.tabulate(count): i =>
+        val c = centre
+        val scale = Transform.scale(size, size, size).get
+        (i % 3, Transform.translate(c.x, c.y, c.z) * draws.rotation() * draws.stretch() * scale)
+    )
+
   def all: Seq[(String, Primitives)] =
     val draws = Draws(1)
     def anywhere = draws.vec(-1, 1)
@@ -43,6 +59,18 @@ object AcceleratorScenes:
       "triangles, spheres and disks" -> mixed(
         Soups.around(draws, 200, 0.3f)(anywhere),
         Soups.shapes(draws, 40, 0.3f)(anywhere)
+      ),
+      "instances" ->
+        Primitives(TriangleSoup.Empty, Array.empty, instances(draws, 60, 0.1f)(anywhere)),
+      "triangles, spheres, disks and instances" -> Primitives(
+        Soups.of(Soups.around(draws, 100, 0.3f)(anywhere)),
+        Soups.shapes(draws, 20, 0.3f)(anywhere).toArray,
+        instances(draws, 20, 0.2f)(anywhere)
+      ),
+      "instances far from the origin" -> Primitives(
+        TriangleSoup.Empty,
+        Array.empty,
+        instances(draws, 40, 0.1f)(far + anywhere)
       ),
       "far from the origin" -> mixed(
         Soups.around(draws, 200, 0.3f)(far + anywhere),

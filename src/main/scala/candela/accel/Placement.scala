@@ -1,0 +1,116 @@
+package candela.accel
+
+import candela.base.loop
+import candela.geometry.{Bounds3, Frame, Ray, ShadingPoint}
+import candela.math.*
+
+/** The arithmetic of an object that stands somewhere: 24 Doubles of a flat array, the first three
+  * rows of object to world and the first three rows of its inverse. Affine maps only.
+  */
+object Placement:
+  inline val Doubles = 24
+  private inline val Inverse = 12
+
+  def write(toWorld: Transform, to: Array[Double], at: Int): Unit =
+    loop(12): k =>
+      to(at + k) = toWorld.m(k)
+      to(at + Inverse + k) = toWorld.inverseM(k)
+
+  /** Takes the ray into the object's space: the answer is `ray.nested`, with the same distances. */
+  def enter(m: Array[Double], at: Int, ray: Ray): Ray =
+    val local = ray.nested
+    val i = at + Inverse
+    val ox = ray.ox.toDouble
+    val oy = ray.oy.toDouble
+    val oz = ray.oz.toDouble
+    val dx = ray.dx.toDouble
+    val dy = ray.dy.toDouble
+    val dz = ray.dz.toDouble
+    local.set(
+      (m(i) * ox + m(i + 1) * oy + m(i + 2) * oz + m(i + 3)).toFloat,
+      (m(i + 4) * ox + m(i + 5) * oy + m(i + 6) * oz + m(i + 7)).toFloat,
+      (m(i + 8) * ox + m(i + 9) * oy + m(i + 10) * oz + m(i + 11)).toFloat,
+      (m(i) * dx + m(i + 1) * dy + m(i + 2) * dz).toFloat,
+      (m(i + 4) * dx + m(i + 5) * dy + m(i + 6) * dz).toFloat,
+      (m(i + 8) * dx + m(i + 9) * dy + m(i + 10) * dz).toFloat,
+      ray.tMax
+    )
+    local
+
+  /** Contains the object's box wherever its corners go, and the rounding of rays on the way in. */
+  def bounds(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
+    if box.isEmpty then Bounds3.Empty
+    else
+      val far = Vec3(
+        Math.max(Math.abs(box.min.x), Math.abs(box.max.x)),
+        Math.max(Math.abs(box.min.y), Math.abs(box.max.y)),
+        Math.max(Math.abs(box.min.z), Math.abs(box.max.z))
+      )
+      val slack = stretched(m, at, far) * gamma(2)
+      val corners = Bounds3.of((0 until 8).map(k => point(m, at, box.corner(k))))
+      val pad = slack + Vec3(
+        Math.max(Math.abs(corners.min.x), Math.abs(corners.max.x)),
+        Math.max(Math.abs(corners.min.y), Math.abs(corners.max.y)),
+        Math.max(Math.abs(corners.min.z), Math.abs(corners.max.z))
+      ) * gamma(2)
+      Bounds3(corners.min - pad, corners.max + pad)
+
+  /** Takes a shading point from the object's space to the world.
+    *
+    * The error that its point then has: what it had, stretched; the rounding of a ray's origin when
+    * it comes back into the object's space, stretched likewise; and its own rounding.
+    * Normals: the true one keeps the side that the object calls its outside, also where the map
+    * mirrors; the shading normal follows it (so in pbrt-v2, v3 and v4).
+    */
+  def locate(m: Array[Double], at: Int, s: ShadingPoint): Unit =
+    val error = s.pError + absolute(s.p) * gamma(1)
+    s.p = point(m, at, s.p)
+    s.pError = stretched(m, at, error) + absolute(s.p) * gamma(2)
+    s.geometricNormal = normal(m, at, s.geometricNormal).normalized
+    val across = normal(m, at, s.frame.n)
+    val n = across.normalized.facing(s.geometricNormal)
+    s.frame = Frame.along(n, vector(m, at, s.frame.s))
+    if s.wantsPartials then partials(m, at, across, n, s)
+
+  /** @param across the shading normal, mapped but of any length; `n` the one that is used */
+  private def partials(m: Array[Double], at: Int, across: Vec3, n: Vec3, s: ShadingPoint): Unit =
+    val side = if (across dot n) < 0f then -1f else 1f
+    val (tangentU, tangentV) = (vector(m, at, s.tangentU), vector(m, at, s.tangentV))
+    s.setPartials(
+      vector(m, at, s.dpdu),
+      vector(m, at, s.dpdv),
+      ShadingPoint.turn(across, normal(m, at, s.dndu)) * side,
+      ShadingPoint.turn(across, normal(m, at, s.dndv)) * side
+    )
+    s.tangentU = tangentU
+    s.tangentV = tangentV
+
+  private def absolute(v: Vec3): Vec3 = Vec3(Math.abs(v.x), Math.abs(v.y), Math.abs(v.z))
+
+  private def point(m: Array[Double], at: Int, p: Vec3): Vec3 = Vec3(
+    (m(at) * p.x + m(at + 1) * p.y + m(at + 2) * p.z + m(at + 3)).toFloat,
+    (m(at + 4) * p.x + m(at + 5) * p.y + m(at + 6) * p.z + m(at + 7)).toFloat,
+    (m(at + 8) * p.x + m(at + 9) * p.y + m(at + 10) * p.z + m(at + 11)).toFloat
+  )
+
+  private def vector(m: Array[Double], at: Int, v: Vec3): Vec3 = Vec3(
+    (m(at) * v.x + m(at + 1) * v.y + m(at + 2) * v.z).toFloat,
+    (m(at + 4) * v.x + m(at + 5) * v.y + m(at + 6) * v.z).toFloat,
+    (m(at + 8) * v.x + m(at + 9) * v.y + m(at + 10) * v.z).toFloat
+  )
+
+  /** By the transposed inverse; of any length. */
+  private def normal(m: Array[Double], at: Int, n: Vec3): Vec3 =
+    val i = at + Inverse
+    Vec3(
+      (m(i) * n.x + m(i + 4) * n.y + m(i + 8) * n.z).toFloat,
+      (m(i + 1) * n.x + m(i + 5) * n.y + m(i + 9) * n.z).toFloat,
+      (m(i + 2) * n.x + m(i + 6) * n.y + m(i + 10) * n.z).toFloat
+    )
+
+  /** What a box of this half extent around the origin spans. */
+  private def stretched(m: Array[Double], at: Int, e: Vec3): Vec3 =
+    def row(r: Int) = (
+      Math.abs(m(r)) * e.x + Math.abs(m(r + 1)) * e.y + Math.abs(m(r + 2)) * e.z
+    ).toFloat
+    Vec3(row(at), row(at + 4), row(at + 8))

@@ -1,0 +1,22 @@
+package candela.scene
+
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.shapes.TriangleSoup
+
+/** What one accelerator's primitives look like: those of the world, or of an object that instances
+  * place in it.
+  */
+final class Surfaces(val soup: TriangleSoup, val solids: Array[ShapeInstance]):
+  def count: Int = soup.count + solids.length
+
+  /** Works out the geometry of the hit on `primitive`, in the space of these surfaces. */
+  def fill(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    if primitive < soup.count then soup.surface(primitive, hit, at)
+    else
+      val solid = solids(primitive - soup.count)
+      solid.shape.surface(ray, hit, at)
+      at.material = solid.material
+      at.areaLight = solid.light
+
+object Surfaces:
+  val None: Surfaces = Surfaces(TriangleSoup.Empty, Array.empty)

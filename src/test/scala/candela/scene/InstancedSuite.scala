@@ -1,0 +1,127 @@
+package candela.scene
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.accel.*
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.shapes.{Disk, Shape, TriangleSoup}
+import candela.testing.{Draws, Soups}
+
+/** An object that stands elsewhere looks as if its surfaces had been built there. */
+class InstancedSuite extends AnyFunSuite:
+  private val ray = Ray()
+  private val hit = Hit()
+  private val at = ShadingPoint()
+
+  private def placed(surfaces: Surfaces, toWorld: Transform): Instanced =
+    val primitives = Primitives(surfaces.soup, surfaces.solids.map(_.shape))
+    Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, toWorld))))
+
+  private def solid(shape: Shape): Surfaces =
+    Surfaces(TriangleSoup.Empty, Array(ShapeInstance(shape, material = 0, light = -1)))
+
+  private def placement(draws: Draws): Transform =
+    val size = draws.magnitude(1e-2, 1e3)
+    draws.translation(size * draws.magnitude(1e-1, 100)) * draws.rotation() * draws.stretch() *
+      Transform.scale(size, size, size).get
+
+  private def apart(a: Vec3, b: Vec3): Float = (a - b).length
+
+  test("a mesh is hit where its copy would be, with the same normals, tangent and parameters"):
+    val draws = Draws(1)
+    val facets = Soups.around(draws, 30, 0.5f)(draws.vec(-1, 1))
+    val (other, otherHit) = (Ray(), Hit())
+    val there = ShadingPoint()
+    var hits = 0
+    for _ <- 0 until 40 do
+      val toWorld = placement(draws)
+      def moved(p: Vec3) = toWorld.point(p)
+      val copy =
+        Soups.of(facets.map((a, b, c) => (moved(a), moved(b), moved(c))), toWorld.swapsHandedness)
+      val instanced = placed(Surfaces(Soups.of(facets), Array.empty), toWorld)
+      val size = copy.positions.map(Math.abs).max
+      for _ <- 0 until 200 do
+        val target = moved(draws.vec(-1, 1))
+        val o = moved(draws.direction() * 3f)
+        ray.set(o, target - o, Float.PositiveInfinity)
+        other.set(o, target - o, Float.PositiveInfinity)
+        if instanced.instances.intersect(0, ray, hit) && BruteForce(Primitives(copy, Array.empty))
+            .closest(other, otherHit) && hit.inner == otherHit.primitive
+        then
+          hits += 1
+          val before = hit.primitive
+          instanced.fill(0, ray, hit, at)
+          assert(hit.primitive == before, "an instance's hit leaves the world's alone")
+          copy.surface(otherHit.primitive, otherHit, there)
+          assert(apart(at.p, there.p) <= 1e-5f * size)
+          assert(apart(at.geometricNormal, there.geometricNormal) < 1e-2f)
+          assert(apart(at.frame.n, there.frame.n) < 1e-2f)
+          assert(apart(at.frame.s, there.frame.s) < 3e-2f)
+          assert(abs(at.u - there.u) < 1e-2f && abs(at.v - there.v) < 1e-2f): Unit
+    assert(hits > 1000, s"$hits hits")
+
+  /** Aims at the instance from around it; is there a hit, whose geometry is now in `at`? */
+  private def land(draws: Draws, instanced: Instanced): Boolean =
+    val box = instanced.instances.bounds(0)
+    val o = box.center + draws.direction() * (box.radius * draws.between(1f, 4f))
+    val v = draws.vec(-0.4f, 0.4f)
+    val target = box.center + Vec3(v.x * box.extent.x, v.y * box.extent.y, v.z * box.extent.z)
+    ray.set(o, (target - o).normalized, Float.PositiveInfinity)
+    val found = instanced.instances.intersect(0, ray, hit)
+    if found then instanced.fill(0, ray, hit, at)
+    found
+
+  private def leaving(d: Vec3): Ray =
+    ray.set(at.offsetOrigin(d), d, Float.PositiveInfinity)
+    ray
+
+  private def neverMetAgain(seed: Int)(make: Draws => Surfaces)(direction: Draws => Vec3): Unit =
+    val draws = Draws(seed)
+    var spawned = 0
+    while spawned < 20000 do
+      val instanced = placed(make(draws), placement(draws))
+      for _ <- 0 until 10 do
+        if land(draws, instanced) then
+          val d = direction(draws)
+          assert(!instanced.instances.isHit(0, leaving(d), hit), s"${at.p} ${at.pError} $d")
+          spawned += 1
+
+  test("a triangle of an instance is not met again, on either side"):
+    neverMetAgain(2)(draws =>
+      Surfaces(Soups.of(Soups.around(draws, 1, 1)(draws.vec(-3, 3))), Array.empty)
+    )(_.direction())
+
+  test("a disk of an instance is not met again, on either side"):
+    neverMetAgain(3)(draws =>
+      val toObject = draws.translation(3) * draws.rotation() * draws.stretch()
+      solid(Disk(toObject, draws.between(-1, 1), 1f, 0f, TwoPi, draws.coin()))
+    )(_.direction())
+
+  test("a sphere of an instance is not met again from outside"):
+    neverMetAgain(4)(draws =>
+      solid(Soups.sphere(draws.translation(3) * draws.rotation() * draws.stretch(), 1f))
+    )(_.above(at.geometricNormal))
+
+  test("an instance's outside is its object's, also where the map mirrors"):
+    val mirror = Transform.scale(-1, 1, 1).get
+    for (toWorld, reversed) <- Seq((Transform.Identity, false), (mirror, false), (mirror, true)) do
+      val instanced = placed(solid(Soups.sphere(Transform.Identity, 1f, reversed)), toWorld)
+      ray.set(Vec3(3f, 0.2f, 0.1f), Vec3(-1f, 0f, 0f), Float.PositiveInfinity)
+      assert(instanced.instances.intersect(0, ray, hit))
+      instanced.fill(0, ray, hit, at)
+      assert(((at.geometricNormal dot at.p) < 0f) == reversed)
+
+  test("ten thousand instances need less than 200 bytes each"):
+    val mesh = Surfaces(Soups.icosphere(5, Transform.Identity), Array.empty)
+    val objects = Array[Accelerator](Bvh(Primitives(mesh.soup, Array.empty)))
+    val draws = Draws(5)
+    val places = Vector.fill(10000)((0, placement(draws)))
+    val thread =
+      java.lang.management.ManagementFactory.getThreadMXBean match
+        case bean: com.sun.management.ThreadMXBean => bean
+    val before = thread.getCurrentThreadAllocatedBytes
+    val instances = Instances.of(objects, places)
+    val bytes = thread.getCurrentThreadAllocatedBytes - before
+    assert(bytes < 200L * places.length + 10000, s"$bytes bytes")
+    assert(instances.count == places.length)
