@@ -33,7 +33,8 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
         val (placed, copied) = uses.partition(u => uses.length > 1 && isAffine(u))
         for u <- copied do copies ++= dark.map(moved(_, u.instanceToWorld))
         if placed.nonEmpty && dark.nonEmpty then
-          for u <- placed if u.instanceToWorld.isAnimated do problems.warn(u.at, SceneBuilder.Motion)
+          for u <- placed if u.instanceToWorld.isAnimated do
+            problems.warn(u.at, SceneBuilder.Motion)
           objects += PlacedObject(dark, placed.map(_.instanceToWorld.start))
 
   /** Shapes of the world that stand for an instance. */
