@@ -1,8 +1,9 @@
 package candela.build
 
+import java.io.IOException
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError, Severity, SourcePos}
+import candela.base.{loop, Problem, SceneError, Severity, SourcePos}
 import candela.scenefile.Source
 
 /** The triangles of a PLY file.
@@ -31,18 +32,40 @@ object PlyFile:
   /** @param at where a scene asks for the file, for the problem if it can't be read */
   def read(path: Path, at: Option[SourcePos] = None): PlyMesh =
     Source.read(path) match
-      case Right(source) => mesh(source.bytes, path.toString, at)
+      case Right(source) => mesh(source, at)
       case Left(why) => throw problem(at, s"can't read the mesh `$path`: $why")
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
     SceneError(Problem(Severity.Error, at, message))
 
-  private[build] def mesh(bytes: Array[Byte], name: String, at: Option[SourcePos]): PlyMesh =
+  private[build] def mesh(source: Source, at: Option[SourcePos]): PlyMesh =
     var isAscii = true
-    def fail(offset: Int, message: String): Nothing =
-      val line = 1 + bytes.iterator.take(offset).count(_ == '\n')
-      val place = if isAscii then s"line $line" else s"byte $offset"
-      throw problem(at, s"mesh `$name`, $place: $message")
-    val header = PlyHeader.read(bytes, fail)
-    isAscii = header.format == PlyFormat.Ascii
-    PlyReader(header, PlyNumbers.of(bytes, header, fail), fail).read()
+    def fail(offset: Long, message: String): Nothing =
+      val place = if isAscii then s"line ${lineOf(offset, source)}" else s"byte $offset"
+      throw problem(at, s"mesh `${source.name}`, $place: $message")
+    try
+      val header = PlyHeader.read(source, fail)
+      isAscii = header.format == PlyFormat.Ascii
+      PlyReader(header, PlyNumbers.of(source, header, fail), fail).read()
+    catch
+      case e: IOException =>
+        val why = Option(e.getMessage).getOrElse(e.toString)
+        throw problem(at, s"mesh `${source.name}`: reading stops: $why")
+    finally source.close()
+
+  /** Goes through the file once more. */
+  private def lineOf(offset: Long, source: Source): Long =
+    var line = 1L
+    for again <- source.again do
+      try
+        while again.offset(again.limit) < offset && !again.isLast do
+          line += count(again, again.limit)
+          again.slide(again.limit)
+        line += count(again, (offset - again.offset(0)).min(again.limit).toInt)
+      finally again.close()
+    line
+
+  private def count(source: Source, until: Int): Int =
+    var lines = 0
+    loop(until)(i => if source.bytes(i) == '\n' then lines += 1)
+    lines

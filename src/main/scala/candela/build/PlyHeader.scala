@@ -3,6 +3,8 @@ package candela.build
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import scala.collection.mutable
 
+import candela.scenefile.Source
+
 /** The number types of PLY files, with their size in bytes where they are binary. */
 private[build] enum PlyType(val bytes: Int):
   case Int8 extends PlyType(1)
@@ -32,6 +34,8 @@ private[build] final case class PlyElement(
 
 /** What a PLY file says about itself before its numbers begin.
   *
+  * @param bodyStart where they do, in the source's window
+  *
   * Source: Turk, "The PLY Polygon File Format", 1994; both generations of type names.
   */
 private[build] final case class PlyHeader(
@@ -43,15 +47,15 @@ private[build] final case class PlyHeader(
 private[build] object PlyHeader:
 
   /** @param fail reports a problem at a byte offset */
-  def read(bytes: Array[Byte], fail: (Int, String) => Nothing): PlyHeader =
+  def read(source: Source, fail: (Long, String) => Nothing): PlyHeader =
     var format = Option.empty[PlyFormat]
     val elements = mutable.ArrayBuffer.empty[PlyElement]
-    val lines = Lines(bytes)
-    if lines.next() != "ply" then fail(0, "this is no PLY file: it does not begin with `ply`")
+    val lines = Lines(source)
+    if lines.line() != "ply" then fail(0, "this is no PLY file: it does not begin with `ply`")
     var more = true
     while more do
-      if lines.isAtEnd then fail(bytes.length, "the header has no `end_header`")
-      val line = lines.next()
+      if lines.isAtEnd then fail(source.offset(source.limit), "the header has no `end_header`")
+      val line = lines.line()
       def wrong(what: String) = fail(lines.lastStart, s"$what: `${line.take(60)}`")
       line.split("\\s+").toList match
         case "format" :: name :: _ =>
@@ -67,7 +71,7 @@ private[build] object PlyHeader:
         case ("comment" | "obj_info" | "") :: _ => ()
         case _ => wrong("a header line with no meaning here")
     val known = format.getOrElse(fail(0, "the header has no `format`"))
-    PlyHeader(known, elements.toVector, lines.offset)
+    PlyHeader(known, elements.toVector, lines.end)
 
   private def property(words: List[String]): Option[PlyProperty] = words match
     case "list" :: count :: value :: name :: Nil =>
@@ -78,23 +82,31 @@ private[build] object PlyHeader:
   /** Cuts lines. The first shows how all of them end: `\n`, `\r\n` or `\r`. Binary numbers may
     * follow the last, so its end must be known exactly.
     */
-  private final class Lines(bytes: Array[Byte]):
-    var offset = 0
-    var lastStart = 0
+  private final class Lines(source: Source):
+    private var next = 0
 
-    private val endsWithReturn =
-      val first = bytes.indexWhere(b => b == '\n' || b == '\r')
-      first >= 0 && bytes(first) == '\r' && !(first + 1 < bytes.length && bytes(first + 1) == '\n')
+    /** Where the numbers begin, in the source's window, once the last line was read. */
+    def end: Int = next
+    var lastStart = 0L
 
-    def isAtEnd: Boolean = offset >= bytes.length
+    private lazy val endsWithReturn =
+      val first = source.bytes.indexWhere(b => b == '\n' || b == '\r')
+      def hasPair = first + 1 < source.limit && source.bytes(first + 1) == '\n'
+      first >= 0 && source.bytes(first) == '\r' && !hasPair
 
-    def next(): String =
+    def isAtEnd: Boolean = next >= source.limit && source.isLast
+
+    def line(): String =
+      while source.limit - next < LongestLine && !source.isLast do
+        source.slide(next)
+        next = 0
+      val bytes = source.bytes
       val end = if endsWithReturn then '\r' else '\n'
-      lastStart = offset
-      while offset < bytes.length && bytes(offset) != end && offset - lastStart < LongestLine do
-        offset += 1
-      val line = new String(bytes, lastStart, offset - lastStart, ISO_8859_1).trim
-      offset = (offset + 1).min(bytes.length)
+      lastStart = source.offset(next)
+      val start = next
+      while next < source.limit && bytes(next) != end && next - start < LongestLine do next += 1
+      val line = new String(bytes, start, next - start, ISO_8859_1).trim
+      next = (next + 1).min(source.limit)
       line
 
   /** Something else than a header, if a line is longer. */

@@ -1,98 +1,138 @@
 package candela.build
 
-import java.nio.{ByteBuffer, ByteOrder}
+import java.lang.invoke.{MethodHandles, VarHandle}
+import java.nio.ByteOrder
+import scala.annotation.switch
 
-import candela.scenefile.NumberReader
+import candela.scenefile.{NumberReader, Source}
 
 /** The numbers after a PLY file's header, one after the other.
   *
   * @param fail reports a problem at a byte offset
   */
-private[build] sealed abstract class PlyNumbers(fail: (Int, String) => Nothing):
+private[build] sealed abstract class PlyNumbers(
+    source: Source,
+    start: Int,
+    fail: (Long, String) => Nothing
+):
+  /** The next byte, in the source's window. */
+  protected var at: Int = start
 
-  /** The offset of the next number. */
-  def offset: Int
+  /** Where the next number is. */
+  def offset: Long = source.offset(at)
 
   /** The next number, which is of that type. */
   def next(t: PlyType): Double
 
+  /** So many bytes hold the element, at least. */
+  protected def leastSize(element: PlyElement): Long
+
   /** Can so many of these elements follow, as far as the file's size tells? */
-  def canHold(element: PlyElement): Boolean
+  final def canHold(element: PlyElement): Boolean =
+    leastSize(element) <= source.mostAfter(at)
 
   /** The next number as the length of a list. */
   final def length(t: PlyType): Int =
-    val at = offset
+    val from = offset
     val n = next(t)
     if !(n >= 0 && n <= Int.MaxValue && n == Math.rint(n)) then
-      fail(at, s"a list can't have ${PlyNumbers.plain(n)} values")
+      fail(from, s"a list can't have ${PlyNumbers.plain(n)} values")
     n.toInt
+
+  /** Moves the window on, so that it begins with what is next. */
+  protected final def fetch(): Unit =
+    source.slide(at)
+    at = 0
+
+  protected final def tooShort(): Nothing =
+    fail(source.offset(source.limit), "the file ends too early")
 
 /** Decimal numbers between blanks. */
 private[build] final class AsciiPlyNumbers(
-    bytes: Array[Byte],
+    source: Source,
     start: Int,
-    fail: (Int, String) => Nothing
-) extends PlyNumbers(fail):
-  private val number = NumberReader(bytes)
-  private var at = start
+    fail: (Long, String) => Nothing
+) extends PlyNumbers(source, start, fail):
+  private val number = NumberReader(source)
 
-  def offset: Int =
-    while at < bytes.length && bytes(at) <= ' ' && bytes(at) > 0 do at += 1
-    at
+  override def offset: Long =
+    skipBlank()
+    super.offset
+
+  private def skipBlank(): Unit =
+    while at < source.limit && source.bytes(at) <= ' ' && source.bytes(at) > 0 do at += 1
+    if source.limit - at < PlyNumbers.UsualNumber && !source.isLast then
+      fetch()
+      skipBlank()
 
   def next(t: PlyType): Double =
-    val from = offset
-    if from >= bytes.length then fail(bytes.length, "the file ends too early")
-    val end = number.scan(from)
-    if end < 0 then fail(from, "here is no number")
+    skipBlank()
+    if at >= source.limit then tooShort()
+    var end = number.scan(at)
+    while number.stop == source.limit && !source.isLast do
+      fetch()
+      end = number.scan(at)
+    if end < 0 then fail(offset, "here is no number")
     at = end
     if t == PlyType.Float32 then number.toFloat.toDouble else number.toDouble
 
   // a digit and a blank for each number, but no blank after the last
-  def canHold(element: PlyElement): Boolean =
-    element.count.toLong * element.properties.size * 2 - 1 <= bytes.length - at
+  protected def leastSize(element: PlyElement): Long =
+    element.count.toLong * element.properties.size * 2 - 1
 
 private[build] final class BinaryPlyNumbers(
-    bytes: Array[Byte],
+    source: Source,
     start: Int,
-    order: ByteOrder,
-    fail: (Int, String) => Nothing
-) extends PlyNumbers(fail):
-  private val buffer = ByteBuffer.wrap(bytes).order(order)
-  private var at = start
-
-  def offset: Int = at
+    isLittle: Boolean,
+    fail: (Long, String) => Nothing
+) extends PlyNumbers(source, start, fail):
 
   def next(t: PlyType): Double =
+    val size = t.bytes
+    if source.limit - at < size then need(size)
+    val bytes = source.bytes
     val from = at
-    if from + t.bytes > bytes.length then fail(bytes.length, "the file ends too early")
-    at = from + t.bytes
-    t match
-      case PlyType.Float32 => buffer.getFloat(from).toDouble
-      case PlyType.Int32 => buffer.getInt(from).toDouble
-      case PlyType.UInt8 => (bytes(from) & 0xff).toDouble
-      case PlyType.Int8 => bytes(from).toDouble
-      case PlyType.Int16 => buffer.getShort(from).toDouble
-      case PlyType.UInt16 => (buffer.getShort(from) & 0xffff).toDouble
-      case PlyType.UInt32 => (buffer.getInt(from) & 0xffffffffL).toDouble
-      case PlyType.Float64 => buffer.getDouble(from)
+    at += size
+    (t.ordinal: @switch) match
+      case 0 => bytes(from)
+      case 1 => bytes(from) & 0xff
+      case 2 => short(bytes, from)
+      case 3 => short(bytes, from) & 0xffff
+      case 4 => int(bytes, from)
+      case 5 => (int(bytes, from) & 0xffffffffL).toDouble
+      case 6 => java.lang.Float.intBitsToFloat(int(bytes, from))
+      case _ =>
+        val (first, second) = (int(bytes, from) & 0xffffffffL, int(bytes, from + 4) & 0xffffffffL)
+        val bits = if isLittle then second << 32 | first else first << 32 | second
+        java.lang.Double.longBitsToDouble(bits)
 
-  def canHold(element: PlyElement): Boolean =
-    val size = element.properties.map(p => p.countType.getOrElse(p.valueType).bytes.toLong).sum
-    element.count * size <= bytes.length - at
+  private def need(size: Int): Unit =
+    if !source.isLast then fetch()
+    if source.limit - at < size then tooShort()
+
+  private def short(bytes: Array[Byte], i: Int): Short =
+    if isLittle then (bytes(i) & 0xff | bytes(i + 1) << 8).toShort
+    else (bytes(i) << 8 | bytes(i + 1) & 0xff).toShort
+
+  private def int(bytes: Array[Byte], i: Int): Int =
+    val little: Int = PlyNumbers.Words.get(bytes, i)
+    if isLittle then little else Integer.reverseBytes(little)
+
+  protected def leastSize(element: PlyElement): Long =
+    element.count * element.properties.map(p => p.countType.getOrElse(p.valueType).bytes.toLong).sum
 
 private[build] object PlyNumbers:
+  private[build] val Words: VarHandle =
+    MethodHandles.byteArrayViewVarHandle(classOf[Array[Int]], ByteOrder.LITTLE_ENDIAN)
 
-  def of(
-      bytes: Array[Byte],
-      header: PlyHeader,
-      fail: (Int, String) => Nothing
-  ): PlyNumbers = header.format match
-    case PlyFormat.Ascii => AsciiPlyNumbers(bytes, header.bodyStart, fail)
-    case PlyFormat.LittleEndian =>
-      BinaryPlyNumbers(bytes, header.bodyStart, ByteOrder.LITTLE_ENDIAN, fail)
-    case PlyFormat.BigEndian =>
-      BinaryPlyNumbers(bytes, header.bodyStart, ByteOrder.BIG_ENDIAN, fail)
+  /** So many bytes hold almost every number and what ends it. */
+  private[build] val UsualNumber = 64
+
+  def of(source: Source, header: PlyHeader, fail: (Long, String) => Nothing): PlyNumbers =
+    header.format match
+      case PlyFormat.Ascii => AsciiPlyNumbers(source, header.bodyStart, fail)
+      case PlyFormat.LittleEndian => BinaryPlyNumbers(source, header.bodyStart, true, fail)
+      case PlyFormat.BigEndian => BinaryPlyNumbers(source, header.bodyStart, false, fail)
 
   /** Without `.0` where it is whole. */
   def plain(n: Double): String =

@@ -10,7 +10,7 @@ import candela.scenefile.IntBuffer
 private[build] final class PlyReader(
     header: PlyHeader,
     in: PlyNumbers,
-    fail: (Int, String) => Nothing
+    fail: (Long, String) => Nothing
 ):
   private var positions = Array.emptyFloatArray
   private var normals = Array.emptyFloatArray
@@ -35,7 +35,7 @@ private[build] final class PlyReader(
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
       val found = header.elements.map(e => s"${e.count} ${e.name}").mkString(", ")
       val others = if found.isEmpty then "none at all" else found
-      fail(header.bodyStart, s"no $name elements in the file, but $others")
+      fail(in.offset, s"no $name elements in the file, but $others")
 
   private def readVertices(element: PlyElement): Unit =
     val names = element.properties.filter(_.countType.isEmpty).map(_.name)

@@ -33,15 +33,30 @@ object Parser:
 
   private[scenefile] def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
 
-  private def parse(source: Source, folder: Path, file: Option[Path], dialect: Option[Dialect]) =
-    val first = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3))
-    first.read()
-    val guess = dialect.getOrElse(first.guess)
-    // The few statements that v4 treats otherwise were read as v3's: then once more.
-    val run =
-      if !first.askedDialect || dialect.nonEmpty || guess != Dialect.V4 then first
-      else
-        val second = ParserRun(source, folder, file, Dialect.V4)
-        second.read()
-        second
-    run.result(guess)
+  private def parse(
+      source: Source,
+      folder: Path,
+      file: Option[Path],
+      dialect: Option[Dialect]
+  ): SceneDescription =
+    attempt(source, folder, file, dialect) match
+      case Right(scene) => scene
+      case Left(better) =>
+        val once = source.again.getOrElse:
+          throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
+        attempt(once, folder, file, Some(better)).toOption.get
+
+  /** The scene; or the dialect with which it must be read once more: the few statements that v4
+    * treats otherwise were read as v3's.
+    */
+  private def attempt(
+      source: Source,
+      folder: Path,
+      file: Option[Path],
+      dialect: Option[Dialect]
+  ): Either[Dialect, SceneDescription] =
+    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3))
+    run.read()
+    val guess = dialect.getOrElse(run.guess)
+    if dialect.isEmpty && run.askedDialect && guess == Dialect.V4 then Left(guess)
+    else Right(run.result(guess))

@@ -35,13 +35,14 @@ private[scenefile] final class ParserRun(
   def guess: Dialect = evidence.dialect
 
   def read(): Unit =
-    statements(Tokenizer(source, None), file.toList)
+    statements(source, None, file.toList)
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
 
   /** The description, or all errors. */
   def result(dialect: Dialect): SceneDescription =
     finish(dialect)
-    val all = Excerpts.fill(problems.result(), Map(source.name -> source))
+    def open(name: String) = if name == source.name then source.again else Excerpts.read(name)
+    val all = Excerpts.fill(problems.result(), open)
     if all.exists(_.severity == Severity.Error) then throw SceneError(all)
     scene.description(dialect, all)
 
@@ -59,10 +60,13 @@ private[scenefile] final class ParserRun(
           problems.add(Problem.warning(begin, "no WorldEnd follows: is the file complete?"))
 
   /** @param files the files being read, innermost first */
-  private def statements(in: Tokenizer, files: List[Path]): Unit =
-    attempt(in)(in.advance())
-    while !isDone && !problems.isFull && in.current != Token.End do
-      attempt(in)(statement(in, files))
+  private def statements(from: Source, includedAt: Option[SourcePos], files: List[Path]): Unit =
+    val in = Tokenizer(from, includedAt)
+    try
+      attempt(in)(in.advance())
+      while !isDone && !problems.isFull && in.current != Token.End do
+        attempt(in)(statement(in, files))
+    finally from.close()
 
   /** Runs `body`; after an error what looks like the next directive becomes the current token. */
   private def attempt(in: Tokenizer)(body: => Unit): Unit =
@@ -146,7 +150,7 @@ private[scenefile] final class ParserRun(
     if files.size > ParserRun.DeepestInclude then
       fail(s"more than ${ParserRun.DeepestInclude} files include one another")
     Source.read(path) match
-      case Right(source) => statements(Tokenizer(source, Some(at)), path :: files)
+      case Right(source) => statements(source, Some(at), path :: files)
       case Left(why) => fail(s"can't include `$name`: $why")
 
   /** Against the scene's folder, as the three renderers do; else against the including file's. */

@@ -1,15 +1,8 @@
 package candela.scenefile
 
-import java.io.ByteArrayOutputStream
-import java.nio.charset.StandardCharsets.UTF_8
+import java.io.IOException
 
 import candela.base.{Problem, SceneError, SourcePos}
-
-/** What a token can be: a bare word (directive, number, `true`), a quoted text, `[`, `]`, or the
-  * end.
-  */
-enum Token:
-  case Word, Text, Open, Close, End
 
 /** Cuts a scene file into tokens. There is always one current token; lists of numbers are read
   * without making tokens of them.
@@ -17,22 +10,23 @@ enum Token:
   * @param includedFrom the statement that includes this file
   */
 final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
-  private val bytes = source.bytes
-  private val number = NumberReader(bytes)
+  private val number = NumberReader(source)
+  private val names = NameCache()
 
-  /** The first byte after the current token, and where its line began. `wide` counts the bytes of
-    * this line that are not characters of their own (UTF-8 continuation).
+  /** The first byte after the current token, and where its line began: places in the source's
+    * window. `wide` counts the bytes of this line that are not characters of their own (UTF-8
+    * continuation).
     */
   private var next = source.start
   private var line = 1
-  private var lineStart = next
+  private var lineStart: Long = next
   private var wide = 0
 
   private var kind = Token.End
   private var start = 0
   private var tokenLine = 1
   private var tokenColumn = 1
-  private var content = ""
+  private var content = Option.empty[String]
 
   /** The kind of the current token. */
   def current: Token = kind
@@ -43,10 +37,19 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   /** Where what follows the current token begins. */
   def nextAt: SourcePos =
     skipBlank()
-    SourcePos(source.name, line, next - lineStart - wide + 1, includedFrom)
+    nextPlace
+
+  private def nextPlace: SourcePos = SourcePos(source.name, line, column, includedFrom)
+
+  /** Of the byte at `next`. */
+  private def column: Int = (next - lineStart - wide + 1).min(Int.MaxValue).toInt
 
   /** The current token's word, or its text without quotes and escapes. */
-  def text: String = if kind == Token.Text then content else source.text(start, next)
+  def text: String = content.getOrElse:
+    val quote = if kind == Token.Text then 1 else 0
+    val found = names.of(source, start + quote, next - quote)
+    content = Some(found)
+    found
 
   /** The current token as a message shows it. */
   def shown: String =
@@ -59,10 +62,11 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     skipBlank()
     start = next
     tokenLine = line
-    tokenColumn = start - lineStart - wide + 1
-    if next >= bytes.length then kind = Token.End
+    tokenColumn = column
+    content = None
+    if next >= source.limit then kind = Token.End
     else
-      bytes(next) match
+      source.bytes(next) match
         case '[' =>
           next += 1
           kind = Token.Open
@@ -70,11 +74,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
           next += 1
           kind = Token.Close
         case '"' => readText()
-        case _ =>
-          while next < bytes.length && !NumberReader.isDelimiter(bytes(next)) do
-            if isContinuation(bytes(next)) then wide += 1
-            next += 1
-          kind = Token.Word
+        case _ => readWord()
 
   /** Passes the current token and all that follow, up to a bare word that begins like a directive's
     * name. Unreadable text on the way is passed over.
@@ -84,7 +84,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     while searching do
       try
         advance()
-        val isName = kind == Token.Word && bytes(start) >= 'A' && bytes(start) <= 'Z'
+        val isName = kind == Token.Word && source.bytes(start) >= 'A' && source.bytes(start) <= 'Z'
         searching = kind != Token.End && !isName
       catch case _: SceneError => ()
 
@@ -108,105 +108,142 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
 
   /** Reads all numbers after the current token; what comes after them becomes the current token. */
   def readFloats(into: FloatBuffer): Unit =
-    skipBlank()
-    var end = number.scan(next)
+    var end = scanNext()
     while end >= 0 do
       into.add(number.toFloat)
       next = end
-      skipBlank()
-      end = number.scan(next)
+      end = scanNext()
     advance()
 
   /** Likewise; stops also before a number that no Int can hold. */
   def readInts(into: IntBuffer): Unit =
-    skipBlank()
-    var end = number.scan(next)
+    var end = scanNext()
     while end >= 0 && number.fitsInt do
       addInt(into)
       next = end
-      skipBlank()
-      end = number.scan(next)
+      end = scanNext()
     advance()
 
   private def addInt(into: IntBuffer): Unit =
     into.add(number.toInt)
     if !number.isWhole then into.sawFraction = true
 
+  /** Scans the number that comes next, if it is one: the place after it, or −1. */
+  private def scanNext(): Int =
+    // mostly, one blank is before a number
+    if next < source.limit && source.bytes(next) == ' ' then next += 1
+    if next >= source.limit || source.bytes(next) <= '#' then skipBlank()
+    if source.limit - next < Tokenizer.UsualNumber then fetchNext(): Unit
+    var end = number.scan(next)
+    while number.stop == source.limit && fetchNext() do end = number.scan(next)
+    end
+
   /** Is a quoted text next? */
   def nextIsText: Boolean =
     skipBlank()
-    next < bytes.length && bytes(next) == '"'
+    next < source.limit && source.bytes(next) == '"'
 
   private def skipBlank(): Unit =
-    var i = next
-    var isBlank = true
-    while isBlank && i < bytes.length do
-      val c = bytes(i)
-      if c == ' ' || c == '\t' then i += 1
-      else if c == '\n' || c == '\r' then i = endLine(i)
-      else if c == '#' then while i < bytes.length && bytes(i) != '\n' && bytes(i) != '\r' do i += 1
-      else isBlank = false
-    next = i
+    var inComment = false
+    var more = true
+    while more do
+      val bytes = source.bytes
+      val end = source.limit
+      var i = next
+      var isBlank = true
+      while isBlank && i < end do
+        val c = bytes(i)
+        if c == ' ' || c == '\t' then i += 1
+        else if c == '\n' || c == '\r' then
+          val isPair = c == '\r' && i + 1 < end && bytes(i + 1) == '\n'
+          // the window's last byte may be half a pair
+          if c == '\r' && i + 1 == end && !source.isLast then isBlank = false
+          else
+            i += (if isPair then 2 else 1)
+            line += 1
+            lineStart = i
+            wide = 0
+            inComment = false
+        else if inComment then i += 1
+        else if c == '#' then inComment = true
+        else isBlank = false
+      next = i
+      more = (i == end || bytes(i) == '\r') && fetchNext()
 
-  /** Passes the line end at `i`: `\n`, `\r\n` or `\r`. */
-  private def endLine(i: Int): Int =
-    val isPair = bytes(i) == '\r' && i + 1 < bytes.length && bytes(i + 1) == '\n'
-    line += 1
-    lineStart = if isPair then i + 2 else i + 1
-    wide = 0
-    lineStart
+  private def readWord(): Unit =
+    kind = Token.Word
+    var more = true
+    while more do
+      val bytes = source.bytes
+      val end = source.limit
+      var i = next
+      while i < end && !NumberReader.isDelimiter(bytes(i)) do
+        if isContinuation(bytes(i)) then wide += 1
+        i += 1
+      next = i
+      more = i == end && fetch()
 
   private def readText(): Unit =
-    var i = start + 1
+    kind = Token.Text
+    next += 1
     var hasEscapes = false
-    var isPlain = true
-    while i < bytes.length && bytes(i) != '"' && bytes(i) != '\n' && bytes(i) != '\r' do
-      if bytes(i) < 0 then
-        isPlain = false
+    var isEscaped = false
+    var more = true
+    while more do
+      val bytes = source.bytes
+      val end = source.limit
+      var i = next
+      while i < end && (bytes(i) != '"' || isEscaped) && bytes(i) != '\n' && bytes(i) != '\r' do
+        isEscaped = bytes(i) == '\\' && !isEscaped
+        hasEscapes |= isEscaped
         if isContinuation(bytes(i)) then wide += 1
-      if bytes(i) == '\\' then
-        hasEscapes = true
-        if i + 1 < bytes.length && bytes(i + 1) != '\n' && bytes(i + 1) != '\r' then i += 1
-      i += 1
-    if i >= bytes.length || bytes(i) != '"' then
-      next = i.min(bytes.length)
-      kind = Token.Text
-      content = ""
-      val isEnd = i >= bytes.length
+        i += 1
+      next = i
+      more = i == end && fetch()
+    val isEnd = next >= source.limit
+    if isEnd || source.bytes(next) != '"' then
+      content = Some("")
       val what = if isEnd then "the file ends inside this text" else "this text is not closed"
       throw SceneError(Problem.error(at, what, Some("end it with `\"` on the same line")))
-    next = i + 1
-    kind = Token.Text
-    content =
-      if hasEscapes then unescaped(start + 1, i)
-      else if isPlain then Tokenizer.ascii(bytes, start + 1, i)
-      else source.text(start + 1, i)
+    next += 1
+    if hasEscapes then content = Some(unescaped(start + 1, next - 1))
 
   private def unescaped(from: Int, until: Int): String =
-    val out = ByteArrayOutputStream(until - from)
-    var i = from
-    while i < until do
-      if bytes(i) != '\\' then out.write(bytes(i))
-      else
-        i += 1
-        val meaning = Tokenizer.Escapes.indexOf(bytes(i))
-        if meaning >= 0 then out.write(Tokenizer.Escaped.charAt(meaning))
-        else
-          throw SceneError(
-            Problem.error(
-              SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom),
-              s"`\\${source.text(i, i + 1)}` has no meaning in a text",
-              Some("write `\\\\` for a backslash, `/` between folders")
-            )
-          )
-      i += 1
-    out.toString(UTF_8)
+    Escapes.unescaped(source.bytes, from, until) match
+      case Right(text) => text
+      case Left(i) =>
+        content = Some("")
+        val place = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
+        val what = s"`\\${source.text(i, i + 1)}` has no meaning in a text"
+        val help = Some("write `\\\\` for a backslash, `/` between folders")
+        throw SceneError(Problem.error(place, what, help))
 
   private inline def isContinuation(c: Byte): Boolean = (c & 0xc0) == 0x80
 
-object Tokenizer:
-  private val Escapes = "nrtbf\\\"'"
-  private val Escaped = "\n\r\t\b\f\\\"'"
+  /** Moves the window on, so that it begins with what comes next. */
+  private def fetchNext(): Boolean =
+    !source.isLast && { start = next; fetch() }
 
-  private def ascii(bytes: Array[Byte], from: Int, until: Int): String =
-    new String(bytes, from, until - from, java.nio.charset.StandardCharsets.ISO_8859_1)
+  /** Moves the window on, so that it begins with the current token; false at the file's end. */
+  private def fetch(): Boolean =
+    !source.isLast && {
+      val here = if start < next then at else nextPlace
+      val from = start
+      try source.slide(from)
+      catch
+        case e: IOException =>
+          source.close()
+          next = source.limit
+          start = next
+          kind = Token.End
+          val why = Option(e.getMessage).getOrElse(e.toString)
+          throw SceneError(Problem.error(here, s"reading stops: $why"))
+      start = 0
+      next -= from
+      lineStart -= from
+      next < source.limit
+    }
+
+object Tokenizer:
+  /** So many bytes hold almost every number and what ends it. */
+  private val UsualNumber = 64

@@ -6,11 +6,12 @@ import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
 import candela.base.{SceneError, SourcePos}
+import candela.scenefile.Source
 import org.scalatest.funsuite.AnyFunSuite
 
 class PlyFileSuite extends AnyFunSuite:
 
-  private def mesh(bytes: Array[Byte]): PlyMesh = PlyFile.mesh(bytes, "m.ply", None)
+  private def mesh(bytes: Array[Byte]): PlyMesh = PlyFile.mesh(Source("m.ply", bytes), None)
   private def mesh(text: String): PlyMesh = mesh(text.getBytes("ISO-8859-1"))
   private def error(text: String): String =
     intercept[SceneError](mesh(text)).problems.map(_.message).mkString
@@ -109,6 +110,14 @@ class PlyFileSuite extends AnyFunSuite:
           "1.25 -1 1 0 2 0 0 1 .5 .25 255\n2.25 -2 2 0 -1 2 0 0 1 1 .5 255\n7 3 2 1 0 .5\n0\n1"
       )
     )
+
+  test("the window through which a file is read makes no difference"):
+    val bytes = big(s"ply\nformat binary_big_endian 1.0\n$rich")(writeRich)
+    val text = header("ascii", 4, 1) + corners + "4 0 1 2 3 \n\n"
+    for room <- 1 to 80 do
+      checkRich(PlyFile.mesh(Source.windowed("m.ply", bytes, room), None))
+      val ascii = PlyFile.mesh(Source.windowed("m.ply", text.getBytes("ISO-8859-1"), room), None)
+      assert(ascii.indices.toVector == Vector(0, 1, 2, 3, 0, 2))
 
   test("texture coordinates go by four pairs of names; half a pair is none"):
     def uvs(names: String*) =

@@ -11,13 +11,16 @@ class NumberReaderSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   implicit override val generatorDrivenConfig: PropertyCheckConfiguration =
     PropertyCheckConfiguration(minSuccessful = 20000)
 
-  private def reader(text: String): NumberReader =
-    val number = NumberReader(text.getBytes(ISO_8859_1))
+  private def reader(text: String, after: String = ""): NumberReader =
+    val number = NumberReader(Source("", (text + after).getBytes(ISO_8859_1)))
     assert(number.scan(0) == text.length, text)
     number
 
+  /** What follows decides whether a number is read eight bytes at a time. */
   private def sameAsJdk(text: String): Unit =
-    val number = reader(text)
+    for after <- List("", "\n" + "7" * 40) do sameAsJdk(text, reader(text, after))
+
+  private def sameAsJdk(text: String, number: NumberReader): Unit =
     val float = java.lang.Float.floatToIntBits(number.toFloat)
     assert(float == java.lang.Float.floatToIntBits(text.toFloat), text)
     val double = java.lang.Double.doubleToLongBits(number.toDouble)
@@ -56,17 +59,27 @@ class NumberReaderSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
         sameAsJdk(exact.bigDecimal.toPlainString)
         sameAsJdk(exact.toString.toLowerCase)
 
+  test("numbers of every usual length, as meshes have them, are those of the JDK"):
+    val lengths = Gen.choose(0, 12)
+    forAll(lengths, lengths, Gen.numStr, Gen.oneOf("", "-", "+")): (whole, fraction, seed, sign) =>
+      val digits = (seed * 30 + "314159265358979323846264").take(24)
+      val text = digits.take(whole) + "." + digits.slice(12, 12 + fraction)
+      whenever(text.length > 1)(sameAsJdk(sign + text))
+      whenever(whole > 0)(sameAsJdk(sign + digits.take(whole)))
+
   test("the usual spellings are read"):
     val spellings = List(".5", "5.", "-0", "+3", "1e-3", "1E+3", "-.25e2", "007", "1e400", "1e-400")
     spellings.foreach(sameAsJdk)
 
   test("what is no number, or has something at its end, is refused"):
     for text <- "- . +. e5 1e 1e+ 1.2.3 1f 0x10 nan inf 1-2 1,2".split(' ').toList :+ "" do
-      assert(NumberReader(text.getBytes(ISO_8859_1)).scan(0) == -1, text)
+      for after <- List("", " " * 40) do
+        val source = Source.fromText("", text + after)
+        assert(NumberReader(source).scan(0) == -1, text)
 
   test("a number ends before a blank, a bracket, a quote, a comment and the end"):
     for end <- List(" ", "\n", "\r", "\t", "]", "[", "\"", "#", "") do
-      assert(NumberReader(("12" + end).getBytes(ISO_8859_1)).scan(0) == 2, s"`$end`")
+      assert(NumberReader(Source("", ("12" + end).getBytes(ISO_8859_1))).scan(0) == 2, s"`$end`")
 
   test("whole numbers are told from fractions, and those beyond 32 bits from the others"):
     assert(List("3", "3.0", "3e2", "-7", "30e-1").forall(reader(_).isWhole))

@@ -90,7 +90,7 @@ class TokenizerSuite extends AnyFunSuite:
     val file = Files.createTempFile("scene", ".pbrt")
     try
       Files.write(file, bytes.toByteArray)
-      assert(Source.read(file).map(s => s.text(0, s.bytes.length)) == Right("WorldBegin"))
+      assert(Source.read(file).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
     finally Files.delete(file)
 
   test("UTF-16 is refused in so many words"):

@@ -1,0 +1,92 @@
+package candela.scenefile
+
+import java.io.ByteArrayOutputStream
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+import java.util.zip.GZIPOutputStream
+
+import candela.base.{Problem, SceneError}
+import org.scalacheck.Gen
+import org.scalatest.funsuite.AnyFunSuite
+import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
+
+class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
+
+  /** Every token with its place, or what is wrong with it; lists of numbers as their values. */
+  private def tokens(source: Source): Vector[String] =
+    val in = Tokenizer(source, None)
+    val floats = FloatBuffer()
+    def step(): String =
+      try
+        if in.current == Token.Open then in.readFloats(floats) else in.advance()
+        s"${in.at} ${in.current} ${in.text} ${in.numberHere} ${floats.take().mkString(",")}"
+      catch case e: SceneError => e.problems.mkString
+    Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector
+
+  private val pieces = Gen.oneOf(
+    List(
+      "Shape", "\"float x\"", "[ 1 2.5\n-3e2 ]", "[0.25 .5", "]", "# it\r", "\r\n", "\r", "\n"
+    ) ++
+      List("\t ", " ", "\"é€😀", "\"a\\\"b\"", "\\", "1e", "123456789.123456789 ", "é", "\"")
+  )
+
+  test("however small the window, tokens, numbers, places and errors are the same"):
+    forAll(Gen.listOf(pieces).map(_.mkString), Gen.choose(1, 90)): (text, room) =>
+      val bytes = text.getBytes(UTF_8)
+      val whole = tokens(Source("test", bytes))
+      assert(tokens(Source.windowed("test", bytes, room)) == whole)
+
+  private def withFile[A](bytes: Array[Byte])(use: Path => A): A =
+    val file = Files.createTempFile("scene", ".pbrt")
+    try
+      Files.write(file, bytes)
+      use(file)
+    finally Files.delete(file)
+
+  private def zipped(write: GZIPOutputStream => Unit): Array[Byte] =
+    val bytes = ByteArrayOutputStream()
+    val zip = GZIPOutputStream(bytes)
+    write(zip)
+    zip.close()
+    bytes.toByteArray
+
+  private def problem(file: Path): Problem =
+    intercept[SceneError](Parser.parse(file)).problems.head
+
+  test("files larger than the window keep their numbers, places and excerpts"):
+    val lines = Vector.tabulate(60000)(i => s"${i * 0.5} # é $i")
+    val long = "1 " * 200000
+    val text = lines.mkString("WorldBegin Shape \"a\" \"float x\" [ ", "\n", s"\n]\n$long [ # here")
+    withFile(text.getBytes(UTF_8)): file =>
+      val problem = this.problem(file)
+      assert(problem.at.exists(at => (at.line, at.column) == (60002, 1)), problem)
+    val late = text.replace(long, "Shape \"b\" \"float y\" [ " + long)
+    withFile(late.getBytes(UTF_8)): file =>
+      val problem = this.problem(file)
+      assert(problem.at.exists(at => (at.line, at.column) == (60002, 400024)))
+      assert(problem.excerpt.exists(e => e.startsWith("…") && e.endsWith("1  [ # here")))
+    withFile((lines.mkString(
+      "WorldBegin Shape \"a\" \"float x\" [ ",
+      "\n",
+      "\n]"
+    )).getBytes(UTF_8)): file =>
+      val floats = Parser.parse(file).shapes.head.shape.params.head.floats
+      assert(floats.toVector == Vector.tabulate(60000)(_ * 0.5f))
+
+  test("a packed file that is cut short is an error where it ends"):
+    val bytes = zipped(_.write("WorldBegin\n  Shape \"sphere\"\n".repeat(20000).getBytes(UTF_8)))
+    withFile(bytes.take(bytes.length / 2)): file =>
+      assert(problem(file).message.startsWith("reading stops: "))
+      assert(problem(file).at.nonEmpty)
+
+  test("a small file that unpacks without end is refused"):
+    val blanks = Array.fill[Byte](1 << 20)(' ')
+    val bytes = zipped(zip => for _ <- 0 until 100 do zip.write(blanks))
+    withFile(bytes): file =>
+      assert(problem(file).message.matches("reading stops: it unpacks to more than \\d+ times.*"))
+
+  test("a word that does not end is refused before it fills the memory"):
+    withFile(("WorldBegin\n " + "a" * 3000000).getBytes(UTF_8)): file =>
+      val problem = this.problem(file)
+      assert(problem.message == "reading stops: here is a word of more than 1 MB")
+      assert(problem.at.exists(at => (at.line, at.column) == (2, 2)))
