@@ -10,8 +10,8 @@ private[build] object DefaultText:
   def number(x: Float): String =
     if x == Float.PositiveInfinity then "infinite"
     else if x == Float.NegativeInfinity then "-infinite"
-    else if x == x.toInt.toFloat then x.toInt.toString
-    else x.toString.replace("E", "e").replace(".0e", "e")
+    else if Math.abs(x) < 1e6f then x.toString.stripSuffix(".0")
+    else java.math.BigDecimal(x.toString).stripTrailingZeros.toString.replace("E+", "e")
 
   def quoted(s: String): String = "\"" + s + "\""
 

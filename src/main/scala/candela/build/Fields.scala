@@ -131,6 +131,16 @@ trait Fields:
     field(name, typeName, doc, in, "", shown, Array.emptyIntArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
 
+  /** Any number of strings; none if the scene gives none. */
+  protected final def strings(
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect] = every
+  ): Field[Vector[String]] =
+    field(name, typeName, doc, in, "", "none", Vector.empty[String])(_ => ""): (p, site) =>
+      if p.paramType == ParamType.String then Some(p.strings) else wrong(p, site, "strings")
+
   /** A colour that is no texture: light, or an index of refraction. */
   protected final def color(
       name: String,
@@ -150,9 +160,10 @@ trait Fields:
       doc: String,
       in: Set[Dialect] = every,
       unit: String = "",
-      shown: String = ""
+      shown: String = "",
+      typeName: String = "spectrum"
   )(default: Dialect ?=> SpectralValue): Field[SpectralValue] =
-    field(name, "spectrum", doc, in, unit, shown, default)(DefaultText.spectrum)(
+    field(name, typeName, doc, in, unit, shown, default)(DefaultText.spectrum)(
       Spectra.value(_, _)
     )
 

@@ -5,13 +5,8 @@ import candela.base.Suggest
 /** All recipes of a category, by name.
   *
   * @param category in messages
-  * @param pending  names whose parameters are not declared yet, with what happens instead
   */
-final class Recipes[A](
-    val category: String,
-    val all: Vector[Recipe[A]],
-    pending: Map[String, String] = Map.empty
-):
+final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
   /** Follows the recipe that the declaration names. A type that is pending is a warning; a name
     * that nobody knows is an error, with the nearest known.
@@ -21,12 +16,9 @@ final class Recipes[A](
     val candidates = all.filter(_.name == name)
     candidates.find(_.dialects(site.dialect)).orElse(candidates.headOption) match
       case Some(recipe) =>
-        for instead <- recipe.pending do
+        for instead <- recipe.pendingAt(site) do
           site.warn(s"$category \"$name\" is not supported yet: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
-      case None if pending.contains(name) =>
-        site.warn(s"$category \"$name\" is not supported yet: ${pending(name)}")
-        None
       case None =>
         val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
         site.error(s"no $category is named `$name`", Suggest.help(name, known))

@@ -38,6 +38,9 @@ object SceneBuilder:
       given_.flatMap(d => recipes.build(site(d))).getOrElse(recipes.build(site(fallback)).get)
 
     val defaults = Defaults(description.dialect)
+    val settings = SceneOptionRecipe.build(
+      site(Declaration("Option", "", description.options, NoPlace, NoFolder))
+    )
     val film = view(description.film, Films.all, defaults.film)
     val (width, height) =
       if options.quick then (Math.max(1, film.width / 4), Math.max(1, film.height / 4))
@@ -45,17 +48,15 @@ object SceneBuilder:
     val filter = view(description.filter, Filters.all, defaults.filter)
     val spp = options.spp.orElse(Option.when(options.quick)(1))
     val sampler = view(description.sampler, Samplers.all, defaults.sampler)(
-      SamplerRequest(spp, options.seed, width, height)
+      SamplerRequest(spp, options.seed ^ settings.seed, width, height)
     )
     if description.worldToCamera.isAnimated then
       description.camera.foreach(c => problems.warn(c.at, Motion))
-    val camera = view(description.camera, Cameras.all, "perspective")(
-      description.worldToCamera.start.inverse,
-      width,
-      height
-    )
+    val cameraPlan = view(description.camera, Cameras.all, "perspective")
+    val camera = cameraPlan.make(description.worldToCamera.start.inverse, width, height)
+    val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
-    warnOfWholes(description, problems)
+    warnOfWholes(description, resources, problems)
     val world = WorldBuilder(description, resources, problems).build(integrator)
     if problems.hasErrors then throw SceneError(Excerpts.fill(problems.result.sortBy(place)))
     val plan = RenderPlan(
@@ -67,8 +68,8 @@ object SceneBuilder:
       sampler = sampler,
       integrator = world.integrator,
       basis = basis,
-      maxComponent = film.maxComponent,
-      imageScale = film.scale,
+      maxComponent = film.maxComponent / exposure,
+      imageScale = film.scale * exposure,
       filename = film.filename,
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features
@@ -82,17 +83,17 @@ object SceneBuilder:
     "motion is not supported yet: it stands still as at the start of the shutter"
 
   /** Statements that are understood and have no effect on the picture yet. */
-  private def warnOfWholes(d: SceneDescription, problems: Findings): Unit =
-    for r <- d.renderer if !Set("sampler", "sample").contains(r.name) do
-      problems.warn(
-        r.at,
-        s"renderer \"${r.name}\" is not supported yet: the surface integrator is used"
-      )
-    for v <- d.volumes do
-      problems.warn(v.light.at, s"volumes are not supported yet: it is left out")
-    for m <- d.media do
-      val what = "participating media are not supported yet"
-      problems.warn(m.medium.at, s"$what: `${m.name}` is left out")
+  private def warnOfWholes(
+      d: SceneDescription,
+      resources: Resources,
+      problems: Findings
+  ): Unit =
+    def check(recipes: Recipes[?], statement: Declaration): Unit =
+      val _ = recipes.build(Site(statement, d.dialect, resources, problems))
+    for r <- d.renderer do check(Renderers.all, r)
+    for v <- d.volumeIntegrator do check(VolumeIntegrators.all, v)
+    for v <- d.volumes do check(Volumes.all, v.light)
+    for m <- d.media do check(Media.all, m.medium)
 
   private def cropOf(
       film: FilmSettings,

@@ -3,7 +3,7 @@ package candela.build
 import scala.collection.mutable
 import scala.collection.mutable.ArrayBuffer
 
-import candela.accel.{Accelerator, Bvh, Grid, Instances, Primitives}
+import candela.accel.{Accelerator, Bvh, Instances, Primitives}
 import candela.bsdf.{InterfaceMaterial, Material}
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
@@ -89,18 +89,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     Instanced(objects.toArray, Instances.of(accelerators.toArray, all))
 
   private def accelerate(surfaces: Surfaces, instances: Instances): Accelerator =
-    val primitives = Primitives(surfaces.soup, surfaces.solids.map(_.shape), instances)
-    description.accelerator match
-      case Some(d) if d.name == "grid" || d.name == "none" => Grid(primitives)
-      case Some(d) if d.name == "bvh" => Bvh(primitives)
-      case Some(d) =>
-        val what = if d.name == "kdtree" then "" else "unknown "
-        problems.warn(
-          d.at,
-          s"${what}accelerator \"${d.name}\": a bvh is used, with the same picture"
-        )
-        Bvh(primitives)
-      case None => Bvh(primitives)
+    structure(Primitives(surfaces.soup, surfaces.solids.map(_.shape), instances))
+
+  private lazy val structure: Primitives => Accelerator =
+    description.accelerator.flatMap(d => Accelerators.all.build(site(d))).getOrElse(Bvh(_))
 
   private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
     if s.objectToWorld.isAnimated then problems.warn(s.shape.at, SceneBuilder.Motion)

@@ -31,4 +31,5 @@ object Main:
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Check => CheckCommand(options, terminal, report, loader).run()
           case Command.Compare => CompareCommand(options, terminal, report).run()
+          case Command.Describe => DescribeCommand(options, terminal, report).run()
     code.number

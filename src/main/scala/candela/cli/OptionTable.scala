@@ -84,12 +84,25 @@ private[cli] object OptionTable:
       .action((x, o) => o.copy(maxRelMse = Some(x)))
   )
 
+  private val describeOptions: Vector[Row] = Vector(
+    opt[Dialect]("dialect").valueName("v2|v3|v4")
+      .text("only what this version of pbrt knows")
+      .action((d, o) => o.copy(dialect = Some(d))),
+    opt[Unit]("markdown")
+      .text("the whole reference, as a page of documentation")
+      .action((_, o) => o.copy(markdown = true)),
+    opt[String]("outfile").valueName("FILE")
+      .text("where to write that, instead of here")
+      .action((f, o) => o.copy(outfiles = Vector(f)))
+  )
+
   /** The long options of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
       case Some(Command.Render) => renderOptions
       case Some(Command.Check) => checkOptions
       case Some(Command.Compare) => compareOptions
+      case Some(Command.Describe) => describeOptions
       case None => Vector.empty
     rows.flatMap(_.toList).map(_.name)
 
@@ -112,13 +125,18 @@ private[cli] object OptionTable:
       Vector(file("image", "what to judge"), file("reference", "what to judge it by")) ++
         compareOptions
     ),
+    note(""),
+    command(Command.Describe, "say what scene files can say: all categories, types, parameters")(
+      arg[String]("[category] [type]").optional().unbounded().text("what to describe")
+        .action((f, o) => o.copy(files = o.files :+ f)) +: describeOptions
+    ),
     note("""
       |Without --outfile the image goes where the scene's Film says; an .exr also as a .png.
       |Ctrl-C writes the image as far as it is; a second one quits at once.
       |Exit codes: 0 done, 1 bad input, 2 bad usage, 3 a bug in Candela, 130 Ctrl-C.
       |""".stripMargin.stripTrailing),
     checkConfig: o =>
-      if o.outfiles.nonEmpty && o.files.size > 1 then
+      if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
         failure("--outfile names one image, but there are several scenes")
       else success
   )

@@ -6,14 +6,17 @@ enum Command(val word: String):
   case Render extends Command("render")
   case Check extends Command("check")
   case Compare extends Command("compare")
+  case Describe extends Command("describe")
 
 /** The part of the image to render: fractions of its width and height, 0 to 1. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
 
 /** A command line, understood; what is None was not said.
   *
-  * @param files     the scenes; for `compare`, the image and its reference
+  * @param files     the scenes; for `compare`, the image and its reference; for `describe`, what to
+  *                  describe
   * @param outfiles  where to write the image, instead of the scene's file name
+  * @param markdown  whether `describe` writes the whole reference
   * @param maxRelMse the relative mean squared error above which `compare` fails
   */
 final case class Options(
@@ -29,5 +32,6 @@ final case class Options(
     explain: Boolean = false,
     cropWindow: Option[CropWindow] = None,
     dialect: Option[Dialect] = None,
-    maxRelMse: Option[Double] = None
+    maxRelMse: Option[Double] = None,
+    markdown: Boolean = false
 )

@@ -51,7 +51,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(only("Shape \"cylinder\""), "\"cylinder\" is not supported yet")
     assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
     assertWarning(only(s"Material \"hair\" $sphere"), "grey diffuse")
-    assertWarning(only("Shape \"sphere\" \"float alpha\" 0"), "`alpha` of \"sphere\"")
+    assertWarning(only("Shape \"sphere\" \"float alpha\" 0", Dialect.V4), "`alpha` of \"sphere\"")
 
   test("values of the wrong type or number are errors"):
     assertError(only("Shape \"sphere\" \"string radius\" \"big\""), "takes one number")

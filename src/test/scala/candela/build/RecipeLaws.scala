@@ -42,13 +42,20 @@ abstract class RecipeLaws[A](
         assert(!here.problems.hasErrors, here.problems.result)
 
   for recipe <- recipes.all if recipe.fields.nonEmpty do
-    test(
-      s"${recipes.category} \"${recipe.name}\": each parameter has a meaning, a type and a dialect"
-    ):
+    val called =
+      s"${recipes.category} \"${recipe.name}\" of ${Dialects.list(recipe.dialects)}"
+    test(s"$called: each parameter has a meaning, a type, a default and a dialect"):
       for f <- recipe.fields do
-        assert(f.doc.trim.nonEmpty && f.typeName.nonEmpty && f.dialects.nonEmpty, f.name)
+        assert(f.doc.trim.nonEmpty && f.typeName.nonEmpty, f.name)
+        assert(f.dialects.nonEmpty, f.name)
+        for d <- f.dialects do assert(f.shown(d).nonEmpty, f.name)
 
-    test(s"${recipes.category} \"${recipe.name}\": a name means one thing in each dialect"):
+    test(s"$called: a name means one thing in each dialect"):
       for dialect <- Dialect.values do
         val names = recipe.fields.filter(_.dialects(dialect)).map(_.name)
         assert(names.distinct == names)
+
+  test(s"${recipes.category}: a type is declared once in each dialect"):
+    for dialect <- Dialect.values do
+      val names = recipes.all.filter(_.dialects(dialect)).map(_.name)
+      assert(names.distinct == names)

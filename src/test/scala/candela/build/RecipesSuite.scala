@@ -1,7 +1,6 @@
 package candela.build
 
 import candela.bsdf.Material
-import candela.cameras.Camera
 import candela.film.Filter
 import candela.math.Transform
 import candela.sampling.Sampler
@@ -18,9 +17,9 @@ final class SamplerRecipesSuite
     )
 
 final class CameraRecipesSuite
-    extends RecipeLaws[(Transform, Int, Int) => Camera](
+    extends RecipeLaws[CameraPlan](
       Cameras.all,
-      use = make => make(Transform.Identity, 8, 8)
+      use = _.make(Transform.Identity, 8, 8)
     )
 
 final class ShapeRecipesSuite
@@ -34,7 +33,7 @@ final class MaterialRecipesSuite extends RecipeLaws[Material](Materials.all)
 final class LightRecipesSuite
     extends RecipeLaws[LightPlan](
       Lights.all,
-      use = plan => plan.make(Transform.Identity, true).get
+      use = plan => plan.make(Transform.Identity, true)
     )
 
 final class AreaLightRecipesSuite extends RecipeLaws[AreaLightPlan](AreaLights.all)
@@ -46,3 +45,13 @@ final class FloatTextureRecipesSuite
 
 final class RgbTextureRecipesSuite
     extends RecipeLaws[RgbTexture](Textures.colors, Set("imagemap"))
+
+final class MediumRecipesSuite extends RecipeLaws[Unit](Media.all)
+
+final class VolumeRecipesSuite extends RecipeLaws[Unit](Volumes.all)
+
+final class RendererRecipesSuite extends RecipeLaws[Unit](Renderers.all)
+
+final class VolumeIntegratorRecipesSuite extends RecipeLaws[Unit](VolumeIntegrators.all)
+
+final class OptionRecipesSuite extends RecipeLaws[SceneSettings](SceneOptionRecipes.all)

@@ -45,8 +45,11 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(SceneTexts.plan(s"$film\n$nothing").crop == PixelBounds(0, 0, 80, 40))
     val cropped = s"$film \"float cropwindow\" [0.25 0.5 0.5 1]\n$nothing"
     assert(SceneTexts.plan(cropped).crop == PixelBounds(20, 20, 40, 40))
-    val pixels = s"$film \"integer pixelbounds\" [3 7 5 9]\n$nothing"
-    assert(SceneTexts.plan(pixels).crop == PixelBounds(3, 5, 7, 9))
+    val rgb = film.replace("image", "rgb")
+    val pixels = s"$rgb \"integer pixelbounds\" [3 7 5 9]\n$nothing"
+    assert(SceneTexts.plan(pixels, Dialect.V4).crop == PixelBounds(3, 5, 7, 9))
+    val both = s"$rgb \"integer pixelbounds\" [3 7 5 9] \"float cropwindow\" [0.25 0.5 0.5 1]"
+    assert(SceneTexts.plan(s"$both\n$nothing", Dialect.V4).crop == PixelBounds(20, 20, 40, 40))
     val asked = BuildOptions(cropWindow = Some((0f, 0.1f, 0f, 0.1f)))
     assert(SceneTexts.plan(cropped, options = asked).crop == PixelBounds(0, 0, 8, 4))
 

@@ -32,21 +32,24 @@ final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val sam
     AreaLight(shape: SurfaceSampler, radiance(shape.area), twoSided, shape.bounds, axis, cosSpread)
 
 final class DiffuseLight(name: String, dialects: Set[Dialect])
-    extends Recipe[AreaLightPlan](name, "every point of the surface emits evenly", dialects):
-  private val radiance = color("L", "emitted radiance", SpectrumRole.Emission)(Rgb.White)
-  private val scale = color("scale", "factor of `L`", SpectrumRole.Reflectance)(Rgb.White)
-  private val twoSided = bool("twosided", "does the inside emit too?")(false)
-  private val power = float("power", "total; scales `L`", onlyV4)(-1f)
-  private val nsamples = integer("nsamples", "light samples of directlighting", untilV3)(1)
-  private val samples = integer("samples", "another name of `nsamples`", untilV3)(1)
+    extends Recipe[AreaLightPlan](name, "every point of the surface emits evenly", dialects)
+    with SampleCounts:
+  private val radiance =
+    color("L", "emitted radiance", SpectrumRole.Emission, unit = "W/(m² sr)")(Rgb.White)
+  private val colored =
+    color("scale", "factor of `L`", SpectrumRole.Reflectance, untilV3)(Rgb.White)
+  private val scale = float("scale", "factor of `L`", onlyV4)(1f)
+  private val twoSided = bool("twosided", "does the inside emit too?", sinceV3)(false)
+  private val power =
+    float("power", "total, instead of the size of `L`", onlyV4, "lm", "none")(-1f)
   notYet("the surface emits `L` all over")(
     string("filename", "image over the surface's uv", onlyV4, shown = "none")("")
   )
 
   protected def make()(using Site): AreaLightPlan =
     AreaLightPlan(
-      radiance() * scale(),
+      radiance() * colored() * scale(),
       power(),
       twoSided(),
-      Math.max(1, samples.given_().getOrElse(nsamples()))
+      sampleCount()
     )

@@ -7,13 +7,17 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
-object InfiniteLights
-    extends LightRecipe("infinite", "surrounds the scene, in one colour or as an image"):
+final class InfiniteLights(name: String, dialects: Set[Dialect])
+    extends LightRecipe(name, "surrounds the scene, in one colour or as an image", dialects)
+    with SampleCounts:
   private val radiance =
-    color("L", "radiance, or factor of the image", SpectrumRole.Emission)(Rgb.White)
-  private val mapname = string("mapname", "equirectangular image", untilV3)("")
-  private val filename = string("filename", "equal-area octahedral image", onlyV4)("")
-  private val illuminance = float("illuminance", "on a plane; scales the light", onlyV4)(-1f)
+    color("L", "radiance, or factor of the image", SpectrumRole.Emission, unit = "W/(m² sr)")(
+      Rgb.White
+    )
+  private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
+  private val filename = string("filename", "equal-area octahedral image", onlyV4, "none")("")
+  private val illuminance =
+    float("illuminance", "on a plane, instead of the size of `L`", onlyV4, "lx", "none")(-1f)
   notYet("the light shines from all sides")(
     numbers("portal", "point3[4]", "corners of the window that light comes through", onlyV4)
   )

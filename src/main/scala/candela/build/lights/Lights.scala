@@ -4,6 +4,13 @@ package candela.build
 object Lights:
   val all: Recipes[LightPlan] = Recipes(
     "light",
-    Vector(PointLights, DistantLights, InfiniteLights),
-    Vector("spot", "goniometric", "projection").map(_ -> "it is left out").toMap
+    Vector(
+      PointLights,
+      SpotLights,
+      GoniometricLights,
+      ProjectionLights,
+      DistantLights,
+      InfiniteLights("infinite", every),
+      InfiniteLights("exinfinite", untilV3)
+    )
   )

@@ -10,9 +10,7 @@ object CoatedDiffuse
   private val albedo = rgbTexture("albedo", "of the medium in the coat")(Rgb.Black)
   private val eta = spectrum("eta", "index of refraction of the coat")(Indices.glass)
   private val depth = integer("maxdepth", "most interactions within the layers")(10)
-  noMeaning("only media that scatter have it, which are not supported yet")(
-    float("g", "asymmetry of scattering in the coat")(0f)
-  )
+  declare(floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f))
   noMeaning("nothing is sampled at random here")(
     integer("nsamples", "random walks that are averaged")(1)
   )
@@ -35,3 +33,31 @@ object CoatedDiffuse
         )
         Make.diffuse(reflectance())
       }
+
+object CoatedConductor
+    extends MaterialRecipe("coatedconductor", "a metal under a dielectric coat", onlyV4)
+    with GreyInstead:
+  for layer <- Seq("interface", "conductor") do
+    declare(
+      floatTexture(s"$layer.roughness", "of this side; 0: smooth")(0f),
+      floatTexture(s"$layer.uroughness", "along u", shown = s"$layer.roughness")(0f),
+      floatTexture(s"$layer.vroughness", "along v", shown = s"$layer.roughness")(0f)
+    )
+  declare(
+    bool("remaproughness", "is roughness 0 to 1, or alpha?")(true),
+    floatTexture("thickness", "of the coat, mean free paths")(0.01f),
+    spectrum("interface.eta", "index of refraction of the coat")(Indices.glass),
+    spectrum("conductor.eta", "of the metal", shown = "of copper", typeName = "spectrum texture")(
+      copper("eta")
+    ),
+    spectrum("conductor.k", "of the metal", shown = "of copper", typeName = "spectrum texture")(
+      copper("k")
+    ),
+    rgbTexture("reflectance", "of the metal, instead of eta and k", shown = "none")(Rgb.White),
+    rgbTexture("albedo", "of the medium in the coat")(Rgb.Black),
+    floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f),
+    integer("maxdepth", "most interactions within the layers")(10)
+  )
+  noMeaning("nothing is sampled at random here")(
+    integer("nsamples", "random walks that are averaged")(1)
+  )

@@ -7,7 +7,7 @@ import candela.scenefile.Dialect
 object Glass extends MaterialRecipe("glass", "reflects and refracts, smooth or rough", untilV3):
   private val kr = rgbTexture("Kr", "factor of reflection")(Rgb.White)
   private val kt = rgbTexture("Kt", "factor of refraction")(Rgb.White)
-  private val eta = floatTexture("eta", "index of refraction", onlyV3)(1.5f)
+  private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
   private val index = floatTexture("index", "index of refraction")(1.5f)
   private val u = floatTexture("uroughness", "along u; 0: smooth", onlyV3)(0f)
   private val v = floatTexture("vroughness", "along v; 0: smooth", onlyV3)(0f)

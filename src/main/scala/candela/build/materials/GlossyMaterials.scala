@@ -4,7 +4,8 @@ import candela.bsdf.{Material, MaterialFactory as Make, Roughness, RoughnessMode
 import candela.color.Rgb
 import candela.scenefile.Dialect
 
-object Plastic extends RoughRecipe("plastic", "diffuse with a glossy coat", untilV3, 0.1f):
+object Plastic
+    extends RoughRecipe("plastic", "diffuse with a glossy coat", untilV3, 0.1f, across = Set.empty):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
   protected def make()(using site: Site): Material =
@@ -19,9 +20,9 @@ object Uber extends RoughRecipe(
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
   private val kr = rgbTexture("Kr", "factor of mirror reflection")(Rgb.Black)
-  private val kt = rgbTexture("Kt", "factor of refraction", onlyV3)(Rgb.Black)
+  private val kt = rgbTexture("Kt", "factor of refraction")(Rgb.Black)
   private val opacity = rgbTexture("opacity", "what does not pass straight through")(Rgb.White)
-  private val eta = floatTexture("eta", "index of refraction", onlyV3)(1.5f)
+  private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
   private val index = floatTexture("index", "index of refraction")(1.5f)
   protected def make()(using site: Site): Material =
     val n = eta.given_().getOrElse(index())

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bsdf.{InterfaceMaterial, Material, MaterialFactory}
+import candela.bsdf.{Material, MaterialFactory}
 import candela.color.Rgb
 
 /** Recipes of materials. */
@@ -10,14 +10,34 @@ object Materials:
   val all: Recipes[Material] = Recipes(
     "material",
     Vector(
-      Matte, Plastic, Metal, Glass, Mirror, Uber, Substrate, Interface(""), Interface("none"),
-      Interface("interface"), Diffuse, CoatedDiffuse, Conductor, Dielectric, ThinDielectric,
-      DiffuseTransmission, Measured
-    ),
-    Vector(
-      "mix", "fourier", "hair", "subsurface", "kdsubsurface", "translucent", "shinymetal",
-      "coatedconductor", "disney"
-    ).map(_ -> instead).toMap
+      Matte,
+      Translucent,
+      Diffuse,
+      DiffuseTransmission,
+      Plastic,
+      Substrate,
+      Uber,
+      Disney,
+      CoatedDiffuse,
+      CoatedConductor,
+      Glass,
+      Dielectric,
+      ThinDielectric,
+      Mirror,
+      Metal,
+      ShinyMetal,
+      Conductor,
+      Subsurface,
+      KdSubsurface,
+      Hair,
+      MeasuredTable,
+      MeasuredBsdf,
+      Fourier,
+      Mix,
+      Interface("", sinceV3),
+      Interface("none", sinceV3),
+      Interface("interface", onlyV4)
+    )
   )
 
   /** Of shapes that no material was given for, or one that is not supported. */
@@ -25,7 +45,3 @@ object Materials:
     MaterialFactory.diffuse(candela.textures.ConstantRgb(Rgb.gray(0.5f)))
 
   def build(site: Site): Material = all.build(site).getOrElse(default)
-
-final class Interface(name: String)
-    extends MaterialRecipe(name, "no surface: light passes as if it were not there", sinceV3):
-  protected def make()(using Site): Material = InterfaceMaterial

@@ -1,18 +1,34 @@
 package candela.build
 
-import candela.bsdf.{Material, MaterialFactory as Make}
-import candela.color.Rgb
+import java.nio.file.Files
 
-/** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and
-  * renders a surface that reflects nothing; so do we.
+import candela.bsdf.{Material, MaterialFactory}
+import candela.color.Rgb
+import candela.textures.ConstantRgb
+
+/** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and renders
+  * a surface that reflects nothing; so do we.
   */
-object Measured extends MaterialRecipe("measured", "a measured BRDF", onlyV2):
-  private val filename = string("filename", "a .brdf file")("")
+object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a table", onlyV2):
+  private val filename = string("filename", "a .brdf or .merl file", shown = "none")("")
+
+  override def pending: Option[String] = Some(Materials.instead)
+  override def pendingAt(site: Site): Option[String] =
+    given Site = site
+    if exists then pending else Some(s"no file `${filename()}`, so the surface is black")
+
+  private def exists(using site: Site): Boolean =
+    Files.isRegularFile(site.declaration.folder.resolve(filename().replace('\\', '/')))
+
   protected def make()(using site: Site): Material =
-    val path = site.declaration.folder.resolve(filename().replace('\\', '/'))
-    if java.nio.file.Files.isRegularFile(path) then
-      site.warn(s"material \"measured\" is not supported yet: ${Materials.instead}")
-      Materials.default
-    else
-      site.warn(s"no file `${filename()}`: the surface is black, as pbrt-v2 renders it")
-      Make.diffuse(candela.textures.ConstantRgb(Rgb.Black))
+    if exists then Materials.default else MaterialFactory.diffuse(ConstantRgb(Rgb.Black))
+
+object MeasuredBsdf
+    extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4)
+    with GreyInstead:
+  declare(string("filename", "a .bsdf file", shown = "none")(""))
+
+object Fourier
+    extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3)
+    with GreyInstead:
+  declare(string("bsdffile", "a .bsdf file", shown = "none")(""))

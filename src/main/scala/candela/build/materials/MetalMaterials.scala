@@ -8,7 +8,7 @@ import candela.color.{Colorimetry, Rgb}
 import candela.scenefile.Dialect
 
 /** Copper, where no metal is named. */
-private def copper(quantity: String): SpectralValue =
+private[build] def copper(quantity: String): SpectralValue =
   SpectralValue.Wavelengths(Colorimetry.named(s"metal-Cu-$quantity").get)
 
 object Mirror extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
@@ -21,8 +21,20 @@ object Metal extends RoughRecipe(
       untilV3,
       0.01f
     ):
-  private val eta = spectrum("eta", "index of refraction")(copper("eta"))
-  private val k = spectrum("k", "absorption coefficient")(copper("k"))
+  private val eta =
+    spectrum(
+      "eta",
+      "index of refraction",
+      shown = "of copper",
+      typeName = "spectrum texture"
+    )(copper("eta"))
+  private val k =
+    spectrum(
+      "k",
+      "absorption coefficient",
+      shown = "of copper",
+      typeName = "spectrum texture"
+    )(copper("k"))
   protected def make()(using site: Site): Material =
     def rgb(v: SpectralValue): Rgb = v match
       case SpectralValue.Color(c) => c
@@ -36,10 +48,26 @@ object Metal extends RoughRecipe(
     Make.conductor(curve, roughness())
 
 object Conductor extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f):
-  private val eta = spectrum("eta", "index of refraction")(copper("eta"))
-  private val k = spectrum("k", "absorption coefficient")(copper("k"))
+  private val eta =
+    spectrum(
+      "eta",
+      "index of refraction",
+      shown = "of copper",
+      typeName = "spectrum texture"
+    )(copper("eta"))
+  private val k =
+    spectrum(
+      "k",
+      "absorption coefficient",
+      shown = "of copper",
+      typeName = "spectrum texture"
+    )(copper("k"))
   private val reflectance =
-    rgbTexture("reflectance", "at normal incidence, instead of eta and k")(Rgb.White)
+    rgbTexture(
+      "reflectance",
+      "at normal incidence, instead of eta and k",
+      shown = "none"
+    )(Rgb.White)
   protected def make()(using site: Site): Material =
     reflectance.given_() match
       case Some(r) => Make.conductor(r, roughness())
@@ -57,3 +85,11 @@ object Conductor extends RoughRecipe("conductor", "a metal, smooth or rough", on
         Colorimetry.White.D65
       )
       site.resources.basis.fromSrgb(reflected)
+
+object ShinyMetal
+    extends RoughRecipe("shinymetal", "a metal by its colours", onlyV2, 0.1f, across = Set.empty)
+    with GreyInstead:
+  declare(
+    rgbTexture("Kr", "mirror reflectance at normal incidence")(Rgb.White),
+    rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.White)
+  )

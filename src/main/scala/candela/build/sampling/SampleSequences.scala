@@ -45,7 +45,7 @@ object Halton extends SamplerRecipe("halton", "Halton points"):
   noMeaning("digits are always scrambled")(
     string("randomization", "none, permutedigits or owen", onlyV4)("permutedigits")
   )
-  noMeaning("samples lie all over the pixel")(
+  notYet("samples lie all over the pixel")(
     bool("samplepixelcenter", "all samples in the pixel's middle", onlyV3)(false)
   )
   protected def make()(using Site): SamplerRequest => Sampler =

@@ -7,7 +7,7 @@ object Stratified
   private val x = integer("xsamples", "strata along x")(if v2 then 2 else 4)
   private val y = integer("ysamples", "strata along y")(if v2 then 2 else 4)
   private val jitter = bool("jitter", "a random place in each stratum, or its middle")(true)
-  private val seed = integer("seed", "of the random numbers", onlyV4)(0)
+  private val seed = integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
   noMeaning("all dimensions are sampled alike")(
     integer("dimensions", "dimensions with good samples", onlyV3)(4)
   )

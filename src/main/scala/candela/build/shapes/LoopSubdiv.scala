@@ -3,11 +3,12 @@ package candela.build
 import candela.shapes.{LoopSubdivision, MeshError}
 
 object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop's subdivision surface"):
-  private val levels = integer("levels", "times that each triangle is split into four")(3)
-  private val nlevels = integer("nlevels", "another name of `levels`")(3)
+  private val levels = integer("levels", "times that each triangle is split into four", sinceV3)(3)
+  private val nlevels =
+    integer("nlevels", "times that each triangle is split into four", untilV3)(3)
   private val indices = integers("indices", "three vertices a triangle of the control mesh")
   private val points = numbers("P", "point3[]", "vertices of the control mesh")
-  noMeaning("there is but one")(string("scheme", "kind of subdivision", untilV3)("loop"))
+  noMeaning("there is but one")(string("scheme", "kind of subdivision")("loop"))
 
   protected def make()(using site: Site): Option[ShapeGeometry] =
     val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)

@@ -2,20 +2,20 @@ package candela.build
 
 import candela.base.SceneError
 
-object TriangleMeshRecipe extends ShapeRecipe("trianglemesh", "triangles that share vertices"):
+object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "triangles that share vertices"):
   private val indices =
     integers("indices", "three vertices a triangle; may be absent for 3 points")
   private val points = numbers("P", "point3[]", "vertex positions")
   private val normals = numbers("N", "normal[]", "shading normals, one a vertex")
   private val uv = numbers("uv", "point2[]", "texture coordinates, one pair a vertex")
-  private val st = numbers("st", "point2[]", "another name of `uv`")
-  noMeaning("tangents come from uv")(
-    numbers("S", "vector3[]", "tangents, one a vertex")
+  private val st = numbers("st", "point2[]", "another name of `uv`", untilV3)
+  notYet("tangents come from uv")(numbers("S", "vector3[]", "tangents, one a vertex"))
+  noMeaning("uv that don't span the surface do no harm")(
+    bool("discarddegenerateUVs", "drop all uv if some don't span the surface", onlyV2)(false)
   )
-  noMeaning("degenerate uv are never used")(
-    bool("discarddegenerateUVs", "drop uv that don't span the surface", untilV3)(false)
+  noMeaning("only Ptex textures ask for them")(
+    integers("faceIndices", "numbers of faces, one a triangle", sinceV3)
   )
-  noMeaning("nothing reads them")(integers("faceIndices", "numbers of faces, for Ptex", sinceV3))
 
   protected def make()(using site: Site): Option[ShapeGeometry] =
     val p = points()
@@ -27,10 +27,11 @@ object TriangleMeshRecipe extends ShapeRecipe("trianglemesh", "triangles that sh
       None
     else MeshArrays.checked(p, normals(), uvs, index)
 
-object PlyMeshRecipe extends ShapeRecipe("plymesh", "a mesh from a PLY file", sinceV3):
-  private val filename = string("filename", "a .ply file (or .ply.gz)")("")
+object PlyMeshRecipe extends MeshRecipe("plymesh", "a mesh from a PLY file", sinceV3):
+  private val filename = string("filename", "a .ply file (or .ply.gz)", shown = "none")("")
   notYet("the mesh is not displaced")(
-    floatTexture("displacement", "along the normal", onlyV4, "scene units", "none")(0f)
+    floatTexture("displacement", "along the normal", onlyV4, "scene units", "none")(0f),
+    float("edgelength", "longest edge of the displaced mesh", onlyV4, "scene units")(1f)
   )
 
   protected def make()(using site: Site): Option[ShapeGeometry] =
@@ -47,3 +48,17 @@ object PlyMeshRecipe extends ShapeRecipe("plymesh", "a mesh from a PLY file", si
       case _ =>
         site.error("a plymesh needs a `filename`")
         None
+
+object BilinearMeshRecipe
+    extends ShapeRecipe("bilinearmesh", "four-cornered patches that share vertices", onlyV4)
+    with LeftOut:
+  declare(
+    integers("indices", "four vertices a patch; may be absent for 4 points"),
+    numbers("P", "point3[]", "vertex positions"),
+    numbers("N", "normal[]", "shading normals, one a vertex"),
+    numbers("uv", "point2[]", "texture coordinates, one pair a vertex"),
+    string("emissionfilename", "image of the light it emits", shown = "none")("")
+  )
+  noMeaning("only Ptex textures ask for them")(
+    integers("faceIndices", "numbers of faces, one a patch")
+  )

@@ -3,7 +3,7 @@ package candela.build
 import candela.math.*
 import candela.shapes.{Disk, Sphere}
 
-object SphereRecipe extends ShapeRecipe("sphere", "about the origin, whole or a part"):
+object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, whole or a part"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
   private val zmin =
     float("zmin", "z of the lower clip plane", shown = "-radius")(Float.NegativeInfinity)
@@ -25,10 +25,11 @@ object SphereRecipe extends ShapeRecipe("sphere", "about the origin, whole or a 
         )
       )
 
-object DiskRecipe extends ShapeRecipe("disk", "in a plane of constant z, whole or a part"):
-  private val height = float("height", "its place along z")(0f)
-  private val radius = float("radius", "outer radius")(1f)
-  private val inner = float("innerradius", "radius of the hole")(0f)
+object DiskRecipe
+    extends ShapeRecipe("disk", "a disk or ring in a plane of constant z, whole or a part"):
+  private val height = float("height", "its place along z", unit = "scene units")(0f)
+  private val radius = float("radius", "outer radius", unit = "scene units")(1f)
+  private val inner = float("innerradius", "radius of the hole", unit = "scene units")(0f)
   private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
 
   protected def make()(using site: Site): Option[ShapeGeometry] =

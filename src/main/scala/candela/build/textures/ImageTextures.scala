@@ -7,15 +7,21 @@ import candela.scenefile.Dialect
 import candela.textures.*
 
 abstract class ImageMap[A] extends Mapped[A]("imagemap", "a picture"):
-  private val filename = string("filename", "png, tga, jpg, exr or hdr")("")
+  private val filename = string("filename", "png, tga, jpg, exr or hdr", shown = "none")("")
   private val wrap =
     oneOf("wrap", "beyond the image", ImageMap.Wraps)("repeat")
   protected val scale = float("scale", "factor of the values")(1f)
   protected val invert = bool("invert", "1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
-  private val gammaFlag = bool("gamma", "are values sRGB-encoded?", onlyV3)(true)
+  private val gammaFlag =
+    bool("gamma", "are values sRGB-encoded?", onlyV3, "for .png and .tga")(true)
   private val encoding =
-    string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("sRGB")
+    string(
+      "encoding",
+      "sRGB, linear, or `gamma` and an exponent",
+      onlyV4,
+      "\"sRGB\" for .png, else \"linear\""
+    )("sRGB")
   private val filter =
     oneOf("filter", "of the lookup", ImageMap.Filters, onlyV4)("bilinear")
   noMeaning("images are read bilinearly")(

@@ -5,13 +5,14 @@ import candela.scenefile.Dialect
 import candela.textures.*
 
 /** The parameters of a two-dimensional mapping, which many textures share. */
-abstract class Mapped[A](name: String, meaning: String) extends Recipe[A](name, meaning):
+abstract class Mapped[A](name: String, meaning: String, dialects: Set[Dialect] = every)
+    extends Recipe[A](name, meaning, dialects):
   private val mapping =
     oneOf("mapping", "how the surface gets coordinates", Mapped.Mappings)("uv")
   private val uscale = float("uscale", "repetitions along u")(1f)
   private val vscale = float("vscale", "repetitions along v")(1f)
-  private val udelta = float("udelta", "moves along u")(0f)
-  private val vdelta = float("vdelta", "moves along v")(0f)
+  private val udelta = float("udelta", "shift along u")(0f)
+  private val vdelta = float("vdelta", "shift along v")(0f)
   private val axis1 = vector("v1", "of `planar`: the direction of s")(Vec3.X)
   private val axis2 = vector("v2", "of `planar`: the direction of t")(Vec3.Y)
 

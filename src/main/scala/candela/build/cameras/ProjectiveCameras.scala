@@ -1,0 +1,25 @@
+package candela.build
+
+import candela.cameras.{OrthographicCamera, PerspectiveCamera}
+import candela.math.clamp
+
+object Perspective extends ProjectiveRecipe("perspective", "things far away look smaller"):
+  private val fov = float("fov", "angle of the shorter side of the view", unit = "degrees")(90f)
+  private val half =
+    float("halffov", "half of `fov`, instead of it", untilV3, "degrees", "none")(-1f)
+
+  protected def make()(using site: Site): CameraPlan =
+    val angle = if half() > 0f then 2f * half() else fov()
+    if !(angle > 0f && angle < 180f) then
+      site.error(s"`fov` lies between 0 and 180 degrees; found $angle")
+    CameraPlan(
+      (toWorld, width, height) =>
+        PerspectiveCamera(setup(toWorld, width, height), clamp(angle, 1e-3f, 179.9f)),
+      exposure()
+    )
+
+object Orthographic extends ProjectiveRecipe("orthographic", "parallel lines stay parallel"):
+  protected def make()(using Site): CameraPlan = CameraPlan(
+    (toWorld, width, height) => OrthographicCamera(setup(toWorld, width, height)),
+    exposure()
+  )

@@ -1,0 +1,43 @@
+package candela.build
+
+import candela.integrators.{Integrator, PathTracer}
+import candela.scene.Scene
+import candela.scenefile.Dialect
+
+/** An integrator to be made once the scene is known.
+  *
+  * @param make         takes the scene and how often each light is to be sampled
+  * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
+  */
+final case class IntegratorPlan(
+    make: (Scene, Array[Int]) => Integrator,
+    samplesBsdf: Boolean,
+    describe: String
+)
+
+/** What many integrators have: how far light is followed. */
+abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dialect])
+    extends Recipe[IntegratorPlan](name, meaning, dialects):
+  protected val maxDepth: Field[Int] =
+    integer("maxdepth", "most scattering events of a path")(5)
+
+  /** v3's integrators can be told what to render, beside the film. */
+  protected def windowed(): Unit =
+    notYet("the film's crop window is rendered")(
+      integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
+    )
+
+/** Of integrators that are not there yet. */
+trait PathInstead extends Recipe[IntegratorPlan]:
+  override def pending: Option[String] =
+    Some("the path integrator is used, which has the same mean where that one is unbiased")
+
+  protected def depth()(using Site): Int = 5
+
+  protected def make()(using Site): IntegratorPlan =
+    val most = Math.max(0, depth())
+    IntegratorPlan(
+      (scene, _) => PathTracer(scene, most, 1, 1f),
+      samplesBsdf = true,
+      s"path, up to $most scattering events"
+    )

@@ -1,0 +1,78 @@
+package candela.build
+
+import candela.color.Rgb
+
+/** pbrt-v2's surface integrators that are not there yet. */
+final class PhotonMap(name: String)
+    extends Recipe[IntegratorPlan](name, "photon mapping with final gathering", onlyV2)
+    with PathInstead:
+  declare(
+    integer("causticphotons", "photons that came by mirrors and glass")(20000),
+    integer("indirectphotons", "other photons")(100000),
+    integer("nused", "photons of each estimate")(50),
+    integer("maxspeculardepth", "most specular bounces")(5),
+    integer("maxphotondepth", "most bounces of a photon")(5),
+    bool("finalgather", "is indirect light gathered at one remove?")(true),
+    integer("finalgathersamples", "rays of each gathering")(32),
+    float("maxdist", "within which photons are sought", unit = "scene units")(0.1f),
+    float("gatherangle", "between gathering rays and photons", unit = "degrees")(10f)
+  )
+
+object InstantGlobalIllumination
+    extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)
+    with PathInstead:
+  declare(
+    integer("nlights", "paths from the lights in each set")(64),
+    integer("nsets", "sets of lights")(4),
+    float("rrthreshold", "contribution below which a light may be left out")(0.0001f),
+    float("glimit", "greatest geometric term")(10f),
+    integer("gathersamples", "rays that make up for that limit")(16)
+  )
+  override protected def depth()(using Site): Int = maxDepth()
+
+object IrradianceCache
+    extends Recipe[IntegratorPlan]("irradiancecache", "indirect light, interpolated", onlyV2)
+    with PathInstead:
+  declare(
+    float("minweight", "of neighbours that are used")(0.5f),
+    float("minpixelspacing", "least distance of samples", unit = "pixels")(2.5f),
+    float("maxpixelspacing", "greatest distance of samples", unit = "pixels")(15f),
+    float("maxangledifference", "between normals", unit = "degrees")(10f),
+    integer("maxspeculardepth", "most specular bounces")(5),
+    integer("maxindirectdepth", "most diffuse bounces")(3),
+    integer("nsamples", "rays of each sample")(4096)
+  )
+
+object DipoleSubsurface
+    extends IntegratorRecipe("dipolesubsurface", "light under surfaces, by a dipole", onlyV2)
+    with PathInstead:
+  declare(
+    float("maxerror", "solid angle up to which points are taken together", unit = "sr")(0.05f),
+    float("minsampledistance", "between points on surfaces", unit = "scene units")(0.25f),
+    string("pointsfile", "file of points", shown = "none")("")
+  )
+  override protected def depth()(using Site): Int = maxDepth()
+
+object DiffusePrt
+    extends Recipe[IntegratorPlan]("diffuseprt", "diffuse transfer, precomputed", onlyV2)
+    with PathInstead:
+  declare(
+    integer("lmax", "degree of the spherical harmonics")(4),
+    integer("nsamples", "rays from each point")(4096)
+  )
+
+object GlossyPrt
+    extends Recipe[IntegratorPlan]("glossyprt", "glossy transfer, precomputed", onlyV2)
+    with PathInstead:
+  declare(
+    integer("lmax", "degree of the spherical harmonics")(4),
+    integer("nsamples", "rays from each point")(4096),
+    color("Kd", "of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f)),
+    color("Ks", "of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f)),
+    float("roughness", "of all surfaces")(0.1f)
+  )
+
+object UseProbes
+    extends Recipe[IntegratorPlan]("useprobes", "light from precomputed probes", onlyV2)
+    with PathInstead:
+  declare(string("filename", "file of probes")("probes.out"))

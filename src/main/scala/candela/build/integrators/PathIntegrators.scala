@@ -1,0 +1,48 @@
+package candela.build
+
+import candela.integrators.PathTracer
+import candela.scenefile.Dialect
+
+final class Path(name: String, meaning: String, dialects: Set[Dialect])
+    extends IntegratorRecipe(name, meaning, dialects):
+  private val threshold =
+    float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
+  noMeaning("all of them have the same mean; Candela's tree of lights serves for each")(
+    string("lightsampler", "how lights are chosen: uniform, power, bvh, exhaustive", onlyV4)("bvh"),
+    string("lightsamplestrategy", "how lights are chosen: uniform, power, spatial", onlyV3)(
+      "spatial"
+    )
+  )
+  notYet("BSDFs stay as they are")(
+    bool("regularize", "roughen what a path meets late", onlyV4)(false)
+  )
+  windowed()
+
+  protected def make()(using site: Site): IntegratorPlan =
+    // v2 lights one vertex more than it counts
+    val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
+    val patience = if site.dialect == Dialect.V4 then 1 else 4
+    IntegratorPlan(
+      (scene, _) => PathTracer(scene, depth, patience, threshold()),
+      samplesBsdf = true,
+      s"path, up to $depth scattering events"
+    )
+
+object SimplePath
+    extends IntegratorRecipe("simplepath", "path tracing, without its refinements", onlyV4)
+    with PathInstead:
+  declare(
+    bool("samplelights", "are lights sampled?")(true),
+    bool("samplebsdf", "are BSDFs sampled?")(true)
+  )
+  override protected def depth()(using Site): Int = maxDepth()
+
+object SimpleVolPath
+    extends IntegratorRecipe("simplevolpath", "path tracing through media, without lights", onlyV4)
+    with PathInstead:
+  override protected def depth()(using Site): Int = maxDepth()
+
+object RandomWalk
+    extends IntegratorRecipe("randomwalk", "path tracing into random directions", onlyV4)
+    with PathInstead:
+  override protected def depth()(using Site): Int = maxDepth()

@@ -1,0 +1,9 @@
+package candela.build
+
+import candela.bsdf.{InterfaceMaterial, Material}
+import candela.scenefile.Dialect
+
+/** The edge of a medium. */
+final class Interface(name: String, dialects: Set[Dialect])
+    extends MaterialRecipe(name, "no surface: light passes straight on", dialects, bumps = false):
+  protected def make()(using Site): Material = InterfaceMaterial

@@ -1,0 +1,42 @@
+package candela.cli
+
+/** Rows of cells as lines: columns are as wide as they need to be, and the last one wraps.
+  *
+  * @param columns of the terminal
+  */
+final class TextTable(columns: Int):
+
+  def lines(rows: Vector[Vector[String]], indent: Int = 2): Vector[String] =
+    if rows.isEmpty then Vector.empty
+    else
+      val fixed = rows.head.indices.init.map(i => rows.map(_(i).length).max.min(TextTable.Widest))
+      val before = indent + fixed.sum + TextTable.Gap * fixed.size
+      val width = Math.max(TextTable.LeastText, columns - before)
+      rows.flatMap: row =>
+        val cells =
+          row.init.zip(fixed).map((text, w) => TextTable.wrap(text, w).map(_.padTo(w, ' ')))
+        val last = TextTable.wrap(row.last, width)
+        val height = (cells.map(_.size) :+ last.size).max
+        Vector.tabulate(height): i =>
+          val parts = cells.zip(fixed).map((c, w) => c.applyOrElse(i, _ => " " * w))
+          val line = (parts :+ last.applyOrElse(i, _ => "")).mkString(" " * TextTable.Gap)
+          (" " * indent + line).stripTrailing
+
+object TextTable:
+  private val Gap = 2
+
+  /** Of a column beside the last: longer cells wrap, too. */
+  private val Widest = 26
+
+  /** Of the last column, however narrow the terminal is. */
+  private val LeastText = 24
+
+  /** Breaks between words; words that are too long stay whole. */
+  def wrap(text: String, width: Int): Vector[String] =
+    text
+      .split(' ')
+      .foldLeft(Vector("")): (lines, word) =>
+        val last = lines.last
+        if last.isEmpty then lines.init :+ word
+        else if last.length + 1 + word.length <= width then lines.init :+ s"$last $word"
+        else lines :+ word
