@@ -22,8 +22,12 @@ class PartialsSuite extends AnyFunSuite:
     val draws = Draws(1)
     val compared = around(draws): toWorld =>
       val sphere = Sphere(
-        toWorld, 1f, draws.between(-1.2f, -0.3f), draws.between(0.3f, 1.2f),
-        draws.between(2f, TwoPi), draws.coin()
+        toWorld,
+        1f,
+        draws.between(-1.2f, -0.3f),
+        draws.between(0.3f, 1.2f),
+        draws.between(2f, TwoPi),
+        draws.coin()
       )
       // Not near the poles, where u changes too fast for a finite difference
       val z = draws.between(-0.8f, 0.8f)
@@ -64,7 +68,9 @@ class PartialsSuite extends AnyFunSuite:
     do
       val soup = triangle(normals, uvs)
       val (a, m, b) = (
-        look(soup, 0.3f - e1, 0.4f - e2), look(soup, 0.3f, 0.4f), look(soup, 0.3f + e1, 0.4f + e2)
+        look(soup, 0.3f - e1, 0.4f - e2),
+        look(soup, 0.3f, 0.4f),
+        look(soup, 0.3f + e1, 0.4f + e2)
       )
       val (du, dv) = (b.u - a.u, b.v - a.v)
       // 1 % of the step

@@ -11,7 +11,8 @@ abstract class SamplerRecipe(
     default: Int = 16
 ) extends Recipe[SamplerRequest => Sampler](name, meaning, dialects):
   private val samples = integer("pixelsamples", "samples per pixel")(if v2 then 4 else default)
-  protected val seed: Field[Int] = integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
+  protected val seed: Field[Int] =
+    integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
 
   protected def count(request: SamplerRequest)(using site: Site): Int =
     request.spp.getOrElse:
