@@ -50,6 +50,9 @@ final class SurfaceSample:
   /** Per solid angle at the point that asked. */
   var pdf: Float = 0f
 
+  /** Work space of [[TriangleSampler]]. */
+  val triangle = candela.sampling.SphericalTriangle()
+
 object SurfaceSampler:
   /** Turns a density per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */
   def perSolidAngle(perArea: Float, from: Vec3, p: Vec3, n: Vec3): Float =

@@ -1,12 +1,18 @@
 package candela.shapes
 
 import candela.math.*
+import candela.sampling.SphericalTriangle
 
-/** Points on one triangle of the soup, uniform by area.
+/** Points on one triangle of the soup: uniform by the solid angle under which they are seen, so
+  * that neither distance nor slant makes noise; by area where the triangle is seen so small that
+  * both are the same, or so large that the eye is about on it.
   *
-  * Source of the map: Heitz, "A Low-Distortion Map Between Triangle and Square", 2019.
+  * Sources: [[SphericalTriangle]]; by area Heitz, "A Low-Distortion Map Between Triangle and
+  * Square", 2019.
   */
 final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSampler:
+  import TriangleSampler.*
+
   private val p0 = soup.vertex(triangle, 0)
   private val p1 = soup.vertex(triangle, 1)
   private val p2 = soup.vertex(triangle, 2)
@@ -25,17 +31,64 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
 
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val b0 = if u1 < u2 then u1 * 0.5f else u1 - u2 * 0.5f
-    val b1 = if u1 < u2 then u2 - u1 * 0.5f else u2 * 0.5f
-    val b2 = 1.0 - b0 - b1
-    out.p = Vec3(
-      (b0 * p0.x.toDouble + b1 * p1.x.toDouble + b2 * p2.x).toFloat,
-      (b0 * p0.y.toDouble + b1 * p1.y.toDouble + b2 * p2.y).toFloat,
-      (b0 * p0.z.toDouble + b1 * p1.z.toDouble + b2 * p2.z).toFloat
-    )
-    out.pError = TriangleSoup.roundingError(out.p)
+    val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
     out.n = normal
-    out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
+    if isByAngle(angle) then
+      out.triangle.set(from, p0, p1, p2)
+      place(from, out.triangle.sample(u1, u2), out)
+      out.pdf = (1 / angle).toFloat
+    else
+      placeByArea(u1, u2, out)
+      out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
+    out.pError = TriangleSoup.roundingError(out.p)
 
   def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
-    SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
+    val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
+    if isByAngle(angle) then (1 / angle).toFloat
+    else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
+
+  private def isByAngle(solidAngle: Double): Boolean =
+    solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle
+
+  /** Where the ray from `from` in direction `w` meets the triangle, by weights of its corners that
+    * keep the point on it whatever is rounded.
+    */
+  private def place(from: Vec3, w: Vec3, out: SurfaceSample): Unit =
+    val e1x = p1.x.toDouble - p0.x
+    val e1y = p1.y.toDouble - p0.y
+    val e1z = p1.z.toDouble - p0.z
+    val e2x = p2.x.toDouble - p0.x
+    val e2y = p2.y.toDouble - p0.y
+    val e2z = p2.z.toDouble - p0.z
+    val qx = w.y * e2z - w.z * e2y
+    val qy = w.z * e2x - w.x * e2z
+    val qz = w.x * e2y - w.y * e2x
+    val sx = from.x.toDouble - p0.x
+    val sy = from.y.toDouble - p0.y
+    val sz = from.z.toDouble - p0.z
+    val inverse = 1 / (e1x * qx + e1y * qy + e1z * qz)
+    val b1 = Math.max(0.0, Math.min(1.0, (sx * qx + sy * qy + sz * qz) * inverse))
+    val rx = sy * e1z - sz * e1y
+    val ry = sz * e1x - sx * e1z
+    val rz = sx * e1y - sy * e1x
+    val b2 = Math.max(0.0, Math.min(1.0 - b1, (w.x * rx + w.y * ry + w.z * rz) * inverse))
+    combine(1.0 - b1 - b2, b1, b2, out)
+
+  private def placeByArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
+    val b0 = if u1 < u2 then u1 * 0.5f else u1 - u2 * 0.5f
+    val b1 = if u1 < u2 then u2 - u1 * 0.5f else u2 * 0.5f
+    combine(b0.toDouble, b1.toDouble, 1.0 - b0 - b1, out)
+
+  private def combine(b0: Double, b1: Double, b2: Double, out: SurfaceSample): Unit =
+    out.p = Vec3(
+      (b0 * p0.x + b1 * p1.x + b2 * p2.x).toFloat,
+      (b0 * p0.y + b1 * p1.y + b2 * p2.y).toFloat,
+      (b0 * p0.z + b1 * p1.z + b2 * p2.z).toFloat
+    )
+
+object TriangleSampler:
+  /** In sr, the range of PBRT 4th ed., §6.5.4: below it the density by area is as good as
+    * constant, above it the eye is about in the triangle's plane.
+    */
+  private inline val MinSolidAngle = 3e-4
+  private inline val MaxSolidAngle = 6.22
