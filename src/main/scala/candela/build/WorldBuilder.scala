@@ -10,7 +10,7 @@ import candela.lights.{Light, LightSelection}
 import candela.math.Transform
 import candela.scene.{Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
-import candela.shapes.TriangleSampler
+import candela.shapes.{TriangleSampler, TriangleSoup}
 
 /** The world, ready to render, with what it holds in words. */
 final class World(val integrator: Integrator, val features: Vector[(String, String)])
@@ -23,10 +23,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   private val lights = ArrayBuffer.empty[Light]
   private val lightSamples = ArrayBuffer.empty[Int]
 
-  /** Lights of mesh triangles can be made only when all triangles are known: (plan, first,
-    * count).
-    */
-  private val meshLights = ArrayBuffer.empty[(AreaLightPlan, Int, Int, Int)]
+  /** Lights of mesh triangles can be made only when all triangles are known. */
+  private val meshLights = ArrayBuffer.empty[MeshLights]
 
   private def site(d: Declaration, toWorld: Transform = Transform.Identity) =
     Site(d, description.dialect, resources, problems, toWorld)
@@ -45,11 +43,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     val surfaces = world.result(tangents, turnsTangents)
     val objects = objectBuilders.map(_.result(tangents, turnsTangents))
     val triangles = surfaces.soup
-    for (plan, first, count, light) <- meshLights do
-      val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
-      val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
-      for (sampler, k) <- samplers.zipWithIndex do
-        lights(light + k) = plan.ofTriangle(sampler, area)
+    for (light, k) <- meshLights.flatMap(_.of(triangles)) do lights(k) = light
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
     val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
     for l <- description.lights do addLight(l, complete)
@@ -74,10 +68,15 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
         "triangles" -> triangles.count.toString,
         "other shapes" -> surfaces.solids.length.toString,
         "instances" -> instanced.describe,
+        "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
       )
     )
+
+  private def masked(surfaces: Vector[Surfaces]): String =
+    val (meshes, shapes) = (surfaces.map(_.masks.meshes).sum, surfaces.map(_.masks.shapes).sum)
+    if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
 
   private def warnOfDarkness(): Unit =
     for c <- description.camera do
@@ -89,7 +88,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     Instanced(objects.toArray, Instances.of(accelerators.toArray, all))
 
   private def accelerate(surfaces: Surfaces, instances: Instances): Accelerator =
-    structure(Primitives(surfaces.soup, surfaces.solids.map(_.shape), instances))
+    structure(surfaces.primitives(instances))
 
   private lazy val structure: Primitives => Accelerator =
     description.accelerator.flatMap(d => Accelerators.all.build(site(d))).getOrElse(Bvh(_))
@@ -103,14 +102,14 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
       geometry match
         case mesh: ShapeGeometry.Triangles =>
-          addMesh(s, mesh, toWorld, material, light, here, to.soup)
+          addMesh(s, mesh, toWorld, material, light, here, to)
         case ShapeGeometry.Solid(make) =>
           val shape = make(toWorld, s.reverseOrientation)
           val index = light.fold(-1): plan =>
-            lights += plan.ofShape(shape)
+            lights += Alpha.emission(using here).of(plan.ofShape(shape))
             lightSamples += plan.samples
             lights.length - 1
-          to.solids += ShapeInstance(shape, material, index)
+          to.add(ShapeInstance(shape, material, index), Alpha.mask(using here))
 
   private def addMesh(
       s: ShapeDescription,
@@ -119,17 +118,19 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       material: Int,
       light: Option[AreaLightPlan],
       here: Site,
-      soup: SoupBuilder
+      to: SurfaceBuilder
   ): Unit =
     val count = mesh.indices.length / 3
-    if soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
+    if to.soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
       here.error(s"more than ${WorldBuilder.MostTriangles} triangles in the world or in one object")
     else
       val firstLight = light.fold(-1)(_ => lights.length)
       val flipNormals = description.dialect == Dialect.V4
-      val first = soup.add(mesh, toWorld, s.reverseOrientation, flipNormals, material, firstLight)
+      val first =
+        to.soup.add(mesh, toWorld, s.reverseOrientation, flipNormals, material, firstLight)
+      to.maskMesh(Alpha.mask(using here))
       for plan <- light do
-        meshLights += ((plan, first, count, firstLight))
+        meshLights += MeshLights(plan, Alpha.emission(using here), first, count, firstLight)
         for _ <- 0 until count do
           lights += null // made as soon as all triangles are known
           lightSamples += plan.samples
@@ -166,6 +167,24 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     )
 
   private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
+
+/** The lights of an emitting mesh, to be.
+  *
+  * @param first of its triangles
+  * @param light number of the first triangle's light
+  */
+private final case class MeshLights(
+    plan: AreaLightPlan,
+    emission: Emission,
+    first: Int,
+    count: Int,
+    light: Int
+):
+  /** The lights with their numbers. */
+  def of(triangles: TriangleSoup): Seq[(Light, Int)] =
+    val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
+    val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
+    samplers.zipWithIndex.map((s, k) => (emission.of(plan.ofTriangle(s, area)), light + k))
 
 object WorldBuilder:
   /** 9 Floats a triangle must fit into one array. */

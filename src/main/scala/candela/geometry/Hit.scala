@@ -12,3 +12,10 @@ final class Hit:
     * freely.
     */
   var u, v: Float = 0f
+
+  private var point: Option[ShadingPoint] = None
+
+  /** Where an accelerator may look at a surface more closely; made when it is first asked for. */
+  def work: ShadingPoint =
+    if point.isEmpty then point = Some(ShadingPoint())
+    point.get

@@ -1,13 +1,22 @@
 package candela.scene
 
+import candela.accel.{Instances, Masks, Primitives}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.shapes.TriangleSoup
 
 /** What one accelerator's primitives look like: those of the world, or of an object that instances
   * place in it.
   */
-final class Surfaces(val soup: TriangleSoup, val solids: Array[ShapeInstance]):
+final class Surfaces(
+    val soup: TriangleSoup,
+    val solids: Array[ShapeInstance],
+    val masks: Masks = Masks.None
+):
   def count: Int = soup.count + solids.length
+
+  /** What an accelerator is made of: these, and instances of others. */
+  def primitives(instances: Instances = Instances.None): Primitives =
+    Primitives(soup, solids.map(_.shape), instances, masks)
 
   /** Works out the geometry of the hit on `primitive`, in the space of these surfaces. */
   def fill(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =

@@ -51,7 +51,8 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(only("Shape \"cylinder\""), "\"cylinder\" is not supported yet")
     assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
     assertWarning(only(s"Material \"hair\" $sphere"), "grey diffuse")
-    assertWarning(only("Shape \"sphere\" \"float alpha\" 0", Dialect.V4), "`alpha` of \"sphere\"")
+    val lamp = s"AreaLightSource \"diffuse\" \"string filename\" \"a.png\" $sphere"
+    assertWarning(only(lamp, Dialect.V4), "`filename` of \"diffuse\"")
 
   test("values of the wrong type or number are errors"):
     assertError(only("Shape \"sphere\" \"string radius\" \"big\""), "takes one number")

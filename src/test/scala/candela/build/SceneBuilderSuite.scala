@@ -87,9 +87,10 @@ final class SceneBuilderSuite extends AnyFunSuite:
                    |ObjectInstance "leaf"
                    |WorldEnd""".stripMargin
     val plan = SceneTexts.plan(scene)
-    assert(feature(plan, "triangles") == "2" && feature(plan, "other shapes") == "2")
+    assert(feature(plan, "triangles") == "0" && feature(plan, "other shapes") == "0")
+    assert(feature(plan, "instances").startsWith("2 of 1 objects with 1 triangles"))
     val unused = scene.replace("ObjectInstance \"leaf\"", "")
-    assert(feature(SceneTexts.plan(unused), "triangles") == "0")
+    assert(feature(SceneTexts.plan(unused), "instances") == "none")
 
   test("an instance of no object is an error with the nearest name"):
     val scene = s"WorldBegin\nObjectBegin \"leaf\"\n$triangle\nObjectEnd\nObjectInstance \"laef\"\n"

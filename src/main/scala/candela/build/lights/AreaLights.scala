@@ -22,12 +22,12 @@ final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val sam
       emitted * (power / (area * Pi * sides))
     else emitted
 
-  def ofTriangle(triangle: TriangleSampler, meshArea: Float): Light =
+  def ofTriangle(triangle: TriangleSampler, meshArea: Float): AreaLight =
     AreaLight(
       triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f
     )
 
-  def ofShape(shape: Shape): Light =
+  def ofShape(shape: Shape): AreaLight =
     val (axis, cosSpread) = shape.normals
     AreaLight(shape: SurfaceSampler, radiance(shape.area), twoSided, shape.bounds, axis, cosSpread)
 

@@ -1,0 +1,61 @@
+package candela.accel
+
+import candela.geometry.{Ray, ShadingPoint}
+import candela.sampling.SampleHash
+import candela.textures.FloatTexture
+
+/** Where a surface has holes. */
+abstract class Mask:
+
+  /** Does the ray pass through `primitive` at this point as if nothing were there? The answer is
+    * always the same for the same ray.
+    *
+    * @param at     in the space of the ray
+    * @param shadow does the ray only ask whether something is in the way?
+    */
+  def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean
+
+/** No holes: not even asked. */
+object SolidMask extends Mask:
+  def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean = false
+
+/** Holes where `alpha` is 0; `shadowAlpha` makes further ones for shadow rays alone. So in pbrt-v2
+  * and v3.
+  */
+final class HoleMask(alpha: FloatTexture, shadowAlpha: FloatTexture) extends Mask:
+  def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
+    alpha(at) == 0f || (shadow && shadowAlpha(at) == 0f)
+
+/** A ray passes with probability 1 − `alpha`, decided by a hash of the ray: so in pbrt-v4.
+  *
+  * Source: Wyman and McGuire, "Improved Alpha Testing Using Hashed Sampling", TVCG 23(8), 2017, for
+  * thresholds by a hash.
+  */
+final class StochasticMask(alpha: FloatTexture) extends Mask:
+  def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
+    val a = alpha(at)
+    a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, primitive) >= a)
+
+object StochasticMask:
+  /** Uniform in [0, 1) over rays and primitives. */
+  private def threshold(ray: Ray, primitive: Int): Float =
+    def bits(x: Float) = java.lang.Float.floatToRawIntBits(x) & 0xffffffffL
+    var h = SampleHash.mix64(bits(ray.ox) << 32 | bits(ray.oy))
+    h = SampleHash.mix64(h ^ (bits(ray.oz) << 32 | bits(ray.dx)))
+    h = SampleHash.mix64(h ^ (bits(ray.dy) << 32 | bits(ray.dz)))
+    h = SampleHash.mix64(h + primitive * SampleHash.Step)
+    SampleHash.toUnit((h >>> 32).toInt)
+
+/** The masks of a set of primitives; [[SolidMask]] where there is none.
+  *
+  * @param ofMesh  by number in the soup's meshes
+  * @param ofShape by number among the other shapes
+  */
+final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
+  private def count(masks: Array[Mask]): Int = masks.count(_ ne SolidMask)
+  val meshes: Int = count(ofMesh)
+  val shapes: Int = count(ofShape)
+  def isEmpty: Boolean = meshes == 0 && shapes == 0
+
+object Masks:
+  val None: Masks = Masks(Array.empty, Array.empty)

@@ -1,0 +1,107 @@
+package candela.accel
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.shapes.{Disk, TriangleSoup}
+import candela.testing.{Draws, Soups}
+import candela.textures.{ConstantFloat, FloatTexture}
+
+class MaskSuite extends AnyFunSuite:
+  private val ray = Ray()
+  private val hit = Hit()
+
+  /** A hole where u is below one half. */
+  private object LeftHalf extends FloatTexture:
+    def apply(at: ShadingPoint): Float = if at.u < 0.5f then 0f else 0.01f
+
+  private val whole = ConstantFloat(1f)
+
+  /** Two triangles that make the unit square at z = 0, with u = x and v = y. */
+  private def square(z: Float): Seq[Soups.Triangle] =
+    Seq((Vec3(0f, 0f, z), Vec3(1f, 0f, z), Vec3(1f, 1f, z)))
+
+  private def triangles(mask: Mask): Primitives =
+    Primitives(Soups.of(square(0f)), Array.empty, Instances.None, Masks(Array(mask), Array.empty))
+
+  private def down(x: Float, y: Float, from: Float = 1f): Ray =
+    ray.set(Vec3(x, y, from), Vec3(0f, 0f, -1f), Float.PositiveInfinity)
+    ray
+
+  private val accelerators: Seq[(String, Primitives => Accelerator)] =
+    Seq("bvh" -> (Bvh(_)), "grid" -> (Grid(_)), "brute force" -> (BruteForce(_)))
+
+  for (name, make) <- accelerators do
+    test(s"a triangle is met where it has no hole: $name"):
+      val world = make(triangles(HoleMask(LeftHalf, whole)))
+      // u is x: the corners without uv are (0,0), (1,0), (1,1)
+      assert(world.closest(down(0.75f, 0.25f), hit) && ray.tMax == 1f)
+      assert(!world.closest(down(0.3f, 0.2f), hit) && hit.primitive == -1)
+      assert(ray.tMax == Float.PositiveInfinity, "a hole leaves the ray as it is")
+      assert(world.isOccluded(down(0.75f, 0.25f), hit) && ray.tMax == Float.PositiveInfinity)
+      assert(!world.isOccluded(down(0.3f, 0.2f), hit))
+
+    test(s"what is behind a hole is met, with its own parameters: $name"):
+      val far = Soups.of(square(0f) ++ square(-1f))
+      val meshes = Array(far.meshes(0), far.meshes(0))
+      val soup = TriangleSoup(far.positions, far.indices, Array(0, 1), meshes, tangents = true)
+      val masks = Masks(Array(HoleMask(LeftHalf, whole), SolidMask), Array.empty)
+      for flip <- Seq(1f, -1f) do
+        val world = make(Primitives(soup, Array.empty, Instances.None, masks))
+        ray.set(Vec3(0.3f, 0.2f, flip * 5f), Vec3(0f, 0f, -flip), Float.PositiveInfinity)
+        assert(world.closest(ray, hit) && hit.primitive == 1)
+        val at = ShadingPoint()
+        soup.surface(1, hit, at)
+        assert(Math.abs(at.u - 0.3f) < 1e-6f && Math.abs(at.p.z + 1f) < 1e-6f)
+
+  test("holes of shadows are none for other rays"):
+    val world = Bvh(triangles(HoleMask(whole, LeftHalf)))
+    assert(world.closest(down(0.3f, 0.2f), hit))
+    assert(!world.isOccluded(down(0.3f, 0.2f), hit))
+
+  test("through a hole of a sphere its far side is met"):
+    /** A hole in the upper half. */
+    object Top extends FloatTexture:
+      def apply(at: ShadingPoint): Float = if at.p.z > 0f then 0f else 1f
+    val sphere = Soups.sphere(Transform.Identity, 1f)
+    val masks = Masks(Array.empty, Array(HoleMask(Top, whole)))
+    val world = Bvh(Primitives(TriangleSoup.Empty, Array(sphere), Instances.None, masks))
+    assert(world.closest(down(0.1f, 0.2f, from = 3f), hit))
+    assert(Math.abs(ray.at(ray.tMax).z + Math.sqrt(0.95).toFloat) < 1e-5f)
+    ray.set(Vec3(-3f, 0f, 0.5f), Vec3(1f, 0f, 0f), Float.PositiveInfinity)
+    assert(!world.closest(ray, hit), "both sides are holes")
+
+  test("a veil lets through as many rays as its alpha says, and the same ones again"):
+    val draws = Draws(1)
+    for alpha <- Seq(0f, 0.2f, 0.7f, 1f) do
+      val disk = Disk(Transform.Identity, 0f, 1f, 0f, TwoPi, false)
+      val masks = Masks(Array.empty, Array(StochasticMask(ConstantFloat(alpha))))
+      val world = Bvh(Primitives(TriangleSoup.Empty, Array(disk), Instances.None, masks))
+      val n = 20000
+      var met = 0
+      for _ <- 0 until n do
+        val (x, y) = (draws.between(-0.5f, 0.5f), draws.between(-0.5f, 0.5f))
+        val found = world.closest(down(x, y), hit)
+        if found then met += 1
+        assert(world.isOccluded(down(x, y), hit) == found)
+      // Five standard deviations
+      val bound = 5 * Math.sqrt(n * alpha * (1.0 - alpha))
+      assert(Math.abs(met - n * alpha) <= bound + 1e-3, s"$met of $n at $alpha")
+
+  test("two veils one behind the other are passed independently"):
+    val draws = Draws(2)
+    val disks = Array(0f, -0.5f).map(z => Disk(Transform.Identity, z, 1f, 0f, TwoPi, false))
+    val mask = StochasticMask(ConstantFloat(0.5f))
+    val masks = Masks(Array.empty, Array(mask, mask))
+    val world =
+      Bvh(Primitives(TriangleSoup.Empty, disks.map(d => d), Instances.None, masks))
+    val n = 20000
+    val met = (0 until n).count: _ =>
+      world.isOccluded(down(draws.between(-0.5f, 0.5f), draws.between(-0.5f, 0.5f)), hit)
+    assert(Math.abs(met - 0.75 * n) < 5 * Math.sqrt(n * 0.75 * 0.25))
+
+  test("scenes without holes are traced through primitives that know of none"):
+    val corners = triangles(SolidMask)
+    assert(corners.packed(Array(0)).isInstanceOf[SolidPrimitives])
+    assert(triangles(HoleMask(LeftHalf, whole)).packed(Array(0)).isInstanceOf[MaskedPrimitives])
