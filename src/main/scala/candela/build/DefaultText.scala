@@ -10,8 +10,9 @@ private[build] object DefaultText:
   def number(x: Float): String =
     if x == Float.PositiveInfinity then "infinite"
     else if x == Float.NegativeInfinity then "-infinite"
-    else if Math.abs(x) < 1e6f then x.toString.stripSuffix(".0")
-    else java.math.BigDecimal(x.toString).stripTrailingZeros.toString.replace("E+", "e")
+    else
+      val decimal = java.math.BigDecimal(x.toString).stripTrailingZeros
+      if Math.abs(x) < 1e6f then decimal.toPlainString else decimal.toString.replace("E+", "e")
 
   def quoted(s: String): String = "\"" + s + "\""
 

@@ -36,7 +36,7 @@ trait Fields:
   )(default: Dialect ?=> Int): Field[Int] =
     field(name, "integer", doc, in, unit, shown, default)(_.toString): (p, site) =>
       if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
-      else wrong(p, site, "one integer")
+      else wrong(p, site, "one integer", "integer")
 
   protected final def bool(
       name: String,
@@ -46,7 +46,7 @@ trait Fields:
   )(default: Dialect ?=> Boolean): Field[Boolean] =
     field(name, "bool", doc, in, "", shown, default)(_.toString): (p, site) =>
       if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
-      else wrong(p, site, "one bool")
+      else wrong(p, site, "one bool", "bool")
 
   protected final def string(
       name: String,
@@ -56,7 +56,7 @@ trait Fields:
   )(default: Dialect ?=> String): Field[String] =
     field(name, "string", doc, in, "", shown, default)(DefaultText.quoted): (p, site) =>
       if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
-      else wrong(p, site, "one string")
+      else wrong(p, site, "one string", "string")
 
   /** A string out of a closed set. */
   protected final def oneOf(
@@ -67,7 +67,8 @@ trait Fields:
   )(default: Dialect ?=> String): Field[String] =
     val words = s"$doc: ${values.mkString(", ")}"
     field(name, "string", words, in, "", "", default)(DefaultText.quoted): (p, site) =>
-      if p.paramType != ParamType.String || p.strings.size != 1 then wrong(p, site, "one string")
+      if p.paramType != ParamType.String || p.strings.size != 1 then
+        wrong(p, site, "one string", "string")
       else
         p.strings.headOption.filter(values.contains).orElse {
           val found = p.strings.headOption.getOrElse("")
@@ -119,7 +120,7 @@ trait Fields:
     field(name, typeName, doc, in, unit, shown, Array.emptyFloatArray)(_ => ""): (p, site) =>
       if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
       else if Fields.numeric(p.paramType) then Some(p.floats)
-      else wrong(p, site, "numbers")
+      else wrong(p, site, "numbers", typeName)
 
   protected final def integers(
       name: String,
@@ -129,7 +130,8 @@ trait Fields:
       shown: String = "none"
   ): Field[Array[Int]] =
     field(name, typeName, doc, in, "", shown, Array.emptyIntArray)(_ => ""): (p, site) =>
-      if p.paramType == ParamType.Integer then Some(p.ints) else wrong(p, site, "integers")
+      if p.paramType == ParamType.Integer then Some(p.ints)
+      else wrong(p, site, "integers", "integer")
 
   /** Any number of strings; none if the scene gives none. */
   protected final def strings(
@@ -139,7 +141,8 @@ trait Fields:
       in: Set[Dialect] = every
   ): Field[Vector[String]] =
     field(name, typeName, doc, in, "", "none", Vector.empty[String])(_ => ""): (p, site) =>
-      if p.paramType == ParamType.String then Some(p.strings) else wrong(p, site, "strings")
+      if p.paramType == ParamType.String then Some(p.strings)
+      else wrong(p, site, "strings", "string")
 
   /** A colour that is no texture: light, or an index of refraction. */
   protected final def color(
@@ -199,14 +202,17 @@ trait Fields:
       else if Fields.numeric(p.paramType) then p.floats
       else Array.emptyFloatArray
     if values.length == count then Some(values)
-    else wrong(p, site, if count == 1 then "one number" else s"$count numbers")
+    else if count == 1 then wrong(p, site, "one number", "float")
+    else wrong(p, site, s"$count numbers", "point3")
 
-  private def wrong[T](p: Param, site: Site, expected: String): Option[T] =
+  private def wrong[T](p: Param, site: Site, expected: String, typeName: String): Option[T] =
     val count = Seq(p.floats.length, p.ints.length, p.bools.size, p.strings.size).max
+    val plain = typeName.takeWhile(_ != '[')
     site.problems.error(
       p.at,
       s"`${p.name}` of \"${site.declaration.name}\" takes $expected; found " +
-        s"$count of type ${p.paramType.spelling}"
+        s"$count of type ${p.paramType.spelling}",
+      Option.when(plain != p.paramType.spelling)(s"write \"$plain ${p.name}\"")
     )
     None
 

@@ -16,7 +16,7 @@ final class ReferenceText(described: Described, columns: Int):
     table.lines(rows, indent = 0) ++
       Vector(
         "",
-        "`candela describe CATEGORY` lists its types, `candela describe TYPE` its parameters."
+        "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters."
       )
 
   /** A category's types; the parameters themselves, if there is but one type. */

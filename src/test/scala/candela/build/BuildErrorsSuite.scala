@@ -11,6 +11,8 @@ import candela.testing.SceneTexts
 /** What the builder says about scenes that ask for something that is not there. */
 final class BuildErrorsSuite extends AnyFunSuite:
   private val sphere = "Shape \"sphere\""
+  private val control =
+    "\"point P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 2] \"integer levels\" 1"
 
   /** The one problem of a world that holds the statement in its second line, with a light. */
   private def only(statement: String, dialect: Dialect = Dialect.V3): Problem =
@@ -33,11 +35,28 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(p, "`raduis` is not a parameter of \"sphere\"", "`radius`")
     assert(p.at.map(_.column).contains(16))
 
+  test("a misspelt parameter of a type that is not supported yet is found, too"):
+    val hair = s"Material \"hair\" \"float betam\" 0.5 $sphere"
+    val found = SceneTexts.problems(s"WorldBegin\n$hair\nLightSource \"point\"\n")
+    assert(found.size == 2 && found.exists(_.message.contains("\"hair\" is not supported yet")))
+    val slip = found.find(_.message.contains("betam")).get
+    assertWarning(slip, "`betam` is not a parameter of \"hair\"", "`beta_m`")
+
   test("a parameter of another dialect is a warning that says so"):
     assertWarning(
       only("LightSource \"point\" \"float power\" 5"),
-      "no parameter of \"point\" in v3"
+      "`power` is no parameter of \"point\" in v3, but in v4; it has no effect"
     )
+
+  test("a type of another dialect is made as that one makes it, with a warning"):
+    val v4 = only(s"Material \"matte\" \"rgb Kd\" [1 0 0] $sphere", Dialect.V4)
+    assertWarning(v4, "material \"matte\" is of v2 and v3, not of v4: it is made as v3 does")
+    assertWarning(only(s"Material \"diffuse\" $sphere"), "\"diffuse\" is of v4, not of v3")
+
+  test("parameters that have no effect have their types checked all the same"):
+    val p = only(s"Shape \"loopsubdiv\" \"integer scheme\" 3 $control")
+    val message = "`scheme` of \"loopsubdiv\" takes one string; found 1 of type integer"
+    assertError(p, message, "write \"string scheme\"")
 
   test("unknown shapes, materials and lights are errors with the nearest name"):
     assertError(only("Shape \"shpere\""), "no shape is named `shpere`", "`sphere`")
@@ -55,7 +74,11 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(only(lamp, Dialect.V4), "`filename` of \"diffuse\"")
 
   test("values of the wrong type or number are errors"):
-    assertError(only("Shape \"sphere\" \"string radius\" \"big\""), "takes one number")
+    assertError(
+      only("Shape \"sphere\" \"string radius\" \"big\""),
+      "takes one number",
+      "\"float radius\""
+    )
     assertError(only("Shape \"sphere\" \"float radius\" [1 2]"), "found 2 of type float")
     assertError(only("LightSource \"point\" \"point from\" [1 2 3 4 5 6]"), "takes 3 numbers")
     assertError(only("LightSource \"point\" \"string I\" \"red\""), "takes a colour or a spectrum")

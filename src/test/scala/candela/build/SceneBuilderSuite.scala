@@ -53,6 +53,16 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val asked = BuildOptions(cropWindow = Some((0f, 0.1f, 0f, 0.1f)))
     assert(SceneTexts.plan(cropped, options = asked).crop == PixelBounds(0, 0, 8, 4))
 
+  test("v4's images are the brighter the longer the shutter is open; older ones are not"):
+    val camera = "Camera \"perspective\" \"float shutteropen\" 0.25 \"float shutterclose\" 0.75"
+    val film = "Film \"rgb\" \"float iso\" 400 \"float maxcomponentvalue\" 6"
+    val v4 = SceneTexts.plan(s"$camera\n$film\n$nothing", Dialect.V4)
+    // 400 / 100 · 0.5 s; samples are limited as the sensor sees them, before that
+    assert(v4.imageScale == 2f && v4.maxComponent == 3f)
+    assert(SceneTexts.plan(s"$camera\n$nothing", Dialect.V3).imageScale == 1f)
+    val closed = s"Camera \"perspective\" \"float shutterclose\" 0\n$nothing"
+    assert(SceneTexts.problems(closed, Dialect.V4).exists(_.message.contains("never opens")))
+
   test("a crop window without a pixel is an error"):
     val empty = BuildOptions(cropWindow = Some((0.5f, 0.5f, 0f, 1f)))
     val error = intercept[SceneError](SceneTexts.plan(s"$film\n$nothing", options = empty))
