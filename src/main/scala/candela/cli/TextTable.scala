@@ -9,9 +9,12 @@ final class TextTable(columns: Int):
   def lines(rows: Vector[Vector[String]], indent: Int = 2): Vector[String] =
     if rows.isEmpty then Vector.empty
     else
-      val fixed = rows.head.indices.init.map(i => rows.map(_(i).length).max.min(TextTable.Widest))
-      val before = indent + fixed.sum + TextTable.Gap * fixed.size
-      val width = Math.max(TextTable.LeastText, columns - before)
+      val wanted = rows.head.indices.init.map(i => rows.map(_(i).length).max)
+      def left(widest: Int) =
+        columns - indent - wanted.map(w => w.min(widest) + TextTable.Gap).sum
+      val widest = TextTable.Widest.find(left(_) >= TextTable.LeastText).getOrElse(12)
+      val fixed = wanted.map(_.min(widest))
+      val width = Math.max(TextTable.LeastText, left(widest))
       rows.flatMap: row =>
         val cells =
           row.init.zip(fixed).map((text, w) => TextTable.wrap(text, w).map(_.padTo(w, ' ')))
@@ -25,8 +28,8 @@ final class TextTable(columns: Int):
 object TextTable:
   private val Gap = 2
 
-  /** Of a column beside the last: longer cells wrap, too. */
-  private val Widest = 26
+  /** Of a column beside the last, the most that leaves room for that: longer cells wrap, too. */
+  private val Widest = 26 to 12 by -1
 
   /** Of the last column, however narrow the terminal is. */
   private val LeastText = 24
