@@ -42,7 +42,7 @@ class DescribeCommandSuite extends AnyFunSuite:
     assert(out.linesIterator.exists(_.matches(" +Kd +spectrum texture +0\\.25 +v2 v3 +.*")))
 
   test("a default that depends on the dialect is printed for each"):
-    assert(printed("film image").contains("640 (v2), 1280 (v3)"))
+    assert(printed("sampler stratified").contains("2 (v2), 4 (v3 v4)"))
     val v3 = printed("film image --dialect v3")
     assert(v3.contains("1280") && !v3.contains("640"))
 
