@@ -1,5 +1,10 @@
 package candela.base
 
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
 /** The nearest known name, for "did you mean". */
 object Suggest:
 
@@ -18,6 +23,14 @@ object Suggest:
     nearest(name, known).map(k => s"did you mean `$k`?").orElse {
       Option.when(known.nonEmpty)(known.toVector.sorted.distinct.mkString("known: ", ", ", ""))
     }
+
+  /** The same for a file that is not there: the nearest name in its folder. */
+  def file(path: Path): Option[String] =
+    val folder = Option(path.toAbsolutePath.getParent).filter(Files.isDirectory(_))
+    val names = folder.toVector.flatMap: f =>
+      Using.resource(Files.list(f))(_.iterator.asScala.map(_.getFileName.toString).toVector)
+    val name = Option(path.getFileName).map(_.toString)
+    name.flatMap(nearest(_, names)).map(n => s"did you mean `$n`?")
 
   /** Edits (insert, delete, replace, swap of neighbours) from `a` to `b`.
     *

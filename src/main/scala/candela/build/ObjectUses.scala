@@ -23,9 +23,11 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
     description.objects.get(name) match
       case None =>
         for use <- uses do
-          problems.error(
+          problems.unnamed(
+            NameKind.Object,
             use.at,
             s"no object is named `$name`",
+            StandIns.LeftOut,
             Suggest.help(name, description.objects.keys)
           )
       case Some(shapes) =>
@@ -54,4 +56,4 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
 
   private def isAffine(i: InstanceDescription): Boolean =
     val AnimatedTransform(start, end) = i.instanceToWorld
-    start.isAffine && end.isAffine
+    start.isAffine && end.isAffine && !start.isFlat && !end.isFlat

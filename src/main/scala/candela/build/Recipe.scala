@@ -1,6 +1,5 @@
 package candela.build
 
-import scala.annotation.unused
 import scala.collection.mutable
 
 import candela.base.Suggest
@@ -29,9 +28,6 @@ abstract class Recipe[A](
     * the same, so that slips are found and the reference is whole.
     */
   def pending: Option[String] = None
-
-  /** The same, where it depends on what the statement says. */
-  def pendingAt(@unused site: Site): Option[String] = pending
 
   /** All parameters; a name may stand for one in one dialect and for another in the next. */
   final def fields: Vector[Field[?]] = declared.toVector

@@ -16,12 +16,13 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     val candidates = all.filter(_.name == name)
     candidates.find(_.dialects(site.dialect)).orElse(candidates.headOption) match
       case Some(recipe) =>
-        for instead <- recipe.pendingAt(site) do
+        for instead <- recipe.pending do
           site.warn(s"$category \"$name\" is not supported yet: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
         val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
-        site.error(s"no $category is named `$name`", Suggest.help(name, known))
+        val standIn = StandIns.ofCategory(category)
+        site.missing(s"no $category is named `$name`", standIn, Suggest.help(name, known))
         None
 
   /** A type of another dialect is made as that one makes it. */

@@ -8,7 +8,7 @@ import candela.base.Suggest
 import candela.bsdf.Coats
 import candela.color.ColorBasis
 import candela.image.{ImageError, ImageFiles, StoredImage}
-import candela.scenefile.{Declaration, Param}
+import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** What statements of a scene file can refer to by name: textures, and files.
@@ -26,11 +26,15 @@ final class Resources(val basis: ColorBasis):
   def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
   def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
 
+  /** The texture that a parameter names; a stand-in after a problem was reported. */
   def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
-    lookUp(p, floats, colors.keySet, "float", "spectrum", problems)
+    val found = lookUp(p, floats, colors.keySet, "float", "spectrum", StandIns.Ones, problems)
+    Some(found.getOrElse(StandIns.number))
 
+  /** Likewise. */
   def rgbTexture(p: Param, problems: Findings): Option[RgbTexture] =
-    lookUp(p, colors, floats.keySet, "spectrum", "float", problems)
+    val found = lookUp(p, colors, floats.keySet, "spectrum", "float", StandIns.Magentas, problems)
+    Some(found.getOrElse(StandIns.color(basis)))
 
   private def lookUp[T](
       p: Param,
@@ -38,41 +42,40 @@ final class Resources(val basis: ColorBasis):
       others: collection.Set[String],
       kind: String,
       otherKind: String,
+      standIn: String,
       problems: Findings
   ): Option[T] =
     val name = p.strings.headOption.getOrElse("")
     in.get(name).orElse {
-      if others(name) then
-        problems.error(
-          p.valuesAt,
-          s"texture `$name` is of type $otherKind; `${p.name}` takes $kind"
-        )
-      else
-        problems.error(
-          p.valuesAt,
-          s"no $kind texture is named `$name`",
-          Suggest.help(name, in.keys)
-        )
+      val (message, help) =
+        if others(name) then
+          (s"texture `$name` is of type $otherKind; `${p.name}` takes $kind", None)
+        else (s"no $kind texture is named `$name`", Suggest.help(name, in.keys))
+      problems.unnamed(NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }
 
-  /** The file that a parameter names, relative to the scene's folder. An absent one is an error. */
-  def file(p: Param, from: Declaration, problems: Findings): Option[Path] =
+  /** The file that a parameter names, relative to the scene's folder. None if it is not there,
+    * which was reported.
+    *
+    * @param standIn what takes its place if the user asked to keep going
+    */
+  def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
     val name = p.strings.headOption.getOrElse("")
     val path = from.folder.resolve(name.replace('\\', '/'))
     if name.nonEmpty && Files.isRegularFile(path) then Some(path)
     else
-      val siblings = Option(path.getParent).filter(Files.isDirectory(_)).toVector.flatMap: folder =>
-        val listing = Files.list(folder)
-        try listing.toArray.toVector.map(_.asInstanceOf[Path].getFileName.toString)
-        finally listing.close()
-      val near = Suggest.nearest(path.getFileName.toString, siblings)
-      problems.error(p.valuesAt, s"no file `$name`", near.map(n => s"did you mean `$n`?"))
+      problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
       None
 
   /** The picture that a parameter names, read once however often it is used. */
-  def image(p: Param, from: Declaration, problems: Findings): Option[StoredImage] =
-    file(p, from, problems).flatMap: path =>
+  def image(
+      p: Param,
+      from: Declaration,
+      problems: Findings,
+      standIn: String = StandIns.Magentas
+  ): Option[StoredImage] =
+    file(p, from, problems, standIn).flatMap: path =>
       val read = images.getOrElseUpdate(
         path.toAbsolutePath.normalize,
         try Right(ImageFiles.load(path))
@@ -81,5 +84,5 @@ final class Resources(val basis: ColorBasis):
       read match
         case Right(image) => Some(image)
         case Left(message) =>
-          problems.error(p.valuesAt, message)
+          problems.missing(p.valuesAt, message, standIn)
           None

@@ -3,19 +3,21 @@ package candela.build
 import candela.base.{Problem, SceneError, Severity}
 import candela.color.ColorBasis
 import candela.render.{PixelBounds, RenderPlan}
-import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, SceneDescription}
 
 /** What the person at the command line asks for beside what the scene says.
   *
   * @param spp        samples per pixel instead of the scene's
   * @param quick      a sixteenth of the pixels, one sample each
   * @param cropWindow x0, x1, y0, y1 as parts of the image, instead of the scene's
+  * @param keepGoing  use stand-ins for what is missing
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
     seed: Int = 0,
     quick: Boolean = false,
-    cropWindow: Option[(Float, Float, Float, Float)] = None
+    cropWindow: Option[(Float, Float, Float, Float)] = None,
+    keepGoing: Boolean = false
 )
 
 /** Makes a render plan of a description: the bridge between the two towers.
@@ -25,10 +27,10 @@ final case class BuildOptions(
 object SceneBuilder:
 
   /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all
-    * errors.
+    * errors, those of the description among them.
     */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
-    val problems = Findings()
+    val problems = Findings(options.keepGoing, description.lost, description.errors)
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
     val resources = Resources(basis)
@@ -52,13 +54,15 @@ object SceneBuilder:
     )
     if description.worldToCamera.isAnimated then
       description.camera.foreach(c => problems.warn(c.at, Motion))
+    if description.worldToCamera.start.isFlat then
+      description.camera.foreach(c => problems.error(c.at, "the camera's transform is singular"))
     val cameraPlan = view(description.camera, Cameras.all, "perspective")
     val camera = cameraPlan.make(description.worldToCamera.start.inverse, width, height)
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
     warnOfWholes(description, resources, problems)
     val world = WorldBuilder(description, resources, problems).build(integrator)
-    if problems.hasErrors then throw SceneError(Excerpts.fill(problems.result.sortBy(place)))
+    problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
       height = height,
@@ -74,7 +78,7 @@ object SceneBuilder:
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features
     )
-    (plan, Excerpts.fill(problems.result))
+    (plan, problems.result)
 
   private val NoPlace = candela.base.SourcePos("", 0, 0)
   private val NoFolder = java.nio.file.Path.of("")
@@ -119,8 +123,6 @@ object SceneBuilder:
       )
     bounds
 
-  private def place(p: Problem): (String, Int, Int) =
-    p.at.fold(("", 0, 0))(a => (a.file, a.line, a.column))
 
 /** What each dialect does where the scene says nothing. */
 private final case class Defaults(

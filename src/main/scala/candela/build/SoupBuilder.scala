@@ -79,6 +79,7 @@ object SoupBuilder:
 
   private def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
     if n.length == 0 || (toWorld.isIdentity && !flip) then n
+    else if toWorld.isFlat then Array.empty // the plane has normals of its own
     else
       val m = toWorld.inverseM
       val sign = if flip then -1.0 else 1.0

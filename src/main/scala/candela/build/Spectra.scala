@@ -2,6 +2,7 @@ package candela.build
 
 import java.nio.file.Files
 
+import candela.base.Suggest
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
@@ -25,6 +26,9 @@ object Spectra:
   private def srgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     p.paramType match
       case ParamType.Blackbody => blackbody(p, role, site)
+      case ParamType.Spectrum if p.strings.nonEmpty =>
+        val found = named(p, site, StandIns.Magentas)
+        Some(found.fold(StandIns.Magenta)(toRgb(_, role, site.dialect)))
       case _ =>
         value(p, site).map:
           case SpectralValue.Color(c) => c
@@ -49,7 +53,7 @@ object Spectra:
         // Older scenes write "float eta" where a spectrum is due; a constant is what they mean
         Some(SpectralValue.Color(Rgb.gray(p.floats(0))))
       case ParamType.Spectrum if p.strings.nonEmpty =>
-        named(p, site).map(SpectralValue.Wavelengths(_))
+        named(p, site, StandIns.Default).map(SpectralValue.Wavelengths(_))
       case ParamType.Spectrum if p.floats.length >= 2 && p.floats.length % 2 == 0 =>
         pairs(p.floats, p, site).map(SpectralValue.Wavelengths(_))
       case other =>
@@ -78,15 +82,17 @@ object Spectra:
         if site.dialect == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
       Some(Spectrum(sorted.map(_._1), sorted.map(_._2), outside))
 
-  private def named(p: Param, site: Site): Option[Spectrum] =
+  private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
     Colorimetry.named(name).orElse {
       val file = site.declaration.folder.resolve(name.replace('\\', '/'))
       if !Files.isRegularFile(file) then
-        site.problems.error(
+        val near = Suggest.nearest(name, Colorimetry.names).map(n => s"did you mean `$n`?")
+        site.problems.missing(
           p.valuesAt,
           s"no spectrum is named `$name`, and there is no such file",
-          candela.base.Suggest.help(name, Colorimetry.names)
+          standIn,
+          near.orElse(Suggest.file(file)).orElse(Suggest.help(name, Colorimetry.names))
         )
         None
       else
@@ -94,7 +100,8 @@ object Spectra:
         val words = text.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
         val numbers = words.flatMap(_.toFloatOption)
         if numbers.length != words.length || numbers.length % 2 != 0 then
-          site.problems.error(p.valuesAt, s"`$name` should hold pairs of wavelength and value")
+          val message = s"`$name` should hold pairs of wavelength and value"
+          site.problems.missing(p.valuesAt, message, standIn)
           None
         else pairs(numbers, p, site)
     }

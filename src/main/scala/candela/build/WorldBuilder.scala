@@ -4,7 +4,7 @@ import scala.collection.mutable
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Accelerator, Bvh, Instances, Primitives}
-import candela.bsdf.{InterfaceMaterial, Material}
+import candela.bsdf.Material
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
 import candela.math.Transform
@@ -38,6 +38,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       val builder = SurfaceBuilder()
       for s <- placed.shapes do add(s, builder)
       builder
+    val lightPlans = description.lights.map(plan)
+    problems.stopAtErrors()
     val tangents = materials.exists(_.isAnisotropic)
     val turnsTangents = description.dialect != Dialect.V4
     val surfaces = world.result(tangents, turnsTangents)
@@ -46,7 +48,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     for (light, k) <- meshLights.flatMap(_.of(triangles)) do lights(k) = light
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
     val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
-    for l <- description.lights do addLight(l, complete)
+    for (l, made) <- description.lights.zip(lightPlans) do addLight(l, made, complete)
     val instanced = instances(objects, uses.shared.map(_.places))
     val accelerator = accelerate(surfaces, instanced.instances)
     val sources = lights.toArray
@@ -103,6 +105,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       geometry match
         case mesh: ShapeGeometry.Triangles =>
           addMesh(s, mesh, toWorld, material, light, here, to)
+        case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
         case ShapeGeometry.Solid(make) =>
           val shape = make(toWorld, s.reverseOrientation)
           val index = light.fold(-1): plan =>
@@ -135,10 +138,13 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
           lights += null // made as soon as all triangles are known
           lightSamples += plan.samples
 
-  private def addLight(l: LightDescription, complete: Boolean): Unit =
+  private def plan(l: LightDescription): Option[LightPlan] =
     if l.lightToWorld.isAnimated then problems.warn(l.light.at, SceneBuilder.Motion)
+    Lights.all.build(site(l.light))
+
+  private def addLight(l: LightDescription, made: Option[LightPlan], complete: Boolean): Unit =
     for
-      plan <- Lights.all.build(site(l.light))
+      plan <- made if !l.lightToWorld.start.isFlat
       light <- plan.make(l.lightToWorld.start, complete)
     do
       lights += light
@@ -155,12 +161,14 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
             named.get(name) match
               case Some(d) => Materials.build(site(d))
               case None =>
-                problems.error(
+                problems.unnamed(
+                  NameKind.Material,
                   at,
                   s"no material is named `$name`",
+                  StandIns.MagentaSurface,
                   candela.base.Suggest.help(name, named.keys)
                 )
-                InterfaceMaterial
+                StandIns.material(resources.basis)
         materials += made
         materials.length - 1
       }

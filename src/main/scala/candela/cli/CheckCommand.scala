@@ -8,12 +8,33 @@ final class CheckCommand(
     loader: SceneLoader
 ):
 
+  private var warned = 0
+
   def run(): ExitCode =
-    options.files.map(scene => report.guarded(check(scene))).reduce(_ worseOf _)
+    val codes = options.files.map: scene =>
+      val before = report.errors
+      val code = report.guarded(check(scene))
+      val errors = report.errors - before
+      if code != ExitCode.Done && options.files.size > 1 && !options.quiet then
+        terminal.out.println(s"$scene: rejected, ${Figures.count(errors, "error")}")
+        terminal.out.flush()
+      code
+    if options.files.size > 1 && !options.quiet then summarise(codes)
+    codes.reduce(_ worseOf _)
+
+  private def summarise(codes: Vector[ExitCode]): Unit =
+    val good = codes.count(_ == ExitCode.Done)
+    val counts = Vector(
+      good -> "accepted",
+      warned -> "of them with warnings",
+      (codes.size - good) -> "rejected"
+    ).collect { case (n, what) if n > 0 => s"$n $what" }
+    terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
   private def check(scene: String): ExitCode =
     val loaded = loader.load(scene, options)
-    report.warnings(loaded.warnings, all = true)
+    report.warnings(loaded.warnings, all = options.verbose)
+    if loaded.warnings.nonEmpty then warned += 1
     if !options.quiet then
       terminal.out.println(s"$scene: ${contents(loaded)}")
       if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.out)
@@ -30,7 +51,8 @@ final class CheckCommand(
       d.instances.size -> "instance",
       lights -> "light",
       d.textures.size -> "texture",
-      loaded.warnings.distinct.size -> "warning"
+      loaded.warnings.distinct.size -> "warning",
+      loaded.standIns -> "stand-in"
     ).collect { case (n, noun) if n > 0 => Figures.count(n, noun) }
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
     (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")

@@ -41,6 +41,9 @@ private[cli] object OptionTable:
     opt[Dialect]("dialect").valueName("v2|v3|v4")
       .text("read the scene as this version of pbrt does, instead of recognising it")
       .action((d, o) => o.copy(dialect = Some(d))),
+    opt[Unit]("keep-going")
+      .text("use stand-ins for what is missing: magenta for pictures and materials")
+      .action((_, o) => o.copy(keepGoing = true)),
     opt[Unit]("explain")
       .text("say what the scene is built of, and what was left out")
       .action((_, o) => o.copy(explain = true)),

@@ -32,6 +32,7 @@ final case class Options(
     explain: Boolean = false,
     cropWindow: Option[CropWindow] = None,
     dialect: Option[Dialect] = None,
+    keepGoing: Boolean = false,
     maxRelMse: Option[Double] = None,
     markdown: Boolean = false
 )

@@ -112,5 +112,5 @@ final class RenderCommand(
     if !options.quiet && written.nonEmpty then
       if options.verbose then
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
-      terminal.out.println(Summary.result(written, rendering))
+      terminal.out.println(Summary.result(written, rendering, loaded.standIns))
       terminal.out.flush()

@@ -9,6 +9,11 @@ import java.io.{IOException, PrintStream, UncheckedIOException}
 /** The one place where problems become text and exit codes. */
 final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
 
+  private var errorCount = 0
+
+  /** Errors so far. */
+  def errors: Int = errorCount
+
   /** Runs a command on one input; what goes wrong is said, and ends only this input. */
   def guarded(body: => ExitCode): ExitCode =
     try body
@@ -21,9 +26,17 @@ final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
 
   /** Prints problems, of which at least one is an error, by place, and how many there are. */
   def errors(problems: Vector[Problem]): ExitCode =
-    sorted(problems).filter(p => p.severity == Severity.Error || !isQuiet).foreach(print)
-    val count = problems.distinct.count(_.severity == Severity.Error)
-    if count > 1 then err.println(Figures.count(count, "error"))
+    val (errors, warnings) = problems.partition(_.severity == Severity.Error)
+    errorCount += errors.distinct.size
+    this.warnings(warnings, all = isVerbose)
+    val count = errors.distinct.size
+    val kinds = grouped(errors, all = isVerbose)
+    kinds.take(Report.MostErrors).foreach(printAll)
+    val more = kinds.drop(Report.MostErrors).map((_, places) => places).sum
+    if more > 0 then err.println(s"and ${Figures.count(more, "more error")}")
+    else if count > 1 then err.println(Figures.count(count, "error"))
+    if errors.forall(_.standIn.nonEmpty) then
+      err.println(" --keep-going uses stand-ins for what is missing")
     ExitCode.BadInput
 
   /** Prints each warning once, by place.
@@ -31,21 +44,22 @@ final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
     * @param all else the same message at many places is printed for the first one
     */
   def warnings(problems: Vector[Problem], all: Boolean): Unit =
-    if !isQuiet then
-      val ordered = sorted(problems)
-      if all then ordered.foreach(print)
-      else
-        val places = ordered.groupBy(_.message)
-        for first <- ordered.distinctBy(_.message) do
-          print(first)
-          val more = places(first.message).size - 1
-          if more > 0 then
-            err.println(s" and at ${Figures.count(more, "more place")}; --verbose shows all")
+    if !isQuiet then grouped(problems, all).foreach(printAll)
+
+  /** Problems by place, and at how many places there is the same one. */
+  private def grouped(problems: Vector[Problem], all: Boolean): Vector[(Problem, Int)] =
+    val ordered = Problem.byPlace(problems.distinct)
+    if all then ordered.map((_, 1))
+    else
+      val places = ordered.groupMapReduce(_.message)(_ => 1)(_ + _)
+      ordered.distinctBy(_.message).map(p => (p, places(p.message)))
+
+  private def printAll(problem: Problem, places: Int): Unit =
+    print(problem)
+    if places > 1 then
+      err.println(s" and at ${Figures.count(places - 1, "more place")}; --verbose shows all")
 
   private def print(problem: Problem): Unit = err.println(ProblemText.format(problem))
-
-  private def sorted(problems: Vector[Problem]): Vector[Problem] =
-    problems.distinct.sortBy(p => p.at.fold(("", 0, 0))(at => (at.file, at.line, at.column)))
 
   private def ioMessage(e: IOException): String = s"${e.getClass.getSimpleName}: ${e.getMessage}"
 
@@ -66,3 +80,7 @@ final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
     if isVerbose then cause.printStackTrace(err)
     else err.println(" please report it with the scene; --verbose shows where in the program it is")
     ExitCode.Bug
+
+object Report:
+  /** As many as a person still reads. */
+  private[cli] val MostErrors = 20

@@ -20,7 +20,9 @@ final case class LoadedScene(
     warnings: Vector[Problem],
     parseSeconds: Double,
     buildSeconds: Double
-)
+):
+  /** What is missing and was replaced. */
+  def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
 
 /** From a scene's file name to what can be rendered. */
 abstract class SceneLoader:
@@ -34,7 +36,7 @@ object SceneLoader:
     def load(scene: String, options: Options): LoadedScene =
       val file = existing(scene)
       val started = System.nanoTime
-      val description = Parser.parse(file, options.dialect)
+      val description = Parser.readable(file, options.dialect, options.keepGoing)
       val parsed = System.nanoTime
       val (plan, warnings) = SceneBuilder.build(description, buildOptions(options))
       val built = System.nanoTime
@@ -42,7 +44,8 @@ object SceneLoader:
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
 
   private def buildOptions(o: Options): BuildOptions =
-    BuildOptions(o.spp, o.seed, o.quick, o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1)))
+    val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
+    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing)
 
   private def existing(scene: String): Path =
     val file =

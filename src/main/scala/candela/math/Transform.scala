@@ -48,6 +48,9 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
   /** Does it keep parallels parallel? (The last row is 0 0 0 1.) */
   def isAffine: Boolean = m(12) == 0 && m(13) == 0 && m(14) == 0 && m(15) == 1
 
+  /** Is there no inverse, because space is flattened? Then the inverse holds no numbers. */
+  def isFlat: Boolean = inverseM(0).isNaN
+
   def isIdentity: Boolean = this == Transform.Identity
 
   override def equals(other: Any): Boolean = other match
@@ -75,6 +78,10 @@ object Transform:
     */
   def fromColumns(columns: IndexedSeq[Double]): Option[Transform] =
     fromRows(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
+
+  /** The map with the given 16 numbers, row by row, that has no inverse; see [[isFlat]]. */
+  def flat(rows: IndexedSeq[Double]): Transform =
+    Transform(IArray.from(rows), IArray.fill(16)(Double.NaN))
 
   def translate(x: Double, y: Double, z: Double): Transform =
     Transform(

@@ -54,7 +54,8 @@ object Directives:
     ,
     Directive("Scale", "x y z", Anywhere): (in, scene) =>
       val v = in.numbers(3)
-      val scale = regular(in.at, "a scale of zero")(Transform.scale(v(0), v(1), v(2)))
+      val scale = orFlat(in, "a scale of zero")(Transform.scale(v(0), v(1), v(2))):
+        Transform.flat(Vector[Double](v(0), 0, 0, 0, 0, v(1), 0, 0, 0, 0, v(2), 0, 0, 0, 0, 1))
       scene.transform(_ * scale)
     ,
     Directive("Rotate", "degrees axis.x axis.y axis.z", Anywhere): (in, scene) =>
@@ -70,11 +71,11 @@ object Directives:
         scene.transform(_ * view)
     ,
     Directive("Transform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
-      val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
+      val matrix = matrixOf(in)
       scene.transform(_ => matrix)
     ,
     Directive("ConcatTransform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
-      val matrix = regular(in.at, "a singular matrix")(Transform.fromColumns(in.matrix()))
+      val matrix = matrixOf(in)
       scene.transform(_ * matrix)
     ,
     Directive("CoordinateSystem", "\"name\"", Anywhere): (in, scene) =>
@@ -89,6 +90,20 @@ object Directives:
 
   private def regular(at: SourcePos, why: String)(t: Option[Transform]): Transform =
     t.getOrElse(throw SceneError(Problem.error(at, s"$why: this transform can't be inverted")))
+
+  /** pbrt lets meshes be flattened, and some scenes do. */
+  private def orFlat(in: Arguments, why: String)(t: Option[Transform])(
+      flat: => Transform
+  ): Transform =
+    t.getOrElse:
+      val message = s"$why: meshes become flat, all else that is placed by it is left out"
+      in.report(Problem.warning(in.at, message))
+      flat
+
+  private def matrixOf(in: Arguments): Transform =
+    val columns = in.matrix()
+    orFlat(in, "a singular matrix")(Transform.fromColumns(columns)):
+      Transform.flat(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
 
   private val blocks: List[Directive] = List(
     Directive("AttributeBegin", "", World): (in, scene) =>

@@ -7,14 +7,21 @@ import candela.base.{Problem, SceneError}
 /** Reads scene files. */
 object Parser:
 
-  /** The scene of a file and all that it includes; a [[SceneError]] has the problems
-    * found, up to 20 errors.
+  /** The scene of a file and all that it includes; a [[SceneError]] has the problems found.
     *
     * @param dialect the file's dialect; None: recognise it
     */
   def parse(file: Path, dialect: Option[Dialect] = None): SceneDescription =
+    whole(readable(file, dialect, keepGoing = false))
+
+  /** As much of a scene as can be understood; see [[SceneDescription.errors]].
+    *
+    * @param keepGoing pass over files to include that are missing
+    * @throws SceneError if there is no scene in the file at all
+    */
+  def readable(file: Path, dialect: Option[Dialect], keepGoing: Boolean): SceneDescription =
     Source.read(file) match
-      case Right(source) => parse(source, folderOf(file), Some(file), dialect)
+      case Right(source) => read(source, folderOf(file), Some(file), dialect, keepGoing)
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
@@ -27,24 +34,30 @@ object Parser:
       name: String,
       text: String,
       folder: Path,
-      dialect: Option[Dialect] = None
+      dialect: Option[Dialect] = None,
+      keepGoing: Boolean = false
   ): SceneDescription =
-    parse(Source.fromText(name, text), folder, None, dialect)
+    whole(read(Source.fromText(name, text), folder, None, dialect, keepGoing))
+
+  private def whole(scene: SceneDescription): SceneDescription =
+    if scene.errors.isEmpty then scene
+    else throw SceneError(scene.errors ++ scene.warnings)
 
   private[scenefile] def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
 
-  private def parse(
+  private def read(
       source: Source,
       folder: Path,
       file: Option[Path],
-      dialect: Option[Dialect]
+      dialect: Option[Dialect],
+      keepGoing: Boolean
   ): SceneDescription =
-    attempt(source, folder, file, dialect) match
+    attempt(source, folder, file, dialect, keepGoing) match
       case Right(scene) => scene
       case Left(better) =>
         val once = source.again.getOrElse:
           throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
-        attempt(once, folder, file, Some(better)).toOption.get
+        attempt(once, folder, file, Some(better), keepGoing).toOption.get
 
   /** The scene; or the dialect with which it must be read once more: the few statements that v4
     * treats otherwise were read as v3's.
@@ -53,9 +66,10 @@ object Parser:
       source: Source,
       folder: Path,
       file: Option[Path],
-      dialect: Option[Dialect]
+      dialect: Option[Dialect],
+      keepGoing: Boolean
   ): Either[Dialect, SceneDescription] =
-    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3))
+    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing)
     run.read()
     val guess = dialect.getOrElse(run.guess)
     if dialect.isEmpty && run.askedDialect && guess == Dialect.V4 then Left(guess)

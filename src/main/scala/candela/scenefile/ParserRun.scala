@@ -7,19 +7,23 @@ import candela.base.{Problem, SceneError, Severity, SourcePos, Suggest}
 /** One reading of a scene file.
   *
   * @param file    the path of `source`, if it is a file
-  * @param dialect decides where the dialects differ in what a statement means
+  * @param dialect   decides where the dialects differ in what a statement means
+  * @param keepGoing pass over files to include that are missing
   */
 private[scenefile] final class ParserRun(
     source: Source,
     folder: Path,
     file: Option[Path],
-    dialect: Dialect
+    dialect: Dialect,
+    keepGoing: Boolean
 ):
   private val evidence = DialectGuess()
   private val problems = Problems()
   private val parameters = Parameters(evidence, problems.add)
   private val scene = SceneWriter(folder, evidence, () => isV4, problems.add)
   private val misplaced = Problems()
+
+  private var lost = Set.empty[NameKind]
 
   /** Has everything been read that counts? */
   private var isDone = false
@@ -38,13 +42,14 @@ private[scenefile] final class ParserRun(
     statements(source, None, file.toList)
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
 
-  /** The description, or all errors. */
+  /** The description with all problems; only these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
     finish(dialect)
     def open(name: String) = if name == source.name then source.again else Excerpts.read(name)
     val all = Excerpts.fill(problems.result(), open)
-    if all.exists(_.severity == Severity.Error) then throw SceneError(all)
-    scene.description(dialect, all)
+    if scene.worldBegin.isEmpty then throw SceneError(all)
+    val (errors, warnings) = all.partition(_.severity == Severity.Error)
+    scene.description(dialect, warnings).copy(errors = errors, lost = lost)
 
   /** What can be told only at the end. */
   private def finish(dialect: Dialect): Unit =
@@ -99,6 +104,7 @@ private[scenefile] final class ParserRun(
     try directive.run(Arguments(directive, at, in, parameters, problems.add, including), scene)
     catch
       case e: SceneError =>
+        lost ++= NameKind.madeBy(directive.name)
         // the block's other end would be called unbalanced for no fault of its own
         if directive.name.endsWith("Begin") || directive.name.endsWith("End") then
           scene.blocks.isDoubtful = true
@@ -138,20 +144,34 @@ private[scenefile] final class ParserRun(
     * @param files the files being read, innermost first
     */
   private def include(files: List[Path])(name: String, nameAt: SourcePos, at: SourcePos): Unit =
-    def fail(message: String, help: Option[String] = None) =
-      throw SceneError(Problem.error(nameAt, message, help))
-    val path = resolve(name, files.headOption).getOrElse:
-      val folders = (folder :: files.headOption.map(Parser.folderOf).toList).distinct
-      val places = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`").mkString(" and ")
-      fail(s"can't include `$name`: there is no such file", Some(s"looked in $places"))
+    def fail(message: String): Nothing = throw SceneError(Problem.error(nameAt, message))
+    def missing(message: String, help: Option[String] = None): Unit =
+      val problem = Problem.missing(nameAt, message, "it is passed over", keepGoing, help)
+      if keepGoing then problems.add(problem) else throw SceneError(problem)
+    resolve(name, files.headOption) match
+      case None =>
+        val folders = (folder :: files.headOption.map(Parser.folderOf).toList).distinct
+        val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
+        val near = folders.flatMap(f => Suggest.file(f.resolve(name))).headOption
+        val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
+        missing(s"can't include `$name`: there is no such file", Some(help))
+      case Some(path) =>
+        refuseCircles(path, name, files, fail)
+        Source.read(path) match
+          case Right(source) => statements(source, Some(at), path :: files)
+          case Left(why) => missing(s"can't include `$name`: $why")
+
+  private def refuseCircles(
+      path: Path,
+      name: String,
+      files: List[Path],
+      fail: String => Nothing
+  ): Unit =
     if files.exists(Files.isSameFile(_, path)) then
       val chain = files.takeWhile(!Files.isSameFile(_, path)).reverse
       fail(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
     if files.size > ParserRun.DeepestInclude then
       fail(s"more than ${ParserRun.DeepestInclude} files include one another")
-    Source.read(path) match
-      case Right(source) => statements(source, Some(at), path :: files)
-      case Left(why) => fail(s"can't include `$name`: $why")
 
   /** Against the scene's folder, as the three renderers do; else against the including file's. */
   private def resolve(name: String, from: Option[Path]): Option[Path] =

@@ -2,7 +2,7 @@ package candela.scenefile
 
 import candela.base.{Problem, Severity}
 
-/** Collects problems, up to a number that a person still reads. */
+/** Collects problems, up to a number that fits the memory. */
 final class Problems:
   private val collected = Vector.newBuilder[Problem]
   private var errorCount = 0
@@ -10,7 +10,7 @@ final class Problems:
 
   def errors: Int = errorCount
 
-  /** Are there so many errors that reading should stop? */
+  /** Are there so many errors that this is no scene file at all? Then reading should stop. */
   def isFull: Boolean = errorCount >= Problems.MostErrors
 
   def add(problem: Problem): Unit =
@@ -30,5 +30,5 @@ final class Problems:
       Option.when(left > 0)(Problem(Severity.Warning, None, s"$left more warnings are not shown"))
 
 object Problems:
-  val MostErrors = 20
-  val MostWarnings = 100
+  val MostErrors = 1000
+  val MostWarnings = 10000

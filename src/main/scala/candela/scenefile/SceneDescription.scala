@@ -74,6 +74,9 @@ final case class TextureDescription(
   * @param objects        shapes by the name of their `ObjectBegin`, in the order of these
   * @param transformTimes the times at which the start and the end of an [[AnimatedTransform]] hold
   * @param warnings       what was noticed on the way
+  * @param errors         of statements that could not be read: the rest can be checked, but not
+  *                       rendered
+  * @param lost           what those statements may have given names to
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -97,5 +100,7 @@ final case class SceneDescription(
     media: Vector[MediumDescription] = Vector.empty,
     volumes: Vector[LightDescription] = Vector.empty,
     transformTimes: (Float, Float) = (0f, 1f),
-    warnings: Vector[Problem] = Vector.empty
+    warnings: Vector[Problem] = Vector.empty,
+    errors: Vector[Problem] = Vector.empty,
+    lost: Set[NameKind] = Set.empty
 )

@@ -30,7 +30,7 @@ final class SceneWriter(
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4)
 
-  val blocks: Blocks = Blocks(isV4)
+  val blocks: Blocks = Blocks(isV4, problem)
 
   /** Where `WorldBegin` stands, once it was met; likewise `WorldEnd`. */
   var worldBegin = Option.empty[SourcePos]

@@ -123,7 +123,7 @@ final class ValueReader(warn: Problem => Unit):
       case _ => 1
     def fail(message: String) =
       throw SceneError(Problem.error(param.valuesAt, message, Some(example(param))))
-    if n == 0 then fail(s"`${param.name}` has an empty list")
+    if n == 0 then warn(Problem.warning(param.valuesAt, s"`${param.name}` has an empty list"))
     if n % size != 0 then
       val group = if size == 2 then "pairs" else "triples"
       val noun = if n == 1 then "number" else "numbers"

@@ -76,6 +76,10 @@ class ParametersSuite extends AnyFunSuite:
     assert(one("\"integer n\" [1 2.7]").ints.toVector == Vector(1, 2))
     assert(warnings.map(_.message) == Vector("`n` takes whole numbers; fractions are cut off"))
 
+  test("an empty list is read, with a warning"):
+    assert(one("\"float a\" []").floats.isEmpty)
+    assert(warnings.map(_.message) == Vector("`a` has an empty list"))
+
   test("of two parameters with one name the last counts, and the first is warned of"):
     assert(one("\"float a\" 1 \"float a\" 2").floats.toVector == Vector(2f))
     assert(warnings.map(_.at.get.column) == Vector(1))
@@ -89,12 +93,11 @@ class ParametersSuite extends AnyFunSuite:
     assert(error("\"integer n\" [1 3000000000]").startsWith("16: "))
     assert(error("\"rgb L\" [1 2 nan]").startsWith("14: "))
 
-  test("lists that are no whole number of pairs or triples, and empty ones, are errors"):
+  test("lists that are no whole number of pairs or triples, are errors"):
     assert(error("\"rgb L\" [1 2]").contains("takes triples, but has 2 numbers"))
     assert(error("\"point3 P\" [1 2 3 4]").contains("takes triples"))
     assert(error("\"point2 P\" [1 2 3]").contains("takes pairs"))
     assert(error("\"spectrum L\" 3").contains("takes pairs, but has 1 number"))
-    assert(error("\"float a\" []").contains("empty list"))
     assert(error("\"texture a\" [\"b\" \"c\"]").contains("takes one texture"))
 
   test("a parameter without type, with an unknown type, or without value is an error"):

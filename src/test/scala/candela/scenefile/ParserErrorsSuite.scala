@@ -13,11 +13,11 @@ class ParserErrorsSuite extends AnyFunSuite:
   private def errors(text: String): Vector[String] =
     intercept[SceneError](parse(text)).problems.map(_.message)
 
-  test("each independent error is reported, up to 20"):
+  test("each independent error is reported, up to 1000"):
     val text = "WorldBegin Tranlate 1 1 1\nShape 3\nRotate 1 2\nShape \"a\" \"flot x\" 1\nWorldEnd"
     assert(errors(text).size == 4)
-    val many = errors("WorldBegin" + " Shape 3" * 50)
-    assert(many.size == 21 && many.last == "reading stopped after 20 errors")
+    val many = errors("WorldBegin" + " Shape 3" * 1100)
+    assert(many.size == 1001 && many.last == "reading stopped after 1000 errors")
 
   test("a typing error in a Begin makes no second error of its End"):
     assert(errors("WorldBegin\nAttributBegin\nShape \"a\"\nAttributeEnd\nWorldEnd").size == 1)

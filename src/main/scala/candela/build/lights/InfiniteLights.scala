@@ -26,7 +26,8 @@ final class InfiniteLights(name: String, dialects: Set[Dialect])
     val named = if site.dialect == Dialect.V4 then "filename" else "mapname"
     val given_ = if site.dialect == Dialect.V4 then filename() else mapname()
     val p = site.declaration.param(named).filter(_ => given_.nonEmpty)
-    val map = p.flatMap(site.resources.image(_, site.declaration, site.problems))
+    val map = p.map: q =>
+      site.resources.image(q, site.declaration, site.problems).getOrElse(StandIns.picture)
     val l = scaled(radiance())
     val octahedral = site.dialect == Dialect.V4
     for image <- map if octahedral && image.width != image.height do
@@ -46,7 +47,6 @@ final class InfiniteLights(name: String, dialects: Set[Dialect])
             val layout = if octahedral then EqualAreaMap else LatLongMap
             val pixels = rebased(image.toImage.linear.toRgb, site.resources.basis)
             Some(ImageEnvironment(toWorld, pixels, layout, l, smooth = !octahedral, complete))
-          case None if p.isDefined => None
           case None => Some(ConstantEnvironment(l * e, complete))
       ,
       sampleCount()

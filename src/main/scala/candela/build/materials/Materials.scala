@@ -44,4 +44,5 @@ object Materials:
   val default: Material =
     MaterialFactory.diffuse(candela.textures.ConstantRgb(Rgb.gray(0.5f)))
 
-  def build(site: Site): Material = all.build(site).getOrElse(default)
+  def build(site: Site): Material =
+    all.build(site).getOrElse(StandIns.material(site.resources.basis))

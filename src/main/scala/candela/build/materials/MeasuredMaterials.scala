@@ -1,27 +1,19 @@
 package candela.build
 
-import java.nio.file.Files
+import candela.bsdf.Material
 
-import candela.bsdf.{Material, MaterialFactory}
-import candela.color.Rgb
-import candela.textures.ConstantRgb
-
-/** pbrt-v2's tables of measured reflectance. Where the file is missing pbrt-v2 says so and renders
-  * a surface that reflects nothing; so do we.
-  */
+/** pbrt-v2's tables of measured reflectance. */
 object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a table", onlyV2):
   private val filename = string("filename", "a .brdf or .merl file", shown = "none")("")
 
   override def pending: Option[String] = Some(Materials.instead)
-  override def pendingAt(site: Site): Option[String] =
-    given Site = site
-    if exists then pending else Some(s"no file `${filename()}`, so the surface is black")
-
-  private def exists(using site: Site): Boolean =
-    Files.isRegularFile(site.declaration.folder.resolve(filename().replace('\\', '/')))
 
   protected def make()(using site: Site): Material =
-    if exists then Materials.default else MaterialFactory.diffuse(ConstantRgb(Rgb.Black))
+    val given_ = site.declaration.param("filename").filter(_ => filename().nonEmpty)
+    val standIn = StandIns.MagentaSurface
+    if given_.forall(site.resources.file(_, site.declaration, site.problems, standIn).nonEmpty)
+    then Materials.default
+    else StandIns.material(site.resources.basis)
 
 object MeasuredBsdf
     extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4)

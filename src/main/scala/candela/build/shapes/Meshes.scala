@@ -22,7 +22,13 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "triangles that sha
     val uvs = if uv().nonEmpty then uv() else st()
     val given_ = indices()
     val index = if given_.isEmpty && p.length == 9 then Array(0, 1, 2) else given_
-    if p.isEmpty || index.isEmpty then
+    val isEmpty = (points.given_(), indices.given_()) match
+      case (Some(ps), Some(is)) => ps.isEmpty || is.isEmpty
+      case _ => false
+    if isEmpty then
+      site.warn("a mesh without triangles is left out")
+      None
+    else if p.isEmpty || index.isEmpty then
       site.error("a trianglemesh needs `P` and `indices`")
       None
     else MeshArrays.checked(p, normals(), uvs, index)
@@ -37,13 +43,14 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "a mesh from a PLY file", sin
   protected def make()(using site: Site): Option[ShapeGeometry] =
     site.declaration.param("filename") match
       case Some(p) if filename().nonEmpty =>
-        site.resources.file(p, site.declaration, site.problems).flatMap: path =>
+        val standIn = StandIns.LeftOut
+        site.resources.file(p, site.declaration, site.problems, standIn).flatMap: path =>
           try
             val mesh = PlyFile.read(path)
             MeshArrays.checked(mesh.positions, mesh.normals, mesh.uvs, mesh.indices)
           catch
             case e: SceneError =>
-              e.problems.foreach(x => site.problems.error(p.valuesAt, x.message, x.help))
+              for x <- e.problems do site.problems.missing(p.valuesAt, x.message, standIn, x.help)
               None
       case _ =>
         site.error("a plymesh needs a `filename`")

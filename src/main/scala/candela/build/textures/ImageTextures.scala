@@ -1,12 +1,12 @@
 package candela.build
 
-import candela.color.{Encoding, Rgb}
+import candela.color.Encoding
 import candela.image.StoredImage
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.*
 
-abstract class ImageMap[A] extends Mapped[A]("imagemap", "a picture"):
+abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a picture"):
   private val filename = string("filename", "png, tga, jpg, exr or hdr", shown = "none")("")
   private val wrap =
     oneOf("wrap", "beyond the image", ImageMap.Wraps)("repeat")
@@ -38,7 +38,7 @@ abstract class ImageMap[A] extends Mapped[A]("imagemap", "a picture"):
         site.error("an imagemap needs a `filename`")
         None
       case Some(p) =>
-        for stored <- site.resources.image(p, site.declaration, site.problems) yield
+        for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
           val wrapping = wrap() match
             case "black" => Wrap.Black
             case "clamp" => Wrap.Clamp
@@ -83,15 +83,15 @@ abstract class ImageMap[A] extends Mapped[A]("imagemap", "a picture"):
   protected def outerScale(using site: Site): Float =
     if site.dialect == Dialect.V2 then 1f else scale()
 
-object FloatMap extends ImageMap[FloatTexture]:
+object FloatMap extends ImageMap[FloatTexture](StandIns.Ones):
   protected def make()(using site: Site): FloatTexture =
     val read = if site.dialect == Dialect.V4 then Texels.meanOrAlpha else Texels.luminance
-    lookup(read).fold(ConstantFloat(0.5f))(FloatImageTexture(mapped(), _, outerScale, invert()))
+    lookup(read).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
 
-object RgbMap extends ImageMap[RgbTexture]:
+object RgbMap extends ImageMap[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
-    lookup(Texels.color).fold(ConstantRgb(Rgb.gray(0.5f))): found =>
-      val basis = site.resources.basis
+    val basis = site.resources.basis
+    lookup(Texels.color).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis)
 

@@ -28,10 +28,10 @@ object Textures:
     */
   def define(t: TextureDescription, site: Site): Unit =
     if t.valueType == "float" then
-      val made = floats.build(site).getOrElse(ConstantFloat(0.5f))
+      val made = floats.build(site).getOrElse(StandIns.number)
       site.resources.define(t.name, made)
     else
-      val made = colors.build(site).getOrElse(ConstantRgb(Rgb.gray(0.5f)))
+      val made = colors.build(site).getOrElse(StandIns.color(site.resources.basis))
       site.resources.define(t.name, made)
 
 /** Of textures that are not rendered yet. */
