@@ -76,6 +76,7 @@ object Placement:
   private def partials(m: Array[Double], at: Int, across: Vec3, n: Vec3, s: ShadingPoint): Unit =
     val side = if (across dot n) < 0f then -1f else 1f
     val (tangentU, tangentV) = (vector(m, at, s.tangentU), vector(m, at, s.tangentV))
+    val bumpSide = s.bumpSide
     s.setPartials(
       vector(m, at, s.dpdu),
       vector(m, at, s.dpdv),
@@ -84,6 +85,7 @@ object Placement:
     )
     s.tangentU = tangentU
     s.tangentV = tangentV
+    s.bumpSide = bumpSide
 
   private def absolute(v: Vec3): Vec3 = Vec3(Math.abs(v.x), Math.abs(v.y), Math.abs(v.z))
 

@@ -24,6 +24,9 @@ abstract class Recipe[A](
 
   protected def make()(using Site): A
 
+  /** What all recipes of a category add to `make`. */
+  protected def made(site: Site): A = make()(using site)
+
   /** What is done instead, if Candela does not render this type yet. Its fields are declared all
     * the same, so that slips are found and the reference is whole.
     */
@@ -68,7 +71,7 @@ abstract class Recipe[A](
             s"`${p.name}` is not a parameter of \"$name\"; it has no effect",
             Suggest.help(p.name, declared.filter(_.dialects(site.dialect)).map(_.name))
           )
-    make()(using site)
+    made(site)
 
   /** What nothing reads is checked for its type here. */
   private def inspect(field: Field[?], at: candela.base.SourcePos, site: Site): Unit =

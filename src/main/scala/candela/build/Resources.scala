@@ -19,6 +19,15 @@ final class Resources(val basis: ColorBasis):
   /** Tables of coated materials, shared by all of them that are alike. */
   val coats = Coats()
 
+  private var footprints = Vector.empty[String]
+
+  /** What asks for the footprint of a sample on a surface, in words; at first nothing. */
+  def footprintUses: Vector[String] = footprints
+
+  /** Something of this kind asks for it, or for partial derivatives. */
+  def askForFootprints(what: String): Unit =
+    if !footprints.contains(what) then footprints :+= what
+
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]

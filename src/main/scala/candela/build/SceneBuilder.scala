@@ -1,8 +1,11 @@
 package candela.build
 
 import candela.base.{Problem, SceneError, Severity}
+import candela.cameras.PixelCone
 import candela.color.ColorBasis
+import candela.math.*
 import candela.render.{PixelBounds, RenderPlan}
+import candela.scene.Footprints
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 
 /** What the person at the command line asks for beside what the scene says.
@@ -61,7 +64,14 @@ object SceneBuilder:
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
     warnOfWholes(description, resources, problems)
-    val world = WorldBuilder(description, resources, problems).build(integrator)
+    val isV4 = description.dialect == Dialect.V4
+    val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
+    val scale = if isV4 then Math.max(SharpestV4, density) else density
+    val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
+    def footprints =
+      val cone = Option.when(isV4)(PixelCone.of(camera, eye, width, height, scale))
+      Footprints(integrator.followsSpecular, cone)
+    val world = WorldBuilder(description, resources, problems).build(integrator, footprints)
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -76,12 +86,16 @@ object SceneBuilder:
       imageScale = film.scale * exposure,
       filename = film.filename,
       features = ("dialect", description.dialect.toString.toLowerCase) +:
-        ("integrator", integrator.describe) +: world.features
+        ("integrator", integrator.describe) +: world.features,
+      differentialScale = if resources.footprintUses.isEmpty then 0f else scale
     )
     (plan, problems.result)
 
   private val NoPlace = candela.base.SourcePos("", 0, 0)
   private val NoFolder = java.nio.file.Path.of("")
+
+  /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
+  private val SharpestV4 = 0.125f
 
   private[build] val Motion =
     "motion is not supported yet: it stands still as at the start of the shutter"

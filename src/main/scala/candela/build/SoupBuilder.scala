@@ -4,7 +4,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.base.loop
 import candela.math.Transform
-import candela.shapes.{Mesh, TriangleSoup}
+import candela.shapes.{BumpTangents, Mesh, TriangleSoup}
 
 /** Collects the meshes of a scene, in world space, for one [[TriangleSoup]]. */
 final class SoupBuilder:
@@ -28,7 +28,8 @@ final class SoupBuilder:
       reversed: Boolean,
       flipNormals: Boolean,
       material: Int,
-      firstLight: Int
+      firstLight: Int,
+      bumps: BumpTangents
   ): Int =
     val first = triangles
     val base = vertices
@@ -42,13 +43,14 @@ final class SoupBuilder:
       uvs = mesh.uvs,
       flipped = reversed != toWorld.swapsHandedness,
       material = material,
-      firstLight = firstLight
+      firstLight = firstLight,
+      bumps = bumps
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3
     first
 
-  def result(tangents: Boolean, turnsTangents: Boolean): TriangleSoup =
+  def result(tangents: Boolean): TriangleSoup =
     val meshOf = new Array[Int](triangles)
     for (mesh, i) <- meshes.zipWithIndex do
       java.util.Arrays.fill(meshOf, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
@@ -57,8 +59,7 @@ final class SoupBuilder:
       Array.concat(indices.toSeq*),
       meshOf,
       meshes.toArray,
-      tangents,
-      turnsTangents
+      tangents
     )
 
 object SoupBuilder:

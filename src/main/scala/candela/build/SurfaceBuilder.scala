@@ -20,6 +20,6 @@ final class SurfaceBuilder:
   /** The holes of the mesh that was added to `soup` last. */
   def maskMesh(mask: Mask): Unit = meshMasks += mask
 
-  def result(tangents: Boolean, turnsTangents: Boolean): Surfaces =
+  def result(tangents: Boolean): Surfaces =
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
-    Surfaces(soup.result(tangents, turnsTangents), solids.toArray, masks)
+    Surfaces(soup.result(tangents), solids.toArray, masks)

@@ -8,9 +8,9 @@ import candela.bsdf.Material
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
 import candela.math.Transform
-import candela.scene.{Instanced, Scene, ShapeInstance, Surfaces}
+import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
-import candela.shapes.{TriangleSampler, TriangleSoup}
+import candela.shapes.{BumpTangents, TriangleSampler, TriangleSoup}
 
 /** The world, ready to render, with what it holds in words. */
 final class World(val integrator: Integrator, val features: Vector[(String, String)])
@@ -29,7 +29,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   private def site(d: Declaration, toWorld: Transform = Transform.Identity) =
     Site(d, description.dialect, resources, problems, toWorld)
 
-  def build(integrator: IntegratorPlan): World =
+  /** @param footprints made if a texture or a material has asked for them */
+  def build(integrator: IntegratorPlan, footprints: => Footprints): World =
     for t <- description.textures do
       Textures.define(t, site(t.texture, t.textureToWorld.start))
     val uses = ObjectUses(description, problems)
@@ -41,9 +42,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     val lightPlans = description.lights.map(plan)
     problems.stopAtErrors()
     val tangents = materials.exists(_.isAnisotropic)
-    val turnsTangents = description.dialect != Dialect.V4
-    val surfaces = world.result(tangents, turnsTangents)
-    val objects = objectBuilders.map(_.result(tangents, turnsTangents))
+    val surfaces = world.result(tangents)
+    val objects = objectBuilders.map(_.result(tangents))
     val triangles = surfaces.soup
     for (light, k) <- meshLights.flatMap(_.of(triangles)) do lights(k) = light
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
@@ -60,7 +60,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       materials.toArray,
       sources,
       selection,
-      sidesByGeometry = description.dialect != Dialect.V4
+      sidesByGeometry = description.dialect != Dialect.V4,
+      Option.when(resources.footprintUses.nonEmpty)(footprints)
     )
     if sources.isEmpty && !problems.hasErrors then warnOfDarkness()
     World(
@@ -72,6 +73,9 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
         "instances" -> instanced.describe,
         "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
+        "ray differentials" ->
+          (if resources.footprintUses.isEmpty then "none: no texture asks for them"
+           else resources.footprintUses.mkString("for ", ", ", "")),
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
       )
     )
@@ -108,11 +112,13 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
         case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
         case ShapeGeometry.Solid(make) =>
           val shape = make(toWorld, s.reverseOrientation)
+          // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards
+          val sinks = description.dialect != Dialect.V2 && toWorld.swapsHandedness
           val index = light.fold(-1): plan =>
             lights += Alpha.emission(using here).of(plan.ofShape(shape))
             lightSamples += plan.samples
             lights.length - 1
-          to.add(ShapeInstance(shape, material, index), Alpha.mask(using here))
+          to.add(ShapeInstance(shape, material, index, sinks), Alpha.mask(using here))
 
   private def addMesh(
       s: ShapeDescription,
@@ -128,9 +134,14 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
       here.error(s"more than ${WorldBuilder.MostTriangles} triangles in the world or in one object")
     else
       val firstLight = light.fold(-1)(_ => lights.length)
-      val flipNormals = description.dialect == Dialect.V4
-      val first =
-        to.soup.add(mesh, toWorld, s.reverseOrientation, flipNormals, material, firstLight)
+      val flipNormals = description.dialect != Dialect.V2
+      val bumps = description.dialect match
+        case Dialect.V4 => BumpTangents.Along
+        case Dialect.V2 if s.reverseOrientation != toWorld.swapsHandedness =>
+          BumpTangents.TurnedSinking
+        case _ => BumpTangents.Turned
+      val reversed = s.reverseOrientation
+      val first = to.soup.add(mesh, toWorld, reversed, flipNormals, material, firstLight, bumps)
       to.maskMesh(Alpha.mask(using here))
       for plan <- light do
         meshLights += MeshLights(plan, Alpha.emission(using here), first, count, firstLight)

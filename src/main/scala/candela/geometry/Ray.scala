@@ -27,6 +27,9 @@ final class Ray:
     */
   val stack: Array[Long] = new Array[Long](128)
 
+  /** Filled in only where textures ask for it. */
+  val differential: RayDifferential = RayDifferential()
+
   def origin: Vec3 = Vec3(ox, oy, oz)
   def direction: Vec3 = Vec3(dx, dy, dz)
   def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)

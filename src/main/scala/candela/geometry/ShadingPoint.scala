@@ -36,6 +36,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     */
   var tangentU, tangentV: Vec3 = Vec3.Zero
 
+  /** 1 if displacements rise along `frame.n`, −1 if they sink. */
+  var bumpSide: Float = 1f
+
   /** How far the point moves, and its parameters, from one place on the film to the next to the
     * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
     * unknown, or not wanted: textures then show their finest detail.
@@ -50,6 +53,30 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     this.dndv = dndv
     tangentU = dpdu
     tangentV = dpdv
+    bumpSide = 1f
+
+  /** Works out the footprint's `dudx` … `dvdy` from `dpdx` and `dpdy`: the least-squares solution
+    * of dp = dpdu·du + dpdv·dv.
+    */
+  def footprintInUv(): Unit =
+    val (uu, uv, vv) = (dpdu dot dpdu, dpdu dot dpdv, dpdv dot dpdv)
+    val determinant = differenceOfProducts(uu, vv, uv, uv)
+    val inverse = if determinant > 0f then 1f / determinant else 0f
+    val (ux, vx) = (dpdu dot dpdx, dpdv dot dpdx)
+    val (uy, vy) = (dpdu dot dpdy, dpdv dot dpdy)
+    dudx = ShadingPoint.bounded(differenceOfProducts(vv, ux, uv, vx) * inverse)
+    dvdx = ShadingPoint.bounded(differenceOfProducts(uu, vx, uv, ux) * inverse)
+    dudy = ShadingPoint.bounded(differenceOfProducts(vv, uy, uv, vy) * inverse)
+    dvdy = ShadingPoint.bounded(differenceOfProducts(uu, vy, uv, uy) * inverse)
+
+  /** Nothing is known of the neighbours. */
+  def clearFootprint(): Unit =
+    dpdx = Vec3.Zero
+    dpdy = Vec3.Zero
+    dudx = 0f
+    dvdx = 0f
+    dudy = 0f
+    dvdy = 0f
 
   /** Index into the scene's materials. */
   var material: Int = 0
@@ -83,6 +110,10 @@ object ShadingPoint:
       away(p.y, n.y * side),
       away(p.z, n.z * side)
     )
+
+  /** Near the horizon a footprint may be anything, and even no number. */
+  private def bounded(x: Float): Float =
+    if java.lang.Float.isFinite(x) then clamp(x, -1e8f, 1e8f) else 0f
 
   private def away(x: Float, by: Float): Float =
     val moved = x + by

@@ -11,7 +11,7 @@ import candela.scene.Scene
 /** What the integrators that walk from the camera share: work space, and light sampling. */
 abstract class LightTransport(protected val scene: Scene) extends Integrator:
   protected val hit = Hit()
-  protected val at = ShadingPoint()
+  protected val at = scene.newPoint()
   protected val shadowRay = Ray()
   protected val shadowHit = Hit()
   protected val lightSample = LightSample()

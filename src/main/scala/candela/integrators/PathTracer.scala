@@ -61,6 +61,7 @@ final class PathTracer(
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+          scene.passed(ray)
         else
           depth += 1
           val bsdf = scene.bsdf(at)
@@ -84,6 +85,7 @@ final class PathTracer(
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+          scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
             val q = throughput.max * etaScale

@@ -33,6 +33,7 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
         if at.areaLight >= 0 then light += throughput * scene.surfaceLight(at).radiance(at, wo)
         if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+          scene.passed(ray)
         else
           val bsdf = scene.bsdf(at)
           if !bsdf.isSpecular then light += throughput * direct(bsdf, wo, sampler)
@@ -44,4 +45,5 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
             alive = !throughput.isBlack
             val wi = at.frame.toWorld(bounce.wi)
             ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+            scene.scattered(ray, at, wo, wi, bounce)
     light

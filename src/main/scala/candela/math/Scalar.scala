@@ -38,6 +38,7 @@ inline def cos(x: Float): Float = Math.cos(x.toDouble).toFloat
 inline def exp(x: Float): Float = Math.exp(x.toDouble).toFloat
 inline def log(x: Float): Float = Math.log(x.toDouble).toFloat
 inline def pow(x: Float, y: Float): Float = Math.pow(x.toDouble, y.toDouble).toFloat
+inline def log2(x: Float): Float = (Math.log(x.toDouble) * 1.4426950408889634).toFloat
 inline def abs(x: Float): Float = Math.abs(x)
 
 /** `a·b − c·d` without the cancellation that the plain expression suffers: off by at most 1.5 ulp.

@@ -18,6 +18,7 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   * @param basis        of the radiance that the integrator returns
   * @param maxComponent radiance samples are scaled down to this (pbrt's `maxcomponentvalue`); if
   *                     infinity, never
+  * @param differentialScale of camera rays' differentials; 0: nothing in the scene asks for them
   * @param features     what the plan holds and what it left out, for people: (what, value)
   */
 final class RenderPlan(
@@ -32,5 +33,6 @@ final class RenderPlan(
     val maxComponent: Float,
     val imageScale: Float,
     val filename: String,
-    val features: Vector[(String, String)]
+    val features: Vector[(String, String)],
+    val differentialScale: Float = 0f
 )

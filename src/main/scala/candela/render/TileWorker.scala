@@ -17,6 +17,8 @@ private[render] final class TileWorker(
   private val sampler = plan.sampler.copy()
   private val integrator = plan.integrator.copy()
   private val ray = Ray()
+  private val scratch = Ray()
+  private val hasDifferentials = plan.differentialScale > 0f
 
   // Where the worker is, for the message if something fails.
   private var x, y, sample = 0
@@ -65,6 +67,9 @@ private[render] final class TileWorker(
     val filmX = x + 0.5f + filterSampler.dx
     val filmY = y + 0.5f + filterSampler.dy
     camera.generate(filmX, filmY, sampler.x, sampler.y, ray)
+    if hasDifferentials then
+      val scale = plan.differentialScale
+      camera.differential(filmX, filmY, sampler.x, sampler.y, scale, ray, scratch)
     val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
     if radiance.isFinite then
       val brightest = radiance.max

@@ -1,17 +1,19 @@
 package candela.scene
 
 import candela.accel.Accelerator
-import candela.bsdf.{Bsdf, InterfaceMaterial, Material}
+import candela.bsdf.{Bsdf, BsdfSample, InterfaceMaterial, Material}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
+import candela.math.Vec3
 import candela.shapes.Shape
 
 /** A shape that is no triangle, with what it looks like.
   *
   * @param material index into the scene's materials
   * @param light    index into its lights, −1: it does not emit
+  * @param sinks    do displacements sink into it, instead of rising?
   */
-final case class ShapeInstance(shape: Shape, material: Int, light: Int)
+final case class ShapeInstance(shape: Shape, material: Int, light: Int, sinks: Boolean = false)
 
 /** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
   *
@@ -19,6 +21,7 @@ final case class ShapeInstance(shape: Shape, material: Int, light: Int)
   * @param sidesByGeometry does the geometric normal say which directions are reflections? So in
   *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
   *                        goes by the shading normal alone
+  * @param footprints      if textures ask for them, or displacements for partial derivatives
   */
 final class Scene(
     surfaces: Surfaces,
@@ -27,9 +30,12 @@ final class Scene(
     materials: Array[Material],
     val lights: Array[Light],
     val selection: LightSelection,
-    val sidesByGeometry: Boolean
+    val sidesByGeometry: Boolean,
+    footprints: Option[Footprints] = None
 ):
   private val firstInstance = surfaces.count
+  private val footprintRule: Footprints | Null = footprints.orNull
+  private val hasFootprints = footprints.isDefined
 
   /** Those of `lights` that surround the scene, with their indices. */
   val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
@@ -44,11 +50,26 @@ final class Scene(
 
   def isOccluded(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
 
+  /** A point to be filled in by `surface` with all that the materials ask for. */
+  def newPoint(): ShadingPoint = ShadingPoint(wantsPartials = hasFootprints)
+
+  /** Tells a ray that was just set on its way from `at` what became of its neighbours. */
+  def scattered(ray: Ray, at: ShadingPoint, wo: Vec3, wi: Vec3, sample: BsdfSample): Unit =
+    val rule = footprintRule
+    if rule != null then rule.scattered(ray, at, wo, wi, sample.isSpecular, sample.eta)
+
+  /** Tells a ray that it goes straight on through an interface. */
+  def passed(ray: Ray): Unit =
+    val rule = footprintRule
+    if rule != null then rule.passed(ray)
+
   /** Works out the geometry of the hit that `closest` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val primitive = hit.primitive
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
     else instanced.fill(primitive - firstInstance, ray, hit, at)
+    val rule = footprintRule
+    if rule != null && at.wantsPartials then rule.find(ray, at)
 
   /** Does light pass here as if nothing were there? */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial

@@ -10,11 +10,9 @@ private[shapes] object TrianglePartials:
     * is known.
     *
     * A triangle whose corners' u and v do not span an area gets tangents of unit length in any
-    * direction. Where a mesh has normals, the tangents for displacements follow them; pbrt-v2 and
-    * v3 make these unit vectors and turn them half around, so that bumps appear as dents.
+    * direction. Where a mesh has normals, the tangents for displacements follow them.
     *
     * @param e1, e2 edges from the first corner to the second and to the third
-    * @param turned make them so?
     */
   def fill(
       mesh: Mesh,
@@ -25,7 +23,6 @@ private[shapes] object TrianglePartials:
       b2: Float,
       e1: Vec3,
       e2: Vec3,
-      turned: Boolean,
       at: ShadingPoint
   ): Unit =
     val (k0, k1, k2) = (i0 - mesh.firstVertex, i1 - mesh.firstVertex, i2 - mesh.firstVertex)
@@ -58,18 +55,19 @@ private[shapes] object TrianglePartials:
           val dndv = ShadingPoint.turn(sum, (d2 * u1 - d1 * u2) * inverse)
           at.setPartials(dpdu, dpdv, dndu, dndv)
         else at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
-    if n.length > 0 then tangents(at, turned)
+    if n.length > 0 then tangents(at, mesh.bumps)
 
-  private def tangents(at: ShadingPoint, turned: Boolean): Unit =
+  private def tangents(at: ShadingPoint, bumps: BumpTangents): Unit =
     val ns = at.frame.n
     val along = Frame.along(ns, at.dpdu)
-    if turned then
-      at.tangentU = -along.s
-      at.tangentV = -along.t
-    else
+    if bumps == BumpTangents.Along then
       val length = (ns cross at.dpdu).length
       at.tangentU = along.s * length
       at.tangentV = along.t * length
+    else
+      at.tangentU = -along.s
+      at.tangentV = -along.t
+      if bumps == BumpTangents.TurnedSinking then at.bumpSide = -1f
 
   private def normal(n: Array[Float], vertex: Int): Vec3 =
     Vec3(n(3 * vertex), n(3 * vertex + 1), n(3 * vertex + 2))

@@ -12,6 +12,7 @@ import candela.math.*
   * @param flipped       the geometric normal is −(p1−p0)×(p2−p0)
   * @param material      index into the scene's materials
   * @param firstLight    index of the light of its first triangle, the others follow; −1: no emitter
+  * @param bumps         how displacements are taken, if it has normals
   */
 final class Mesh(
     val firstVertex: Int,
@@ -21,7 +22,8 @@ final class Mesh(
     val uvs: Array[Float],
     val flipped: Boolean,
     val material: Int,
-    val firstLight: Int
+    val firstLight: Int,
+    val bumps: BumpTangents = BumpTangents.Along
 )
 
 /** All triangles of a scene in world space.
@@ -30,15 +32,13 @@ final class Mesh(
   * @param indices   three vertices a triangle, counted over all meshes
   * @param meshOf    the mesh of each triangle
   * @param tangents  does any material ask for the direction of u? If not, it isn't computed
-  * @param turnsTangents see [[TrianglePartials]]; so in pbrt-v2 and v3
   */
 final class TriangleSoup(
     val positions: Array[Float],
     val indices: Array[Int],
     val meshOf: Array[Int],
     val meshes: Array[Mesh],
-    tangents: Boolean,
-    turnsTangents: Boolean = false
+    tangents: Boolean
 ):
   def count: Int = meshOf.length
 
@@ -79,7 +79,7 @@ final class TriangleSoup(
     at.frame =
       if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
     if at.wantsPartials then
-      TrianglePartials.fill(mesh, i0, i1, i2, b1, b2, e1, e2, turnsTangents, at)
+      TrianglePartials.fill(mesh, i0, i1, i2, b1, b2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle

@@ -6,13 +6,22 @@ import candela.math.*
 /** A place in a texture; the unit square holds one copy of an image. */
 final class TexCoord(val s: Float, val t: Float)
 
+/** How far a place in a texture moves from one place on the film to its neighbours. */
+final class TexFootprint(val dsdx: Float, val dtdx: Float, val dsdy: Float, val dtdy: Float)
+
 /** Takes a surface point to its place in a two-dimensional texture. */
 abstract class Mapping2D:
   def apply(at: ShadingPoint): TexCoord
 
+  /** The derivative of `apply` along the footprint of `at`. */
+  def footprint(at: ShadingPoint): TexFootprint
+
 /** The surface's own parameters, scaled and moved: s = su·u + du, t = sv·v + dv. */
 final class UvMapping(su: Float, sv: Float, du: Float, dv: Float) extends Mapping2D:
   def apply(at: ShadingPoint): TexCoord = TexCoord(su * at.u + du, sv * at.v + dv)
+
+  def footprint(at: ShadingPoint): TexFootprint =
+    TexFootprint(su * at.dudx, sv * at.dvdx, su * at.dudy, sv * at.dvdy)
 
 object UvMapping:
   val Identity: UvMapping = UvMapping(1f, 1f, 0f, 0f)
@@ -30,6 +39,16 @@ final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
     val phi = if around < 0 then around + 2 * Math.PI else around
     TexCoord((theta / Math.PI).toFloat, (phi / (2 * Math.PI)).toFloat)
 
+  def footprint(at: ShadingPoint): TexFootprint =
+    val p = worldToTexture.point(at.p)
+    val r2 = square(p.x) + square(p.y)
+    val r = sqrt(r2)
+    // ∂θ/∂p over π, and ∂φ/∂p over 2π; at the poles, where they are infinite, nothing is known
+    val d = if r > 0f then 1f / (Pi * (r2 + square(p.z))) else 0f
+    val ds = Vec3(p.x * p.z * d / r, p.y * p.z * d / r, -r * d)
+    val dt = Mapping2D.around(p)
+    if r > 0f then Mapping2D.along(worldToTexture, ds, dt, at) else Mapping2D.Unknown
+
 /** Around the texture space's z axis: s is the angle from −x over 2π, t the height.
   *
   * @param onUnitSphere measure the height after moving the point to the unit sphere, as pbrt-v2 and
@@ -43,6 +62,14 @@ final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean)
     val p = if onUnitSphere then inTexture.normalized else inTexture
     val around = Math.atan2(p.y.toDouble, p.x.toDouble)
     TexCoord(((Math.PI + around) / (2 * Math.PI)).toFloat, p.z)
+
+  def footprint(at: ShadingPoint): TexFootprint =
+    val p = worldToTexture.point(at.p)
+    val length = p.length
+    val dt =
+      if onUnitSphere then (Vec3.Z - p * (p.z / square(length))) * (1f / length) else Vec3.Z
+    if p.x == 0f && p.y == 0f then Mapping2D.Unknown
+    else Mapping2D.along(worldToTexture, Mapping2D.around(p), dt, at)
 
 /** Along two axes: s = p·axisS + ds, t = p·axisT + dt.
   *
@@ -60,3 +87,20 @@ final class PlanarMapping(
   def apply(at: ShadingPoint): TexCoord =
     val p = worldToTexture.point(at.p)
     TexCoord((p dot axisS) + ds, (p dot axisT) + dt)
+
+  def footprint(at: ShadingPoint): TexFootprint =
+    Mapping2D.along(worldToTexture, axisS, axisT, at)
+
+private object Mapping2D:
+  val Unknown: TexFootprint = TexFootprint(0f, 0f, 0f, 0f)
+
+  /** The gradient of the angle around z, over 2π. */
+  def around(p: Vec3): Vec3 =
+    val d = 1f / (2f * Pi * (square(p.x) + square(p.y)))
+    Vec3(-p.y * d, p.x * d, 0f)
+
+  /** The footprint of coordinates that have these gradients in texture space. */
+  def along(worldToTexture: Transform, ds: Vec3, dt: Vec3, at: ShadingPoint): TexFootprint =
+    val px = worldToTexture.vector(at.dpdx)
+    val py = worldToTexture.vector(at.dpdy)
+    TexFootprint(ds dot px, dt dot px, ds dot py, dt dot py)

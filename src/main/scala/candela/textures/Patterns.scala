@@ -2,7 +2,7 @@ package candela.textures
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.lerp
+import candela.math.*
 
 /** Unit squares of `even` and `odd` in turn; the one from (0, 0) to (1, 1) is even. Not filtered:
   * its edges are smoothed by the pixel's samples.
@@ -20,7 +20,11 @@ final class CheckerboardRgb(mapping: Mapping2D, even: RgbTexture, odd: RgbTextur
 
 private object Checkerboard:
   def isEven(c: TexCoord): Boolean =
-    ((Math.floor(c.s.toDouble).toLong + Math.floor(c.t.toDouble).toLong) & 1) == 0
+    ((floor(c.s) + floor(c.t)) & 1) == 0
+
+  def isEven(p: Vec3): Boolean = ((floor(p.x) + floor(p.y) + floor(p.z)) & 1) == 0
+
+  private def floor(x: Float): Long = Math.floor(x.toDouble).toLong
 
 /** Bilinear between four corners, `v10` being that at s = 1, t = 0; goes on linearly outside. */
 final class BilerpFloat(mapping: Mapping2D, v00: Float, v01: Float, v10: Float, v11: Float)
@@ -35,3 +39,52 @@ final class BilerpRgb(mapping: Mapping2D, v00: Rgb, v01: Rgb, v10: Rgb, v11: Rgb
   def apply(at: ShadingPoint): Rgb =
     val c = mapping(at)
     (v00 * (1f - c.s) + v10 * c.s) * (1f - c.t) + (v01 * (1f - c.s) + v11 * c.s) * c.t
+
+/** Round dots in some of the unit squares around the integer points, moved and left out at random.
+  *
+  * Source: PBRT 3rd ed., §10.5.2.
+  */
+final class DotsFloat(mapping: Mapping2D, dot: FloatTexture, ground: FloatTexture)
+    extends FloatTexture:
+  def apply(at: ShadingPoint): Float = if Dots.isInside(mapping(at)) then dot(at) else ground(at)
+
+/** Round dots, as [[DotsFloat]]. */
+final class DotsRgb(mapping: Mapping2D, dot: RgbTexture, ground: RgbTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = if Dots.isInside(mapping(at)) then dot(at) else ground(at)
+
+private object Dots:
+  private val Radius = 0.35f
+  private val MostShift = 0.5f - Radius
+
+  def isInside(c: TexCoord): Boolean =
+    val s = Math.floor(c.s + 0.5).toFloat
+    val t = Math.floor(c.t + 0.5).toFloat
+    PerlinNoise(s + 0.5f, t + 0.5f) > 0f && {
+      val ds = c.s - (s + MostShift * PerlinNoise(s + 1.5f, t + 2.8f))
+      val dt = c.t - (t + MostShift * PerlinNoise(s + 4.5f, t + 9.8f))
+      ds * ds + dt * dt < Radius * Radius
+    }
+
+/** The coordinates themselves as red and green, to look at a parameterisation. */
+final class UvColor(mapping: Mapping2D) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb =
+    val c = mapping(at)
+    Rgb(c.s - Math.floor(c.s.toDouble).toFloat, c.t - Math.floor(c.t.toDouble).toFloat, 0f)
+
+/** |n·direction| of `along`, the rest of `across`, for the geometric normal n. */
+final class DirectionMixFloat(along: FloatTexture, across: FloatTexture, direction: Vec3)
+    extends FloatTexture:
+  def apply(at: ShadingPoint): Float =
+    lerp(at.geometricNormal absDot direction, across(at), along(at))
+
+/** |n·direction| of `along`, the rest of `across`, for the geometric normal n. */
+final class DirectionMixRgb(along: RgbTexture, across: RgbTexture, direction: Vec3)
+    extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb =
+    val amount = at.geometricNormal absDot direction
+    along(at) * amount + across(at) * (1f - amount)
+
+/** A number as a colour. */
+final class GrayTexture(value: FloatTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = Rgb.gray(value(at))
+  override def constant: Option[Rgb] = value.constant.map(Rgb.gray)

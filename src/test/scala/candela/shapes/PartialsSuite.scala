@@ -46,10 +46,14 @@ class PartialsSuite extends AnyFunSuite:
   private val corners = Seq(Vec3(1f, 0f, 2f), Vec3(3f, 0.5f, 2.5f), Vec3(1f, 4f, 1f))
   private val smooth = Array[Float](0.1f, 0.2f, 1f, 0.4f, -0.3f, 2f, -0.2f, 0.3f, 0.7f)
 
-  private def triangle(normals: Array[Float], uvs: Array[Float], turned: Boolean = false) =
-    val mesh = Mesh(0, 0, 1, normals, uvs, flipped = false, material = 0, firstLight = -1)
+  private def triangle(
+      normals: Array[Float],
+      uvs: Array[Float],
+      bumps: BumpTangents = BumpTangents.Along
+  ) =
+    val mesh = Mesh(0, 0, 1, normals, uvs, false, 0, -1, bumps)
     val positions = corners.flatMap(p => Seq(p.x, p.y, p.z)).toArray
-    TriangleSoup(positions, Array(0, 1, 2), Array(0), Array(mesh), true, turned)
+    TriangleSoup(positions, Array(0, 1, 2), Array(0), Array(mesh), true)
 
   private def look(soup: TriangleSoup, b1: Float, b2: Float): ShadingPoint =
     val (hit, at) = (Hit(), ShadingPoint(wantsPartials = true))
@@ -93,7 +97,8 @@ class PartialsSuite extends AnyFunSuite:
 
   test("pbrt-v2's and v3's tangents for displacements are unit vectors, half turned around"):
     val plain = look(triangle(smooth, Array.empty), 0.3f, 0.4f)
-    val turned = look(triangle(smooth, Array.empty, turned = true), 0.3f, 0.4f)
+    val turned = look(triangle(smooth, Array.empty, BumpTangents.Turned), 0.3f, 0.4f)
     assert((turned.tangentU + plain.tangentU.normalized).length < 1e-6f)
     assert((turned.tangentV + plain.tangentV.normalized).length < 1e-6f)
-    assert((turned.dpdu - plain.dpdu).isZero)
+    assert((turned.dpdu - plain.dpdu).isZero && turned.bumpSide == 1f)
+    assert(look(triangle(smooth, Array.empty, BumpTangents.TurnedSinking), 0f, 0f).bumpSide == -1f)

@@ -12,12 +12,17 @@ class ImageTextureSuite extends AnyFunSuite:
   /** Gray, rows from the top: 0 1 2 / 10 11 12. */
   private val rows = Image(3, 2, Vector("Y"), Array(0f, 1f, 2f, 10f, 11f, 12f))
 
+  private val Bilinear = true
+  private val Point = false
+
   private def lookup(
       image: Image,
-      filter: TextureFilter,
+      interpolates: Boolean,
       wrap: Wrap = Wrap.Repeat,
       bottomUp: Boolean = true
-  ) = ImageLookup(Texels.color(image, linear), wrap, filter, bottomUp)
+  ) = FinestLookup(MipLevel(Texels.color(image, linear), wrap), interpolates, bottomUp)
+
+  extension (lookup: FinestLookup) private def value(c: TexCoord): Float = lookup.color(c).r
 
   private def at(u: Float, v: Float): ShadingPoint =
     val point = ShadingPoint()
@@ -29,35 +34,35 @@ class ImageTextureSuite extends AnyFunSuite:
   private def near(a: Float, b: Float) = Math.abs(a - b) < 1e-5f
 
   test("texel centres give their texel, v counted from the bottom"):
-    for filter <- TextureFilter.values; x <- 0 until 3; y <- 0 until 2 do
+    for filter <- Seq(Point, Bilinear); x <- 0 until 3; y <- 0 until 2 do
       val place = TexCoord((x + 0.5f) / 3, 1f - (y + 0.5f) / 2)
       assert(near(lookup(rows, filter).value(place), 10f * y + x), s"$filter")
 
   test("v counted from the top turns the picture over"):
-    val down = lookup(rows, TextureFilter.Bilinear, bottomUp = false)
+    val down = lookup(rows, Bilinear, bottomUp = false)
     for x <- 0 until 3; y <- 0 until 2 do
       assert(near(down.value(TexCoord((x + 0.5f) / 3, (y + 0.5f) / 2)), 10f * y + x))
 
   test("halfway between centres, bilinear is the mean and point is one of them"):
     val place = TexCoord(2 / 6f + 1e-6f, 0.5f)
-    assert(near(lookup(rows, TextureFilter.Bilinear).value(place), 5.5f))
-    assert(Set(0f, 1f, 10f, 11f)(lookup(rows, TextureFilter.Point).value(place)))
+    assert(near(lookup(rows, Bilinear).value(place), 5.5f))
+    assert(Set(0f, 1f, 10f, 11f)(lookup(rows, Point).value(place)))
 
   test("beyond the border, the wrap mode decides what is blended in"):
     val corner = TexCoord(0f, 1f)
-    def value(wrap: Wrap) = lookup(rows, TextureFilter.Bilinear, wrap).value(corner)
+    def value(wrap: Wrap) = lookup(rows, Bilinear, wrap).value(corner)
     assert(near(value(Wrap.Repeat), (0f + 2f + 10f + 12f) / 4))
     assert(near(value(Wrap.Clamp), 0f))
-    assert(near(lookup(rows, TextureFilter.Bilinear, Wrap.Black).value(TexCoord(1f, 0.25f)), 6f))
-    assert(lookup(rows, TextureFilter.Point, Wrap.Black).value(TexCoord(-0.1f, 0.5f)) == 0f)
-    assert(lookup(rows, TextureFilter.Point).value(TexCoord(-0.1f, 2.9f)) == 2f)
+    assert(near(lookup(rows, Bilinear, Wrap.Black).value(TexCoord(1f, 0.25f)), 6f))
+    assert(lookup(rows, Point, Wrap.Black).value(TexCoord(-0.1f, 0.5f)) == 0f)
+    assert(lookup(rows, Point).value(TexCoord(-0.1f, 2.9f)) == 2f)
 
   test("colours blend channel by channel"):
     val image = Image(2, 1, Image.RgbNames, Array(1f, 2f, 4f, 3f, 6f, 0f))
     for wrap <- Vector(Wrap.Clamp, Wrap.Repeat) do
-      val color = lookup(image, TextureFilter.Bilinear, wrap).color(TexCoord(0.5f, 0.5f))
+      val color = lookup(image, Bilinear, wrap).color(TexCoord(0.5f, 0.5f))
       assert(near(color.r, 2f) && near(color.g, 4f) && near(color.b, 2f))
-    assert(lookup(image, TextureFilter.Point).color(TexCoord(0.9f, 0.1f)) == Rgb(3f, 6f, 0f))
+    assert(lookup(image, Point).color(TexCoord(0.9f, 0.1f)) == Rgb(3f, 6f, 0f))
 
   test("bytes decode by their table, and stay bytes"):
     val codes = Array.tabulate(256 * 3)(i => (i * 7).toByte)
@@ -88,7 +93,7 @@ class ImageTextureSuite extends AnyFunSuite:
     assert(texels(1f)(0, 0) == 0.5f)
 
   test("scale multiplies; invert takes from 1 and stops at 0"):
-    val source = lookup(Image(1, 1, Vector("Y"), Array(0.25f)), TextureFilter.Bilinear)
+    val source = lookup(Image(1, 1, Vector("Y"), Array(0.25f)), Bilinear)
     val uv = UvMapping.Identity
     assert(FloatImageTexture(uv, source, 2f)(at(0.3f, 0.3f)) == 0.5f)
     assert(FloatImageTexture(uv, source, 2f, invert = true)(at(0.3f, 0.3f)) == 0.5f)
@@ -97,11 +102,11 @@ class ImageTextureSuite extends AnyFunSuite:
     assert(RgbImageTexture(uv, source)(at(0.3f, 0.3f)) == Rgb.gray(0.25f))
 
   test("the mapping is applied"):
-    val source = lookup(rows, TextureFilter.Bilinear)
+    val source = lookup(rows, Bilinear)
     val texture = FloatImageTexture(UvMapping(1f, 1f, 1 / 3f, 0f), source)
     assert(near(texture(at(0.5f / 3, 0.75f)), 1f))
 
   test("wild coordinates give a number and no exception"):
     val wild = Vector(1e30f, -1e30f, Float.PositiveInfinity, Float.NaN, 2.2e9f, -2.2e9f)
-    for wrap <- Wrap.values; filter <- TextureFilter.values; s <- wild; t <- wild do
+    for wrap <- Wrap.values; filter <- Seq(Point, Bilinear); s <- wild; t <- wild do
       val _ = lookup(rows, filter, wrap).color(TexCoord(s, t))

@@ -8,11 +8,13 @@ import candela.scenefile.Dialect
   *
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
+  * @param followsSpecular are textures filtered in mirrors and behind glass, too?
   */
 final case class IntegratorPlan(
     make: (Scene, Array[Int]) => Integrator,
     samplesBsdf: Boolean,
-    describe: String
+    describe: String,
+    followsSpecular: Boolean = true
 )
 
 /** What many integrators have: how far light is followed. */
@@ -34,10 +36,11 @@ trait PathInstead extends Recipe[IntegratorPlan]:
 
   protected def depth()(using Site): Int = 5
 
-  protected def make()(using Site): IntegratorPlan =
+  protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
     IntegratorPlan(
       (scene, _) => PathTracer(scene, most, 1, 1f),
       samplesBsdf = true,
-      s"path, up to $most scattering events"
+      s"path, up to $most scattering events",
+      followsSpecular = site.dialect == Dialect.V4
     )

@@ -25,7 +25,8 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
     IntegratorPlan(
       (scene, _) => PathTracer(scene, depth, patience, threshold()),
       samplesBsdf = true,
-      s"path, up to $depth scattering events"
+      s"path, up to $depth scattering events",
+      followsSpecular = site.dialect == Dialect.V4
     )
 
 object SimplePath

@@ -1,7 +1,10 @@
 package candela.build
 
-import candela.bsdf.{Edition, Material, Roughness, RoughnessModel}
+import candela.bsdf.{
+  BumpMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel
+}
 import candela.scenefile.Dialect
+import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
 
 /** What all materials have.
   *
@@ -13,12 +16,39 @@ abstract class MaterialRecipe(
     dialects: Set[Dialect],
     bumps: Boolean = true
 ) extends Recipe[Material](name, meaning, dialects):
-  if bumps then
-    notYet("the surface is smooth")(
-      floatTexture("bumpmap", "height of bumps", untilV3, "scene units", "none")(0f),
-      floatTexture("displacement", "height of bumps", onlyV4, "scene units", "none")(0f),
-      string("normalmap", "image of normals", onlyV4, "none")("")
-    )
+  private val heights: Option[Field[FloatTexture]] = Option.when(bumps):
+    floatTexture("bumpmap", "height of bumps", untilV3, "scene units", "none")(0f)
+  private val displacements: Option[Field[FloatTexture]] = Option.when(bumps):
+    floatTexture("displacement", "height of bumps", onlyV4, "scene units", "none")(0f)
+  private val normals: Option[Field[String]] = Option.when(bumps):
+    string("normalmap", "image of normals", onlyV4, "none")("")
+
+  override protected def made(site: Site): Material =
+    given Site = site
+    val smooth = make()
+    normalMap() match
+      case Some(picture) =>
+        site.resources.askForFootprints("normal maps")
+        NormalMapMaterial(smooth, picture)
+      case None =>
+        val height = if site.dialect == Dialect.V4 then displacements else heights
+        height.fold(smooth)(field => bumped(smooth, field()))
+
+  /** Bumps of the same height everywhere move no normal. */
+  private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
+    if height.constant.isDefined then smooth
+    else
+      site.resources.askForFootprints("bumps")
+      // pbrt's steps
+      BumpMaterial(smooth, height, if site.dialect == Dialect.V2 then 0.01f else 0.0005f)
+
+  private def normalMap()(using site: Site): Option[MipLevel] =
+    for
+      field <- normals
+      name <- field.given_() if name.nonEmpty
+      p <- site.declaration.param("normalmap")
+      stored <- site.resources.image(p, site.declaration, site.problems)
+    yield MipLevel(Texels.color(stored, identity), Wrap.Repeat)
 
 /** Of materials that are not rendered yet. */
 trait GreyInstead extends Recipe[Material]:

@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.color.Encoding
-import candela.image.StoredImage
+import candela.image.{ByteImage, Image, StoredImage}
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.*
@@ -24,10 +24,9 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
     )("sRGB")
   private val filter =
     oneOf("filter", "of the lookup", ImageMap.Filters, onlyV4)("bilinear")
-  noMeaning("images are read bilinearly")(
-    bool("trilinear", "filter between levels of detail, not along the footprint", untilV3)(false),
-    float("maxanisotropy", "longest footprint over its width")(8f)
-  )
+  private val trilinear =
+    bool("trilinear", "filter between levels of detail, not along the footprint", untilV3)(false)
+  private val anisotropy = float("maxanisotropy", "longest footprint over its width")(8f)
 
   /** The picture's lookup; None after a problem was reported. */
   protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using
@@ -44,15 +43,29 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
             case "clamp" => Wrap.Clamp
             case "octahedralsphere" => Wrap.OctahedralSphere
             case _ => Wrap.Repeat
-          for f <- filter.given_() if f != "point" && f != "bilinear" do
-            site.warn(s"filter `$f` is not supported yet: the finest level is read bilinearly")
-          val filtering = filter() match
-            case "point" => TextureFilter.Point
-            case "trilinear" => TextureFilter.Trilinear
-            case "ewa" | "EWA" => TextureFilter.Ewa
-            case _ => TextureFilter.Bilinear
-          val bottomUp = site.dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
-          ImageLookup(texels(stored, decoding(stored)), wrapping, filtering, bottomUp)
+          filtered(texels(stored, decoding(stored)), wrapping, stored)
+
+  private def filtered(texels: Texels, wrap: Wrap, stored: StoredImage)(using
+      site: Site
+  ): ImageLookup =
+    val dialect = site.dialect
+    val bottomUp = dialect != Dialect.V2 || filename().toLowerCase.endsWith(".tga")
+    val isV4 = dialect == Dialect.V4
+    val kind =
+      if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
+    site.resources.askForFootprints(s"$kind image textures")
+    // pbrt-v4 keeps 8-bit pictures in 8 bits
+    val isBytes = stored match
+      case _: ByteImage => true
+      case _: Image => false
+    val pyramid = Pyramid.of(texels, wrap, if isV4 && isBytes then 1f else Float.PositiveInfinity)
+    kind match
+      case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
+      case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)
+      case "trilinear" =>
+        val factor = if dialect == Dialect.V3 then 1f else 2f
+        TrilinearLookup(pyramid, factor, fromSecond = isV4, bottomUp, turned = !isV4)
+      case _ => EwaLookup(pyramid, anisotropy(), bottomUp, turned = !isV4)
 
   private def decoding(stored: StoredImage)(using site: Site): Float => Float =
     site.dialect match

@@ -2,41 +2,33 @@ package candela.build
 
 import candela.color.Rgb
 import candela.math.Vec3
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.textures.*
 
-private val DotsMeaning = "a disk at a random place in about half of all unit squares"
-private val DirectionMeaning = "blends two by the surface's direction"
+/** All versions of pbrt put `inside` outside the dots, and `outside` inside. */
+object FloatDots extends Mapped[FloatTexture]("dots", "round dots here and there"):
+  private val inside = floatTexture("inside", "around the dots, as pbrt has it")(1f)
+  private val outside = floatTexture("outside", "in the dots, as pbrt has it")(0f)
+  protected def make()(using Site): FloatTexture = DotsFloat(mapped(), outside(), inside())
 
-object FloatDots extends Mapped[FloatTexture]("dots", DotsMeaning) with HalfFloat:
-  declare(
-    floatTexture("inside", "in the dots")(1f),
-    floatTexture("outside", "between the dots")(0f)
-  )
+object RgbDots extends Mapped[RgbTexture]("dots", "round dots here and there"):
+  private val inside = rgbTexture("inside", "around the dots, as pbrt has it")(Rgb.White)
+  private val outside = rgbTexture("outside", "in the dots, as pbrt has it")(Rgb.Black)
+  protected def make()(using Site): RgbTexture = DotsRgb(mapped(), outside(), inside())
 
-object RgbDots extends Mapped[RgbTexture]("dots", DotsMeaning) with HalfRgb:
-  declare(
-    rgbTexture("inside", "in the dots")(Rgb.White),
-    rgbTexture("outside", "between the dots")(Rgb.Black)
-  )
+object RgbUv extends Mapped[RgbTexture]("uv", "the coordinates, as red and green", untilV3):
+  protected def make()(using Site): RgbTexture = UvColor(mapped())
 
-object RgbUv
-    extends Mapped[RgbTexture]("uv", "texture coordinates as red and green", untilV3)
-    with HalfRgb
+abstract class DirectionMix[A]
+    extends Recipe[A]("directionmix", "blends by the surface's direction", onlyV4):
+  private val direction = vector("dir", "where `tex1` is seen, as is −dir")(Vec3.Y)
+  protected def axis()(using site: Site): Vec3 = site.toWorld.vector(direction()).normalized
 
-object FloatDirectionMix
-    extends Recipe[FloatTexture]("directionmix", DirectionMeaning, onlyV4)
-    with HalfFloat:
-  declare(
-    floatTexture("tex1", "where the normal is along `dir`")(0f),
-    floatTexture("tex2", "where it is at right angles")(1f),
-    vector("dir", "the direction")(Vec3.Y)
-  )
+object FloatDirectionMix extends DirectionMix[FloatTexture]:
+  private val tex1 = floatTexture("tex1", "of surfaces across `dir`")(0f)
+  private val tex2 = floatTexture("tex2", "of surfaces along `dir`")(1f)
+  protected def make()(using Site): FloatTexture = DirectionMixFloat(tex1(), tex2(), axis())
 
-object RgbDirectionMix
-    extends Recipe[RgbTexture]("directionmix", DirectionMeaning, onlyV4)
-    with HalfRgb:
-  declare(
-    rgbTexture("tex1", "where the normal is along `dir`")(Rgb.Black),
-    rgbTexture("tex2", "where it is at right angles")(Rgb.White),
-    vector("dir", "the direction")(Vec3.Y)
-  )
+object RgbDirectionMix extends DirectionMix[RgbTexture]:
+  private val tex1 = rgbTexture("tex1", "of surfaces across `dir`")(Rgb.Black)
+  private val tex2 = rgbTexture("tex2", "of surfaces along `dir`")(Rgb.White)
+  protected def make()(using Site): RgbTexture = DirectionMixRgb(tex1(), tex2(), axis())

@@ -1,34 +1,43 @@
 package candela.build
 
 import candela.scenefile.Dialect
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.textures.*
 
-/** Sums of noise. */
 abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[A](name, meaning, dialects):
-  declare(
-    integer("octaves", "noises that are added, each of twice the frequency")(8),
-    float("roughness", "how much weaker each noise is than the one before")(0.5f)
-  )
+  private val octaves = integer("octaves", "how many scales, at most")(8)
+  private val roughness = float("roughness", "strength of an octave in that before")(0.5f)
 
-private val FbmMeaning = "fractal noise"
-private val WrinkledMeaning = "fractal noise of absolute values"
+  protected def fbm()(using Site): FloatTexture = FbmTexture(Solid.filtered, octaves(), roughness())
 
-object FloatFbm extends NoiseRecipe[FloatTexture]("fbm", FbmMeaning, every) with HalfFloat
-object RgbFbm extends NoiseRecipe[RgbTexture]("fbm", FbmMeaning, untilV3) with HalfRgb
+  protected def wrinkled()(using site: Site): FloatTexture =
+    WrinkledTexture(Solid.filtered, octaves(), roughness(), evenMean = site.dialect == Dialect.V2)
 
-object FloatWrinkled
-    extends NoiseRecipe[FloatTexture]("wrinkled", WrinkledMeaning, every)
-    with HalfFloat
-object RgbWrinkled
-    extends NoiseRecipe[RgbTexture]("wrinkled", WrinkledMeaning, untilV3)
-    with HalfRgb
+  protected def marble(scale: Float, variation: Float)(using site: Site): RgbTexture =
+    val last = if site.dialect == Dialect.V3 then 1 else 5
+    MarbleTexture(Solid.filtered, octaves(), roughness(), scale, variation, last)
 
-object FloatWindy extends Recipe[FloatTexture]("windy", "waves on water", every) with HalfFloat
-object RgbWindy extends Recipe[RgbTexture]("windy", "waves on water", untilV3) with HalfRgb
+object FloatFbm extends NoiseRecipe[FloatTexture]("fbm", "noise of many scales: clouds", every):
+  protected def make()(using Site): FloatTexture = fbm()
 
-object RgbMarble extends NoiseRecipe[RgbTexture]("marble", "layers of stone", every) with HalfRgb:
-  declare(
-    float("scale", "frequency of the layers")(1f),
-    float("variation", "how much noise moves them")(0.2f)
-  )
+object RgbFbm extends NoiseRecipe[RgbTexture]("fbm", "noise of many scales, as grey", untilV3):
+  protected def make()(using Site): RgbTexture = GrayTexture(fbm())
+
+object FloatWrinkled extends NoiseRecipe[FloatTexture]("wrinkled", "creases of many scales", every):
+  protected def make()(using Site): FloatTexture = wrinkled()
+
+object RgbWrinkled extends NoiseRecipe[RgbTexture]("wrinkled", "creases, as grey", untilV3):
+  protected def make()(using Site): RgbTexture = GrayTexture(wrinkled())
+
+object FloatWindy extends Recipe[FloatTexture]("windy", "waves under gusts of wind"):
+  protected def make()(using Site): FloatTexture = WindyTexture(Solid.filtered)
+
+object RgbWindy extends Recipe[RgbTexture]("windy", "waves, as grey", untilV3):
+  protected def make()(using Site): RgbTexture = GrayTexture(WindyTexture(Solid.filtered))
+
+object RgbMarble extends NoiseRecipe[RgbTexture]("marble", "wavy layers of grey", every):
+  private val scale = float("scale", "layers in a unit of length, about")(1f)
+  private val variation = float("variation", "how far noise moves the layers")(0.2f)
+  protected def make()(using site: Site): RgbTexture =
+    val made = marble(scale(), variation())
+    if site.resources.basis.isSrgb then made else RebasedTexture(made, site.resources.basis)

@@ -8,23 +8,21 @@ abstract class Checks[A] extends Mapped[A]("checkerboard", "squares of two in tu
   noMeaning("the pixel's samples smooth its edges")(
     string("aamode", "how edges are smoothed: closedform, none", untilV3)("closedform")
   )
-  protected def warnOfCubes()(using site: Site): Unit =
-    if dimension() == 3 then
-      site.warn("a checkerboard of dimension 3 is not supported yet: one of dimension 2 is used")
+  protected def isSolid()(using Site): Boolean = dimension() == 3
 
 object FloatChecks extends Checks[FloatTexture]:
   private val tex1 = floatTexture("tex1", "of even squares")(1f)
   private val tex2 = floatTexture("tex2", "of odd squares")(0f)
   protected def make()(using Site): FloatTexture =
-    warnOfCubes()
-    CheckerboardFloat(mapped(), tex1(), tex2())
+    if isSolid() then CubesFloat(Solid.mapping, tex1(), tex2())
+    else CheckerboardFloat(mapped(), tex1(), tex2())
 
 object RgbChecks extends Checks[RgbTexture]:
   private val tex1 = rgbTexture("tex1", "of even squares")(Rgb.White)
   private val tex2 = rgbTexture("tex2", "of odd squares")(Rgb.Black)
   protected def make()(using Site): RgbTexture =
-    warnOfCubes()
-    CheckerboardRgb(mapped(), tex1(), tex2())
+    if isSolid() then CubesRgb(Solid.mapping, tex1(), tex2())
+    else CheckerboardRgb(mapped(), tex1(), tex2())
 
 object FloatBilerp extends Mapped[FloatTexture]("bilerp", "blends the values at four corners"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:

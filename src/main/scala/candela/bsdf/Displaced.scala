@@ -1,0 +1,57 @@
+package candela.bsdf
+
+import candela.geometry.{Frame, ShadingPoint}
+import candela.math.*
+import candela.textures.{FloatTexture, MipLevel}
+
+/** A material on a surface that looks as if it were displaced along its normal: only the shading
+  * frame is turned.
+  *
+  * @param height   of the displacement, in world units
+  * @param smallest step in u and v where the footprint is not known
+  *
+  * Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978.
+  */
+final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float) extends Material:
+  override def isAnisotropic: Boolean = inner.isAnisotropic
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val (p, u, v) = (at.p, at.u, at.v)
+    val here = height(at)
+    // Half a step to the neighbouring samples, so that no detail is met that they would miss
+    val du = step(at.dudx, at.dudy)
+    at.p = p + at.tangentU * du
+    at.u = u + du
+    val slopeU = (height(at) - here) / du
+    val dv = step(at.dvdx, at.dvdy)
+    at.p = p + at.tangentV * dv
+    at.u = u
+    at.v = v + dv
+    val slopeV = (height(at) - here) / dv
+    at.p = p
+    at.v = v
+    val up = at.frame.n * at.bumpSide
+    val dpdu = at.tangentU + up * slopeU + at.dndu * here
+    val dpdv = at.tangentV + up * slopeV + at.dndv * here
+    val n = dpdu cross dpdv
+    if n.lengthSquared > 0f then
+      at.frame = Frame.along(n.normalized.facing(at.geometricNormal), dpdu)
+    inner.bsdf(at)
+
+  private def step(dx: Float, dy: Float): Float =
+    val d = 0.5f * (Math.abs(dx) + Math.abs(dy))
+    if d == 0f then smallest else d
+
+/** A material on a surface whose normals a picture says, as red, green and blue between 0 and 1 for
+  * coordinates along u, v and the normal between −1 and 1 (pbrt-v4).
+  */
+final class NormalMapMaterial(inner: Material, picture: MipLevel) extends Material:
+  override def isAnisotropic: Boolean = inner.isAnisotropic
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val c = picture.bilinear(at.u, 1f - at.v)
+    val frame = Frame.along(at.frame.n, at.tangentU)
+    val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
+    if n.lengthSquared > 0f then
+      at.frame = Frame.along(n.normalized.facing(at.geometricNormal), at.tangentU)
+    inner.bsdf(at)

@@ -1,0 +1,60 @@
+package candela.cameras
+
+import candela.geometry.{Frame, Ray, ShadingPoint}
+import candela.math.*
+
+/** The footprint of a pixel on a surface anywhere, as if the camera saw the place: what pbrt-v4
+  * takes where a ray has no differential of its own. The camera's sharpest pixel is taken, so that
+  * nothing is blurred too much.
+  *
+  * @param eye      the camera's position
+  * @param stepX    between the origins of neighbouring rays (orthographic cameras), with `stepY`
+  * @param turnX    between their unit directions (perspective cameras), with `turnY`
+  * @param scale    by the density of samples
+  */
+final class PixelCone(
+    eye: Vec3,
+    stepX: Float,
+    stepY: Float,
+    turnX: Float,
+    turnY: Float,
+    scale: Float
+):
+  private val directionX = Vec3(turnX, 0f, 1f - 0.5f * square(turnX))
+  private val directionY = Vec3(0f, turnY, 1f - 0.5f * square(turnY))
+
+  /** Sets `at.dpdx` and `at.dpdy`. */
+  def meet(at: ShadingPoint): Unit =
+    val along = at.p - eye
+    val distance = along.length
+    val frame = Frame.around(if distance > 0f then along * (1f / distance) else Vec3.Z)
+    val n = frame.toLocal(at.geometricNormal)
+    at.dpdx = frame.toWorld(meeting(Vec3(stepX, 0f, 0f), directionX, n, distance)) * scale
+    at.dpdy = frame.toWorld(meeting(Vec3(0f, stepY, 0f), directionY, n, distance)) * scale
+
+  /** From the point at `distance` along z to where the other ray meets its tangent plane. */
+  private def meeting(o: Vec3, d: Vec3, n: Vec3, distance: Float): Vec3 =
+    val p = Vec3(0f, 0f, distance)
+    val t = ((p - o) dot n) / (d dot n)
+    if java.lang.Float.isFinite(t) then o + d * t - p else Vec3.Zero
+
+object PixelCone:
+  /** Rays along the image's diagonal, of which the closest neighbours count. */
+  private val Probes = 512
+
+  def of(camera: Camera, eye: Vec3, width: Int, height: Int, scale: Float): PixelCone =
+    val (ray, scratch) = (Ray(), Ray())
+    val found = (0 until Probes).map: i =>
+      val part = i.toFloat / (Probes - 1)
+      val (x, y) = (part * width, part * height)
+      camera.generate(x, y, 0.5f, 0.5f, ray)
+      camera.differential(x, y, 0.5f, 0.5f, 1f, ray, scratch)
+      val d = ray.differential
+      Array(
+        (d.xOrigin - ray.origin).length,
+        (d.yOrigin - ray.origin).length,
+        (d.xDirection - ray.direction).length,
+        (d.yDirection - ray.direction).length
+      )
+    def least(k: Int) = found.map(_(k)).min
+    PixelCone(eye, least(0), least(1), least(2), least(3), scale)

@@ -1,0 +1,78 @@
+package candela.geometry
+
+import candela.math.*
+
+/** Two rays beside a ray: those of the next place on the film to the right (x) and below (y). How
+  * far they are apart where they meet a surface says which detail of a texture can be seen.
+  *
+  * Source: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
+  */
+final class RayDifferential:
+  /** Are there such rays? Not after a scattering that sends neighbours to all sides. */
+  var isKnown = false
+
+  var xOrigin, xDirection, yOrigin, yDirection: Vec3 = Vec3.Zero
+
+  /** Sets `at.dpdx` and `at.dpdy`: where the two rays meet the tangent plane.
+    *
+    * @return false, and nothing is set, if they don't
+    */
+  def meet(at: ShadingPoint): Boolean =
+    val n = at.geometricNormal
+    val tx = ((at.p - xOrigin) dot n) / (xDirection dot n)
+    val ty = ((at.p - yOrigin) dot n) / (yDirection dot n)
+    val meets = isKnown && java.lang.Float.isFinite(tx) && java.lang.Float.isFinite(ty)
+    if meets then
+      at.dpdx = xOrigin + xDirection * tx - at.p
+      at.dpdy = yOrigin + yDirection * ty - at.p
+    meets
+
+  /** Follows the rays, which met the plane at `at`, through the mirror there.
+    *
+    * @param wo where the ray came from, as a unit vector
+    * @param wi its new direction
+    */
+  def reflect(at: ShadingPoint, wo: Vec3, wi: Vec3): Unit =
+    val n = at.frame.n
+    val cosine = wo dot n
+    def direction(old: Vec3, dn: Vec3): Vec3 =
+      val dwo = -old - wo
+      val dCosine = (dwo dot n) + (wo dot dn)
+      wi - dwo + (dn * cosine + n * dCosine) * 2f
+    xDirection = direction(xDirection, dndx(at))
+    yDirection = direction(yDirection, dndy(at))
+    leave(at)
+
+  /** Follows the rays through a smooth refracting surface.
+    *
+    * @param eta index of refraction on the side of `wi` over that of `wo`
+    */
+  def refract(at: ShadingPoint, wo: Vec3, wi: Vec3, eta: Float): Unit =
+    val side = if (wo dot at.frame.n) < 0f then -1f else 1f
+    val n = at.frame.n * side
+    val (cosine, inside) = (wo dot n, wi absDot n)
+    val ratio = 1f / eta
+    // Snell's law is wi = −ratio·wo + mu·n; its derivative by the product rule
+    val mu = ratio * cosine - inside
+    def direction(old: Vec3, dn: Vec3): Vec3 =
+      val dwo = -old - wo
+      val dCosine = (dwo dot n) + (wo dot dn)
+      val dMu = (ratio - ratio * ratio * cosine / inside) * dCosine
+      wi - dwo * ratio + dn * mu + n * dMu
+    xDirection = direction(xDirection, dndx(at) * side)
+    yDirection = direction(yDirection, dndy(at) * side)
+    leave(at)
+
+  private def leave(at: ShadingPoint): Unit =
+    xOrigin = at.p + at.dpdx
+    yOrigin = at.p + at.dpdy
+    isKnown = isSane(xOrigin) && isSane(yOrigin) && isSane(xDirection) && isSane(yDirection)
+
+  private def isSane(v: Vec3): Boolean = v.lengthSquared < RayDifferential.Largest
+
+  private def dndx(at: ShadingPoint): Vec3 = at.dndu * at.dudx + at.dndv * at.dvdx
+  private def dndy(at: ShadingPoint): Vec3 = at.dndu * at.dudy + at.dndv * at.dvdy
+
+object RayDifferential:
+  /** Squared; beyond, rounding and grazing angles have made nonsense of a difference. */
+  private val Largest = 1e16f

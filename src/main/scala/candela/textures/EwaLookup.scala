@@ -1,0 +1,96 @@
+package candela.textures
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Weighs texels by a Gaussian whose ellipse is the footprint's.
+  *
+  * Source: Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, §3.5: elliptical
+  * weighted average.
+  *
+  * @param maxAnisotropy the longest an ellipse may be, in widths; a longer one is widened
+  */
+final class EwaLookup(
+    pyramid: Array[MipLevel],
+    maxAnisotropy: Float,
+    bottomUp: Boolean,
+    turned: Boolean
+) extends FilteredLookup(pyramid, bottomUp, turned):
+
+  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+    val lengthX = sqrt(square(dsdx) + square(dydx))
+    val lengthY = sqrt(square(dsdy) + square(dydy))
+    val major = Math.max(lengthX, lengthY)
+    val minor = Math.min(lengthX, lengthY)
+    val widening =
+      if minor > 0f && minor * maxAnisotropy < major then major / (minor * maxAnisotropy) else 1f
+    if minor == 0f then pyramid(0).bilinear(s, y)
+    else
+      val widenX = if lengthX < lengthY then widening else 1f
+      val widenY = if lengthX < lengthY then 1f else widening
+      val (ax, ay, bx, by) = (dsdx * widenX, dydx * widenX, dsdy * widenY, dydy * widenY)
+      val lod = Math.max(0f, last + log2(minor * widening))
+      if lod >= last then top
+      else
+        val whole = lod.toInt
+        val part = lod - whole
+        val finer = EwaLookup.average(pyramid(whole), s, y, ax, ay, bx, by)
+        if part == 0f then finer
+        else finer * (1f - part) + coarser(whole + 1, s, y, ax, ay, bx, by) * part
+
+  private def coarser(i: Int, s: Float, y: Float, ax: Float, ay: Float, bx: Float, by: Float) =
+    EwaLookup.average(pyramid(i), s, y, ax, ay, bx, by)
+
+object EwaLookup:
+
+  /** Of the Gaussian exp(−2r²) − exp(−2), by squared radius; pbrt's steps. */
+  private val Steps = 128
+  private val weights = Array.tabulate(Steps): i =>
+    (Math.exp(-2.0 * i / (Steps - 1)) - Math.exp(-2.0)).toFloat
+
+  /** The average over the ellipse spanned by (`ax`, `ay`) and (`bx`, `by`), widened by one texel so
+    * that it holds some.
+    */
+  private[textures] def average(
+      level: MipLevel,
+      s: Float,
+      row: Float,
+      ax: Float,
+      ay: Float,
+      bx: Float,
+      by: Float
+  ): Rgb =
+    val (w, h) = (level.width.toFloat, level.height.toFloat)
+    val x = s * w - 0.5f
+    val y = row * h - 0.5f
+    // The ellipse is a·dx² + b·dx·dy + c·dy² = 1 (Heckbert, p. 80)
+    val a0 = square(ay * h) + square(by * h) + 1f
+    val b0 = -2f * (ax * w * ay * h + bx * w * by * h)
+    val c0 = square(ax * w) + square(bx * w) + 1f
+    val f = 1f / (a0 * c0 - 0.25f * b0 * b0)
+    val (a, b, c) = (a0 * f, b0 * f, c0 * f)
+    // Half its extent along each axis: the roots of the inverse matrix's diagonal
+    val reachX = sqrt(c0)
+    val reachY = sqrt(a0)
+    val x1 = MipLevel.floor(x + reachX)
+    val y1 = MipLevel.floor(y + reachY)
+    var sum, red, green, blue = 0f
+    var iy = MipLevel.floor(y - reachY) + 1
+    while iy <= y1 do
+      val dy = iy - y
+      var ix = MipLevel.floor(x - reachX) + 1
+      while ix <= x1 do
+        val dx = ix - x
+        val r2 = a * dx * dx + b * dx * dy + c * dy * dy
+        if r2 < 1f then
+          val weight = weights(Math.min((r2 * Steps).toInt, Steps - 1))
+          val texel = level.index(ix, iy)
+          sum += weight
+          red += weight * level(texel, 0)
+          if !level.isGray then
+            green += weight * level(texel, 1)
+            blue += weight * level(texel, 2)
+        ix += 1
+      iy += 1
+    val scale = 1f / sum
+    if level.isGray then Rgb.gray(red * scale) else Rgb(red * scale, green * scale, blue * scale)

@@ -1,0 +1,68 @@
+package candela.textures
+
+import candela.math.*
+
+/** Sums of noise at several scales, each about twice as fine as the one before and `omega` as
+  * strong. Octaves finer than the footprint of a sample are left out, the last one gradually.
+  *
+  * Source: Perlin and Musgrave in Ebert et al., "Texturing & Modeling", 1994; PBRT 3rd ed., §10.6.
+  */
+object Octaves:
+  /** Not 2, so that the zeros of the octaves don't fall together. */
+  private val Lacunarity = 1.99f
+
+  /** The mean of the noise's magnitude, about. */
+  private val MeanMagnitude = 0.2f
+
+  /** Fractional Brownian motion.
+    *
+    * @param footprint squared, in the space of `p`
+    */
+  def fbm(p: Vec3, footprint: Float, omega: Float, most: Int): Float =
+    val count = visible(footprint, most)
+    val whole = count.toInt
+    var sum = 0f
+    var scale = 1f
+    var strength = 1f
+    var i = 0
+    while i < whole do
+      sum += strength * PerlinNoise(p * scale)
+      scale *= Lacunarity
+      strength *= omega
+      i += 1
+    sum + strength * fade(count - whole) * PerlinNoise(p * scale)
+
+  /** The sum of the noises' magnitudes, with the mean in place of those too fine to see.
+    *
+    * @param evenMean are these means all alike, as in pbrt-v2, or as strong as their octave?
+    */
+  def turbulence(p: Vec3, footprint: Float, omega: Float, most: Int, evenMean: Boolean): Float =
+    val count = visible(footprint, most)
+    val whole = count.toInt
+    var sum = 0f
+    var scale = 1f
+    var strength = 1f
+    var i = 0
+    while i < whole do
+      sum += strength * abs(PerlinNoise(p * scale))
+      scale *= Lacunarity
+      strength *= omega
+      i += 1
+    val last = abs(PerlinNoise(p * scale))
+    val part = fade(count - whole)
+    if evenMean then sum + strength * part * last + (most - count) * MeanMagnitude
+    else
+      sum += strength * lerp(part, MeanMagnitude, last)
+      while i < most do
+        sum += strength * MeanMagnitude
+        strength *= omega
+        i += 1
+      sum
+
+  /** How many octaves are coarser than twice the footprint. */
+  private def visible(footprint: Float, most: Int): Float =
+    if footprint > 0f then clamp(-1f - 0.5f * log2(footprint), 0f, most.toFloat) else most.toFloat
+
+  private def fade(part: Float): Float =
+    val t = clamp((part - 0.3f) / 0.4f, 0f, 1f)
+    t * t * (3f - 2f * t)

@@ -1,0 +1,76 @@
+package candela.textures
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+
+/** Fractional Brownian motion through space: clouds. */
+final class FbmTexture(mapping: Mapping3D, octaves: Int, omega: Float) extends FloatTexture:
+  def apply(at: ShadingPoint): Float =
+    Octaves.fbm(mapping(at), mapping.footprintSquared(at), omega, octaves)
+
+/** Magnitudes of noise: creases, as in wrinkled skin. `evenMean` as for [[Octaves.turbulence]]. */
+final class WrinkledTexture(mapping: Mapping3D, octaves: Int, omega: Float, evenMean: Boolean)
+    extends FloatTexture:
+  def apply(at: ShadingPoint): Float =
+    Octaves.turbulence(mapping(at), mapping.footprintSquared(at), omega, octaves, evenMean)
+
+/** Waves whose height is itself a coarser noise: water under gusts of wind. */
+final class WindyTexture(mapping: Mapping3D) extends FloatTexture:
+  def apply(at: ShadingPoint): Float =
+    val p = mapping(at)
+    val footprint = mapping.footprintSquared(at)
+    val wind = Octaves.fbm(p * 0.1f, footprint * 0.01f, 0.5f, 3)
+    abs(wind) * Octaves.fbm(p, footprint, 0.5f, 6)
+
+/** Layers along y, shaken by noise, in the colours of grey marble (linear sRGB).
+  *
+  * @param variation  how far noise moves the layers
+  * @param lastCurve  the last of the six curves between the colours that is used: 1 in pbrt-v3,
+  *                   which goes on along it, 5 in the others
+  *
+  * Source: PBRT 3rd ed., §10.6.6.
+  */
+final class MarbleTexture(
+    mapping: Mapping3D,
+    octaves: Int,
+    omega: Float,
+    scale: Float,
+    variation: Float,
+    lastCurve: Int
+) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb =
+    val p = mapping(at) * scale
+    val footprint = mapping.footprintSquared(at) * square(scale)
+    val layer = p.y + variation * Octaves.fbm(p, footprint, omega, octaves)
+    val along = (0.5f + 0.5f * Math.sin(layer.toDouble).toFloat) * MarbleColors.Curves
+    val curve = Math.min(along.toInt, lastCurve)
+    MarbleColors.bezier(curve, along - curve)
+
+private object MarbleColors:
+  private val grey = Rgb(0.58f, 0.58f, 0.6f)
+  private val vein = Rgb(0.2f, 0.2f, 0.33f)
+  private val colors = Array(
+    grey, grey, grey, Rgb.gray(0.5f), Rgb(0.6f, 0.59f, 0.58f), grey, grey, vein, grey
+  )
+  val Curves: Int = colors.length - 3
+
+  /** Brighter than the colours themselves, as pbrt has it, and never negative. */
+  private val Brightness = 1.5f
+
+  def bezier(first: Int, t: Float): Rgb =
+    val s = 1f - t
+    val sum = colors(first) * (s * s * s) + colors(first + 1) * (3f * s * s * t) +
+      colors(first + 2) * (3f * s * t * t) + colors(first + 3) * (t * t * t)
+    sum.map(v => Math.max(0f, v * Brightness))
+
+/** Cubes of `even` and `odd` in turn. */
+final class CubesFloat(mapping: Mapping3D, even: FloatTexture, odd: FloatTexture)
+    extends FloatTexture:
+  def apply(at: ShadingPoint): Float =
+    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
+
+/** Cubes of `even` and `odd` in turn. */
+final class CubesRgb(mapping: Mapping3D, even: RgbTexture, odd: RgbTexture) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb =
+    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
