@@ -51,7 +51,15 @@ private object MarbleColors:
   private val grey = Rgb(0.58f, 0.58f, 0.6f)
   private val vein = Rgb(0.2f, 0.2f, 0.33f)
   private val colors = Array(
-    grey, grey, grey, Rgb.gray(0.5f), Rgb(0.6f, 0.59f, 0.58f), grey, grey, vein, grey
+    grey,
+    grey,
+    grey,
+    Rgb.gray(0.5f),
+    Rgb(0.6f, 0.59f, 0.58f),
+    grey,
+    grey,
+    vein,
+    grey
   )
   val Curves: Int = colors.length - 3
 

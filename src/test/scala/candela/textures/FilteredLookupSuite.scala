@@ -42,8 +42,7 @@ class FilteredLookupSuite extends AnyFunSuite:
     val lookup = TrilinearLookup(levels, 1f, fromSecond = false, bottomUp = false, turned = false)
     for k <- 1 to 6; x <- 0 until Size / (1 << k) by 3 do
       val n = 1 << k
-      val texels = for j <- 0 until n; i <- x * n until (x + 1) * n yield
-        levels(0)(j * Size + i, 0)
+      val texels = for j <- 0 until n; i <- x * n until (x + 1) * n yield levels(0)(j * Size + i, 0)
       val extent = n.toFloat / Size
       val v = lookup.filtered((x + 0.5f) * extent, 0.5f * extent, extent, 0f, 0f, 0f).r
       assert(abs(v - texels.sum / texels.size) < 1e-5f, s"level $k")

@@ -45,17 +45,42 @@ class PerlinNoiseSuite extends AnyFunSuite:
   test("values are those of Perlin's algorithm, worked out by hand"):
     // At the cell's middle all weights are 1/2: the mean of the eight corners' slopes
     val gradients = Vector(
-      (1, 1, 0), (-1, 1, 0), (1, -1, 0), (-1, -1, 0),
-      (1, 0, 1), (-1, 0, 1), (1, 0, -1), (-1, 0, -1),
-      (0, 1, 1), (0, -1, 1), (0, 1, -1), (0, -1, -1),
-      (1, 1, 0), (-1, 1, 0), (0, 1, -1), (0, -1, -1)
+      (1, 1, 0),
+      (-1, 1, 0),
+      (1, -1, 0),
+      (-1, -1, 0),
+      (1, 0, 1),
+      (-1, 0, 1),
+      (1, 0, -1),
+      (-1, 0, -1),
+      (0, 1, 1),
+      (0, -1, 1),
+      (0, 1, -1),
+      (0, -1, -1),
+      (1, 1, 0),
+      (-1, 1, 0),
+      (0, 1, -1),
+      (0, -1, -1)
     )
     // The few entries of Perlin's published permutation that the cell at the origin needs
     val p = Map(
-      0 -> 151, 1 -> 160, 17 -> 36, 18 -> 103, 119 -> 86, 120 -> 164, 151 -> 17, 152 -> 182,
-      160 -> 119, 161 -> 248, 182 -> 108, 183 -> 110, 248 -> 128, 249 -> 195
+      0 -> 151,
+      1 -> 160,
+      17 -> 36,
+      18 -> 103,
+      119 -> 86,
+      120 -> 164,
+      151 -> 17,
+      152 -> 182,
+      160 -> 119,
+      161 -> 248,
+      182 -> 108,
+      183 -> 110,
+      248 -> 128,
+      249 -> 195
     )
-    val slopes = for x <- 0 to 1; y <- 0 to 1; z <- 0 to 1 yield
-      val (gx, gy, gz) = gradients(p(p(p(x) + y) + z) & 15)
-      gx * (0.5f - x) + gy * (0.5f - y) + gz * (0.5f - z)
+    val slopes =
+      for x <- 0 to 1; y <- 0 to 1; z <- 0 to 1 yield
+        val (gx, gy, gz) = gradients(p(p(p(x) + y) + z) & 15)
+        gx * (0.5f - x) + gy * (0.5f - y) + gz * (0.5f - z)
     assert(abs(PerlinNoise(0.5f, 0.5f, 0.5f) - slopes.sum / 8) < 1e-6f)

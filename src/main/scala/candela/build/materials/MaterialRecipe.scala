@@ -1,8 +1,6 @@
 package candela.build
 
-import candela.bsdf.{
-  BumpMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel
-}
+import candela.bsdf.{BumpMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel}
 import candela.scenefile.Dialect
 import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
 
