@@ -35,6 +35,9 @@ abstract class Recipe[A](
   /** All parameters; a name may stand for one in one dialect and for another in the next. */
   final def fields: Vector[Field[?]] = declared.toVector
 
+  final def takes(parameter: String, dialect: Dialect): Boolean =
+    declared.exists(f => f.name == parameter && f.dialects(dialect))
+
   final def support(field: Field[?]): Support = unused.getOrElse(field, Support.Used)
 
   protected final def register[T](field: Field[T]): Field[T] =

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.base.Suggest
+import candela.scenefile.Dialect
 
 /** All recipes of a category, by name.
   *
@@ -8,13 +9,17 @@ import candela.base.Suggest
   */
 final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
+  /** The recipe of this name; if the dialect has none, another dialect's. */
+  def find(name: String, dialect: Dialect): Option[Recipe[A]] =
+    val candidates = all.filter(_.name == name)
+    candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
+
   /** Follows the recipe that the declaration names. A type that is pending is a warning; a name
     * that nobody knows is an error, with the nearest known.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
-    val candidates = all.filter(_.name == name)
-    candidates.find(_.dialects(site.dialect)).orElse(candidates.headOption) match
+    find(name, site.dialect) match
       case Some(recipe) =>
         for instead <- recipe.pending do
           site.warn(s"$category \"$name\" is not supported yet: $instead")

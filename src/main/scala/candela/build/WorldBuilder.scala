@@ -102,9 +102,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
     if s.objectToWorld.isAnimated then problems.warn(s.shape.at, SceneBuilder.Motion)
     val toWorld = s.objectToWorld.start
-    val here = site(s.shape)
+    val (declared, itsMaterial) = shapeMaterials.split(s.shape, s.material)
+    val here = site(declared)
     for geometry <- Shapes.all.build(here).flatten do
-      val material = materialIndex(s.material)
+      val material = materialIndex(itsMaterial)
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
       geometry match
         case mesh: ShapeGeometry.Triangles =>
@@ -186,6 +187,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     )
 
   private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
+  private lazy val shapeMaterials = ShapeMaterials(description.dialect, named)
 
 /** The lights of an emitting mesh, to be.
   *

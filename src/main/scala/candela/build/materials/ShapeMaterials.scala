@@ -1,0 +1,34 @@
+package candela.build
+
+import candela.scenefile.{Declaration, Dialect, MaterialRef}
+
+/** In v2 and v3 a `Shape` statement can give parameters of its material, too, which then replace
+  * those of the material for this shape alone. In v2 this does not reach named materials.
+  */
+final class ShapeMaterials(dialect: Dialect, named: Map[String, Declaration]):
+
+  /** The shape without such parameters, and the material with them. */
+  def split(shape: Declaration, material: MaterialRef): (Declaration, MaterialRef) =
+    val pair =
+      for
+        said <- declaration(shape, material)
+        surface <- Materials.all.find(said.name, dialect)
+        geometry <- Shapes.all.find(shape.name, dialect)
+        moved = shape.params.filter: p =>
+          surface.takes(p.name, dialect) && !geometry.takes(p.name, dialect)
+        if moved.nonEmpty
+      yield
+        val kept = said.params.filterNot(p => moved.exists(_.name == p.name))
+        (
+          shape.copy(params = shape.params.filterNot(moved.contains)),
+          MaterialRef.Inline(said.copy(params = kept ++ moved))
+        )
+    pair.getOrElse((shape, material))
+
+  private def declaration(shape: Declaration, material: MaterialRef): Option[Declaration] =
+    material match
+      case _ if dialect == Dialect.V4 => None
+      case MaterialRef.Inline(d) => Some(d)
+      case MaterialRef.Named(name, _) => named.get(name).filter(_ => dialect == Dialect.V3)
+      case MaterialRef.Default =>
+        Some(shape.copy(category = "Material", name = "matte", params = Vector.empty))
