@@ -17,17 +17,28 @@ import candela.math.*
   *
   * @param objects  what there is to be placed
   * @param objectOf index into `objects` of each instance
-  * @param matrices 24 Doubles an instance, as [[Placement]] has them
+  * @param matrices those of the first instances, which stand still: 24 Doubles each, as
+  *                 [[candela.math.Motion]] writes them
+  * @param motions  of the instances after those
+  * @param open     when the shutter opens, and when it closes
   */
-final class Instances(
+final class Instances private (
     objects: Array[Accelerator],
     val objectOf: Array[Int],
-    matrices: Array[Double]
+    matrices: Array[Double],
+    motions: Array[Motion],
+    open: Float,
+    close: Float
 ):
+  private val still = matrices.length / Motion.Doubles
+
   def count: Int = objectOf.length
+  def moving: Int = motions.length
 
   def bounds(i: Int): Bounds3 =
-    Placement.bounds(matrices, i * Placement.Doubles, objects(objectOf(i)).bounds)
+    val box = objects(objectOf(i)).bounds
+    if i < still then Placement.bounds(matrices, i * Motion.Doubles, box)
+    else Placement.bounds(motions(i - still), open, close, box)
 
   /** The closest hit of instance `i` in (0, `ray.tMax`): shortens the ray, and writes which
     * primitive of the object it was to `hit.inner`; `hit.primitive` stays as it is.
@@ -46,20 +57,48 @@ final class Instances(
     objects(objectOf(i)).isOccluded(enter(i, ray), hit)
 
   /** The ray in the space of the object: it lies in `ray.nested`. */
-  def enter(i: Int, ray: Ray): Ray = Placement.enter(matrices, i * Placement.Doubles, ray)
+  def enter(i: Int, ray: Ray): Ray =
+    if i < still then Placement.enter(matrices, i * Motion.Doubles, ray)
+    else
+      val space = ray.nested.space
+      motions(i - still).write(ray.time, space, 0)
+      Placement.enter(space, 0, ray)
 
-  /** Takes a shading point on instance `i` from the object's space to the world. */
-  def locate(i: Int, at: ShadingPoint): Unit =
-    Placement.locate(matrices, i * Placement.Doubles, at)
+  /** Takes a shading point on instance `i` from the object's space to the world; the ray is the one
+    * that has just been asked to [[enter]] it.
+    */
+  def locate(i: Int, ray: Ray, at: ShadingPoint): Unit =
+    if i < still then Placement.locate(matrices, i * Motion.Doubles, at)
+    else Placement.locate(ray.nested.space, 0, at)
 
 object Instances:
-  val None: Instances = Instances(Array.empty, Array.empty, Array.empty)
+  val None: Instances = of(Array.empty, Vector.empty)
 
-  /** @param places (index into `objects`, object to world) */
-  def of(objects: Array[Accelerator], places: IndexedSeq[(Int, Transform)]): Instances =
-    val matrices = new Array[Double](places.length * Placement.Doubles)
+  /** @param places      (index into `objects`, object to world); those that move are numbered last
+    * @param open, close when the shutter is open
+    */
+  def of(
+      objects: Array[Accelerator],
+      places: IndexedSeq[(Int, Motion)],
+      open: Float = 0f,
+      close: Float = 1f
+  ): Instances =
+    val moving = places.count(_._2.moves)
+    val still = places.length - moving
+    val matrices = new Array[Double](still * Motion.Doubles)
+    val motions = new Array[Motion](moving)
     val objectOf = new Array[Int](places.length)
+    var atRest = 0
+    var underWay = 0
     loop(places.length): i =>
-      objectOf(i) = places(i)._1
-      Placement.write(places(i)._2, matrices, i * Placement.Doubles)
-    Instances(objects, objectOf, matrices)
+      val which = places(i)._1
+      val motion = places(i)._2
+      if motion.moves then
+        objectOf(still + underWay) = which
+        motions(underWay) = motion
+        underWay += 1
+      else
+        objectOf(atRest) = which
+        motion.write(0f, matrices, atRest * Motion.Doubles)
+        atRest += 1
+    new Instances(objects, objectOf, matrices, motions, open, close)

@@ -3,21 +3,36 @@ package candela.build
 import scala.collection.mutable.ArrayBuffer
 
 import candela.base.Suggest
-import candela.math.Transform
+import candela.math.{Motion, MotionProduct}
 import candela.scenefile.*
 
-/** An object, and where it stands. */
-final case class PlacedObject(shapes: Vector[ShapeDescription], places: Vector[Transform])
+/** An object, and where it stands or how it moves. */
+final case class PlacedObject(shapes: Vector[ShapeDescription], places: Vector[Motion])
 
-/** Decides which instances share their object's surfaces, and which are copies: an object that
-  * stands in one place only is cheaper to trace among the world's surfaces, and needs no more
-  * memory there. So do perspective maps, which no instance can have.
+/** Decides which shapes are the world's own, and which are objects that instances place in it:
   *
-  * No instance emits light, as in pbrt (which says so in a warning, too).
+  *   - An object that stands in one place only is cheaper to trace among the world's surfaces, and
+  *     needs no more memory there: it is copied. So are objects seen through perspective maps,
+  *     which no instance can have.
+  *   - A shape that moves is an object; within an object, it is one of its own wherever that
+  *     stands.
+  *
+  * No instance emits light and nothing that moves does, as in pbrt (which warns of it, too; pbrt-v4
+  * refuses moving lamps).
   */
 private[build] final class ObjectUses(description: SceneDescription, problems: Findings):
-  private val copies = ArrayBuffer.empty[ShapeDescription]
+  private val motions = Motions(description)
+  private val own = ArrayBuffer.empty[ShapeDescription]
   private val objects = ArrayBuffer.empty[PlacedObject]
+
+  for s <- description.shapes do
+    if Motions.moves(s.objectToWorld) then
+      val dark = withoutLight(s, "a moving shape emits no light: area lights can't move")
+      objects += PlacedObject(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
+    else
+      if s.objectToWorld.isAnimated then
+        problems.warn(s.shape.at, Motions.stands("what is seen through a perspective map"))
+      own += s
 
   for (name, uses) <- description.instances.groupBy(_.name).toVector.sortBy(_._1) do
     description.objects.get(name) match
@@ -31,29 +46,38 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
             Suggest.help(name, description.objects.keys)
           )
       case Some(shapes) =>
-        val dark = shapes.map(withoutLight)
-        val (placed, copied) = uses.partition(u => uses.length > 1 && isAffine(u))
-        for u <- copied do copies ++= dark.map(moved(_, u.instanceToWorld))
-        if placed.nonEmpty && dark.nonEmpty then
-          for u <- placed if u.instanceToWorld.isAnimated do
-            problems.warn(u.at, SceneBuilder.Motion)
-          objects += PlacedObject(dark, placed.map(_.instanceToWorld.start))
+        val message = "a shape in an object emits no light: area lights can't be instanced"
+        place(shapes.map(withoutLight(_, message)), uses)
 
-  /** Shapes of the world that stand for an instance. */
-  def copied: Vector[ShapeDescription] = copies.toVector
+  /** Shapes of the world, copies of objects among them. */
+  def world: Vector[ShapeDescription] = own.toVector
 
-  /** Objects that stand in several places. */
+  /** Objects that stand in several places, or move. */
   def shared: Vector[PlacedObject] = objects.toVector
 
-  private def withoutLight(s: ShapeDescription): ShapeDescription =
-    for light <- s.areaLight do
-      problems.warn(light.at, "a shape in an object emits no light: area lights can't be instanced")
+  private def place(shapes: Vector[ShapeDescription], uses: Vector[InstanceDescription]): Unit =
+    val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
+    for u <- seen do
+      if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
+        problems.warn(u.at, Motions.stands("what is seen through a perspective map"))
+      own ++= shapes.map(copied(_, u))
+    val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
+    val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
+    val places = affine.map(u => motions.ofInstance(u.instanceToWorld))
+    if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
+    else if still.nonEmpty && places.nonEmpty then objects += PlacedObject(still, places)
+    if places.nonEmpty then
+      for s <- moving do
+        val within = motions.of(s.objectToWorld)
+        objects += PlacedObject(Vector(atOrigin(s)), places.map(MotionProduct(_, within)))
+
+  private def withoutLight(s: ShapeDescription, message: String): ShapeDescription =
+    for light <- s.areaLight do problems.warn(light.at, message)
     s.copy(areaLight = None)
 
-  private def moved(s: ShapeDescription, t: AnimatedTransform): ShapeDescription =
-    val toWorld = AnimatedTransform(t.start * s.objectToWorld.start, t.end * s.objectToWorld.end)
-    s.copy(objectToWorld = toWorld)
+  private def atOrigin(s: ShapeDescription): ShapeDescription =
+    s.copy(objectToWorld = GraphicsState.Identity)
 
-  private def isAffine(i: InstanceDescription): Boolean =
-    val AnimatedTransform(start, end) = i.instanceToWorld
-    start.isAffine && end.isAffine && !start.isFlat && !end.isFlat
+  private def copied(s: ShapeDescription, use: InstanceDescription): ShapeDescription =
+    val toWorld = use.instanceToWorld.start * s.objectToWorld.start
+    s.copy(objectToWorld = GraphicsState.still(toWorld))

@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.base.{Problem, SceneError, Severity}
-import candela.cameras.PixelCone
+import candela.cameras.{MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.math.*
 import candela.render.{PixelBounds, RenderPlan}
@@ -55,12 +55,17 @@ object SceneBuilder:
     val sampler = view(description.sampler, Samplers.all, defaults.sampler)(
       SamplerRequest(spp, options.seed ^ settings.seed, width, height)
     )
-    if description.worldToCamera.isAnimated then
-      description.camera.foreach(c => problems.warn(c.at, Motion))
     if description.worldToCamera.start.isFlat then
       description.camera.foreach(c => problems.error(c.at, "the camera's transform is singular"))
+    else if description.worldToCamera.isAnimated && !Motions.moves(description.worldToCamera) then
+      description.camera.foreach(c => problems.warn(c.at, Motions.stands("this camera")))
     val cameraPlan = view(description.camera, Cameras.all, "perspective")
-    val camera = cameraPlan.make(description.worldToCamera.start.inverse, width, height)
+    val motions = Motions(description)
+    val camera = motions.camera match
+      case Some(motion) =>
+        MovingCamera(cameraPlan.make(Transform.Identity, width, height), motion)
+      case None => cameraPlan.make(description.worldToCamera.start.inverse, width, height)
+    val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
     warnOfWholes(description, resources, problems)
@@ -71,7 +76,8 @@ object SceneBuilder:
     def footprints =
       val cone = Option.when(isV4)(PixelCone.of(camera, eye, width, height, scale))
       Footprints(integrator.followsSpecular, cone)
-    val world = WorldBuilder(description, resources, problems).build(integrator, footprints)
+    val world = WorldBuilder(description, shutter, resources, problems)
+      .build(integrator, footprints)
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -86,8 +92,10 @@ object SceneBuilder:
       imageScale = film.scale * exposure,
       filename = film.filename,
       features = ("dialect", description.dialect.toString.toLowerCase) +:
-        ("integrator", integrator.describe) +: world.features,
-      differentialScale = if resources.footprintUses.isEmpty then 0f else scale
+        ("integrator", integrator.describe) +: world.features :+
+        ("motion", moving(motions.camera.isDefined, world.moves, shutter)),
+      differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
+      shutter = Option.when(motions.camera.isDefined || world.moves)(shutter)
     )
     (plan, problems.result)
 
@@ -97,8 +105,9 @@ object SceneBuilder:
   /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
   private val SharpestV4 = 0.125f
 
-  private[build] val Motion =
-    "motion is not supported yet: it stands still as at the start of the shutter"
+  private def moving(camera: Boolean, world: Boolean, shutter: Shutter): String =
+    val what = Seq("camera" -> camera, "shapes" -> world).filter(_._2).map(_._1).mkString(" and ")
+    if what.isEmpty then "none" else s"$what, from ${shutter.open} to ${shutter.close}"
 
   /** Statements that are understood and have no effect on the picture yet. */
   private def warnOfWholes(

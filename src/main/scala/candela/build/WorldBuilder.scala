@@ -5,18 +5,28 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Accelerator, Bvh, Instances, Primitives}
 import candela.bsdf.Material
+import candela.cameras.Shutter
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
-import candela.math.Transform
+import candela.math.{Motion, Transform}
 import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
 import candela.shapes.{BumpTangents, TriangleSampler, TriangleSoup}
 
 /** The world, ready to render, with what it holds in words. */
-final class World(val integrator: Integrator, val features: Vector[(String, String)])
+final class World(
+    val integrator: Integrator,
+    val features: Vector[(String, String)],
+    val moves: Boolean
+)
 
 /** Makes shapes, materials and lights of a description. */
-final class WorldBuilder(description: SceneDescription, resources: Resources, problems: Findings):
+final class WorldBuilder(
+    description: SceneDescription,
+    shutter: Shutter,
+    resources: Resources,
+    problems: Findings
+):
   private val materials = ArrayBuffer.empty[Material]
   private val materialOf = mutable.HashMap.empty[MaterialRef, Int]
   private val world = SurfaceBuilder()
@@ -32,9 +42,10 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
   /** @param footprints made if a texture or a material has asked for them */
   def build(integrator: IntegratorPlan, footprints: => Footprints): World =
     for t <- description.textures do
+      if t.textureToWorld.isAnimated then problems.warn(t.texture.at, Motions.stands("a texture"))
       Textures.define(t, site(t.texture, t.textureToWorld.start))
     val uses = ObjectUses(description, problems)
-    for s <- description.shapes ++ uses.copied do add(s, world)
+    for s <- uses.world do add(s, world)
     val objectBuilders = uses.shared.map: placed =>
       val builder = SurfaceBuilder()
       for s <- placed.shapes do add(s, builder)
@@ -77,7 +88,8 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
           (if resources.footprintUses.isEmpty then "none: no texture asks for them"
            else resources.footprintUses.mkString("for ", ", ", "")),
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
-      )
+      ),
+      instanced.instances.moving > 0
     )
 
   private def masked(surfaces: Vector[Surfaces]): String =
@@ -88,10 +100,11 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     for c <- description.camera do
       problems.warn(c.at, "the scene has no light: its image will be black")
 
-  private def instances(objects: Vector[Surfaces], places: Vector[Vector[Transform]]): Instanced =
+  private def instances(objects: Vector[Surfaces], places: Vector[Vector[Motion]]): Instanced =
     val accelerators = objects.map(accelerate(_, Instances.None))
     val all = places.zipWithIndex.flatMap((transforms, o) => transforms.map(t => (o, t)))
-    Instanced(objects.toArray, Instances.of(accelerators.toArray, all))
+    val placed = Instances.of(accelerators.toArray, all, shutter.open, shutter.close)
+    Instanced(objects.toArray, placed)
 
   private def accelerate(surfaces: Surfaces, instances: Instances): Accelerator =
     structure(surfaces.primitives(instances))
@@ -100,7 +113,6 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
     description.accelerator.flatMap(d => Accelerators.all.build(site(d))).getOrElse(Bvh(_))
 
   private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
-    if s.objectToWorld.isAnimated then problems.warn(s.shape.at, SceneBuilder.Motion)
     val toWorld = s.objectToWorld.start
     val (declared, itsMaterial) = shapeMaterials.split(s.shape, s.material)
     val here = site(declared)
@@ -151,7 +163,7 @@ final class WorldBuilder(description: SceneDescription, resources: Resources, pr
           lightSamples += plan.samples
 
   private def plan(l: LightDescription): Option[LightPlan] =
-    if l.lightToWorld.isAnimated then problems.warn(l.light.at, SceneBuilder.Motion)
+    if l.lightToWorld.isAnimated then problems.warn(l.light.at, Motions.stands("a light"))
     Lights.all.build(site(l.light))
 
   private def addLight(l: LightDescription, made: Option[LightPlan], complete: Boolean): Unit =

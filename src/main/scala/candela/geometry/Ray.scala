@@ -34,7 +34,13 @@ final class Ray:
   def direction: Vec3 = Vec3(dx, dy, dz)
   def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)
 
+  /** When the ray is under way, in the scene's unit of time; [[set]] leaves it as it is. Only plans
+    * with motion look at it.
+    */
+  var time = 0f
+
   private var within: Option[Ray] = None
+  private var matrices: Array[Double] = Array.empty
 
   /** A ray of its own for the way through something inside, in that thing's space; made when it is
     * first asked for.
@@ -42,6 +48,11 @@ final class Ray:
   def nested: Ray =
     if within.isEmpty then within = Some(Ray())
     within.get
+
+  /** Work space for a map that holds at the ray's time; made when it is first asked for. */
+  def space: Array[Double] =
+    if matrices.length == 0 then matrices = new Array[Double](Motion.Work)
+    matrices
 
   def set(origin: Vec3, direction: Vec3, end: Float): Unit =
     set(origin.x, origin.y, origin.z, direction.x, direction.y, direction.z, end)

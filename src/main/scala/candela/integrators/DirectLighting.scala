@@ -25,6 +25,10 @@ final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int]
 
   def copy(): DirectLighting = DirectLighting(scene, maxDepth, lightSamples)
 
+  override protected def begin(ray: Ray): Unit =
+    super.begin(ray)
+    bsdfRay.time = ray.time
+
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then

@@ -26,6 +26,7 @@ final class PathTracer(
   def copy(): PathTracer = PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
+    shadowRay.time = ray.time
     var light = Rgb.Black
     var throughput = Rgb.White
     var depth = 0

@@ -17,7 +17,11 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
   /** Light that the sources send to `at` and on to `wo` (world space). */
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb
 
+  /** What is left to do before a camera ray is followed. */
+  protected def begin(ray: Ray): Unit = shadowRay.time = ray.time
+
   def radiance(ray: Ray, sampler: Sampler): Rgb =
+    begin(ray)
     var light = Rgb.Black
     var throughput = Rgb.White
     var depth = 0

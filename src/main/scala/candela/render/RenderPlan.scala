@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.cameras.Camera
+import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
 import candela.film.Filter
 import candela.integrators.Integrator
@@ -20,6 +20,7 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   *                     infinity, never
   * @param differentialScale of camera rays' differentials; 0: nothing in the scene asks for them
   * @param features     what the plan holds and what it left out, for people: (what, value)
+  * @param shutter      when it is open, if anything moves; else all rays have the same time
   */
 final class RenderPlan(
     val width: Int,
@@ -34,5 +35,6 @@ final class RenderPlan(
     val imageScale: Float,
     val filename: String,
     val features: Vector[(String, String)],
-    val differentialScale: Float = 0f
+    val differentialScale: Float = 0f,
+    val shutter: Option[Shutter] = None
 )

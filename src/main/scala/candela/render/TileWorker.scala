@@ -1,5 +1,6 @@
 package candela.render
 
+import candela.cameras.Shutter
 import candela.film.{Film, FilterSampler}
 import candela.geometry.Ray
 
@@ -19,6 +20,8 @@ private[render] final class TileWorker(
   private val ray = Ray()
   private val scratch = Ray()
   private val hasDifferentials = plan.differentialScale > 0f
+  private val moves = plan.shutter.isDefined
+  private val shutter = plan.shutter.getOrElse(Shutter(0f, 0f))
 
   // Where the worker is, for the message if something fails.
   private var x, y, sample = 0
@@ -66,6 +69,9 @@ private[render] final class TileWorker(
     sampler.next2D()
     val filmX = x + 0.5f + filterSampler.dx
     val filmY = y + 0.5f + filterSampler.dy
+    if moves then
+      ray.time = shutter.at(sampler.next1D()) // leaves x and y as they are
+      scratch.time = ray.time
     camera.generate(filmX, filmY, sampler.x, sampler.y, ray)
     if hasDifferentials then
       val scale = plan.differentialScale

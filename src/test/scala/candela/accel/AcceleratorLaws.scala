@@ -75,6 +75,8 @@ abstract class AcceleratorLaws(make: Primitives => Accelerator) extends AnyFunSu
       for i <- 0 until rays do
         val (o, d, end) = line(draws, primitives, boxes)
         def at = s"ray $i from $o along $d to $end"
+        ray.time = draws.unit()
+        expectedRay.time = ray.time
         ray.set(o, d, end)
         expectedRay.set(o, d, end)
         val found = accelerator.closest(ray, hit)

@@ -24,7 +24,14 @@ object AcceleratorScenes:
       Vector.tabulate(count): i =>
         val c = centre
         val scale = Transform.scale(size, size, size).get
-        (i % 3, Transform.translate(c.x, c.y, c.z) * draws.rotation() * draws.stretch() * scale)
+        def turned = draws.rotation() * draws.stretch() * scale
+        val there = Transform.translate(c.x, c.y, c.z) * turned
+        val isMoving = i % 4 == 3
+        val away = draws.translation(size)
+        val place =
+          if isMoving then Interpolation(there, away * there, 0f, 1f, shortest = true)
+          else Still(there)
+        (i % 3, place)
     )
 
   def all: Seq[(String, Primitives)] =

@@ -16,7 +16,7 @@ class InstancedSuite extends AnyFunSuite:
 
   private def placed(surfaces: Surfaces, toWorld: Transform): Instanced =
     val primitives = Primitives(surfaces.soup, surfaces.solids.map(_.shape))
-    Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, toWorld))))
+    Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld)))))
 
   private def solid(shape: Shape): Surfaces =
     Surfaces(TriangleSoup.Empty, Array(ShapeInstance(shape, material = 0, light = -1)))
@@ -116,7 +116,7 @@ class InstancedSuite extends AnyFunSuite:
     val mesh = Surfaces(Soups.icosphere(5, Transform.Identity), Array.empty)
     val objects = Array[Accelerator](Bvh(Primitives(mesh.soup, Array.empty)))
     val draws = Draws(5)
-    val places = Vector.fill(10000)((0, placement(draws)))
+    val places = Vector.fill(10000)((0, Still(placement(draws))))
     val thread =
       java.lang.management.ManagementFactory.getThreadMXBean match
         case bean: com.sun.management.ThreadMXBean => bean

@@ -1,0 +1,59 @@
+package candela.build
+
+import candela.cameras.Shutter
+import candela.math.{Interpolation, InverseMotion, Motion, Still, Transform, Vec3}
+import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}
+
+/** How the things of a scene move, as its dialect has it. */
+private[build] final class Motions(description: SceneDescription):
+  private val isV2 = description.dialect == Dialect.V2
+
+  /** Of a shape or an instance. pbrt-v2 interpolates the way back from the world. */
+  def of(t: AnimatedTransform): Motion =
+    if !t.isAnimated then Still(t.start)
+    else if isV2 then InverseMotion(between(t.start.inverse, t.end.inverse))
+    else between(t.start, t.end)
+
+  /** Of the camera, if it moves. */
+  val camera: Option[Motion] =
+    val AnimatedTransform(start, end) = description.worldToCamera
+    Option.when(Motions.moves(description.worldToCamera))(between(start.inverse, end.inverse))
+
+  /** Of an instance. pbrt-v4 has the world's origin where the camera is half-way, and takes an
+    * instance's translation relative to that.
+    */
+  def ofInstance(t: AnimatedTransform): Motion =
+    if t.isAnimated && description.dialect == Dialect.V4 then between(t.start, t.end, v4Origin)
+    else of(t)
+
+  private lazy val v4Origin: Vec3 =
+    val (startTime, endTime) = description.transformTimes
+    val toWorld = camera.getOrElse(Still(description.worldToCamera.start.inverse))
+    toWorld.transform((startTime + endTime) / 2).point(Vec3.Zero)
+
+  private def between(start: Transform, end: Transform, origin: Vec3 = Vec3.Zero): Motion =
+    val (startTime, endTime) = description.transformTimes
+    Interpolation(start, end, startTime, endTime, shortest = !isV2, origin)
+
+private[build] object Motions:
+  /** Has it an inverse, and is it no perspective map? */
+  def isAffine(t: AnimatedTransform): Boolean =
+    Seq(t.start, t.end).forall(m => m.isAffine && !m.isFlat)
+
+  /** Is it a motion that can be rendered? Others have no polar decomposition. */
+  def moves(t: AnimatedTransform): Boolean = t.isAnimated && isAffine(t)
+
+  def stands(what: String): String = s"$what can't move: it stands still as at the start"
+
+/** What [[CameraRecipe]] says of its shutter, for those who move. */
+private[build] object Shutters extends Fields:
+  protected def register[T](field: Field[T]): Field[T] = field
+  private val open = float("shutteropen", "time at which the shutter opens")(0f)
+  private val close = float("shutterclose", "time at which the shutter closes")(1f)
+
+  def of(using site: Site): Shutter =
+    val (from, to) = (open(), close())
+    if to < from then
+      site.warn(s"the shutter closes at $to, before it opens at $from: the two are exchanged")
+      Shutter(to, from)
+    else Shutter(from, to)

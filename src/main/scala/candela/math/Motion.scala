@@ -1,0 +1,71 @@
+package candela.math
+
+/** An affine map that changes with time.
+  *
+  * It comes as [[Motion.Doubles]] numbers: the first three rows of the map, then the first three of
+  * its inverse; so a ray can be moved without allocation.
+  */
+abstract class Motion:
+
+  /** Writes the map that holds at `time` to `to`, from `at` on. What moves may use the rest of
+    * [[Motion.Work]] numbers as well.
+    */
+  def write(time: Float, to: Array[Double], at: Int): Unit
+
+  def moves: Boolean = true
+
+  /** The map at `time` as an object, for whoever asks rarely. */
+  final def transform(time: Float): Transform =
+    val rows = new Array[Double](Motion.Work)
+    write(time, rows, 0)
+    Transform.fromRows(rows.take(12).toIndexedSeq ++ Vector(0.0, 0.0, 0.0, 1.0)).get
+
+object Motion:
+  inline val Doubles = 24
+  inline val Work = 72
+
+  private[math] def put(t: Transform, to: Array[Double], at: Int): Unit =
+    var k = 0
+    while k < 12 do
+      to(at + k) = t.m(k)
+      to(at + 12 + k) = t.inverseM(k)
+      k += 1
+
+/** No motion: the same map always. */
+final class Still(map: Transform) extends Motion:
+  def write(time: Float, to: Array[Double], at: Int): Unit = Motion.put(map, to, at)
+  override def moves: Boolean = false
+
+/** The inverse of another motion, which may differ from the motion between the inverses. */
+final class InverseMotion(of: Motion) extends Motion:
+  override def moves: Boolean = of.moves
+  def write(time: Float, to: Array[Double], at: Int): Unit =
+    of.write(time, to, at)
+    var k = at
+    while k < at + 12 do
+      val swap = to(k)
+      to(k) = to(k + 12)
+      to(k + 12) = swap
+      k += 1
+
+/** First `inner`, then `outer`; neither is a product itself. */
+final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
+  override def moves: Boolean = outer.moves || inner.moves
+  def write(time: Float, to: Array[Double], at: Int): Unit =
+    val a = at + Motion.Doubles
+    val b = a + Motion.Doubles
+    outer.write(time, to, a)
+    inner.write(time, to, b)
+    product(to, a, b, at)
+    product(to, b + 12, a + 12, at + 12)
+
+  /** Three rows each. */
+  private def product(m: Array[Double], a: Int, b: Int, at: Int): Unit =
+    var r = 0
+    while r < 12 do
+      var c = 0
+      while c < 4 do
+        val sum = m(a + r) * m(b + c) + m(a + r + 1) * m(b + 4 + c) + m(a + r + 2) * m(b + 8 + c)
+        m(at + r + c) = if c == 3 then sum + m(a + r + 3) else sum
+        c += 1
+      r += 4
