@@ -56,7 +56,9 @@ private[build] object PlyHeader:
     while more do
       if lines.isAtEnd then fail(source.offset(source.limit), "the header has no `end_header`")
       val line = lines.line()
-      def wrong(what: String) = fail(lines.lastStart, s"$what: `${line.take(60)}`")
+      def wrong(what: String) =
+        val shown = line.take(60).map(c => if Character.isISOControl(c) then '?' else c)
+        fail(lines.lastStart, s"$what: `$shown`")
       line.split("\\s+").toList match
         case "format" :: name :: _ =>
           format = Some(Formats.getOrElse(name, wrong("unknown format")))

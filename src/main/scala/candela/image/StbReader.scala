@@ -28,6 +28,9 @@ private[image] object StbReader:
     val values = w.get(0).toLong * h.get(0) * c.get(0)
     if values <= 0 || values > Int.MaxValue - 8 then
       throw ImageError(s"${w.get(0)}×${h.get(0)} pixels are more than fit into memory")
+    if stored(file, w.get(0), h.get(0), values) > file.remaining.toLong * MostPacked then
+      val bytes = file.remaining
+      throw ImageError(s"${w.get(0)}×${h.get(0)} pixels can't be in a file of $bytes bytes")
     if STBImage.stbi_is_16_bit_from_memory(file) then
       val pixels = STBImage.stbi_load_16_from_memory(file, w, h, c, 0)
       if pixels == null then failed()
@@ -45,6 +48,20 @@ private[image] object StbReader:
         val _ = pixels.get(0, bytes)
         ByteImage(w.get(0), h.get(0), Names(c.get(0) - 1), bytes, Encoding.Srgb)
       finally STBImage.stbi_image_free(pixels)
+
+  /** The bytes of the pixels before their compression: a PNG may have 1, 2 or 4 bits to each. */
+  private def stored(file: ByteBuffer, width: Int, height: Int, values: Long): Long =
+    val isPng = file.remaining > 25 && file.get(1) == 'P' && file.get(2) == 'N'
+    val channels = if isPng then PngChannels.getOrElse(file.get(25).toInt, 1) else 0
+    if isPng then height * ((width.toLong * channels * file.get(24) + 7) / 8) else values
+
+  /** Of PNG's colour types: gray, colours, palette, and the first two with alpha. */
+  private val PngChannels = Map(0 -> 1, 2 -> 3, 3 -> 1, 4 -> 2, 6 -> 4)
+
+  /** No coding does better: deflate reaches 1032, JPEG with one bit a block 1365. Bounds the memory
+    * that a damaged size can ask for; the decoder would fill it up.
+    */
+  private val MostPacked = 1400
 
   private def failed(): Nothing =
     val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")

@@ -53,7 +53,7 @@ private final class Lines(source: Source):
       while count < Lines.Shown && !isLineEnd(count) do count += 1
       while isContinuation(count) do count += 1
       var from = earliest
-      while isContinuation(from - next) do from += 1
+      while from < next && isContinuation(from - next) do from += 1
       Excerpt.of(source.text(from, next), source.text(next, next + count), column)
 
   /** Passes a character or a line end: `\n`, `\r\n` or `\r`. */

@@ -152,6 +152,7 @@ class PlyFileSuite extends AnyFunSuite:
     assert(error("solid\n").contains("line 1: this is no PLY file"))
     assert(error("ply\nformat ascii 1.0\n").contains("no `end_header`"))
     assert(error("ply\nformat utf8 1.0\n").contains("line 2: unknown format: `format utf8 1.0`"))
+    assert(error("ply\nformat a\u0007b\n").endsWith("`format a?b`"))
     assert(error("ply\nelement vertex -3\n").contains("line 2: no sensible count"))
     assert(error("ply\nelement vertex 9999999999\n").contains("line 2: no sensible count"))
     assert(error("ply\nelement vertex 3\nproperty half x\n").contains("line 3: unknown property"))

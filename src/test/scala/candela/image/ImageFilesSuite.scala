@@ -91,3 +91,27 @@ class ImageFilesSuite extends AnyFunSuite:
       val nowhere = folder.resolve("no/c.exr")
       assert(error(ImageFiles.write(nowhere, black)) == s"$nowhere: there is no such folder")
       assert(names(folder) == Vector("a.png", "b.exr"))
+
+  test("a small file that claims to be a huge picture is refused before the memory is taken"):
+    def tga(size: Int) =
+      val bytes = new Array[Byte](905)
+      bytes(2) = 10
+      bytes(16) = 24
+      for at <- List(12, 14) do
+        bytes(at) = size.toByte
+        bytes(at + 1) = (size >> 8).toByte
+      bytes
+    Samples.inFolder: folder =>
+      for (size, isRefused) <- List(20000 -> true, 100 -> false) do
+        val file = Files.write(folder.resolve("a.tga"), tga(size))
+        val answer = Samples.attempt(ImageFiles.load(file))
+        assert(answer.left.exists(_.endsWith("can't be in a file of 905 bytes")) == isRefused)
+
+  test("pictures of few bits a pixel may be packed far more than others"):
+    Samples.inFolder: folder =>
+      val kind = java.awt.image.BufferedImage.TYPE_BYTE_BINARY
+      val picture = java.awt.image.BufferedImage(6000, 6000, kind)
+      val file = folder.resolve("a.png")
+      assert(javax.imageio.ImageIO.write(picture, "png", file.toFile))
+      assert(Files.size(file) < 6000 * 6000 / 1400)
+      assert(ImageFiles.load(file).width == 6000)

@@ -90,3 +90,7 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       val problem = this.problem(file)
       assert(problem.message == "reading stops: here is a word of more than 1 MB")
       assert(problem.at.exists(at => (at.line, at.column) == (2, 2)))
+
+  test("an error in a line that begins within a character has an excerpt"):
+    val bytes = "WorldBegin\n".getBytes(UTF_8) ++ Array[Byte](-128, -65) ++ " x\n".getBytes(UTF_8)
+    withFile(bytes)(file => assert(problem(file).excerpt.nonEmpty))

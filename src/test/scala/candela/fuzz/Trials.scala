@@ -1,0 +1,167 @@
+package candela.fuzz
+
+import java.io.ByteArrayOutputStream
+import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.file.{Files, Path}
+import java.util.zip.GZIPOutputStream
+import scala.jdk.CollectionConverters.*
+import scala.util.Random
+
+import candela.base.{SceneError, Severity}
+import candela.build.{BuildOptions, PlyFile, SceneBuilder}
+import candela.image.{Image, ImageError, ImageFiles}
+import candela.scenefile.Parser
+
+/** What is done with hostile input, each in its own way. */
+enum Kind(val name: String):
+  case Scenes extends Kind("scenes")
+  case Builds extends Kind("builds")
+  case Meshes extends Kind("meshes")
+  case Pictures extends Kind("pictures")
+
+/** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
+  * refusal; whatever else happens is a finding.
+  *
+  * @param from a folder of scenes, meshes and pictures to break
+  */
+final class Trials(from: Path, folder: Path, random: Random):
+  private val all =
+    val found = Files.walk(from)
+    try found.iterator.asScala.toVector.sorted
+    finally found.close()
+
+  private def files(endings: String*): Vector[Array[Byte]] =
+    for
+      path <- all
+      if Files.isRegularFile(path) && endings.exists(path.toString.endsWith)
+      bytes = Files.readAllBytes(path)
+      if bytes.length < 20000 || endings.contains(".pbrt")
+    yield bytes.take(12000)
+
+  if !Files.exists(folder.resolve("bomb.pbrt")) then Trials.prepare(folder)
+  // meshes and pictures that scenes mention are found
+  for path <- all if Files.isRegularFile(path) && Files.size(path) < 200000 do
+    val copy = folder.resolve(from.relativize(path).toString)
+    val _ = Files.createDirectories(copy.getParent)
+    if !Files.exists(copy) then Files.copy(path, copy): Unit
+
+  private val scenes = Mutator(files(".pbrt"), random)
+  private val meshes = Mutator(files(".ply") ++ Trials.meshes, random)
+  private val pictures =
+    Mutator(files(".exr", ".png", ".hdr", ".tga", ".jpg") ++ Trials.pictures(folder), random)
+
+  /** The next broken file; `judge` reads it. */
+  def next(kind: Kind): Path =
+    val (bytes, name) = kind match
+      case Kind.Scenes => (scenes.text(), "self.pbrt")
+      case Kind.Builds =>
+        (if random.nextInt(4) == 0 then scenes.text() else scenes.meaning(), "self.pbrt")
+      case Kind.Meshes =>
+        (if random.nextBoolean() then meshes.bytes() else meshes.text(), "broken.ply")
+      case Kind.Pictures =>
+        (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
+    Files.write(folder.resolve(name), bytes)
+
+  /** What is wrong with the answer to a broken file, if it is. */
+  def judge(kind: Kind, file: Path): Option[String] =
+    try
+      kind match
+        case Kind.Scenes => Option.when(Parser.parse(file).shapes.contains(null))("no shape")
+        case Kind.Builds =>
+          val _ = SceneBuilder.build(Parser.parse(file), BuildOptions(spp = Some(1), quick = true))
+          None
+        case Kind.Meshes =>
+          val mesh = PlyFile.read(file)
+          val vertices = mesh.positions.length / 3
+          val isSound = mesh.indices.forall(i => i >= 0 && i < vertices) &&
+            mesh.positions.forall(java.lang.Float.isFinite)
+          Option.when(!isSound)("an unsound mesh")
+        case Kind.Pictures =>
+          val picture = ImageFiles.read(file)
+          Option.when(picture.width < 1 || picture.height < 1)("an empty picture")
+    catch
+      case e: SceneError => unclear(e)
+      case e: ImageError => Option.when(e.getMessage.isBlank)("an error without a message")
+      case e: Throwable =>
+        Some((e.toString.take(300) +: e.getStackTrace.take(12).toVector).mkString("\n    at "))
+
+  /** An error says what is wrong, on one line, and where, unless it is about the whole file. */
+  private def unclear(e: SceneError): Option[String] =
+    val errors = e.problems.filter(_.severity == Severity.Error)
+    val bad = errors.find(p => p.message.isBlank || p.message.exists(c => c == '\n' || c == '\r'))
+    val lost = errors.find(p => p.at.nonEmpty && p.at.exists(a => a.line < 1 || a.column < 1))
+    if errors.isEmpty then Some("an error without errors")
+    else bad.orElse(lost).map(p => s"an unclear message: $p")
+
+object Trials:
+
+  /** Files that other files can include. */
+  private def prepare(folder: Path): Unit =
+    def write(name: String, text: String) = Files.writeString(folder.resolve(name), text): Unit
+    write("a.pbrt", "Include \"b.pbrt\"")
+    write("b.pbrt", "Shape \"sphere\" Include \"a.pbrt\"")
+    for i <- 0 to 220 do write(s"deep-$i.pbrt", s"Include \"deep-${i + 1}.pbrt\"")
+    write("noise.pbrt", "\u0000\u0001\"[[[ ]]] \\ nan -- 1e 1e999999999999")
+    val _ = Files.createDirectories(folder.resolve("folder.pbrt"))
+    Files.write(folder.resolve("bomb.pbrt"), zipped(" " * 1000000, 72)): Unit
+    val head = "ply\nformat ascii 1.0\nelement vertex 20000000\nproperty float x\n" +
+      "property float y\nproperty float z\nelement face 1\n" +
+      "property list uchar int vertex_indices\nend_header\n"
+    Files.write(folder.resolve("bomb.ply.gz"), zipped(head + "0 " * 1000, 1)): Unit
+
+  private def zipped(text: String, times: Int): Array[Byte] =
+    val bytes = ByteArrayOutputStream()
+    val zip = new GZIPOutputStream(bytes):
+      `def`.setLevel(java.util.zip.Deflater.BEST_SPEED)
+    val piece = text.getBytes("ISO-8859-1")
+    for _ <- 0 until times do zip.write(piece)
+    zip.close()
+    bytes.toByteArray
+
+  /** A tetrahedron in all formats. */
+  private def meshes: Vector[Array[Byte]] =
+    def head(format: String) = s"ply\nformat $format 1.0\nelement vertex 4\nproperty float x\n" +
+      "property float y\nproperty float z\nproperty double u\nproperty uchar v\n" +
+      "element face 4\nproperty list uchar int vertex_indices\nproperty short group\nend_header\n"
+    val corners = Vector(Vector(0, 0, 0), Vector(1, 0, 0), Vector(0, 1, 0), Vector(0, 0, 1))
+    val faces = Vector(Vector(0, 1, 2), Vector(0, 1, 3), Vector(0, 2, 3), Vector(1, 2, 3))
+    val text = corners.map(_.mkString("", " ", " 0.5 1\n")).mkString +
+      faces.map(_.mkString("3 ", " ", " 7\n")).mkString
+    def binary(name: String, order: ByteOrder) =
+      val body = ByteBuffer.allocate(144).order(order)
+      for c <- corners do
+        c.foreach(x => body.putFloat(x.toFloat))
+        body.putDouble(0.5).put(1.toByte)
+      for f <- faces do
+        body.put(3.toByte)
+        f.foreach(body.putInt)
+        body.putShort(7)
+      head(name).getBytes("ISO-8859-1") ++ body.array
+    Vector(
+      (head("ascii") + text).getBytes("ISO-8859-1"),
+      binary("binary_little_endian", ByteOrder.LITTLE_ENDIAN),
+      binary("binary_big_endian", ByteOrder.BIG_ENDIAN)
+    )
+
+  /** Small pictures in all formats that can be read and in some codings. */
+  private def pictures(folder: Path): Vector[Array[Byte]] =
+    val random = Random(1)
+    val image = Image(24, 16, Image.RgbNames, Array.fill(24 * 16 * 3)(random.nextFloat()))
+    val written =
+      for name <- Vector("good.exr", "good.png") yield
+        ImageFiles.write(folder.resolve(name), image)
+        Files.readAllBytes(folder.resolve(name))
+    def tga(kind: Int, body: Array[Byte]) =
+      Array[Byte](0, 0, kind.toByte, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 24, 0) ++ body
+    val pixels = Array.tabulate[Byte](8 * 8 * 3)(i => (i * 7).toByte)
+    val runs = Array.fill(8)(Array[Byte](-121, 1, 2, 3)).flatten
+    val hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 8\n".getBytes("ISO-8859-1") ++
+      Array.fill(8)(Array[Byte](2, 2, 0, 8, -120, 9, -120, 8, -120, 7, -120, -128)).flatten
+    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, jpeg)
+
+  private def jpeg: Array[Byte] =
+    val bytes = ByteArrayOutputStream()
+    val picture = java.awt.image.BufferedImage(16, 16, java.awt.image.BufferedImage.TYPE_INT_RGB)
+    for i <- 0 until 256 do picture.setRGB(i % 16, i / 16, i * 65793 ^ 0x5500)
+    val _ = javax.imageio.ImageIO.write(picture, "jpeg", bytes)
+    bytes.toByteArray
