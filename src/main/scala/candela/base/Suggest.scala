@@ -1,6 +1,7 @@
 package candela.base
 
-import java.nio.file.{Files, Path}
+import java.io.IOException
+import java.nio.file.{Files, InvalidPathException, Path}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
@@ -24,8 +25,15 @@ object Suggest:
       Option.when(known.nonEmpty)(known.toVector.sorted.distinct.mkString("known: ", ", ", ""))
     }
 
-  /** The same for a file that is not there: the nearest name in its folder. */
-  def file(path: Path): Option[String] =
+  /** The same for a file that is not there: the nearest name in its folder.
+    *
+    * @param at makes the path; some names, such as those with a zero byte, are no path's
+    */
+  def file(at: => Path): Option[String] =
+    try near(at)
+    catch case _: InvalidPathException | _: IOException => None
+
+  private def near(path: Path): Option[String] =
     val folder = Option(path.toAbsolutePath.getParent).filter(Files.isDirectory(_))
     val names = folder.toVector.flatMap: f =>
       Using.resource(Files.list(f))(_.iterator.asScala.map(_.getFileName.toString).toVector)

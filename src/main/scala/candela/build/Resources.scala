@@ -3,6 +3,7 @@ package candela.build
 import java.nio.file.{Files, Path}
 
 import scala.collection.mutable
+import scala.util.Try
 
 import candela.base.Suggest
 import candela.bsdf.Coats
@@ -71,11 +72,12 @@ final class Resources(val basis: ColorBasis):
     */
   def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
     val name = p.strings.headOption.getOrElse("")
-    val path = from.folder.resolve(name.replace('\\', '/'))
-    if name.nonEmpty && Files.isRegularFile(path) then Some(path)
-    else
+    def path = from.folder.resolve(name.replace('\\', '/'))
+    // some names, such as those with a zero byte, are no path's
+    val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
+    if found.isEmpty then
       problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
-      None
+    found
 
   /** The picture that a parameter names, read once however often it is used. */
   def image(

@@ -60,3 +60,8 @@ class IncludeSuite extends AnyFunSuite:
     for path <- List("no/such.pbrt", "src") do
       val problem = intercept[SceneError](Parser.parse(Path.of(path))).problems.head
       assert(problem.at.isEmpty && problem.message.startsWith(s"can't read the scene file `$path`"))
+
+  test("a name that no file can have is a file that is not there"):
+    val error = intercept[SceneError]:
+      Parser.parseText("test", "WorldBegin Include \"\u0000\"", Path.of("."))
+    assert(error.problems.head.message.endsWith("there is no such file"))
