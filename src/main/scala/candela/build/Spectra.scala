@@ -1,6 +1,8 @@
 package candela.build
 
+import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.Files
+import scala.util.Try
 
 import candela.base.Suggest
 import candela.color.{Colorimetry, Rgb, Spectrum}
@@ -85,7 +87,9 @@ object Spectra:
   private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
     Colorimetry.named(name).orElse {
-      val file = site.declaration.folder.resolve(name.replace('\\', '/'))
+      def path = site.declaration.folder.resolve(name.replace('\\', '/'))
+      // a name with a zero byte is no path's
+      val file = Try(path).getOrElse(site.declaration.folder)
       if !Files.isRegularFile(file) then
         val near = Suggest.nearest(name, Colorimetry.names).map(n => s"did you mean `$n`?")
         site.problems.missing(
@@ -96,7 +100,7 @@ object Spectra:
         )
         None
       else
-        val text = Files.readAllLines(file).toArray(Array.empty[String])
+        val text = Files.readAllLines(file, ISO_8859_1).toArray(Array.empty[String])
         val words = text.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
         val numbers = words.flatMap(_.toFloatOption)
         if numbers.length != words.length || numbers.length % 2 != 0 then

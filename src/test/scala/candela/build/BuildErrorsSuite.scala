@@ -147,3 +147,10 @@ final class BuildErrorsSuite extends AnyFunSuite:
     // The file is missing in both: that is the only problem
     assertError(only(v2, Dialect.V2), "needs a `filename`")
     assertError(only(v3, Dialect.V3), "needs a `filename`")
+
+  test("names that no file can have are files that are not there"):
+    val shape = "Shape \"plymesh\" \"string filename\" \"a\u0000\""
+    val light = "LightSource \"point\" \"spectrum I\" \"a\u0000\""
+    val found = SceneTexts.problems(s"WorldBegin $shape $light WorldEnd").map(_.message)
+    assert(found.exists(_.contains("no file `a")))
+    assert(found.exists(_.contains("no spectrum is named")))
