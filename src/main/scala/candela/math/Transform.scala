@@ -41,9 +41,12 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
     )
 
   /** Does the map turn left hands into right hands? (Negative determinant of the linear part.) */
-  def swapsHandedness: Boolean =
+  def swapsHandedness: Boolean = determinant < 0
+
+  /** Of the linear part: by how much the map scales volumes, negative if it mirrors. */
+  def determinant: Double =
     m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
-      m(2) * (m(4) * m(9) - m(5) * m(8)) < 0
+      m(2) * (m(4) * m(9) - m(5) * m(8))
 
   /** Does it keep parallels parallel? (The last row is 0 0 0 1.) */
   def isAffine: Boolean = m(12) == 0 && m(13) == 0 && m(14) == 0 && m(15) == 1

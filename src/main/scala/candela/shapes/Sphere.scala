@@ -42,17 +42,7 @@ final class Sphere(
   private val worldRadius = radius * uniformScale.getOrElse(1f)
   private val conical = full && uniformScale.isDefined
 
-  def bounds: Bounds3 =
-    val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
-    val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))
-    val pad = TriangleSoup.roundingError(
-      Vec3(
-        Math.max(Math.abs(world.min.x), Math.abs(world.max.x)),
-        Math.max(Math.abs(world.min.y), Math.abs(world.max.y)),
-        Math.max(Math.abs(world.min.z), Math.abs(world.max.z))
-      )
-    )
-    Bounds3(world.min - pad, world.max + pad)
+  def bounds: Bounds3 = Quadric.worldBounds(objectToWorld, radius, zMin, zMax)
 
   def intersect(ray: Ray, hit: Hit): Boolean =
     val t = nearest(ray)
@@ -105,7 +95,7 @@ final class Sphere(
     val pz = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
     val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
     val (x, y, z) = (px * scale, py * scale, pz * scale)
-    at.p = worldPoint(x, y, z)
+    at.p = Quadric.place(toWorld, x, y, z)
     at.pError = TriangleSoup.roundingError(at.p)
     val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
@@ -135,21 +125,12 @@ final class Sphere(
       ShadingPoint.turn(n, objectToWorld.normal(alongV * side))
     )
 
-  private def worldPoint(x: Double, y: Double, z: Double): Vec3 =
-    val m = toWorld
-    Vec3(
-      (m(0) * x + m(1) * y + m(2) * z + m(3)).toFloat,
-      (m(4) * x + m(5) * y + m(6) * z + m(7)).toFloat,
-      (m(8) * x + m(9) * y + m(10) * z + m(11)).toFloat
-    )
-
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 
-  def area: Float =
-    // Exact for uniform scales; a non-uniform one is sampled by its bounding ellipsoid's mean
-    val scale2 =
-      square(uniformScale.getOrElse(Math.cbrt(Math.abs(Sphere.determinant(toWorld))).toFloat))
-    phiMax * radius * (zMax - zMin) * scale2
+  def area: Float = uniformScale match
+    case Some(scale) => phiMax * radius * (zMax - zMin) * square(scale)
+    case None =>
+      RevolutionSampling(objectToWorld, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
 
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
@@ -168,11 +149,11 @@ final class Sphere(
     val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
     val phi = u2.toDouble * phiMax
     val (x, y) = (r * Math.cos(phi), r * Math.sin(phi))
-    out.p = worldPoint(x, y, z)
+    out.p = Quadric.place(toWorld, x, y, z)
     out.pError = TriangleSoup.roundingError(out.p)
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
-    val stretch = Math.abs(Sphere.determinant(toWorld)).toFloat * n.length / radius
+    val stretch = Math.abs(objectToWorld.determinant).toFloat * n.length / radius
     out.n = n.normalized
     out.pdf = 1f / (phiMax * radius * (zMax - zMin) * stretch)
 
@@ -182,14 +163,10 @@ final class Sphere(
     else
       val q = objectToWorld.inverse.point(p)
       val stretch =
-        Math.abs(Sphere.determinant(toWorld)).toFloat * objectToWorld.normal(q).length / radius
+        Math.abs(objectToWorld.determinant).toFloat * objectToWorld.normal(q).length / radius
       SurfaceSampler.perSolidAngle(1f / (phiMax * radius * (zMax - zMin) * stretch), from, p, n)
 
 object Sphere:
   private def phi(x: Double, y: Double): Double =
     val a = Math.atan2(y, x)
     if a < 0 then a + 2 * Math.PI else a
-
-  private def determinant(m: IArray[Double]): Double =
-    m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
-      m(2) * (m(4) * m(9) - m(5) * m(8))

@@ -9,18 +9,17 @@ import candela.testing.{ChiSquare, Draws}
 
 /** Checks that hold for any surface on which points are sampled. */
 object SampledShapes:
-  private val ray = Ray()
-  private val hit = Hit()
-
   /** What a ray from `from` in direction `w` meets first: its point and normal. */
   type Visible = (Vec3, Vec3) => Option[(Vec3, Vec3)]
 
-  def visible(shape: Shape): Visible = (from, w) =>
-    val at = candela.geometry.ShadingPoint()
-    ray.set(from, w, Float.PositiveInfinity)
-    Option.when(shape.intersect(ray, hit)):
-      shape.surface(ray, hit, at)
-      (at.p, at.geometricNormal)
+  def visible(shape: Shape): Visible =
+    // Its own, as suites run beside each other
+    val (ray, hit, at) = (Ray(), Hit(), candela.geometry.ShadingPoint())
+    (from, w) =>
+      ray.set(from, w, Float.PositiveInfinity)
+      Option.when(shape.intersect(ray, hit)):
+        shape.surface(ray, hit, at)
+        (at.p, at.geometricNormal)
 
   /** Is the sample what `from` sees in its direction, or does the surface hide it? */
   private def isSeen(from: Vec3, p: Vec3, see: Visible): Boolean =
@@ -70,14 +69,19 @@ object SampledShapes:
     )
 
   /** `sample` returns the density that `pdf` gives for its point. */
-  def pdfAgrees(surface: SurfaceSampler, from: Vec3, draws: Draws): Assertion =
+  def pdfAgrees(
+      surface: SurfaceSampler,
+      from: Vec3,
+      draws: Draws,
+      relative: Float = 1e-5f
+  ): Assertion =
     val out = SurfaceSample()
     for _ <- 0 until 2000 do
       surface.sample(from, draws.unit(), draws.unit(), out)
       val again = surface.pdf(from, out.p, out.n)
       // Rounding p moves its normal and its distance by 1e-7 or so; edge-on the cosine magnifies it
       val d = (out.p - from).normalized
-      val slack = 1e-5f / Math.max(1e-4f, out.n absDot d)
+      val slack = relative / Math.max(1e-4f, out.n absDot d)
       assert(abs(out.pdf - again) <= slack * again, s"${out.p} ${out.pdf} $again")
     assert(out.pdf > 0f)
 

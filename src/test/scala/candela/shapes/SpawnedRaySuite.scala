@@ -98,6 +98,33 @@ class SpawnedRaySuite extends AnyFunSuite:
         assert(sphere.isHit(leaving(-outside)), s"${at.p} ${at.geometricNormal} ${-outside}")
         spawned += 1
 
+  test("cylinders, cones and paraboloids are not met again from outside"):
+    val draws = Draws(6)
+    var spawned = 0
+    while spawned < Tries do
+      val (toWorld, size) = placement(draws)
+      val shape = Quadrics.random(draws, draws.below(3), size).placed(toWorld)
+      if land(draws, shape) then
+        val outside = draws.above(at.geometricNormal)
+        assert(!shape.isHit(leaving(outside)), s"${at.p} ${at.geometricNormal} $outside")
+        spawned += 1
+
+  test("a hyperboloid is met again only where it curves up to the ray"):
+    val draws = Draws(7)
+    var spawned = 0
+    while spawned < Tries / 4 do
+      val (toWorld, size) = placement(draws)
+      val shape = Quadrics.random(draws, 3, size).placed(toWorld)
+      if land(draws, shape) then
+        val outside = draws.above(at.geometricNormal)
+        val steep = (outside dot at.geometricNormal) > 0.1f
+        // Its radii of curvature are some tenths of its size or more, stretched by 16
+        val again = shape.isHit(leaving(outside)) && {
+          shape.intersect(ray, hit) && ray.tMax < 1e-4f * size
+        }
+        assert(!steep || !again, s"${at.p} ${at.geometricNormal} $outside")
+        spawned += 1
+
   test("points that were sampled, too, leave a sphere without meeting it"):
     val draws = Draws(5)
     val sample = SurfaceSample()

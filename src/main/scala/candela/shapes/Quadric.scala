@@ -1,0 +1,150 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** A cylinder, cone, paraboloid or hyperboloid, perhaps swept over less than a full turn, anywhere
+  * in the world and of any affine shape. Open at its ends.
+  *
+  * The quadratic is solved in Double, after the ray's origin is moved to where the ray is nearest
+  * to the shape's middle: so its coefficients don't cancel when the ray comes from far away.
+  *
+  * @param phiMax   sweep in radians, 2π for a full turn
+  * @param reversed is the outside the side that the gradient points away from?
+  */
+final class Quadric(
+    objectToWorld: Transform,
+    profile: Profile,
+    phiMax: Float,
+    reversed: Boolean
+) extends Shape:
+  private val toWorld = objectToWorld.m
+  private val toObject = objectToWorld.inverseM
+  private val g0 = profile.g0
+  private val g1 = profile.g1
+  private val g2 = profile.g2
+  private val zMin = profile.zMin
+  private val zMax = profile.zMax
+  private val zMiddle = 0.5 * (zMin + zMax)
+  private val full = phiMax >= TwoPi
+  private val outside = if reversed != profile.vSpan < 0 then -1f else 1f
+  private lazy val sampling = RevolutionSampling(objectToWorld, profile, phiMax)
+
+  def bounds: Bounds3 = Quadric.worldBounds(
+    objectToWorld,
+    Math.nextUp(profile.radius.toFloat),
+    Math.nextDown(zMin.toFloat),
+    Math.nextUp(zMax.toFloat)
+  )
+
+  def intersect(ray: Ray, hit: Hit): Boolean =
+    val t = nearest(ray)
+    if t > 0.0 && t < ray.tMax then
+      ray.tMax = t.toFloat
+      true
+    else false
+
+  def isHit(ray: Ray): Boolean =
+    val t = nearest(ray)
+    t > 0.0 && t < ray.tMax
+
+  /** The smallest distance > 0 at which the ray meets the surface, or −1. */
+  private def nearest(ray: Ray): Double =
+    val m = toObject
+    val dx = m(0) * ray.dx + m(1) * ray.dy + m(2) * ray.dz
+    val dy = m(4) * ray.dx + m(5) * ray.dy + m(6) * ray.dz
+    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
+    val ex = m(0) * ray.ox + m(1) * ray.oy + m(2) * ray.oz + m(3)
+    val ey = m(4) * ray.ox + m(5) * ray.oy + m(6) * ray.oz + m(7)
+    val ez = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
+    val shift = -(ex * dx + ey * dy + (ez - zMiddle) * dz) / (dx * dx + dy * dy + dz * dz)
+    val ox = ex + shift * dx
+    val oy = ey + shift * dy
+    val oz = ez + shift * dz
+    val a = dx * dx + dy * dy - g2 * dz * dz
+    val b = ox * dx + oy * dy - (0.5 * g1 + g2 * oz) * dz
+    val c = ox * ox + oy * oy - (g0 + oz * (g1 + g2 * oz))
+    val discriminant = b * b - a * c
+    if !(discriminant >= 0.0) then -1.0
+    else
+      val root = Math.sqrt(discriminant)
+      val q = if b < 0.0 then root - b else -(b + root)
+      // Along an axis or a generator a is 0 and one root is infinite or NaN: no comparison below
+      // takes it for a hit
+      val s0 = q / a
+      val s1 = c / q
+      val near = if s1 < s0 then s1 else s0
+      val far = if s1 < s0 then s0 else s1
+      if shift + near > 0.0 && isKept(ox + near * dx, oy + near * dy, oz + near * dz) then
+        shift + near
+      else if shift + far > 0.0 && isKept(ox + far * dx, oy + far * dy, oz + far * dz) then
+        shift + far
+      else -1.0
+
+  private def isKept(x: Double, y: Double, z: Double): Boolean =
+    z >= zMin && z <= zMax && (full || profile.angle(x, y, z) <= phiMax)
+
+  def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    val m = toObject
+    val t = ray.tMax.toDouble
+    val wx = ray.ox + t * ray.dx
+    val wy = ray.oy + t * ray.dy
+    val wz = ray.oz + t * ray.dz
+    var x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
+    var y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
+    var z = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
+    // The Float t is a millionth off; two of Newton's steps along the gradient bring the point
+    // onto the surface
+    var steps = 2
+    while steps > 0 do
+      val s = profile.slope(z)
+      val gradient2 = x * x + y * y + s * s
+      val k = 0.5 * (x * x + y * y - profile.radius2(z)) / gradient2
+      if Math.abs(k) < 0.5 then // not at a cone's tip
+        x -= k * x
+        y -= k * y
+        z += k * s
+      steps -= 1
+    at.p = Quadric.place(toWorld, x, y, z)
+    at.pError = TriangleSoup.roundingError(at.p)
+    val slope = profile.slope(z)
+    val gradient =
+      objectToWorld.normal(Vec3(x.toFloat, y.toFloat, -slope.toFloat)).normalized
+    at.geometricNormal = gradient * outside
+    at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
+    at.v = Math.max(0.0, Math.min(1.0, profile.v(z))).toFloat
+    at.frame = Frame.along(at.geometricNormal, objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0)))
+
+  def normals: (Vec3, Float) = (Vec3.Z, -1f)
+
+  def area: Float = sampling.area.toFloat
+
+  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+    sampling.sample(u1, u2, out)
+    out.n = out.n * outside
+    out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
+
+  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+    SurfaceSampler.perSolidAngle(sampling.perArea(p), from, p, n)
+
+object Quadric:
+
+  /** The box around the placed cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
+  private[shapes] def worldBounds(
+      objectToWorld: Transform,
+      radius: Float,
+      zMin: Float,
+      zMax: Float
+  ): Bounds3 =
+    val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
+    val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))
+    def reach(axis: Int) = Math.max(Math.abs(world.min(axis)), Math.abs(world.max(axis)))
+    val pad = TriangleSoup.roundingError(Vec3(reach(0), reach(1), reach(2)))
+    Bounds3(world.min - pad, world.max + pad)
+
+  private[shapes] def place(m: IArray[Double], x: Double, y: Double, z: Double): Vec3 =
+    Vec3(
+      (m(0) * x + m(1) * y + m(2) * z + m(3)).toFloat,
+      (m(4) * x + m(5) * y + m(6) * z + m(7)).toFloat,
+      (m(8) * x + m(9) * y + m(10) * z + m(11)).toFloat
+    )
