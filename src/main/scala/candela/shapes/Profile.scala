@@ -51,6 +51,11 @@ final class Profile(
     val length2 = sx * sx + sy * sy
     if length2 > 0 then (sx * seamDy - sy * seamDx) / length2 else 0.0
 
+  /** Is the point as far from the z-axis as the outline there, to a thousandth? */
+  def follows(p: Vec3): Boolean =
+    val radius2 = p.x.toDouble * p.x + p.y.toDouble * p.y
+    Math.abs(this.radius2(p.z.toDouble) - radius2) <= 1e-3 * radius * radius
+
   /** The largest radius. */
   def radius: Double =
     val turn = if g2 < 0 then Math.max(zMin, Math.min(zMax, -0.5 * g1 / g2)) else zMin
@@ -92,7 +97,17 @@ object Profile:
     for (zz, ss) <- other if dz != 0 yield
       val g2 = (ss - s2) / (zz - z2)
       Profile(
-        s2 - g2 * z2, 0, g2, Math.min(p1.z, p2.z), Math.max(p1.z, p2.z), z, dz, x, y, dx, dy
+        s2 - g2 * z2,
+        0,
+        g2,
+        Math.min(p1.z, p2.z),
+        Math.max(p1.z, p2.z),
+        z,
+        dz,
+        x,
+        y,
+        dx,
+        dy
       )
 
   private def square(x: Double): Double = x * x

@@ -139,8 +139,9 @@ class QuadricSuite extends AnyFunSuite:
         val inWorld = Array.tabulate(3)(k => m(k) * g(0) + m(4 + k) * g(1) + m(8 + k) * g(2))
         val length = Math.sqrt(inWorld.map(x => x * x).sum)
         // Newton's step from the point is along the gradient: its length in the world
-        val bound = (Math.abs(inWorld(0)) * at.pError.x + Math.abs(inWorld(1)) * at.pError.y +
-          Math.abs(inWorld(2)) * at.pError.z) / length
+        val bound =
+          (Math.abs(inWorld(0)) * at.pError.x + Math.abs(inWorld(1)) * at.pError.y +
+            Math.abs(inWorld(2)) * at.pError.z) / length
         val off = Math.abs(q.implicit_(p)) / length
         // waist and tilt of a hyperboloid's corners are rounded to Float
         val rounding = if q.name == "hyperboloid" then 3e-6 * size else 1e-10 * size

@@ -26,21 +26,30 @@ object Quadrics:
 
   def cylinder(r: Float, zMin: Float, zMax: Float, phi: Float): SweptQuadric =
     SweptQuadric(
-      "cylinder", Profile.cylinder(r, zMin, zMax), phi, r.max(zMax - zMin),
+      "cylinder",
+      Profile.cylinder(r, zMin, zMax),
+      phi,
+      r.max(zMax - zMin),
       (u, v) => swept(u * phi, r, zMin + v * (zMax.toDouble - zMin)),
       p => p(0) * p(0) + p(1) * p(1) - r.toDouble * r
     )
 
   def cone(r: Float, h: Float, phi: Float): SweptQuadric =
     SweptQuadric(
-      "cone", Profile.cone(r, h), phi, r.max(h),
+      "cone",
+      Profile.cone(r, h),
+      phi,
+      r.max(h),
       (u, v) => swept(u * phi, r * (1 - v), v * h),
       p => p(0) * p(0) + p(1) * p(1) - sq(r.toDouble / h * (p(2) - h))
     )
 
   def paraboloid(r: Float, zMin: Float, zMax: Float, phi: Float): SweptQuadric =
     SweptQuadric(
-      "paraboloid", Profile.paraboloid(r, zMin, zMax), phi, r.max(zMax - zMin),
+      "paraboloid",
+      Profile.paraboloid(r, zMin, zMax),
+      phi,
+      r.max(zMax - zMin),
       (u, v) =>
         val z = zMin + v * (zMax.toDouble - zMin)
         swept(u * phi, r * Math.sqrt(z / zMax), z)
@@ -52,7 +61,10 @@ object Quadrics:
   def hyperboloid(waist: Float, tilt: Float, z1: Float, z2: Float, phi: Float): SweptQuadric =
     def at(z: Float) = Vec3(waist, tilt * z, z)
     SweptQuadric(
-      "hyperboloid", Profile.hyperboloid(at(z1), at(z2)).get, phi, waist.max(Math.abs(z1 - z2)),
+      "hyperboloid",
+      Profile.hyperboloid(at(z1), at(z2)).get,
+      phi,
+      waist.max(Math.abs(z1 - z2)),
       (u, v) =>
         val z = z1 + v * (z2.toDouble - z1)
         val (c, s) = (Math.cos(u * phi), Math.sin(u * phi))

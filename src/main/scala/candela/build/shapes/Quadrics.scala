@@ -14,11 +14,14 @@ object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, wh
   protected def make()(using site: Site): Option[ShapeGeometry] =
     val r = radius()
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
+    val phi = radians(clamp(phimax(), 0f, 360f))
     if !(r > 0f) then
       site.error(s"a sphere's radius must be above 0; found $r")
       None
+    else if z0 == z1 || phi == 0f then
+      site.warn("this sphere has no surface between its limits: it is left out")
+      None
     else
-      val phi = radians(clamp(phimax(), 0f, 360f))
       Some(
         ShapeGeometry.Solid((toWorld, reversed) =>
           Sphere(toWorld, r, Math.min(z0, z1), Math.max(z0, z1), phi, reversed)
@@ -36,6 +39,9 @@ object DiskRecipe
     val (r, i) = (radius(), inner())
     if !(r > 0f) || !(i >= 0f && i < r) then
       site.error(s"a disk needs 0 ≤ innerradius < radius; found innerradius $i, radius $r")
+      None
+    else if !(phimax() > 0f) then
+      site.warn(s"this disk has no surface, as its `phimax` is ${phimax()}: it is left out")
       None
     else
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
