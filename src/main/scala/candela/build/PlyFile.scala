@@ -13,12 +13,15 @@ import candela.scenefile.Source
   *                  finite there is 0, which stands for no normal.
   * @param uvs       u, v of each vertex; empty if the file has none
   * @param indices   three vertices for each triangle, each in range
+  * @param quads     four vertices for each face of four corners that was left whole, in the order
+  *                  0 1 3 2 of its corners
   */
 final class PlyMesh(
     val positions: Array[Float],
     val normals: Array[Float],
     val uvs: Array[Float],
-    val indices: Array[Int]
+    val indices: Array[Int],
+    val quads: Array[Int]
 )
 
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
@@ -29,16 +32,22 @@ final class PlyMesh(
   */
 object PlyFile:
 
-  /** @param at where a scene asks for the file, for the problem if it can't be read */
-  def read(path: Path, at: Option[SourcePos] = None): PlyMesh =
+  /** @param at        where a scene asks for the file, for the problem if it can't be read
+    * @param keepQuads leave faces of four corners whole
+    */
+  def read(path: Path, at: Option[SourcePos] = None, keepQuads: Boolean = false): PlyMesh =
     Source.read(path) match
-      case Right(source) => mesh(source, at)
+      case Right(source) => mesh(source, at, keepQuads)
       case Left(why) => throw problem(at, s"can't read the mesh `$path`: $why")
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
     SceneError(Problem(Severity.Error, at, message))
 
-  private[build] def mesh(source: Source, at: Option[SourcePos]): PlyMesh =
+  private[build] def mesh(
+      source: Source,
+      at: Option[SourcePos],
+      keepQuads: Boolean = false
+  ): PlyMesh =
     var isAscii = true
     def fail(offset: Long, message: String): Nothing =
       val place = if isAscii then s"line ${lineOf(offset, source)}" else s"byte $offset"
@@ -46,7 +55,7 @@ object PlyFile:
     try
       val header = PlyHeader.read(source, fail)
       isAscii = header.format == PlyFormat.Ascii
-      PlyReader(header, PlyNumbers.of(source, header, fail), fail).read()
+      PlyReader(header, PlyNumbers.of(source, header, fail), keepQuads, fail).read()
     catch
       case e: IOException =>
         val why = Option(e.getMessage).getOrElse(e.toString)

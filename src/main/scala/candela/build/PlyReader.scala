@@ -5,17 +5,20 @@ import candela.scenefile.IntBuffer
 
 /** Reads the elements of one PLY file.
   *
-  * @param fail reports a problem at a byte offset
+  * @param keepQuads leave faces of four corners whole
+  * @param fail      reports a problem at a byte offset
   */
 private[build] final class PlyReader(
     header: PlyHeader,
     in: PlyNumbers,
+    keepQuads: Boolean,
     fail: (Long, String) => Nothing
 ):
   private var positions = Array.emptyFloatArray
   private var normals = Array.emptyFloatArray
   private var uvs = Array.emptyFloatArray
   private val indices = IntBuffer()
+  private val quads = IntBuffer()
 
   def read(): PlyMesh =
     val vertexCount = needed("vertex").count
@@ -28,8 +31,9 @@ private[build] final class PlyReader(
         case "face" => readFaces(element, vertexCount)
         case _ => loop(element.count)(_ => element.properties.foreach(skip))
     val triangles = indices.take()
-    if triangles.isEmpty then fail(in.offset, "no face has three corners")
-    PlyMesh(positions, normals, uvs, triangles)
+    val patches = quads.take()
+    if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
+    PlyMesh(positions, normals, uvs, triangles, patches)
 
   private def needed(name: String): PlyElement =
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
@@ -103,12 +107,19 @@ private[build] final class PlyReader(
       val first = index(p.valueType, vertexCount)
       val second = index(p.valueType, vertexCount)
       var last = index(p.valueType, vertexCount)
-      triangle(first, second, last)
+      val isQuad = length == 4 && keepQuads
+      if !isQuad then triangle(first, second, last)
       loop(length - 3): _ =>
         val next = index(p.valueType, vertexCount)
         // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's
         // order
-        if length == 4 then triangle(next, first, last) else triangle(first, last, next)
+        if isQuad then
+          quads.add(first)
+          quads.add(second)
+          quads.add(next)
+          quads.add(last)
+        else if length == 4 then triangle(next, first, last)
+        else triangle(first, last, next)
         last = next
 
   private def triangle(a: Int, b: Int, c: Int): Unit =

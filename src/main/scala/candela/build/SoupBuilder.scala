@@ -63,7 +63,7 @@ final class SoupBuilder:
     )
 
 object SoupBuilder:
-  private def points(p: Array[Float], toWorld: Transform): Array[Float] =
+  private[build] def points(p: Array[Float], toWorld: Transform): Array[Float] =
     if toWorld.isIdentity then p
     else
       val m = toWorld.m
@@ -78,7 +78,7 @@ object SoupBuilder:
             ((m(4 * r) * x + m(4 * r + 1) * y + m(4 * r + 2) * z + m(4 * r + 3)) / w).toFloat
       out
 
-  private def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
+  private[build] def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
     if n.length == 0 || (toWorld.isIdentity && !flip) then n
     else if toWorld.isFlat then Array.empty // the plane has normals of its own
     else

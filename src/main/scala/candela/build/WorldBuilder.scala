@@ -11,7 +11,7 @@ import candela.lights.{Light, LightSelection}
 import candela.math.{Motion, Transform}
 import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
-import candela.shapes.{BumpTangents, TriangleSampler, TriangleSoup}
+import candela.shapes.{BumpTangents, Shape, TriangleSampler, TriangleSoup}
 
 /** The world, ready to render, with what it holds in words. */
 final class World(
@@ -119,19 +119,41 @@ final class WorldBuilder(
     for geometry <- Shapes.all.build(here).flatten do
       val material = materialIndex(itsMaterial)
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
-      geometry match
+
+      def place(g: ShapeGeometry): Unit = g match
         case mesh: ShapeGeometry.Triangles =>
           addMesh(s, mesh, toWorld, material, light, here, to)
         case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
         case ShapeGeometry.Solid(make) =>
-          val shape = make(toWorld, s.reverseOrientation)
           // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards
           val sinks = description.dialect != Dialect.V2 && toWorld.swapsHandedness
-          val index = light.fold(-1): plan =>
-            lights += Alpha.emission(using here).of(plan.ofShape(shape))
-            lightSamples += plan.samples
-            lights.length - 1
-          to.add(ShapeInstance(shape, material, index, sinks), Alpha.mask(using here))
+          val shape = make(toWorld, s.reverseOrientation)
+          addSolids(Vector(shape), material, light, sinks, here, to)
+        case ShapeGeometry.Solids(make, emits) =>
+          if light.isDefined && !emits then
+            here.warn(s"a ${s.shape.name} can't emit light, as in pbrt: it is no lamp")
+          val shapes = make(toWorld, s.reverseOrientation)
+          addSolids(shapes, material, light.filter(_ => emits), false, here, to)
+        case ShapeGeometry.Several(parts) => parts.foreach(place)
+
+      place(geometry)
+
+  private def addSolids(
+      shapes: Vector[Shape],
+      material: Int,
+      light: Option[AreaLightPlan],
+      sinks: Boolean,
+      here: Site,
+      to: SurfaceBuilder
+  ): Unit =
+    val mask = Alpha.mask(using here)
+    lazy val area = shapes.foldLeft(0.0)(_ + _.area).toFloat
+    for shape <- shapes do
+      val index = light.fold(-1): plan =>
+        lights += Alpha.emission(using here).of(plan.ofShape(shape, area))
+        lightSamples += plan.samples
+        lights.length - 1
+      to.add(ShapeInstance(shape, material, index, sinks), mask)
 
   private def addMesh(
       s: ShapeDescription,

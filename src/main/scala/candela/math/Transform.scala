@@ -43,6 +43,17 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
   /** Does the map turn left hands into right hands? (Negative determinant of the linear part.) */
   def swapsHandedness: Boolean = determinant < 0
 
+  /** The factor by which the map scales, if it scales all directions alike. */
+  def uniformScale: Option[Double] =
+    val columns = (0 until 3).map(c => (0 until 3).map(r => m(4 * r + c)))
+    def dot(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ * _).sum
+    val s2 = dot(columns(0), columns(0))
+    // Of rotations that were written in Float
+    val alike = columns.forall(c => Math.abs(dot(c, c) - s2) <= 1e-5 * s2)
+    val square = Seq((0, 1), (0, 2), (1, 2)).forall: (i, j) =>
+      Math.abs(dot(columns(i), columns(j))) <= 1e-5 * s2
+    Option.when(alike && square)(Math.sqrt(s2))
+
   /** Of the linear part: by how much the map scales volumes, negative if it mirrors. */
   def determinant: Double =
     m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +

@@ -114,6 +114,27 @@ final class Quadric(
     at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
     at.v = Math.max(0.0, Math.min(1.0, profile.v(z))).toFloat
     at.frame = Frame.along(at.geometricNormal, objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0)))
+    if at.wantsPartials then partials(x, y, z, at)
+
+  /** A step in v goes along the outline, and turns with the seam. */
+  private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
+    val slope = profile.slope(z)
+    val radius2 = x * x + y * y
+    // At a tip any direction is as good
+    val widening = if radius2 > 0 then profile.vSpan * slope / radius2 else 0.0
+    val turn = profile.seamPerV(z)
+    val alongU = Vec3((-y * phiMax).toFloat, (x * phiMax).toFloat, 0f)
+    val vx = x * widening - y * turn
+    val vy = y * widening + x * turn
+    val alongV = Vec3(vx.toFloat, vy.toFloat, profile.vSpan.toFloat)
+    val bend = Vec3(vx.toFloat, vy.toFloat, (-g2 * profile.vSpan).toFloat)
+    val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, -slope.toFloat)) * outside
+    at.setPartials(
+      objectToWorld.vector(alongU),
+      objectToWorld.vector(alongV),
+      ShadingPoint.turn(n, objectToWorld.normal(alongU) * outside),
+      ShadingPoint.turn(n, objectToWorld.normal(bend) * outside)
+    )
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 

@@ -29,16 +29,7 @@ final class Sphere(
   private val thetaMax = Math.acos(clamp(zMax / radius, -1f, 1f).toDouble)
   private val center = objectToWorld.point(Vec3.Zero)
 
-  /** The factor by which the transform scales, if it scales all directions alike. */
-  private val uniformScale: Option[Float] =
-    val columns = (0 until 3).map(c => (0 until 3).map(r => toWorld(4 * r + c)))
-    def dot(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ * _).sum
-    val s2 = dot(columns(0), columns(0))
-    val alike = columns.forall(c => Math.abs(dot(c, c) - s2) <= 1e-5 * s2)
-    val square = Seq((0, 1), (0, 2), (1, 2)).forall: (i, j) =>
-      Math.abs(dot(columns(i), columns(j))) <= 1e-5 * s2
-    Option.when(alike && square)(Math.sqrt(s2).toFloat)
-
+  private val uniformScale: Option[Float] = objectToWorld.uniformScale.map(_.toFloat)
   private val worldRadius = radius * uniformScale.getOrElse(1f)
   private val conical = full && uniformScale.isDefined
 

@@ -67,7 +67,6 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertError(only(texture), "no float texture is named `constnat`", "`constant`")
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
-    assertWarning(only("Shape \"cylinder\""), "\"cylinder\" is not supported yet")
     assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
     assertWarning(only(s"Material \"hair\" $sphere"), "grey diffuse")
     val lamp = s"AreaLightSource \"diffuse\" \"string filename\" \"a.png\" $sphere"

@@ -25,7 +25,9 @@ final class CameraRecipesSuite
 final class ShapeRecipesSuite
     extends RecipeLaws[Option[ShapeGeometry]](
       Shapes.all,
-      demanding = Set("trianglemesh", "plymesh", "loopsubdiv")
+      demanding = Set(
+        "trianglemesh", "plymesh", "loopsubdiv", "heightfield", "nurbs", "bilinearmesh", "curve"
+      )
     )
 
 final class MaterialRecipesSuite extends RecipeLaws[Material](Materials.all)

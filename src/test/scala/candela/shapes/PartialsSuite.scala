@@ -43,6 +43,27 @@ class PartialsSuite extends AnyFunSuite:
       (disk, toWorld.point(Vec3(r * cos(phi), r * sin(phi), 0.3f)))
     assert(compared > 300)
 
+  test("derivatives on swept quadrics are those of finite differences"):
+    val draws = Draws(3)
+    for kind <- 0 until 4 do
+      val compared = around(draws): toWorld =>
+        // So large that three steps aside see no other curvature
+        val q = Quadrics.random(draws, kind, 20)
+        // Not near a tip or an apex
+        val p = q.point(draws.between(0.1f, 0.9f), draws.between(0.3f, 0.7f))
+        val target = Vec3(p(0).toFloat, p(1).toFloat, p(2).toFloat)
+        (q.placed(toWorld, draws.coin()), toWorld.point(target))
+      assert(compared > 500, s"kind $kind")
+
+  test("derivatives on bilinear patches are those of finite differences, whatever is given"):
+    val draws = Draws(4)
+    for i <- 0 until 8 do
+      val compared = around(draws): toWorld =>
+        val mesh = BilinearPatches.random(draws, toWorld, i % 2 == 1, i % 4 > 1, i > 3)
+        val p = BilinearPatch.Corners(mesh, 0)
+        (BilinearPatch(mesh, 0), p.point(draws.between(0.2f, 0.8f), draws.between(0.2f, 0.8f)))
+      assert(compared > 500, s"case $i")
+
   private val corners = Seq(Vec3(1f, 0f, 2f), Vec3(3f, 0.5f, 2.5f), Vec3(1f, 4f, 1f))
   private val smooth = Array[Float](0.1f, 0.2f, 1f, 0.4f, -0.3f, 2f, -0.2f, 0.3f, 0.7f)
 

@@ -16,7 +16,7 @@ object AreaLights:
 final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val samples: Int):
 
   /** Emission of the whole shape of `area`: v4's `power` fixes it, whatever the area. */
-  private def radiance(area: Float): Rgb =
+  private def radiance(area: => Float): Rgb =
     if power > 0f then
       val sides = if twoSided then 2f else 1f
       emitted * (power / (area * Pi * sides))
@@ -27,9 +27,10 @@ final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val sam
       triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f
     )
 
-  def ofShape(shape: Shape): AreaLight =
+  /** One of the shapes of a statement, which have `wholeArea` together. */
+  def ofShape(shape: Shape, wholeArea: => Float): AreaLight =
     val (axis, cosSpread) = shape.normals
-    AreaLight(shape: SurfaceSampler, radiance(shape.area), twoSided, shape.bounds, axis, cosSpread)
+    AreaLight(shape: SurfaceSampler, radiance(wholeArea), twoSided, shape.bounds, axis, cosSpread)
 
 final class DiffuseLight(name: String, dialects: Set[Dialect])
     extends Recipe[AreaLightPlan](name, "every point of the surface emits evenly", dialects)

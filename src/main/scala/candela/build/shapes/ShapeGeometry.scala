@@ -17,3 +17,12 @@ enum ShapeGeometry:
 
   /** A single surface, given where it stands and whether its orientation is reversed. */
   case Solid(make: (Transform, Boolean) => Shape)
+
+  /** Many surfaces, likewise.
+    *
+    * @param emits can they be area lights?
+    */
+  case Solids(make: (Transform, Boolean) => Vector[Shape], emits: Boolean)
+
+  /** Parts of different kinds. */
+  case Several(parts: Vector[ShapeGeometry])

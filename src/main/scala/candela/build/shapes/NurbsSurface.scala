@@ -1,0 +1,97 @@
+package candela.build
+
+import candela.base.loop
+import candela.shapes.{KnotVector, Nurbs}
+
+/** What a NURBS surface says of one of its directions. */
+private[build] final class NurbsSide(
+    letter: String,
+    val count: Field[Int],
+    val order: Field[Int],
+    val knots: Field[Array[Float]],
+    from: Field[Float],
+    to: Field[Float]
+):
+  /** None, and reported, if it makes no spline. */
+  def read()(using site: Site): Option[KnotVector] =
+    val (n, k, all) = (count(), order(), knots())
+    if all.isEmpty || count.given_().isEmpty || order.given_().isEmpty then
+      site.error(s"a nurbs needs `n$letter`, `${letter}order` and `${letter}knots`")
+      None
+    else checked(n, k, all)
+
+  private def checked(n: Int, k: Int, all: Array[Float])(using site: Site): Option[KnotVector] =
+    val wrong =
+      if k < 2 then Some(s"`${letter}order` must be 2 or more; found $k")
+      else if n < k then Some(s"`n$letter` is $n, less than `${letter}order`, $k")
+      else if all.length != n + k then
+        Some(s"`${letter}knots` holds ${all.length} knots; n$letter + ${letter}order are ${n + k}")
+      else if all.indices.drop(1).exists(i => !(all(i) >= all(i - 1))) then
+        Some(s"`${letter}knots` must never fall")
+      else if !(all(k - 1) < all(n)) then Some(s"`${letter}knots` spans nothing")
+      else None
+    wrong.foreach(why => site.warn(s"$why: this nurbs is left out"))
+    Option.when(wrong.isEmpty)(KnotVector(n, k, all.map(_.toDouble)))
+
+  /** Where it is evaluated. */
+  def places()(using site: Site): Array[Double] =
+    val start = from.given_().getOrElse(knots()(order() - 1)).toDouble
+    val end = to.given_().getOrElse(knots()(count())).toDouble
+    Array.tabulate(NurbsRecipe.Dice)(i => start + (end - start) * i / (NurbsRecipe.Dice - 1))
+
+object NurbsRecipe
+    extends ShapeRecipe("nurbs", "a rational B-spline surface, as 29 × 29 × 2 triangles", untilV3):
+  private val u = side("u")
+  private val v = side("v")
+  private val points = numbers("P", "point3[nu·nv]", "control points, row by row of one v")
+  private val weighted = numbers("Pw", "float[4·nu·nv]", "the same with weights: x·w y·w z·w w")
+
+  private def side(d: String): NurbsSide = NurbsSide(
+    d,
+    integer(s"n$d", s"control points along $d", shown = "required")(0),
+    integer(s"${d}order", s"degree + 1 along $d", shown = "required")(0),
+    numbers(s"${d}knots", s"float[n$d+${d}order]", s"knots along $d"),
+    float(s"${d}0", s"where $d begins", shown = s"${d}knots[${d}order-1]")(0f),
+    float(s"${d}1", s"where $d ends", shown = s"${d}knots[n$d]")(1f)
+  )
+
+  protected def make()(using site: Site): Option[ShapeGeometry] =
+    for
+      ku <- u.read()
+      kv <- v.read()
+      control <- homogeneous(ku.count, kv.count)
+    yield
+      val (us, vs) = (u.places().map(inside(ku)), v.places().map(inside(kv)))
+      val surface = Nurbs(ku, kv, control)
+      val n = Dice * Dice
+      val (positions, normals) = (new Array[Float](3 * n), new Array[Float](3 * n))
+      val uvs = new Array[Float](2 * n)
+      loop(n): i =>
+        val (s, t) = (us(i % Dice), vs(i / Dice))
+        val at = surface.at(s, t)
+        val length = Math.sqrt(at(3) * at(3) + at(4) * at(4) + at(5) * at(5))
+        loop(3): k =>
+          positions(3 * i + k) = at(k).toFloat
+          normals(3 * i + k) = if length > 0 then (at(3 + k) / length).toFloat else 0f
+        uvs(2 * i) = s.toFloat
+        uvs(2 * i + 1) = t.toFloat
+      MeshArrays.triangles(positions, normals, uvs, MeshArrays.grid(Dice, Dice))
+
+  private def inside(k: KnotVector)(t: Double): Double =
+    Math.max(k.knots(k.order - 1), Math.min(k.knots(k.count), t))
+
+  private def homogeneous(nu: Int, nv: Int)(using site: Site): Option[Array[Double]] =
+    val (p, pw) = (points(), weighted())
+    val count = nu.toLong * nv
+    if p.nonEmpty && p.length == 3 * count then
+      Some(Array.tabulate(4 * nu * nv)(i => if i % 4 == 3 then 1.0 else p(i / 4 * 3 + i % 4)))
+    else if p.isEmpty && pw.nonEmpty && pw.length == 4 * count then Some(pw.map(_.toDouble))
+    else
+      site.error(
+        s"a nurbs of $nu × $nv control points needs ${3 * count} numbers in `P` or " +
+          s"${4 * count} in `Pw`; found ${p.length} and ${pw.length}"
+      )
+      None
+
+  /** Vertices along each side, as in pbrt. */
+  private[build] val Dice = 30

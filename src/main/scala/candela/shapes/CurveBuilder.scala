@@ -1,0 +1,84 @@
+package candela.shapes
+
+import scala.collection.mutable.ArrayBuilder
+
+import candela.base.loop
+import candela.math.*
+
+/** Gathers curves of one kind for one [[CurveSegments]].
+  *
+  * @param space   None: curves are moved to the world as they come
+  * @param flipped see [[CurveSegments]]
+  */
+final class CurveBuilder(
+    kind: CurveKind,
+    space: Option[Transform],
+    flipped: Boolean,
+    errorWidths: Float
+):
+  private val points = ArrayBuilder.ofFloat()
+  private val params = ArrayBuilder.ofFloat()
+  private val widths = ArrayBuilder.ofFloat()
+  private val normals = ArrayBuilder.ofFloat()
+  private var segments = 0
+
+  def count: Int = segments
+
+  /** Adds a curve, cut into 2^`splitDepth` segments of equal parts of u; None: it needs no
+    * transform. Lengths change by the factor `scale`.
+    */
+  def add(curve: BezierCurve, splitDepth: Int, toWorld: Option[Transform], scale: Float): Unit =
+    val n = 1 << splitDepth
+    loop(n): i =>
+      val (u0, u1) = (i.toFloat / n, (i + 1).toFloat / n)
+      val part = BezierCurve.part(curve.points, u0, u1)
+      loop(4)(k => addPoint(part, 3 * k, toWorld))
+      params += u0
+      params += u1
+      widths += lerp(u0, curve.width0, curve.width1) * scale
+      widths += lerp(u1, curve.width0, curve.width1) * scale
+      for (n0, n1) <- curve.normals; n <- Seq(n0, n1) do
+        val unit = toWorld.fold(n)(_.normal(n)).normalized
+        normals += unit.x
+        normals += unit.y
+        normals += unit.z
+    segments += n
+
+  private def addPoint(p: Array[Double], i: Int, toWorld: Option[Transform]): Unit =
+    toWorld match
+      case None => loop(3)(k => points += p(i + k).toFloat)
+      case Some(t) =>
+        val m = t.m
+        loop(3): r =>
+          val c = 4 * r
+          points += (m(c) * p(i) + m(c + 1) * p(i + 1) + m(c + 2) * p(i + 2) + m(c + 3)).toFloat
+
+  def result: CurveSegments = CurveSegments(
+    points.result(), params.result(), widths.result(), normals.result(), kind, space, flipped,
+    errorWidths
+  )
+
+object CurveBuilder:
+
+  /** Placed curves. They are moved to the world if this keeps their shape: a turn, a move and a
+    * scale that is the same for all directions. Else they stay in their own space, in which widths
+    * are measured.
+    */
+  def segments(
+      curves: Seq[BezierCurve],
+      kind: CurveKind,
+      splitDepth: Int,
+      toWorld: Transform,
+      reversed: Boolean,
+      errorWidths: Float
+  ): CurveSegments =
+    val scale = toWorld.uniformScale.filter(_ => !toWorld.swapsHandedness)
+    val builder = CurveBuilder(
+      kind,
+      Option.when(scale.isEmpty)(toWorld),
+      reversed != toWorld.swapsHandedness,
+      errorWidths
+    )
+    val move = Option.when(scale.isDefined && !toWorld.isIdentity)(toWorld)
+    for c <- curves do builder.add(c, splitDepth, move, scale.getOrElse(1.0).toFloat)
+    builder.result

@@ -1,0 +1,175 @@
+package candela.shapes
+
+import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** Thin strips along cubic Bézier curves, cut into segments with a box each: hair, grass, wool.
+  *
+  * A ray meets a segment where it passes the curve within half of its width; all is seen as if
+  * projected onto the plane across the ray (Nakamaru and Ohno, "Ray Tracing for Curves Primitive",
+  * Journal of WSCG 10, 2002; Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.7).
+  *
+  * @param points  twelve Floats a segment: its four control points
+  * @param params  two Floats a segment: the part of its curve's u in [0, 1] that it is
+  * @param widths  two Floats a segment: its width at either end
+  * @param normals for ribbons six Floats a segment: unit normals at both ends of the *curve*
+  * @param space   where points, widths and normals are; None: in the world
+  * @param flipped is the normal −∂p/∂u × ∂p/∂v?
+  * @param errorWidths how far spawned rays keep away, in widths
+  */
+final class CurveSegments(
+    points: Array[Float],
+    params: Array[Float],
+    widths: Array[Float],
+    normals: Array[Float],
+    kind: CurveKind,
+    space: Option[Transform],
+    flipped: Boolean,
+    errorWidths: Float
+):
+  private val walk =
+    CurveWalk(params, widths, if kind == CurveKind.Ribbon then normals else Array.empty)
+  private val geometry =
+    CurveSurface(points, params, widths, walk, kind, space, flipped, errorWidths)
+  private val inWorld = space.isEmpty
+  private val toObject = space.getOrElse(Transform.Identity).inverseM
+
+  def count: Int = points.length / 12
+
+  def bounds(segment: Int): Bounds3 =
+    val half = 0.5f * Math.max(widths(2 * segment), widths(2 * segment + 1))
+    val box = Bounds3.of((0 until 4).map(control(segment, _)))
+    val wide = Bounds3(box.min - Vec3(half, half, half), box.max + Vec3(half, half, half))
+    val placed = space.fold(wide)(t => Bounds3.of((0 until 8).map(i => t.point(wide.corner(i)))))
+    val pad = TriangleSoup.roundingError(
+      Vec3(
+        Math.max(Math.abs(placed.min.x), Math.abs(placed.max.x)),
+        Math.max(Math.abs(placed.min.y), Math.abs(placed.max.y)),
+        Math.max(Math.abs(placed.min.z), Math.abs(placed.max.z))
+      )
+    )
+    Bounds3(placed.min - pad, placed.max + pad)
+
+  private def control(segment: Int, k: Int): Vec3 =
+    val i = 12 * segment + 3 * k
+    Vec3(points(i), points(i + 1), points(i + 2))
+
+  /** The nearest hit in (0, `ray.tMax`) shortens the ray; `hit` gets u along the curve and v across
+    * it.
+    */
+  def intersect(segment: Int, ray: Ray, hit: Hit): Boolean = test(segment, ray, hit, write = true)
+
+  def isHit(segment: Int, ray: Ray): Boolean =
+    test(segment, ray, CurveSegments.NoHit, write = false)
+
+  private def test(segment: Int, ray: Ray, hit: Hit, write: Boolean): Boolean =
+    var ox = ray.ox.toDouble
+    var oy = ray.oy.toDouble
+    var oz = ray.oz.toDouble
+    var dx = ray.dx.toDouble
+    var dy = ray.dy.toDouble
+    var dz = ray.dz.toDouble
+    if !inWorld then
+      val m = toObject
+      val (px, py, pz) = (ox, oy, oz)
+      ox = m(0) * px + m(1) * py + m(2) * pz + m(3)
+      oy = m(4) * px + m(5) * py + m(6) * pz + m(7)
+      oz = m(8) * px + m(9) * py + m(10) * pz + m(11)
+      val (ex, ey, ez) = (dx, dy, dz)
+      dx = m(0) * ex + m(1) * ey + m(2) * ez
+      dy = m(4) * ex + m(5) * ey + m(6) * ez
+      dz = m(8) * ex + m(9) * ey + m(10) * ez
+    val p = points
+    val i = 12 * segment
+    // Across the ray: y also across the chord, so that the segment is thin in y
+    val cx = p(i + 9).toDouble - p(i)
+    val cy = p(i + 10).toDouble - p(i + 1)
+    val cz = p(i + 11).toDouble - p(i + 2)
+    var yx = dy * cz - dz * cy
+    var yy = dz * cx - dx * cz
+    var yz = dx * cy - dy * cx
+    var y2 = yx * yx + yy * yy + yz * yz
+    if !(y2 > 1e-24 * (cx * cx + cy * cy + cz * cz) * (dx * dx + dy * dy + dz * dz)) then
+      // The chord runs along the ray: any direction across
+      if Math.abs(dx) > Math.abs(dy) then
+        yx = -dz
+        yy = 0.0
+        yz = dx
+      else
+        yx = 0.0
+        yy = dz
+        yz = -dy
+      y2 = yx * yx + yy * yy + yz * yz
+    val yScale = 1.0 / Math.sqrt(y2)
+    val half = 0.5 * Math.max(widths(2 * segment), widths(2 * segment + 1))
+    val ax = p(i) - ox
+    val ay = p(i + 1) - oy
+    val az = p(i + 2) - oz
+    val bx = p(i + 3) - ox
+    val by = p(i + 4) - oy
+    val bz = p(i + 5) - oz
+    val ex = p(i + 6) - ox
+    val ey = p(i + 7) - oy
+    val ez = p(i + 8) - oz
+    val fx = p(i + 9) - ox
+    val fy = p(i + 10) - oy
+    val fz = p(i + 11) - oz
+    val y0 = (ax * yx + ay * yy + az * yz) * yScale
+    val y1 = (bx * yx + by * yy + bz * yz) * yScale
+    val y2_ = (ex * yx + ey * yy + ez * yz) * yScale
+    val y3 = (fx * yx + fy * yy + fz * yz) * yScale
+    if CurveWalk.apart(y0, y1, y2_, y3, half) then false
+    else
+      val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
+      // z along the ray, x = y × z
+      val zScale = 1.0 / length
+      val xx = (yy * dz - yz * dy) * yScale * zScale
+      val xy = (yz * dx - yx * dz) * yScale * zScale
+      val xz = (yx * dy - yy * dx) * yScale * zScale
+      val x0 = ax * xx + ay * xy + az * xz
+      val x1 = bx * xx + by * xy + bz * xz
+      val x2 = ex * xx + ey * xy + ez * xz
+      val x3 = fx * xx + fy * xy + fz * xz
+      if CurveWalk.apart(x0, x1, x2, x3, half) then false
+      else
+        val z0 = (ax * dx + ay * dy + az * dz) * zScale
+        val z1 = (bx * dx + by * dy + bz * dz) * zScale
+        val z2 = (ex * dx + ey * dy + ez * dz) * zScale
+        val z3 = (fx * dx + fy * dy + fz * dz) * zScale
+        val bend = Math.max(
+          CurveWalk.bend(x0, x1, x2, x3),
+          Math.max(CurveWalk.bend(y0, y1, y2_, y3), CurveWalk.bend(z0, z1, z2, z3))
+        )
+        walk.refine(
+          x0,
+          y0,
+          z0,
+          x1,
+          y1,
+          z1,
+          x2,
+          y2_,
+          z2,
+          x3,
+          y3,
+          z3,
+          0.0,
+          1.0,
+          CurveWalk.depth(bend, half),
+          segment,
+          dx * zScale,
+          dy * zScale,
+          dz * zScale,
+          length,
+          ray,
+          hit,
+          write
+        )
+
+  /** Fills in the geometry of the hit that `intersect` found. */
+  def surface(segment: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    geometry.fill(segment, ray, hit, at)
+
+object CurveSegments:
+  /** Never written to. */
+  private val NoHit = Hit()

@@ -1,0 +1,80 @@
+package candela.shapes
+
+import candela.geometry.{Frame, Hit, Ray, ShadingPoint}
+import candela.math.*
+
+/** The geometry of hits on [[CurveSegments]], whose arrays these are: as pbrt has it, down to the
+  * normals of flat and round curves, which in their middle point away from where the ray comes
+  * from.
+  */
+private[shapes] final class CurveSurface(
+    points: Array[Float],
+    params: Array[Float],
+    widths: Array[Float],
+    walk: CurveWalk,
+    kind: CurveKind,
+    space: Option[Transform],
+    flipped: Boolean,
+    errorWidths: Float
+):
+  private val toWorld = space.getOrElse(Transform.Identity)
+  private val toObject = toWorld.inverse
+
+  def fill(segment: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    val direction =
+      (if space.isEmpty then ray.direction else toObject.vector(ray.direction)).normalized
+    val u0 = params(2 * segment)
+    val part = params(2 * segment + 1) - u0
+    val s = (hit.u - u0) / part
+    val dpdu = tangent(segment, s) * (1f / part)
+    val w = lerp(s, widths(2 * segment), widths(2 * segment + 1))
+    val width =
+      if kind != CurveKind.Ribbon then w
+      else w * walk.facing(segment, hit.u, direction.x, direction.y, direction.z).toFloat
+    val dpdv = across(segment, hit, direction, dpdu) * width
+    at.p = ray.at(ray.tMax)
+    at.pError = error(errorWidths * width)
+    at.u = hit.u
+    at.v = hit.v
+    val n = toWorld.normal(dpdu cross dpdv).normalized
+    at.geometricNormal = if flipped then -n else n
+    at.frame = Frame.along(at.geometricNormal, toWorld.vector(dpdu))
+    // As in pbrt, the normal is taken not to turn
+    if at.wantsPartials then
+      at.setPartials(toWorld.vector(dpdu), toWorld.vector(dpdv), Vec3.Zero, Vec3.Zero)
+
+  /** The derivative by s in [0, 1] along the segment. */
+  private def tangent(segment: Int, s: Float): Vec3 =
+    val m = 1f - s
+    val d = (control(segment, 1) - control(segment, 0)) * (3f * m * m) +
+      (control(segment, 2) - control(segment, 1)) * (6f * m * s) +
+      (control(segment, 3) - control(segment, 2)) * (3f * s * s)
+    if d.isZero then control(segment, 3) - control(segment, 0) else d
+
+  private def control(segment: Int, k: Int): Vec3 =
+    val i = 12 * segment + 3 * k
+    Vec3(points(i), points(i + 1), points(i + 2))
+
+  /** The direction of ∂p/∂v. */
+  private def across(segment: Int, hit: Hit, direction: Vec3, dpdu: Vec3): Vec3 = kind match
+    case CurveKind.Ribbon => (walk.normal(segment, hit.u) cross dpdu).normalized
+    case CurveKind.Flat => CurveSurface.sideways(direction, dpdu)
+    case CurveKind.Cylinder =>
+      // Turned about the curve by −90° to 90° from edge to edge
+      val flat = CurveSurface.sideways(direction, dpdu)
+      val angle = (0.5f - hit.v) * Pi
+      flat * cos(angle) + (dpdu.normalized cross flat) * sin(angle)
+
+  private def error(e: Float): Vec3 =
+    if space.isEmpty then Vec3(e, e, e)
+    else
+      val m = toWorld.m
+      def row(r: Int) =
+        ((Math.abs(m(r)) + Math.abs(m(r + 1)) + Math.abs(m(r + 2))) * e).toFloat
+      Vec3(row(0), row(4), row(8))
+
+private[shapes] object CurveSurface:
+  /** The unit vector across a curve and across the ray; seen along the ray, any. */
+  private def sideways(direction: Vec3, dpdu: Vec3): Vec3 =
+    val across = direction cross dpdu
+    if across.isZero then Frame.around(direction).s else across.normalized
