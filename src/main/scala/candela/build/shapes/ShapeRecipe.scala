@@ -22,8 +22,3 @@ abstract class MeshRecipe(name: String, meaning: String, dialects: Set[Dialect] 
     extends ShapeRecipe(name, meaning, dialects, alphaIn = dialects):
   protected val shadowAlpha: Field[?] =
     floatTexture("shadowalpha", "0 where it casts no shadow", onlyV3)(1f)
-
-/** Of shapes that are not rendered yet. */
-trait LeftOut extends Recipe[Option[ShapeGeometry]]:
-  override def pending: Option[String] = Some("it is left out")
-  protected def make()(using Site): Option[ShapeGeometry] = None
