@@ -195,4 +195,5 @@ object NumberReader:
 
   /** Can a number or a word end before this byte? */
   inline def isDelimiter(c: Byte): Boolean =
-    c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ']' || c == '[' || c == '"' || c == '#'
+    c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ']' || c == '[' || c == '"' ||
+      c == '#' || c == ','

@@ -13,11 +13,29 @@ final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
   private val values = ValueReader(warn)
   private val keys = mutable.HashMap.empty[String, Parameters.Key]
 
+  /** What reads the files that include the present one, innermost first. */
+  private var outer = List.empty[Tokenizer]
+
+  /** Runs `body`, which reads a file that the one of `in` includes. */
+  def within(in: Tokenizer)(body: => Unit): Unit =
+    outer = in :: outer
+    try body
+    finally outer = outer.tail
+
   /** The parameters from the current token on. Of two with one name the last counts, as in all
-    * three renderers.
+    * three renderers. The last statement of an included file goes on where that was included: grids
+    * of smoke often lie in files of their own, and what they are made of does not.
     */
   def list(in: Tokenizer): Vector[Param] =
-    var params = Vector.empty[Param]
+    var params = parametersHere(in, Vector.empty)
+    var further = if in.current == Token.End then outer else Nil
+    while further.nonEmpty do
+      params = parametersHere(further.head, params)
+      further = if further.head.current == Token.End then further.tail else Nil
+    params
+
+  private def parametersHere(in: Tokenizer, before: Vector[Param]): Vector[Param] =
+    var params = before
     while in.current == Token.Text do
       val at = in.at
       val key = keys.getOrElseUpdate(in.text, keyHere(in))

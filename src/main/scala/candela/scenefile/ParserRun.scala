@@ -100,7 +100,7 @@ private[scenefile] final class ParserRun(
         else run(directive, at, in, files)
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer, files: List[Path]): Unit =
-    val including = include(files)
+    val including = include(in, files)
     try directive.run(Arguments(directive, at, in, parameters, problems.add, including), scene)
     catch
       case e: SceneError =>
@@ -141,13 +141,21 @@ private[scenefile] final class ParserRun(
 
   /** Reads another file's statements.
     *
+    * @param from  what reads the file that includes it
     * @param files the files being read, innermost first
     */
-  private def include(files: List[Path])(name: String, nameAt: SourcePos, at: SourcePos): Unit =
+  private def include(from: Tokenizer, files: List[Path])(
+      name: String,
+      nameAt: SourcePos,
+      at: SourcePos
+  ): Unit =
     def fail(message: String): Nothing = throw SceneError(Problem.error(nameAt, message))
     def missing(message: String, help: Option[String] = None): Unit =
       val problem = Problem.missing(nameAt, message, "it is passed over", keepGoing, help)
-      if keepGoing then problems.add(problem) else throw SceneError(problem)
+      if !keepGoing then throw SceneError(problem)
+      problems.add(problem)
+      // those of the file's last statement
+      val _ = parameters.list(from)
     resolve(name, files.headOption) match
       case None =>
         val folders = (folder :: files.headOption.map(Parser.folderOf).toList).distinct
@@ -158,7 +166,8 @@ private[scenefile] final class ParserRun(
       case Some(path) =>
         refuseCircles(path, name, files, fail)
         Source.read(path) match
-          case Right(source) => statements(source, Some(at), path :: files)
+          case Right(source) =>
+            parameters.within(from)(statements(source, Some(at), path :: files))
           case Left(why) => missing(s"can't include `$name`: $why")
 
   private def refuseCircles(

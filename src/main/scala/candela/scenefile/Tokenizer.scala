@@ -5,7 +5,7 @@ import java.io.IOException
 import candela.base.{Problem, SceneError, SourcePos}
 
 /** Cuts a scene file into tokens. There is always one current token; lists of numbers are read
-  * without making tokens of them.
+  * without making tokens of them. Commas are blanks, as pbrt-v3 has it behind numbers.
   *
   * @param includedFrom the statement that includes this file
   */
@@ -132,7 +132,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private def scanNext(): Int =
     // mostly, one blank is before a number
     if next < source.limit && source.bytes(next) == ' ' then next += 1
-    if next >= source.limit || source.bytes(next) <= '#' then skipBlank()
+    if next >= source.limit || source.bytes(next) <= ',' then skipBlank()
     if source.limit - next < Tokenizer.UsualNumber then fetchNext(): Unit
     var end = number.scan(next)
     while number.stop == source.limit && fetchNext() do end = number.scan(next)
@@ -153,7 +153,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       var isBlank = true
       while isBlank && i < end do
         val c = bytes(i)
-        if c == ' ' || c == '\t' then i += 1
+        if c == ' ' || c == '\t' || c == ',' then i += 1
         else if c == '\n' || c == '\r' then
           val isPair = c == '\r' && i + 1 < end && bytes(i + 1) == '\n'
           // the window's last byte may be half a pair

@@ -5,6 +5,7 @@ import java.nio.file.Files
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{Problem, SceneError, Severity}
+import candela.image.{Image, ImageFiles}
 import candela.scenefile.{Dialect, Parser}
 import candela.testing.SceneTexts
 
@@ -139,6 +140,20 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assert(found.map(_.severity).toSet == Set(Severity.Warning))
     assert(found.exists(_.message.contains("\"environment\"")))
     assert(found.exists(_.message.contains("\"bdpt\"")))
+
+  test("gamma as a number in v3 is passed over with a warning, as it is in pbrt-v3"):
+    val folder = Files.createTempDirectory("candela-build")
+    val file = folder.resolve("a.png")
+    try
+      ImageFiles.write(file, Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f)), Vector.empty)
+      val text = "WorldBegin\nLightSource \"point\"\nTexture \"t\" \"float\" \"imagemap\" " +
+        "\"string filename\" \"a.png\" \"float gamma\" 2.2"
+      val found = SceneTexts.problems(text, Dialect.V3, folder)
+      assert(found.exists(_.message.startsWith("`gamma` is true or false in v3")), found)
+      assert(found.forall(_.severity == Severity.Warning))
+    finally
+      Files.deleteIfExists(file): Unit
+      Files.delete(folder)
 
   test("gamma of an image texture is a number in v2 and a flag in v3, and neither is a surprise"):
     val v2 = "Texture \"t\" \"float\" \"imagemap\" \"float gamma\" 2.2"

@@ -45,6 +45,19 @@ class IncludeSuite extends AnyFunSuite:
       assert(start("Include") == Vector.fill(2)(Transform.translate(1, 0, 0)))
       assert(start("Import") == Vector(Transform.translate(1, 0, 0), Transform.Identity))
 
+  test("the last statement of an included file goes on where that was included"):
+    withFolder(
+      "a.pbrt" -> "Include \"b.pbrt\" \"float c\" 3",
+      "b.pbrt" -> "Shape \"first\" Shape \"last\" \"float a\" 1"
+    ): folder =>
+      val text = "WorldBegin Include \"a.pbrt\" \"float d\" 4 Shape \"next\" \"float e\" 5"
+      val shapes = Parser.parseText("test", text, folder).shapes.map(_.shape)
+      assert(shapes.map(_.name) == Vector("first", "last", "next"))
+      assert(shapes.map(_.params.map(_.name).mkString) == Vector("", "acd", "e"))
+      val missing = text.replace("a.pbrt", "no.pbrt")
+      val kept = Parser.parseText("test", missing, folder, None, keepGoing = true)
+      assert(kept.shapes.map(_.shape.name) == Vector("next") && kept.warnings.size == 1)
+
   test("files that include one another are an error that names them"):
     withFolder(
       "main.pbrt" -> "WorldBegin Include \"a.pbrt\"",

@@ -76,6 +76,11 @@ class ParametersSuite extends AnyFunSuite:
     assert(one("\"integer n\" [1 2.7]").ints.toVector == Vector(1, 2))
     assert(warnings.map(_.message) == Vector("`n` takes whole numbers; fractions are cut off"))
 
+  test("commas between numbers are blanks"):
+    val plain = Vector(0f, 1.5f, -1f)
+    assert(one("\"normal n\" [0, 1.5, -1]").floats.toVector == plain)
+    assert(one("\"normal n\" [ 0,1.5 , -1, ]").floats.toVector == plain)
+
   test("an empty list is read, with a warning"):
     assert(one("\"float a\" []").floats.isEmpty)
     assert(warnings.map(_.message) == Vector("`a` has an empty list"))

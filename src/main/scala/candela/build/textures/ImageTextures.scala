@@ -3,7 +3,7 @@ package candela.build
 import candela.color.Encoding
 import candela.image.{ByteImage, Image, StoredImage}
 import candela.math.*
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, ParamType}
 import candela.textures.*
 
 abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a picture"):
@@ -75,7 +75,10 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
         x => pow(s * x, g)
       case Dialect.V3 =>
         val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
-        if gammaFlag.given_().getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
+        val isNumber = site.declaration.param("gamma").exists(_.paramType == ParamType.Float)
+        if isNumber then site.warn("`gamma` is true or false in v3: the number has no effect")
+        val flag = if isNumber then None else gammaFlag.given_()
+        if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
       case Dialect.V4 =>
         // `encoding` speaks of PNG; floating-point pictures are linear, TGA and JPEG sRGB
         if filename().toLowerCase.endsWith(".png") then encoded()
