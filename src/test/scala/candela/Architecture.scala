@@ -54,6 +54,7 @@ object Architecture:
   val file: Vector[String] = floors("base math scenefile")
 
   private val measure = Set("base", "math", "color", "image")
+  private val convert = measure ++ Set("bsdf", "lights", "scenefile")
   private val bridge = (runtime ++ file).toSet
 
   /** What each package may use beside itself. */
@@ -61,8 +62,9 @@ object Architecture:
     def below(tower: Vector[String]) = tower.indices.map(i => tower(i) -> tower.take(i).toSet)
     below(runtime).toMap ++ below(file) ++ Map(
       "measure" -> measure,
+      "convert" -> convert,
       "build" -> bridge,
-      "cli" -> (bridge + "measure" + "build")
+      "cli" -> (bridge + "measure" + "convert" + "build")
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */

@@ -32,4 +32,5 @@ object Main:
           case Command.Check => CheckCommand(options, terminal, report, loader).run()
           case Command.Compare => CompareCommand(options, terminal, report).run()
           case Command.Describe => DescribeCommand(options, terminal, report).run()
+          case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number

@@ -99,6 +99,19 @@ private[cli] object OptionTable:
       .action((f, o) => o.copy(outfiles = Vector(f)))
   )
 
+  private val convertOptions: Vector[Row] = Vector(
+    opt[Dialect]("to").required().valueName("v4|v3")
+      .text("the dialect to write; the scene's own formats it (v2 only from v2)")
+      .action((d, o) => o.copy(to = Some(d))),
+    opt[String]("out").valueName("FILE")
+      .text("the scene to write, instead of printing it; its images and meshes go beside it")
+      .action((f, o) => o.copy(out = Some(f))),
+    opt[Int]("to-ply").valueName("N")
+      .text("write meshes of N triangles or more as binary PLY files")
+      .validate(atLeast("to-ply", 1))
+      .action((n, o) => o.copy(toPly = Some(n)))
+  ) ++ shared.filterNot(_.toList.exists(_.name == "explain"))
+
   /** The long options of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
@@ -106,6 +119,7 @@ private[cli] object OptionTable:
       case Some(Command.Check) => checkOptions
       case Some(Command.Compare) => compareOptions
       case Some(Command.Describe) => describeOptions
+      case Some(Command.Convert) => convertOptions
       case None => Vector.empty
     rows.flatMap(_.toList).map(_.name)
 
@@ -132,6 +146,10 @@ private[cli] object OptionTable:
     command(Command.Describe, "say what scene files can say: all categories, types, parameters")(
       arg[String]("[category] [type]").optional().unbounded().text("what to describe")
         .action((f, o) => o.copy(files = o.files :+ f)) +: describeOptions
+    ),
+    note(""),
+    command(Command.Convert, "write a scene in another dialect")(
+      file("scene.pbrt", "the scene to convert") +: convertOptions
     ),
     note("""
       |Without --outfile the image goes where the scene's Film says; an .exr also as a .png.

@@ -7,6 +7,7 @@ enum Command(val word: String):
   case Check extends Command("check")
   case Compare extends Command("compare")
   case Describe extends Command("describe")
+  case Convert extends Command("convert")
 
 /** The part of the image to render: fractions of its width and height, 0 to 1. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
@@ -17,6 +18,9 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   *                  describe
   * @param outfiles  where to write the image, instead of the scene's file name
   * @param markdown  whether `describe` writes the whole reference
+  * @param to        the dialect that `convert` writes
+  * @param out       where it writes the scene
+  * @param toPly     meshes of at least as many triangles go into PLY files
   * @param maxRelMse the relative mean squared error above which `compare` fails
   */
 final case class Options(
@@ -34,5 +38,8 @@ final case class Options(
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     maxRelMse: Option[Double] = None,
-    markdown: Boolean = false
+    markdown: Boolean = false,
+    to: Option[Dialect] = None,
+    out: Option[String] = None,
+    toPly: Option[Int] = None
 )

@@ -37,7 +37,8 @@ object OutputFiles:
       val warning = Problem(Severity.Warning, None, message)
       OutputFiles(Vector(exr, withExtension(exr, "png")), Vector(warning))
 
-  private def path(name: String): Path =
+  /** The name as a path. */
+  def path(name: String): Path =
     try Path.of(name)
     catch
       case e: InvalidPathException =>

@@ -47,7 +47,8 @@ object SceneLoader:
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
     BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing)
 
-  private def existing(scene: String): Path =
+  /** The file, if there is one. */
+  def existing(scene: String): Path =
     val file =
       try Path.of(scene)
       catch

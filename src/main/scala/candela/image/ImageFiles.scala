@@ -64,6 +64,9 @@ object ImageFiles:
       case _: NoSuchFileException => throw ImageError(s"$path: there is no such folder")
       case e: IOException => throw ImageError(s"$path: can't be written: ${reason(e)}")
 
+  /** What `write` puts into an `.exr` file. */
+  def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
+
   /** True if `write` takes the name. */
   def isWritable(path: Path): Boolean = Set("exr", "png").contains(suffix(path))
 

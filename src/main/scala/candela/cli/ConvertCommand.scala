@@ -1,0 +1,65 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError}
+import candela.convert.{Converter, Declarations, SceneText, SideFiles}
+import candela.scenefile.{Excerpts, Parser, SceneDescription}
+
+import java.io.{BufferedWriter, OutputStreamWriter, Writer}
+import java.nio.charset.StandardCharsets
+import java.nio.file.{Files, Path}
+
+/** `candela convert`: writes a scene in another dialect, or tidily in its own. */
+final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
+
+  def run(): ExitCode = report.guarded:
+    val out = options.out.map(OutputFiles.path)
+    out.foreach(check)
+    val scene = Parser.parse(SceneLoader.existing(options.files.head), options.dialect)
+    out.foreach(keepSource(_, scene))
+    val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
+    val converted = Converter.convert(scene, options.to.get, folder, options.toPly)
+    val warnings = Excerpts.fill(converted.warnings)
+    report.warnings(scene.warnings ++ warnings, all = options.verbose)
+    out match
+      case Some(path) =>
+        SideFiles.write(path): file =>
+          val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
+          try SceneText.write(converted.scene, writer)
+          finally writer.close()
+        if !options.quiet then terminal.out.println(s"wrote $path  ${summary(warnings)}")
+      case None => print(converted.scene)
+    terminal.out.flush()
+    ExitCode.Done
+
+  private def summary(warnings: Vector[Problem]): String =
+    val dialect = options.to.get.toString.toLowerCase
+    if warnings.isEmpty then dialect
+    else s"$dialect, ${Figures.count(warnings.size, "warning")}"
+
+  private def print(scene: SceneDescription): Unit =
+    val encoder = OutputStreamWriter(terminal.out, StandardCharsets.UTF_8)
+    val writer: Writer = BufferedWriter(encoder, 1 << 16)
+    SceneText.write(scene, writer)
+    writer.flush()
+
+  private def check(path: Path): Unit =
+    val folder = Option(path.toAbsolutePath.getParent)
+    def fail(why: String) = throw SceneError(Problem.general(s"can't write `$path`: $why"))
+    if Files.isDirectory(path) then fail("it is a folder")
+    else if !folder.exists(Files.isDirectory(_)) then
+      fail(s"there is no folder `${folder.getOrElse(path)}`")
+    else if !folder.exists(Files.isWritable) then fail("its folder is write-protected")
+
+  /** The text that is read must not be lost: what is written has neither its comments nor its
+    * includes.
+    */
+  private def keepSource(path: Path, scene: SceneDescription): Unit =
+    var sources = Set(options.files.head)
+    val _ = Declarations.map(scene): d =>
+      sources += d.at.file
+      d
+    val isSource = Files.exists(path) &&
+      sources.exists(s => Files.exists(Path.of(s)) && Files.isSameFile(Path.of(s), path))
+    if isSource then
+      val help = Some("--out FILE with another name keeps both")
+      throw SceneError(Problem.general(s"`$path` is what is being read", help))

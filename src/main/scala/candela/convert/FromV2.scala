@@ -1,0 +1,178 @@
+package candela.convert
+
+import candela.scenefile.Dialect
+
+/** What stands before `WorldBegin`, lights and shapes, from v2 to v3. */
+object FromV2:
+  import Steps.*
+
+  private val camera = Seq(
+    keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance", "shutteropen",
+      "shutterclose"),
+    drop("hither", "yon")
+  )
+
+  private val cameras = Table("Camera", fallback = "perspective")(
+    Rule("perspective" -> "perspective")((keep("fov", "halffov") +: camera)*),
+    Rule("orthographic" -> "orthographic")(camera*),
+    Rule("environment" -> "environment")(camera*)
+  )
+
+  private def size(name: String, default: Int) =
+    otherwise(name, s"`$name` $default")(_.addInteger(name, default))
+
+  private val films = Table("Film", fallback = "image")(
+    Rule("image" -> "image")(
+      keep("filename", "xresolution", "yresolution", "cropwindow", "scale"),
+      size("xresolution", 640),
+      size("yresolution", 480),
+      drop("display")
+    )
+  )
+
+  private val extents = keep("xwidth", "ywidth")
+
+  private val filters = Table("PixelFilter", fallback = "box")(
+    Rule("box" -> "box")(extents),
+    Rule("triangle" -> "triangle")(extents),
+    Rule("gaussian" -> "gaussian")(extents, keep("alpha")),
+    Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
+    Rule("sinc" -> "sinc")(
+      Step("`xwidth`, `ywidth`, `tau`", "the same; v2 stretches the curve to its width")(s =>
+        val tau = s.look("tau").flatMap(s.numberOf).getOrElse(3f)
+        val widths = Seq("xwidth", "ywidth").map(s.look(_).flatMap(s.numberOf).getOrElse(4f))
+        if widths.exists(_ != tau) then
+          s.warn(
+            s.declaration.at,
+            "a sinc filter is narrower or wider in v3, unless its `tau` is " +
+              "its width"
+          )
+      ),
+      extents,
+      keep("tau")
+    )
+  )
+
+  private val samples = Seq(
+    keep("pixelsamples"),
+    otherwise("pixelsamples", "`pixelsamples` 4")(_.addInteger("pixelsamples", 4))
+  )
+
+  private val samplers = Table("Sampler", fallback = "halton")(
+    Rule("lowdiscrepancy|bestcandidate" -> "02sequence")(samples*),
+    Rule("random" -> "random")(samples*),
+    Rule("halton" -> "halton")(samples*),
+    Rule.near("adaptive" -> "02sequence", "it takes the most samples everywhere")(
+      rename("maxsamples" -> "pixelsamples"),
+      otherwise("pixelsamples", "`pixelsamples` 32")(_.addInteger("pixelsamples", 32)),
+      drop("minsamples", "method")
+    ),
+    Rule("stratified" -> "stratified")(
+      keep("xsamples", "ysamples", "jitter"),
+      otherwise("xsamples", "`xsamples` 2")(_.addInteger("xsamples", 2)),
+      otherwise("ysamples", "`ysamples` 2")(_.addInteger("ysamples", 2))
+    )
+  )
+
+  private def oneMore = Step(
+    "`maxdepth`",
+    "`maxdepth`, one more: v2 lights a vertex that it does " +
+      "not count"
+  )(s => s.addInteger("maxdepth", s.takeInteger("maxdepth", 5) + 1))
+
+  private def unbiased(names: String) =
+    Rule.near(names -> "path", "its picture is what that one estimates")(
+      Step("all", "left out")(s => s.declaration.params.foreach(p => s.take(p.name)))
+    )
+
+  private val integrators = Table("Integrator", fallback = "path")(
+    Rule("path" -> "path")(oneMore),
+    Rule("directlighting" -> "directlighting")(keep("maxdepth", "strategy")),
+    Rule("whitted" -> "whitted")(keep("maxdepth")),
+    Rule("ambientocclusion" -> "ao")(
+      keep("nsamples"),
+      lose("maxdist", "it looks at all distances")
+    ),
+    unbiased(
+      "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
+    )
+  )
+
+  private val lightSamples = Step("`nsamples`", "`samples`"): s =>
+    for p <- s.take("nsamples") do s.add("samples", p)
+
+  private def light(name: String, params: String*) =
+    Rule(name -> name)((Seq(keep(params*), keep("scale", "samples")) :+ lightSamples)*)
+
+  private val lights = Table("LightSource")(
+    light("point", "I", "from"),
+    light("spot", "I", "from", "to", "coneangle", "conedeltaangle"),
+    light("goniometric", "I", "mapname"),
+    light("projection", "I", "fov", "mapname"),
+    light("distant", "L", "from", "to"),
+    Rule("infinite|exinfinite" -> "infinite")(
+      keep("L", "mapname", "scale", "samples"),
+      lightSamples
+    )
+  )
+
+  private val area = Table("AreaLightSource")(
+    Rule("diffuse|area" -> "diffuse")(keep("L", "scale", "samples", "twosided"), lightSamples)
+  )
+
+  private val quadric = keep("radius", "zmin", "zmax", "phimax")
+
+  private val shapes = Table("Shape")(
+    Rule("sphere" -> "sphere")(quadric),
+    Rule("cylinder" -> "cylinder")(quadric),
+    Rule("paraboloid" -> "paraboloid")(quadric),
+    Rule("disk" -> "disk")(keep("height", "radius", "innerradius", "phimax")),
+    Rule("cone" -> "cone")(keep("radius", "height", "phimax")),
+    Rule("hyperboloid" -> "hyperboloid")(keep("p1", "p2", "phimax")),
+    Rule("trianglemesh" -> "trianglemesh")(
+      keep("P", "N", "S", "uv", "st", "indices", "alpha"),
+      drop("discarddegenerateUVs")
+    ),
+    Rule("plymesh" -> "plymesh")(keep("filename", "alpha")),
+    Rule("loopsubdiv" -> "loopsubdiv")(keep("nlevels", "levels", "P", "indices", "scheme")),
+    Rule("heightfield" -> "heightfield")(keep("nu", "nv", "Pz")),
+    Rule("nurbs" -> "nurbs")(
+      keep("nu", "nv", "uorder", "vorder", "uknots", "vknots", "u0", "u1", "v0", "v1", "P", "Pw")
+    )
+  )
+
+  private val accelerators = Table("Accelerator")(
+    Rule("bvh" -> "bvh")(keep("splitmethod"), rename("maxnodeprims" -> "maxnodeprims")),
+    Rule("kdtree" -> "kdtree")(
+      keep("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
+    )
+  )
+
+  val pass: Pass = Pass(
+    Dialect.V2,
+    Dialect.V3,
+    Vector(
+      cameras,
+      films,
+      samplers,
+      filters,
+      integrators,
+      accelerators,
+      lights,
+      area,
+      shapes,
+      FromV2Surfaces.materials,
+      FromV2Surfaces.floats,
+      FromV2Surfaces.colors,
+      Table("Medium")(),
+      Table("Renderer")(),
+      Table("VolumeIntegrator")(),
+      Table("Volume")()
+    ),
+    Map(
+      "PixelFilter" -> "box",
+      "Integrator" -> "directlighting",
+      "Film" -> "image",
+      "Sampler" -> "lowdiscrepancy"
+    )
+  )

@@ -1,0 +1,112 @@
+package candela.convert
+
+import candela.color.Rgb
+import candela.math.pow
+
+/** Materials and textures, from v2 to v3. */
+object FromV2Surfaces:
+  import Steps.*
+
+  private val bump = keep("bumpmap")
+  private val index = rename("index" -> "eta")
+  private val highlight = "v2's highlights have another shape; they are as wide"
+
+  /** The exponents of the two directions; only their widths can be said. */
+  private val substrateRoughness =
+    Step("`uroughness`, `vroughness`", "alpha of a distribution as wide"): s =>
+      for name <- Seq("uroughness", "vroughness") if !s.has(name) do s.put(number(s, name, 0.1f))
+      RoughnessSteps.v2(0.1f).run(s)
+
+  private def number(s: Statement, name: String, value: Float) =
+    val at = s.declaration.at
+    candela.scenefile.Param(
+      candela.scenefile.ParamType.Float, name, at, at, floats = Array(value)
+    )
+
+  private val subsurface = Seq(
+    keep("name", "sigma_a", "scale", "g", "Kr"),
+    rename("sigma_prime_s" -> "sigma_s", "index" -> "eta", "meanfreepath" -> "mfp"),
+    bump
+  )
+
+  val materials: Table = Table("Material", fallback = "matte")(
+    Rule("matte" -> "matte")(keep("Kd", "sigma"), bump),
+    Rule.near("plastic" -> "plastic", highlight)(keep("Kd", "Ks"), RoughnessSteps.v2(0.1f), bump),
+    Rule.near("metal" -> "metal", highlight)(keep("eta", "k"), RoughnessSteps.v2(0.01f), bump),
+    Rule.near("substrate" -> "substrate", highlight)(keep("Kd", "Ks"), substrateRoughness, bump),
+    Rule.near("uber" -> "uber", highlight)(
+      keep("Kd", "Ks", "Kr", "opacity"),
+      index,
+      RoughnessSteps.v2(0.1f),
+      bump
+    ),
+    Rule.near("translucent" -> "translucent", highlight)(
+      keep("Kd", "Ks", "reflect", "transmit"),
+      RoughnessSteps.v2(0.1f),
+      bump
+    ),
+    Rule.near("shinymetal" -> "uber", "a mirror below a gloss stands in")(
+      keep("Ks", "Kr"),
+      otherwise("Kd", "`Kd` 0")(_.addRgb("Kd", Rgb.Black)),
+      RoughnessSteps.v2(0.1f),
+      bump
+    ),
+    Rule("glass" -> "glass")(keep("Kr", "Kt"), index, bump),
+    Rule("mirror" -> "mirror")(keep("Kr"), bump),
+    Rule("mix" -> "mix")(keep("amount", "namedmaterial1", "namedmaterial2")),
+    Rule("subsurface" -> "subsurface")(subsurface*),
+    Rule("kdsubsurface" -> "kdsubsurface")((keep("Kd") +: subsurface)*)
+  )
+
+  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+
+  /** v2 raises values to a power, after it has scaled them; v3 knows no power but sRGB's curve. */
+  private val gamma =
+    Step("`filename`, `gamma`, `scale`", "`filename`, `gamma` false, `scale`; or a new image"): s =>
+      val p = s.take("gamma")
+      val (power, scale) = (p.flatMap(s.numberOf).getOrElse(1f), s.takeNumber("scale", 1f))
+      for file <- s.take("filename") do
+        if power == 1f then
+          s.add("filename", file)
+          s.addBool("gamma", false)
+          if scale != 1f then s.addFloat("scale", scale)
+        else
+          val meant = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
+          s.addString("filename", Pictures.baked(s, file)(meant))(using file.at)
+
+  /** v2 reads only TGA files from the bottom up. */
+  private val upright =
+    Step("`vscale`, `vdelta` of other files than .tga", "turned upside down"): s =>
+      val file = s.look("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase
+      val isUv = s.look("mapping").forall(_.strings.headOption.contains("uv"))
+      if !file.endsWith(".tga") then
+        if isUv then
+          val (scale, delta) = (s.takeNumber("vscale", 1f), s.takeNumber("vdelta", 0f))
+          s.addFloat("vscale", -scale)
+          s.addFloat("vdelta", 1f - delta)
+        else s.warn(s.declaration.at, "v3 has this image upside down")
+
+  private def common = Seq(
+    Rule("constant" -> "constant")(keep("value")),
+    Rule("scale" -> "scale")(keep("tex1", "tex2")),
+    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("imagemap" -> "imagemap")(
+      upright,
+      gamma,
+      keep("wrap", "trilinear", "maxanisotropy"),
+      mapping
+    ),
+    Rule("checkerboard" -> "checkerboard")(keep("tex1", "tex2", "dimension", "aamode"), mapping),
+    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
+    Rule("fbm" -> "fbm")(keep("octaves", "roughness")),
+    Rule("wrinkled" -> "wrinkled")(keep("octaves", "roughness")),
+    Rule("windy" -> "windy")(),
+    Rule("uv" -> "uv")(mapping)
+  )
+
+  val floats: Table = Table("float texture", fallback = "constant")(common*)
+
+  val colors: Table = Table("spectrum texture", fallback = "constant")(
+    (common :+ Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation")))*
+  )

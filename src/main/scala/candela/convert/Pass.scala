@@ -1,0 +1,134 @@
+package candela.convert
+
+import scala.collection.mutable
+
+import candela.base.{Problem, SourcePos}
+import candela.math.Transform
+import candela.scenefile.*
+
+/** The tables from one dialect to another.
+  *
+  * @param defaults what the dialect that is read means where a scene is silent, by category
+  */
+final class Pass(
+    val from: Dialect,
+    val to: Dialect,
+    val tables: Vector[Table],
+    val defaults: Map[String, String],
+    val shape: (ShapeDescription, PassRun) => Vector[ShapeDescription] = (s, _) => Vector(s),
+    val texture: TextureDescription => TextureDescription = identity,
+    val light: LightDescription => LightDescription = identity
+):
+  def table(category: String): Table = tables.find(_.category == category).get
+
+/** One scene on its way through a pass. */
+final class PassRun(val pass: Pass, val scene: SceneDescription, val files: SideFiles):
+  private val problems = mutable.LinkedHashSet.empty[Problem]
+  private val textures = mutable.LinkedHashMap.from(
+    scene.textures.map(t => (t.name, t.valueType) -> t)
+  )
+  private val added = mutable.ArrayBuffer.empty[TextureDescription]
+  private val shared = mutable.HashMap.empty[Declaration, Option[Declaration]]
+  private var place = GraphicsState.Identity
+
+  /** Where the texture stands that is being converted. */
+  def textureToWorld: AnimatedTransform = place
+
+  val values: Values = Values(pass.from, pass.to, (p, message) => warn(p.at, message))
+
+  def warn(at: SourcePos, message: String): Unit = problems += Problem.warning(at, message)
+  def warnings: Vector[Problem] = problems.toVector
+
+  def texture(name: String, valueType: String): Option[TextureDescription] =
+    textures.get((name, valueType))
+
+  /** All materials that shapes may have. */
+  lazy val materials: Vector[Declaration] =
+    val used = (scene.shapes ++ scene.objects.values.flatten).map(_.material).distinct
+    scene.namedMaterials.map(_._2) ++ used.collect { case MaterialRef.Inline(d) => d }
+
+  /** A texture of the other dialect, of which the scene that is read has nothing. */
+  def define(t: TextureDescription): String =
+    val taken = textures.keySet.map(_._1) ++ added.map(_.name)
+    val names = t.name +: LazyList.from(2).map(i => s"${t.name} ($i)")
+    val name = names.find(n => !taken(n)).get
+    added += t.copy(name = name)
+    name
+
+  def convert(d: Declaration, category: String): Option[Declaration] =
+    val table = pass.table(category)
+    table.rule(d.name) match
+      case Some(rule) => Some(Statement(d, this, rule).result())
+      case None =>
+        val dialect = pass.to.toString.toLowerCase
+        val instead = table.fallback.fold("it is left out")(f => s"\"$f\" stands in for it")
+        warn(d.at, s"$dialect has no ${category.toLowerCase} \"${d.name}\", nor the like: $instead")
+        table.fallback.map(name => d.copy(name = name, params = Vector.empty))
+
+  /** A declaration that several shapes may share: converted once. */
+  private def sharing(d: Declaration, category: String): Option[Declaration] =
+    shared.getOrElseUpdate(d, convert(d, category))
+
+  def result(): SceneDescription =
+    // Textures first: what is defined on the way belongs between those before and those after it
+    val allTextures = scene.textures.flatMap: t =>
+      val placed = pass.texture(t)
+      place = placed.textureToWorld
+      val made = convert(t.texture, s"${t.valueType} texture")
+      val between = added.toVector
+      added.clear()
+      between ++ made.map(d => placed.copy(texture = d))
+    val placeOfNone = scene.camera.fold(SourcePos("", 0, 0))(_.at)
+    def option(category: String, given_ : Option[Declaration]): Option[Declaration] =
+      val silent = pass.defaults.get(category).map: name =>
+        Declaration(category, name, Vector.empty, placeOfNone, java.nio.file.Path.of(""))
+      given_.orElse(silent).flatMap(convert(_, category))
+    val objects = scene.objects.map((name, shapes) => name -> shapes.flatMap(shape))
+    val shapes = scene.shapes.flatMap(shape)
+    val materials =
+      scene.namedMaterials.flatMap((name, d) => convert(d, "Material").map(name -> _))
+    scene.copy(
+      dialect = pass.to,
+      camera = scene.camera.flatMap(convert(_, "Camera")),
+      film = option("Film", scene.film),
+      sampler = option("Sampler", scene.sampler),
+      filter = option("PixelFilter", scene.filter),
+      integrator = option("Integrator", scene.integrator),
+      accelerator = scene.accelerator.flatMap(convert(_, "Accelerator")),
+      renderer = scene.renderer.flatMap(convert(_, "Renderer")),
+      volumeIntegrator = scene.volumeIntegrator.flatMap(convert(_, "VolumeIntegrator")),
+      options = scene.options.filter: o =>
+        if pass.to != Dialect.V4 then warn(o.at, s"Option \"${o.name}\" is v4's: it is left out")
+        pass.to == Dialect.V4
+      ,
+      namedMaterials = materials,
+      lights = scene.lights.flatMap: l =>
+        convert(l.light, "LightSource").map(d => pass.light(l).copy(light = d)),
+      shapes = shapes,
+      objects = objects,
+      media = scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d))),
+      volumes = scene.volumes.flatMap(v => convert(v.light, "Volume").map(d => v.copy(light = d))),
+      textures = allTextures ++ added
+    )
+
+  private def shape(s: ShapeDescription): Vector[ShapeDescription] =
+    for
+      one <- pass.shape(s, this)
+      declaration <- convert(one.shape, "Shape")
+    yield one.copy(
+      shape = declaration,
+      material = one.material match
+        case MaterialRef.Inline(d) =>
+          sharing(d, "Material").fold(MaterialRef.Default)(MaterialRef.Inline(_))
+        case other => other
+      ,
+      areaLight = one.areaLight.flatMap(sharing(_, "AreaLightSource"))
+    )
+
+object PassRun:
+  /** Turned around, for textures that pbrt-v2 and v3 place by the inverse transform. */
+  def inverse(t: TextureDescription): TextureDescription =
+    t.copy(textureToWorld = GraphicsState.inverse(t.textureToWorld))
+
+  def unplaced(t: TextureDescription): TextureDescription =
+    t.copy(textureToWorld = GraphicsState.still(Transform.Identity))

@@ -1,0 +1,39 @@
+package candela.convert
+
+import java.nio.file.InvalidPathException
+
+import candela.base.loop
+import candela.image.{Image, ImageError, ImageFiles}
+import candela.scenefile.Param
+
+/** Pictures written anew as EXR, with linear values, beside the scene: where the other dialect does
+  * not read the format, or can't say what is to become of the numbers in the file.
+  */
+object Pictures:
+
+  /** A picture with the values that its file means by itself. */
+  def asExr(s: Statement, p: Param): String = written(s, p)(_.linear.toRgb)
+
+  /** A picture with `change` applied to the numbers of its file (8 bits: 0 to 1), given a channel.
+    */
+  def baked(s: Statement, p: Param)(change: (Float, Int) => Float): String =
+    written(s, p): image =>
+      val sources = image.colorChannels.toArray
+      val made = Image.rgb(image.width, image.height)
+      loop(image.width * image.height): i =>
+        loop(3): c =>
+          made.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
+      made
+
+  /** The new file's name, or the old one after a warning. */
+  private def written(s: Statement, p: Param)(change: Image => Image): String =
+    val name = p.strings.head
+    def failed(why: String) =
+      s.warn(p.at, s"the image stays as it is, for it can't be read: $why")
+      name
+    try
+      val image = ImageFiles.read(s.declaration.folder.resolve(name.replace('\\', '/')))
+      s.run.files.add("image", "exr", ImageFiles.exr(change(image)))
+    catch
+      case e: ImageError => failed(e.getMessage)
+      case e: InvalidPathException => failed(e.getReason)

@@ -1,0 +1,56 @@
+package candela.convert
+
+import java.nio.{ByteBuffer, ByteOrder}
+
+import candela.base.loop
+import candela.scenefile.{Declaration, Param, ParamType, SceneDescription, ShapeDescription}
+
+/** Puts large meshes of a scene into binary PLY files (little-endian, 32-bit floats). */
+object PlyWriter:
+
+  /** The scene with every mesh of at least `least` triangles in a file of its own. */
+  def extract(scene: SceneDescription, least: Int, files: SideFiles): SceneDescription =
+    def shape(s: ShapeDescription) =
+      val d = s.shape
+      val count = d.param("indices").fold(0)(_.ints.length / 3)
+      if count >= least && Meshes.fitsPly(d) then s.copy(shape = moved(d, files)) else s
+    scene.copy(
+      shapes = scene.shapes.map(shape),
+      objects = scene.objects.map((name, shapes) => name -> shapes.map(shape))
+    )
+
+  private def moved(d: Declaration, files: SideFiles): Declaration =
+    val name = files.add("mesh", "ply", bytes(d))
+    val at = d.param("P").get.at
+    val filename = Param(ParamType.String, "filename", at, at, strings = Vector(name))
+    val others = d.params.filterNot(p => InFile(p.name))
+    d.copy(name = "plymesh", params = filename +: others)
+
+  private val InFile = Set("P", "N", "uv", "st", "indices", "discarddegenerateUVs")
+
+  private def bytes(d: Declaration): Array[Byte] =
+    def floats(name: String) = d.param(name).fold(Array.emptyFloatArray)(_.floats)
+    val (p, n) = (floats("P"), floats("N"))
+    val uv = if floats("uv").nonEmpty then floats("uv") else floats("st")
+    val indices = d.param("indices").get.ints
+    val (vertices, faces) = (p.length / 3, indices.length / 3)
+    val names = Vector("x", "y", "z") ++ (if n.nonEmpty then Vector("nx", "ny", "nz") else Nil) ++
+      (if uv.nonEmpty then Vector("u", "v") else Nil)
+    val header = (Vector("ply", "format binary_little_endian 1.0", s"element vertex $vertices") ++
+      names.map(name => s"property float $name") ++
+      Vector(s"element face $faces", "property list uchar int vertex_indices", "end_header"))
+      .map(_ + "\n").mkString.getBytes("US-ASCII")
+    val out = ByteBuffer.allocate(header.length + vertices * 4 * names.size + faces * 13)
+    out.order(ByteOrder.LITTLE_ENDIAN).put(header)
+    def number(x: Float): Unit =
+      val _ = out.putFloat(x)
+    def index(i: Int): Unit =
+      val _ = out.putInt(i)
+    loop(vertices): i =>
+      loop(3)(k => number(p(3 * i + k)))
+      if n.nonEmpty then loop(3)(k => number(n(3 * i + k)))
+      if uv.nonEmpty then loop(2)(k => number(uv(2 * i + k)))
+    loop(faces): i =>
+      val _ = out.put(3.toByte)
+      loop(3)(k => index(indices(3 * i + k)))
+    out.array

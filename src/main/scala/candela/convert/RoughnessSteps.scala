@@ -1,0 +1,71 @@
+package candela.convert
+
+import candela.bsdf.Roughness
+import candela.math.sqrt
+import candela.scenefile.{Dialect, Param, ParamType}
+
+/** Roughness as the other dialect says it. A number becomes the width `alpha` of the distribution
+  * of facets, with `remaproughness` false: that means the same in v3 and v4. A texture can't be
+  * calculated with, so it stays, and means something else if it is remapped.
+  */
+object RoughnessSteps:
+
+  /** v3's parameters into v4's.
+    *
+    * @param default      of `roughness`, if the material has it, or of `uroughness`, `vroughness`
+    * @param smoothAtZero is roughness 0 a perfect surface, as glass's?
+    */
+  def v3(default: Float, smoothAtZero: Boolean = false): Step =
+    Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
+      val remap = s.takeBool("remaproughness", true)
+      val smooth =
+        smoothAtZero && Names.tail.forall(n => s.look(n).forall(Steps.isNumber(0f)(_, s)))
+      def alpha(r: Float) =
+        if smooth then 0f
+        else Math.max(if remap then Roughness.polynomialAlpha(r) else r, 1e-3f)
+      write(s, default, remap, alpha)
+
+  /** v2's exponents into v3's: 1 / roughness is that of Blinn's distribution, and the `alpha` of a
+    * core as wide √(2 / (e + 2)) (Walter et al. 2007, §5.2).
+    */
+  def v2(default: Float): Step =
+    Step("`roughness`, `uroughness`, `vroughness`", "alpha of a distribution as wide"): s =>
+      def alpha(r: Float) = sqrt(2f / (1f / Math.max(r, 1e-4f) + 2f))
+      if hasTexture(s) then
+        for n <- Names; p <- s.look(n) do
+          s.warn(p.at, s"a texture of v2's `${p.name}` stays as it is, but means another roughness")
+      write(s, default, remap = true, alpha)
+
+  /** v4's into v3's, which has no roughness below 0.001. */
+  def v4(default: Float, smoothAtZero: Boolean = false): Step =
+    Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
+      val remap = s.takeBool("remaproughness", true)
+      def alpha(r: Float) =
+        val a = if remap then sqrt(Math.max(r, 0f)) else r
+        if smoothAtZero then a else Math.max(a, 1e-3f)
+      write(s, default, remap, alpha)
+
+  private val Names = Vector("roughness", "uroughness", "vroughness")
+
+  private def isTexture(p: Param, s: Statement) =
+    p.paramType == ParamType.Texture && s.numberOf(p).isEmpty
+
+  private def hasTexture(s: Statement) = Names.flatMap(s.look).exists(isTexture(_, s))
+
+  private def write(s: Statement, default: Float, remap: Boolean, alpha: Float => Float): Unit =
+    val given_ = Names.flatMap(n => s.take(n).map(n -> _))
+    val textured = given_.exists((_, p) => isTexture(p, s))
+    // Beside a remapped texture, numbers are remapped too
+    def said(r: Float) =
+      val a = alpha(r)
+      if textured && remap && s.run.pass.to == Dialect.V4 then a * a
+      else if textured && remap then r
+      else a
+    for (name, p) <- given_ do
+      if isTexture(p, s) then
+        if remap && s.run.pass.from != Dialect.V2 then
+          s.warn(p.at, s"the texture of `$name` stays, but ${s.target} maps its values differently")
+        s.add(name, p)
+      else s.numberOf(p).foreach(r => s.addFloat(name, said(r))(using p.at))
+    if given_.isEmpty then s.addFloat("roughness", alpha(default))
+    if !(textured && remap) then s.addBool("remaproughness", false)

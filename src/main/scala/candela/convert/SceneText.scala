@@ -1,0 +1,206 @@
+package candela.convert
+
+import java.io.Writer
+
+import candela.base.SourcePos
+import candela.scenefile.*
+
+/** Writes a description as a scene file of its dialect.
+  *
+  * Every transform is written whole, so that no statement depends on those before it. Shapes that
+  * follow one another and share all but the transform share a block.
+  */
+final class SceneText private (out: Writer, scene: SceneDescription):
+  private val text = Statements(out, scene.dialect)
+  import text.{block, blank, line, statement}
+
+  private val isV4 = scene.dialect == Dialect.V4
+
+  /** The medium outside of all blocks is the camera's; each block says what it has instead. */
+  private val outside = scene.cameraMedium
+
+  private def write(): Unit =
+    options()
+    blank()
+    line("WorldBegin")
+    textures()
+    materials()
+    media()
+    lights()
+    for (name, shapes) <- scene.objects do
+      blank()
+      block(s"ObjectBegin ${Statements.quoted(name)}", "ObjectEnd")(grouped(shapes))
+    grouped(scene.shapes)
+    instances()
+    if !isV4 then
+      blank()
+      line("WorldEnd")
+
+  private def options(): Unit =
+    for o <- scene.options do option(o)
+    val (start, end) = scene.transformTimes
+    if start != 0f || end != 1f then
+      line(s"TransformTimes ${NumberText.of(start)} ${NumberText.of(end)}")
+    if outside.nonEmpty then line(s"MediumInterface \"\" ${Statements.quoted(outside)}")
+    for c <- scene.camera do
+      if !isStill(scene.worldToCamera) then text.transform(scene.worldToCamera)
+      text.declaration("Camera", c)
+    val v2 = scene.dialect == Dialect.V2
+    for
+      (directive, d) <- Vector(
+        "Film" -> scene.film,
+        "Sampler" -> scene.sampler,
+        "PixelFilter" -> scene.filter,
+        (if v2 then "SurfaceIntegrator" else "Integrator") -> scene.integrator,
+        "VolumeIntegrator" -> scene.volumeIntegrator,
+        "Renderer" -> scene.renderer,
+        "Accelerator" -> scene.accelerator
+      )
+      declaration <- d
+    do text.declaration(directive, declaration)
+
+  /** `Option` has no type before its name. */
+  private def option(p: Param): Unit =
+    val value = p.paramType match
+      case ParamType.String => p.strings.map(Statements.quoted).mkString(" ")
+      case ParamType.Bool => p.bools.mkString(" ")
+      case ParamType.Integer => p.ints.mkString(" ")
+      case _ => p.floats.map(NumberText.of).mkString(" ")
+    line(s"Option ${Statements.quoted(p.name)} $value")
+
+  private def isStill(t: AnimatedTransform): Boolean = !t.isAnimated && t.start.isIdentity
+
+  /** In v2 and v3 a definition would be forgotten at `AttributeEnd`; v4 frowns on
+    * `TransformBegin`.
+    */
+  private def placed(t: AnimatedTransform, isMore: Boolean)(body: => Unit): Unit =
+    val kind = if isV4 then "Attribute" else "Transform"
+    if isStill(t) && !isMore then body
+    else
+      block(s"${kind}Begin", s"${kind}End"):
+        if !isStill(t) then text.transform(t)
+        body
+
+  private def hasDefaults(d: Declaration): Boolean = d.params.exists(_.isDefault)
+
+  private def textures(): Unit =
+    if scene.textures.nonEmpty then blank()
+    for t <- scene.textures do
+      placed(t.textureToWorld, hasDefaults(t.texture)):
+        text.defaults("texture", t.texture)
+        val valueType = if scene.dialect == Dialect.V2 && t.valueType == "spectrum" then "color"
+        else t.valueType
+        text.declaration("Texture", Vector(t.name, valueType, t.texture.name), t.texture)
+
+  private def materials(): Unit =
+    if scene.namedMaterials.nonEmpty then blank()
+    for (name, m) <- scene.namedMaterials do
+      placed(GraphicsState.Identity, hasDefaults(m)):
+        text.defaults("material", m)
+        text.declaration("MakeNamedMaterial", Vector(name), typed(m))
+
+  private def media(): Unit =
+    if scene.media.nonEmpty then blank()
+    for m <- scene.media do
+      placed(m.mediumToWorld, hasDefaults(m.medium)):
+        text.defaults("medium", m.medium)
+        text.declaration("MakeNamedMedium", Vector(m.name), typed(m.medium))
+
+  /** With its class as a parameter. */
+  private def typed(d: Declaration): Declaration =
+    val kind = Param(ParamType.String, "type", d.at, d.at, strings = Vector(d.name))
+    d.copy(params = kind +: d.params)
+
+  private def lights(): Unit =
+    if scene.lights.nonEmpty || scene.volumes.nonEmpty then blank()
+    for l <- scene.lights do
+      val isPlain = isStill(l.lightToWorld) && l.medium == outside && !hasDefaults(l.light)
+      attributes(isPlain):
+        medium("", l.medium)
+        if !isStill(l.lightToWorld) then text.transform(l.lightToWorld)
+        text.defaults("light", l.light)
+        text.declaration("LightSource", l.light)
+    for v <- scene.volumes do
+      attributes(isStill(v.lightToWorld)):
+        if !isStill(v.lightToWorld) then text.transform(v.lightToWorld)
+        text.declaration("Volume", v.light)
+
+  private def attributes(isPlain: Boolean)(body: => Unit): Unit =
+    if isPlain then body else block("AttributeBegin", "AttributeEnd")(body)
+
+  private def medium(inner: String, outer: String): Unit =
+    if inner.nonEmpty || outer != outside then
+      line(s"MediumInterface ${Statements.quoted(inner)} ${Statements.quoted(outer)}")
+
+  private def grouped(shapes: Vector[ShapeDescription]): Unit =
+    var rest = shapes
+    while rest.nonEmpty do
+      val common = Surroundings(rest.head)
+      val (group, others) = rest.span(s => Surroundings(s) == common)
+      rest = others
+      blank()
+      val isPlain = common == Surroundings.none(outside) &&
+        group.forall(s => isStill(s.objectToWorld))
+      attributes(isPlain)(shapesOf(common, group))
+
+  private def shapesOf(common: Surroundings, group: Vector[ShapeDescription]): Unit =
+    medium(common.inside, common.outside)
+    common.material match
+      case MaterialRef.Default => ()
+      case MaterialRef.Named(name, _) => line(s"NamedMaterial ${Statements.quoted(name)}")
+      case MaterialRef.Inline(m) =>
+        text.defaults("material", m)
+        text.declaration("Material", m)
+    for a <- common.areaLight do
+      text.defaults("light", a)
+      text.declaration("AreaLightSource", a)
+    if common.isReversed then line("ReverseOrientation")
+    if common.defaults.nonEmpty then statement("Attribute", Vector("shape"), common.defaults)
+    var now = GraphicsState.Identity
+    for s <- group do
+      if s.objectToWorld != now then text.transform(s.objectToWorld)
+      now = s.objectToWorld
+      text.declaration("Shape", s.shape)
+
+  private def instances(): Unit =
+    if scene.instances.nonEmpty then
+      blank()
+      val isPlain = scene.instances.forall(i => isStill(i.instanceToWorld))
+      attributes(isPlain):
+        var now = GraphicsState.Identity
+        for i <- scene.instances do
+          if i.instanceToWorld != now then text.transform(i.instanceToWorld)
+          now = i.instanceToWorld
+          line(s"ObjectInstance ${Statements.quoted(i.name)}")
+
+object SceneText:
+  def write(scene: SceneDescription, out: Writer): Unit = SceneText(out, scene).write()
+
+/** What shapes of one block share. Declarations are compared by their places: that is cheap, and
+  * right for statements of one file.
+  */
+private final case class Surroundings(
+    material: MaterialRef,
+    areaLight: Option[Declaration],
+    isReversed: Boolean,
+    inside: String,
+    outside: String,
+    defaults: Vector[Param],
+    colorSpace: String
+)
+
+private object Surroundings:
+  private val Anywhere = SourcePos("", 0, 0)
+
+  def apply(s: ShapeDescription): Surroundings =
+    val material = s.material match
+      case MaterialRef.Named(name, _) => MaterialRef.Named(name, Anywhere)
+      case other => other
+    Surroundings(
+      material, s.areaLight, s.reverseOrientation, s.insideMedium, s.outsideMedium,
+      s.shape.params.filter(_.isDefault), s.shape.colorSpace
+    )
+
+  /** Of shapes that say nothing. */
+  def none(outside: String): Surroundings =
+    Surroundings(MaterialRef.Default, None, false, "", outside, Vector.empty, "srgb")

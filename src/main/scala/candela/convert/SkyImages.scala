@@ -1,0 +1,91 @@
+package candela.convert
+
+import java.nio.file.InvalidPathException
+
+import candela.base.loop
+import candela.color.Rgb
+import candela.image.{Image, ImageError, ImageFiles}
+import candela.lights.{EqualAreaMap, LatLongMap, SphereMap}
+import candela.scenefile.Param
+
+/** Pictures of all directions: equirectangular in v2 and v3, square and equal-area in v4. */
+object SkyImages:
+
+  /** Writes the picture that `p` names for the other dialect; its name.
+    *
+    * @param tint factor of its colours
+    */
+  def converted(p: Param, s: Statement, toSquare: Boolean, tint: Rgb): Option[String] =
+    val name = p.strings.head
+    try
+      val path = s.declaration.folder.resolve(name.replace('\\', '/'))
+      val source = ImageFiles.read(path).linear.toRgb
+      val made =
+        if toSquare then
+          val side = Math.min(Math.max(2 * source.height, 64), 4096)
+          resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
+        else
+          val height = Math.min(source.height, 4096)
+          resampled(source, EqualAreaMap, 2 * height, height, LatLongMap, smooth = false)
+      val tinted = if tint == Rgb.White then made else times(made, tint)
+      val kind = if toSquare then "equalarea" else "latlong"
+      Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
+    catch
+      case e: ImageError =>
+        s.warn(p.at, s"the image can't be converted, so it is left out: ${e.getMessage}")
+        None
+      case _: InvalidPathException =>
+        s.warn(p.at, s"`$name` is no file name: it is left out")
+        None
+
+  /** Each pixel is the mean of the source over the pixel's directions.
+    *
+    * @param smooth is the source read bilinearly, or by its nearest pixel?
+    */
+  def resampled(
+      source: Image,
+      from: SphereMap,
+      width: Int,
+      height: Int,
+      to: SphereMap,
+      smooth: Boolean
+  ): Image =
+    val made = Image.rgb(width, height)
+    val sum = new Array[Double](3)
+    loop(height): y =>
+      loop(width): x =>
+        java.util.Arrays.fill(sum, 0.0)
+        loop(Parts): j =>
+          loop(Parts): i =>
+            val d =
+              to.toDirection((x + (i + 0.5f) / Parts) / width, (y + (j + 0.5f) / Parts) / height)
+            val place = from.toImage(d)
+            if smooth then bilinear(source, from, place.x, place.y, sum)
+            else nearest(source, place.x, place.y, sum)
+        loop(3)(c => made.data((y * width + x) * 3 + c) = (sum(c) / (Parts * Parts)).toFloat)
+    made
+
+  /** Samples of a pixel along each of its sides. */
+  private val Parts = 4
+
+  private def nearest(image: Image, x: Float, y: Float, sum: Array[Double]): Unit =
+    val px = Math.min((x * image.width).toInt, image.width - 1)
+    val py = Math.min((y * image.height).toInt, image.height - 1)
+    loop(3)(c => sum(c) += image(px, py, c))
+
+  private def bilinear(image: Image, map: SphereMap, x: Float, y: Float, sum: Array[Double]): Unit =
+    val (fx, fy) = (x * image.width - 0.5f, y * image.height - 0.5f)
+    val (x0, y0) = (Math.floor(fx.toDouble).toInt, Math.floor(fy.toDouble).toInt)
+    val (dx, dy) = (fx - x0, fy - y0)
+    loop(4): k =>
+      val (px, py) = (x0 + (k & 1), y0 + (k >> 1))
+      val weight = (if (k & 1) == 1 then dx else 1 - dx) * (if k > 1 then dy else 1 - dy)
+      val wx = map.wrapX(px, py, image.width, image.height)
+      val wy = map.wrapY(px, py, image.width, image.height)
+      loop(3)(c => sum(c) += weight * image(wx, wy, c))
+
+  private def times(image: Image, tint: Rgb): Image =
+    val factors = Array(tint.r, tint.g, tint.b)
+    val data = image.data.clone
+    loop(data.length)(i => data(i) *= factors(i % 3))
+    Image(image.width, image.height, image.channelNames, data)

@@ -1,0 +1,134 @@
+package candela.convert
+
+import java.io.Writer
+
+import candela.math.Transform
+import candela.scenefile.{AnimatedTransform, Declaration, Dialect, Param, ParamType}
+
+/** Writes single statements: indentation, quotes, and how a dialect spells types and values. */
+final class Statements(out: Writer, dialect: Dialect):
+  private var indent = 0
+  private var colorSpace = "srgb"
+
+  def line(text: String): Unit =
+    out.write("  " * indent)
+    out.write(text)
+    out.write('\n')
+
+  def blank(): Unit = out.write('\n')
+
+  /** A block; what it changes is forgotten at its end. */
+  def block(begin: String, end: String)(body: => Unit): Unit =
+    val outside = colorSpace
+    line(begin)
+    indent += 1
+    body
+    indent -= 1
+    line(end)
+    colorSpace = outside
+
+  /** `Attribute` statements: what may fit none of the statements that it speaks to. */
+  def defaults(target: String, d: Declaration): Unit =
+    val params = d.params.filter(_.isDefault)
+    if params.nonEmpty then statement("Attribute", Vector(target), params)
+
+  def declaration(directive: String, d: Declaration): Unit =
+    declaration(directive, Vector(d.name), d)
+
+  /** @param names what is quoted after the directive */
+  def declaration(directive: String, names: Vector[String], d: Declaration): Unit =
+    if d.colorSpace != colorSpace then
+      colorSpace = d.colorSpace
+      line(s"ColorSpace ${Statements.quoted(colorSpace)}")
+    statement(directive, names, d.params.filterNot(_.isDefault))
+
+  /** On one line, if that is not too long; else a line for each parameter. */
+  def statement(directive: String, names: Vector[String], params: Vector[Param]): Unit =
+    val head = (directive +: names.map(Statements.quoted)).mkString(" ")
+    val parts = params.map(p => (heading(p), values(p)))
+    val length = 2 * indent + head.length +
+      parts.map((heading, v) => heading.length + v.take(Statements.Width).map(_.length + 1).sum).sum
+    if length <= Statements.Width then
+      line(head + parts.map((heading, v) => s" $heading ${listed(v)}").mkString)
+    else
+      line(head)
+      indent += 2
+      for (heading, v) <- parts do wrapped(heading, v)
+      indent -= 2
+
+  private def listed(values: Seq[String]): String =
+    if values.size == 1 then values.head else values.mkString("[ ", " ", " ]")
+
+  private def wrapped(heading: String, values: Seq[String]): Unit =
+    val total = values.iterator.take(Statements.Width).map(_.length + 1).sum
+    if heading.length + total + 2 * indent < Statements.Width then
+      line(s"$heading ${listed(values)}")
+    else
+      line(s"$heading [")
+      indent += 1
+      val row = StringBuilder()
+      for v <- values do
+        if row.nonEmpty && row.length + v.length + 1 + 2 * indent > Statements.Width then
+          line(row.result())
+          row.clear()
+        if row.nonEmpty then row += ' '
+        row ++= v
+      line(row.result())
+      indent -= 1
+      line("]")
+
+  /** The parameter's type and name. */
+  private def heading(p: Param): String =
+    Statements.quoted(s"${Statements.spelling(p.paramType, dialect)} ${p.name}")
+
+  /** Lazily, for lists may be very long. */
+  private def values(p: Param): Seq[String] = p.paramType match
+    case ParamType.Integer => p.ints.view.map(_.toString).toSeq
+    case ParamType.Bool =>
+      // Quotes around them are the older dialects' habit; v4 allows them no more
+      p.bools.map(b => if dialect == Dialect.V4 then b.toString else s"\"$b\"")
+    case _ if p.strings.nonEmpty => p.strings.map(Statements.quoted)
+    case _ => p.floats.view.map(NumberText.of).toSeq
+
+  def transform(t: AnimatedTransform): Unit =
+    if t.isAnimated then
+      line("ActiveTransform StartTime")
+      transform(t.start)
+      line("ActiveTransform EndTime")
+      transform(t.end)
+      line("ActiveTransform All")
+    else transform(t.start)
+
+  /** Scene files have matrices column by column. */
+  private def transform(t: Transform): Unit =
+    if t.isIdentity then line("Identity")
+    else
+      val columns = Vector.tabulate(16)(i => NumberText.of(t.m(i % 4 * 4 + i / 4)))
+      val whole = columns.mkString("Transform [ ", " ", " ]")
+      if whole.length + 2 * indent <= Statements.Width then line(whole)
+      else
+        line("Transform [")
+        indent += 1
+        for column <- columns.grouped(4) do line(column.mkString(" "))
+        indent -= 1
+        line("]")
+
+object Statements:
+  private val Width = 100
+
+  def quoted(text: String): String =
+    val escaped = text.flatMap:
+      case '"' => "\\\""
+      case '\\' => "\\\\"
+      case '\n' => "\\n"
+      case '\r' => "\\r"
+      case '\t' => "\\t"
+      case other => other.toString
+    s"\"$escaped\""
+
+  private def spelling(t: ParamType, dialect: Dialect): String =
+    (t, dialect) match
+      case (ParamType.Rgb, Dialect.V2) => "color"
+      case (ParamType.Point3, Dialect.V2) => "point"
+      case (ParamType.Vector3, Dialect.V2) => "vector"
+      case _ => t.spelling

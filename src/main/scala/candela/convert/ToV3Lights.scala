@@ -1,0 +1,97 @@
+package candela.convert
+
+import candela.color.Rgb
+import candela.math.{cos, radians, Pi}
+import candela.scenefile.{Param, ParamType, ShapeDescription}
+
+/** Lights, from v4 to v3. */
+object ToV3Lights:
+  import Steps.*
+
+  private type Factor = (Float, Statement) => Option[Float]
+  private val point: Factor = (power, _) => Some(power / (4f * Pi))
+  private val distant: Factor = (illuminance, _) => Some(illuminance)
+  private val unknown: Factor = (_, _) => None
+
+  /** The power of a cone with a soft border, as v4 counts it. */
+  private def spot(power: Float, s: Statement) =
+    def angle(name: String, default: Float) = s.look(name).flatMap(s.numberOf).getOrElse(default)
+    val (total, delta) = (angle("coneangle", 30f), angle("conedeltaangle", 5f))
+    val (end, start) = (cos(radians(total)), cos(radians(total - delta)))
+    Some(power / (2f * Pi * ((1f - start) + (start - end) / 2f)))
+
+  private val infinite: Step =
+    val plain = Emission.toV3("L", "illuminance", (e, _) => Some(e / Pi))
+    val scaled = Emission.toV3("L", "illuminance", unknown)
+    Step(
+      "`filename`, `L`, `scale`, `illuminance`",
+      "`mapname` of an equirectangular image, written beside the scene; `L`, `scale`"
+    ): s =>
+      s.take("filename").filter(_.strings.headOption.exists(_.nonEmpty)) match
+        case None => plain.run(s)
+        case Some(p) =>
+          for name <- SkyImages.converted(p, s, toSquare = false, Rgb.White) do
+            s.addString("mapname", name)(using p.at)
+          scaled.run(s)
+
+  private val goniometric: Step =
+    val light = Emission.toV3("I", "power", unknown)
+    Step("`filename`, `I`, `scale`", "`mapname` of an equirectangular image; `I`, `scale`"): s =>
+      for
+        p <- s.take("filename")
+        name <- SkyImages.converted(p, s, toSquare = false, Rgb.White)
+      do s.addString("mapname", name)(using p.at)
+      light.run(s)
+
+  private val projection: Step =
+    val light = Emission.toV3("I", "power", unknown)
+    Step("`filename`, `scale`, `fov`", "`mapname`, `scale`, `fov`"): s =>
+      s.addFloat("fov", s.takeNumber("fov", 90f))
+      for p <- s.take("filename") do s.addString("mapname", Pictures.asExr(s, p))(using p.at)
+      light.run(s)
+
+  val table: Table = Table("LightSource")(
+    Rule("point" -> "point")(keep("from"), Emission.toV3("I", "power", point)),
+    Rule("distant" -> "distant")(keep("from", "to"), Emission.toV3("L", "illuminance", distant)),
+    Rule.near("spot" -> "spot", "the light falls off otherwise at the border of its cone")(
+      Emission.toV3("I", "power", spot),
+      keep("from", "to", "coneangle", "conedeltaangle")
+    ),
+    Rule("goniometric" -> "goniometric")(goniometric),
+    Rule("projection" -> "projection")(projection),
+    Rule("infinite" -> "infinite")(
+      infinite,
+      lose("portal", "the light is sampled from all directions")((_, _) => true)
+    )
+  )
+
+  /** A light's `power` becomes its `scale` before this, where the shape is known: [[powered]]. */
+  val area: Table = Table("AreaLightSource")(
+    Rule("diffuse" -> "diffuse")(
+      keep("twosided"),
+      Emission.toV3("L", "power", unknown),
+      lose("filename", "the surface shines evenly")
+    )
+  )
+
+  /** The shape with a light whose `power` is a `scale`, if its area can be told. */
+  def powered(s: ShapeDescription): ShapeDescription =
+    val known =
+      for
+        light <- s.areaLight
+        power <- light.param("power").flatMap(_.floats.headOption) if power > 0f
+        if light.param("filename").isEmpty
+        area <- Areas.of(s)
+      yield
+        val sides = if light.param("twosided").exists(_.bools.contains(true)) then 2f else 1f
+        val scale = light.param("scale").flatMap(_.floats.headOption).getOrElse(1f)
+        val at = light.param("power").get.at
+        val made = Param(
+          ParamType.Float,
+          "scale",
+          at,
+          at,
+          floats = Array(scale * power / (area * Pi * sides))
+        )
+        light.copy(params = light.params.filterNot(p => Set("power", "scale")(p.name)) :+ made)
+    known.fold(s)(light => s.copy(areaLight = Some(light)))

@@ -1,0 +1,166 @@
+package candela.convert
+
+import candela.color.Rgb
+import candela.math.safeSqrt
+import candela.scenefile.{Param, ParamType}
+
+/** Materials, from v4 to v3. */
+object ToV3Materials:
+  import Steps.*
+
+  private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; a `normalmap` is lost"): s =>
+    for p <- s.take("displacement") do s.add("bumpmap", p)
+    for p <- s.take("normalmap") do s.warn(p.at, "v3 has no normal maps: the surface is smooth")
+
+  private def reflectance(default: Float): Seq[Step] = Seq(
+    rename("reflectance" -> "Kd"),
+    otherwise("Kd", s"`Kd` $default")(_.addRgb("Kd", Rgb.gray(default)))
+  )
+
+  /** A number, of an index of refraction that may be a spectrum: at 589 nm. */
+  private def eta(name: String, default: Float): Step = Step(s"`$name`", "`eta`, at 589 nm"): s =>
+    val value = s.take(name).flatMap: p =>
+      if p.paramType == ParamType.Spectrum then
+        val spectrum = s.run.values.spectrum(p, s.declaration)
+        if spectrum.exists(_.values.distinct.length > 1) then
+          s.warn(p.at, "v3 has no dispersion: the index of refraction at 589 nm is used")
+        spectrum.map(_(589.3f))
+      else s.numberOf(p)
+    s.addFloat("eta", value.getOrElse(default))
+
+  /** Fresnel's reflectance at normal incidence. */
+  private def normalReflectance(eta: Float): Float =
+    val r = (eta - 1) / (eta + 1)
+    r * r
+
+  /** v3's plastic always reflects as an index of 1.5; `Ks` makes it what this coat reflects. */
+  private val gloss = Step("`eta`", "`Ks`, that reflects as much at normal incidence"): s =>
+    val eta = s.take("eta").flatMap(p =>
+      s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
+    ).getOrElse(1.5f)
+    s.addRgb("Ks", Rgb.gray(normalReflectance(eta) / normalReflectance(1.5f)))
+
+  /** The absorption that makes v4's metal of a given reflectance, with an index of 1. */
+  private def absorption(r: Float): Float =
+    val x = Math.min(Math.max(r, 0f), 0.9999f)
+    2f * safeSqrt(x) / safeSqrt(1f - x)
+
+  private def metal(prefix: String): Step =
+    Step(s"`${prefix}eta`, `${prefix}k`, `reflectance`", "`eta`, `k`"): s =>
+      s.take("reflectance") match
+        case Some(p) =>
+          s.colorOf(p) match
+            case Some(c) =>
+              s.addRgb("eta", Rgb.White)(using p.at)
+              s.addRgb("k", c.map(absorption))(using p.at)
+            case None =>
+              s.warn(p.at, "a metal's reflectance has no texture in v3: a mirror without roughness")
+              s.become("mirror")
+              s.add("Kr", p)
+        case None =>
+          for name <- Seq("eta", "k"); p <- s.take(prefix + name) do s.add(name, p)
+
+  private def rough(default: Float, smoothAtZero: Boolean = false): Step =
+    val step = RoughnessSteps.v4(default, smoothAtZero)
+    Step(step.source, step.target): s =>
+      if s.becomes == "mirror" then
+        Seq("roughness", "uroughness", "vroughness", "remaproughness").foreach(s.take)
+      else step.run(s)
+
+  /** Glass has a roughness for each direction only. */
+  private val glassRoughness: Step =
+    val step = rough(0f, smoothAtZero = true)
+    Step(step.source, "`uroughness`, `vroughness`: alpha, not remapped"): s =>
+      for p <- s.take("roughness") do
+        for name <- Seq("uroughness", "vroughness") if !s.has(name) do
+          s.put(Values.renamed(p, name))
+      if !s.has("uroughness") then s.put(zero(s))
+      step.run(s)
+
+  private def zero(s: Statement) =
+    Param(ParamType.Float, "uroughness", s.declaration.at, s.declaration.at, floats = Array(0f))
+
+  private val coats = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
+
+  /** What a pane transmits goes straight on: v3 says that by opacity. `R / (1 + R)`, twice, is what
+    * both of its sides reflect.
+    */
+  private val pane = Step("`eta`", "`opacity` and `Kr`, right at normal incidence"): s =>
+    val n = s.take("eta").flatMap(p =>
+      s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
+    ).getOrElse(1.5f)
+    val one = normalReflectance(n)
+    val both = 2 * one / (1 + one)
+    s.addRgb("Kd", Rgb.Black)
+    s.addRgb("Ks", Rgb.Black)
+    s.addRgb("opacity", Rgb.gray(both))
+    if one > 0f then s.addRgb("Kr", Rgb.gray(1f / one))
+    s.addFloat("eta", n)
+
+  private val transmission =
+    Step("`reflectance`, `transmittance`, `scale`", "`reflect`, `transmit`, `Kd` 1"): s =>
+      val scale = s.takeNumber("scale", 1f)
+      for (from, to) <- Seq("reflectance" -> "reflect", "transmittance" -> "transmit") do
+        s.take(from) match
+          case Some(p) if s.colorOf(p).isEmpty => s.add(to, p)
+          case p => s.addRgb(to, p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.25f)) * scale)
+      if scale != 1f && s.hasMade(ParamType.Texture) then
+        s.warn(s.declaration.at, "`scale` does not reach textures in v3")
+      s.addRgb("Kd", Rgb.White)
+      s.addRgb("Ks", Rgb.Black)
+
+  private val mix =
+    Step("`materials`, `amount`", "`namedmaterial1`, `namedmaterial2`, `amount`"): s =>
+      val names = s.take("materials").fold(Vector.empty[String])(_.strings)
+      for (name, key) <- names.reverse.zip(Seq("namedmaterial1", "namedmaterial2")) do
+        s.addString(key, name)
+      for p <- s.take("amount") do
+        s.numberOf(p) match
+          case Some(a) => s.addRgb("amount", Rgb.gray(a))(using p.at)
+          case None => s.warn(p.at, "`amount` can't be a float texture in v3: 0.5 is used")
+
+  private val subsurface = Seq(
+    keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
+    eta("eta", 1.33f),
+    Step("`reflectance`", "`Kd` of \"kdsubsurface\"")(s =>
+      for p <- s.take("reflectance") do
+        s.become("kdsubsurface")
+        s.add("Kd", p)
+    ),
+    glassRoughness,
+    bump
+  )
+
+  private val coatNote = "a coat above a diffuse base is another model in v3; the picture is near"
+
+  val table: Table = Table("Material", fallback = "matte")(
+    Rule("diffuse" -> "matte")((reflectance(0.5f) :+ bump)*),
+    Rule.near("coateddiffuse" -> "plastic", coatNote)(
+      reflectance(0.5f) ++ Seq(gloss, rough(0f), bump, drop(coats*))*
+    ),
+    Rule("conductor" -> "metal")(metal(""), rough(0f), bump),
+    Rule.near("coatedconductor" -> "metal", "it has no coat")(
+      metal("conductor."),
+      rename(
+        "conductor.roughness" -> "roughness",
+        "conductor.uroughness" -> "uroughness",
+        "conductor.vroughness" -> "vroughness"
+      ),
+      drop((coats ++ Seq("interface.roughness", "interface.uroughness", "interface.vroughness",
+        "interface.eta", "remaproughness"))*),
+      bump
+    ),
+    Rule("dielectric" -> "glass")(eta("eta", 1.5f), glassRoughness, bump),
+    Rule.near("thindielectric" -> "uber", "what it reflects towards grazing angles differs")(
+      pane,
+      bump
+    ),
+    Rule("diffusetransmission" -> "translucent")(transmission, bump),
+    Rule("subsurface" -> "subsurface")(subsurface*),
+    Rule("mix" -> "mix")(mix),
+    Rule("hair" -> "hair")(
+      rename("reflectance" -> "color"),
+      keep("color", "sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
+    ),
+    Rule("interface||none" -> "")(drop("displacement"))
+  )

@@ -1,0 +1,68 @@
+package candela.convert
+
+import candela.scenefile.*
+
+/** Shapes, from v4 to v3. */
+object ToV3Shapes:
+  import Steps.*
+
+  /** v3 has no partly transparent quadrics. */
+  private val opaque = lose("alpha", "the shape is opaque")(isNumber(1f))
+
+  /** A number between 0 and 1 must be a texture in v3. */
+  private val alpha = Step("`alpha`", "`alpha`, a texture if it is a number between 0 and 1"): s =>
+    for p <- s.take("alpha") do
+      s.numberOf(p).filter(_ => p.paramType != ParamType.Texture) match
+        case Some(x) if x > 0f && x < 1f =>
+          s.warn(p.at, "v3 cuts shapes out where `alpha` is 0, and nowhere else: it is opaque")
+        case Some(x) => s.addFloat("alpha", x)(using p.at)
+        case None =>
+          s.warn(p.at, "v3 cuts shapes out where `alpha` is 0; what is between is opaque")
+          s.add("alpha", p)
+
+  val table: Table = Table("Shape")(
+    Rule("sphere" -> "sphere")(keep("radius", "zmin", "zmax", "phimax"), opaque),
+    Rule("cylinder" -> "cylinder")(keep("radius", "zmin", "zmax", "phimax"), opaque),
+    Rule("disk" -> "disk")(keep("height", "radius", "innerradius", "phimax"), opaque),
+    Rule("trianglemesh" -> "trianglemesh")(
+      keep("P", "N", "S", "uv", "indices", "faceIndices"),
+      alpha
+    ),
+    Rule("plymesh" -> "plymesh")(
+      keep("filename"),
+      alpha,
+      lose("displacement", "the mesh stays as it is"),
+      drop("edgelength")
+    ),
+    Rule("loopsubdiv" -> "loopsubdiv")(keep("levels", "P", "indices", "scheme"), opaque),
+    Rule("curve" -> "curve")(
+      keep("P", "N", "type", "basis", "degree", "width", "width0", "width1", "splitdepth"),
+      opaque
+    )
+  )
+
+  /** Where a mesh has normals, v3 does not look at `ReverseOrientation`, while v4 turns them. */
+  def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
+    val meshed =
+      if s.shape.name != "bilinearmesh" then s
+      else
+        run.warn(
+          s.shape.at,
+          "v3 has no \"bilinearmesh\": a trianglemesh stands in, a fine mesh " +
+            "where it is not flat"
+        )
+        s.copy(shape = BilinearPatches.triangles(s.shape))
+    val turned =
+      if meshed.reverseOrientation && Meshes.hasNormals(meshed.shape) then
+        if meshed.shape.name == "plymesh" then
+          run.warn(s.shape.at, "v3 does not turn a mesh that has normals in its file")
+          meshed
+        else meshed.copy(shape = reversed(meshed.shape), reverseOrientation = false)
+      else meshed
+    Vector(ToV3Lights.powered(turned))
+
+  private def reversed(d: Declaration): Declaration =
+    d.copy(params = d.params.map: p =>
+      if p.name == "N" then
+        Param(p.paramType, p.name, p.at, p.valuesAt, floats = p.floats.map(-_))
+      else p)

@@ -1,0 +1,105 @@
+package candela.convert
+
+import candela.color.{Rgb, Srgb}
+import candela.math.pow
+import candela.scenefile.*
+
+/** Textures, from v4 to v3. */
+object ToV3Textures:
+  import Steps.*
+
+  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+
+  /** v3 knows sRGB's curve alone, and no inversion: what else there is goes into a new image, and
+    * so does a format that it does not read.
+    */
+  private val file: Step =
+    Step("`filename`, `encoding`, `invert`", "`filename`, `gamma`; or a new image as EXR"): s =>
+      val (encoding, inverts) = (s.takeString("encoding", "sRGB"), s.takeBool("invert", false))
+      for p <- s.take("filename") do
+        val name = p.strings.headOption.getOrElse("").toLowerCase
+        val isPng = name.endsWith(".png")
+        val isKnown = Seq(".png", ".tga", ".exr", ".pfm").exists(name.endsWith)
+        val decode: Float => Float = encoding.split(' ') match
+          case _ if Seq(".exr", ".pfm", ".hdr").exists(name.endsWith) => identity
+          case Array("linear") if isPng => identity
+          case Array("gamma", g) if isPng && g.toFloatOption.nonEmpty => pow(_, g.toFloat)
+          case _ => Srgb.decode(_)
+        if isKnown && !inverts && (!isPng || !encoding.startsWith("gamma")) then
+          s.add("filename", p)
+          if isPng && encoding == "linear" then s.addBool("gamma", false)
+        else
+          val meant = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
+          s.addString("filename", Pictures.baked(s, p)(meant))(using p.at)
+
+  private val filter: Step = Step("`filter`", "`trilinear`, the nearest to all but \"ewa\""): s =>
+    val p = s.take("filter")
+    val kind = p.flatMap(_.strings.headOption).getOrElse("bilinear").toLowerCase
+    if kind != "ewa" then s.addBool("trilinear", true)
+    for q <- p if kind == "point" do
+      s.warn(q.at, "v3 interpolates between texels: \"point\" can't be said")
+
+  private val wrap: Step = Step("`wrap`", "`wrap`; \"octahedralsphere\" is lost"): s =>
+    for p <- s.take("wrap") do
+      if p.strings.headOption.contains("octahedralsphere") then
+        s.warn(p.at, "v3 has no wrap \"octahedralsphere\": \"repeat\" is used")
+      else s.add("wrap", p)
+
+  private def common = Seq(
+    Rule("constant" -> "constant")(keep("value")),
+    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("imagemap" -> "imagemap")(
+      file,
+      filter,
+      wrap,
+      keep("scale", "maxanisotropy"),
+      mapping
+    ),
+    Rule("checkerboard" -> "checkerboard")(keep("tex1", "tex2", "dimension"), mapping),
+    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
+    Rule("ptex" -> "ptex")(
+      keep("filename"),
+      lose("scale", "the texture is as in its file")(isNumber(1f)),
+      Step("`encoding`", "`gamma`, of \"gamma …\"")(s =>
+        val words = s.takeString("encoding", "gamma 2.2").split(' ')
+        words.lastOption.flatMap(_.toFloatOption).foreach(s.addFloat("gamma", _))
+      )
+    ),
+    Rule.near("directionmix" -> "mix", "the mean of both stands in")(
+      keep("tex1", "tex2"),
+      drop("dir"),
+      otherwise("amount", "`amount` 0.5")(_.addFloat("amount", 0.5f))
+    )
+  )
+
+  private val octaves = keep("octaves", "roughness")
+
+  val floats: Table = Table("float texture", fallback = "constant")(
+    (common ++ Seq(
+      Rule("scale" -> "scale")(rename("tex" -> "tex1", "scale" -> "tex2")),
+      Rule("fbm" -> "fbm")(octaves),
+      Rule("wrinkled" -> "wrinkled")(octaves),
+      Rule("windy" -> "windy")()
+    ))*
+  )
+
+  /** v3 multiplies two colours: a float texture becomes gray by a mix of black and white. */
+  private val scale: Step = Step("`tex`, `scale`", "`tex1`, `tex2`"): s =>
+    for p <- s.take("tex") do s.add("tex1", p)
+    for p <- s.take("scale") do
+      s.numberOf(p) match
+        case Some(x) => s.addRgb("tex2", Rgb.gray(x))(using p.at)
+        case None =>
+          val amount = Param(ParamType.Texture, "amount", p.at, p.at, strings = p.strings)
+          val d = Declaration("Texture", "mix", Vector(amount), p.at, s.declaration.folder)
+          val name = s"${p.strings.head} as colour"
+          val gray = TextureDescription(name, "spectrum", d, GraphicsState.Identity)
+          s.addTexture("tex2", s.run.define(gray))(using p.at)
+
+  val colors: Table = Table("spectrum texture", fallback = "constant")(
+    (common ++ Seq(
+      Rule("scale" -> "scale")(scale),
+      Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation"))
+    ))*
+  )

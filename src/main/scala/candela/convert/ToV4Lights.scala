@@ -1,0 +1,66 @@
+package candela.convert
+
+import candela.color.Rgb
+import candela.math.Transform
+import candela.scenefile.{AnimatedTransform, LightDescription}
+
+/** Lights, from v3 to v4. */
+object ToV4Lights:
+  import Steps.*
+
+  private val samples = drop("samples", "nsamples")
+
+  /** The image, in v4's layout. `L` (or `I`) and `scale` are factors of its pixels in v3; v4 has
+    * one number.
+    */
+  private def image(color: String, optional: Boolean): Step =
+    Step(
+      s"`mapname`, `$color`, `scale`",
+      "`filename` of an equal-area image, written beside the " +
+        "scene; `scale`"
+    ): s =>
+      s.take("mapname").filter(_.strings.headOption.exists(_.nonEmpty)) match
+        case None => Emission.toV4(color).run(s)
+        case Some(p) =>
+          val factor = s.takeColor(color, Rgb.White) * s.takeColor("scale", Rgb.White)
+          val isGray = Values.isGray(factor)
+          // "goniometric" keeps its colour, and multiplies
+          val tint = if isGray || !optional then Rgb.White else factor
+          for name <- SkyImages.converted(p, s, toSquare = true, tint) do
+            s.addString("filename", name)(using p.at)
+          if !isGray && !optional then s.addRgb(color, factor)
+          else if isGray && factor.r != 1f then s.addFloat("scale", factor.r)
+
+  private val projection: Step =
+    Step("`mapname`, `I`, `scale`, `fov`", "`filename`, `scale`, `fov`"): s =>
+      s.addFloat("fov", s.takeNumber("fov", 45f))
+      val factor = s.takeColor("I", Rgb.White) * s.takeColor("scale", Rgb.White)
+      if !Values.isGray(factor) then
+        s.warn(s.declaration.at, "a projection has no colour but its image's in v4")
+      if factor.luminance != 1f then s.addFloat("scale", factor.luminance)
+      for p <- s.take("mapname") do s.addString("filename", Pictures.asExr(s, p))(using p.at)
+
+  val table: Table = Table("LightSource")(
+    Rule("point" -> "point")(keep("from"), Emission.toV4("I"), samples),
+    Rule("distant" -> "distant")(keep("from", "to"), Emission.toV4("L"), samples),
+    Rule.near("spot" -> "spot", "the light falls off otherwise at the border of its cone")(
+      keep("from", "to", "coneangle", "conedeltaangle"),
+      Emission.toV4("I"),
+      samples
+    ),
+    Rule("goniometric" -> "goniometric")(image("I", optional = false), samples),
+    Rule("projection" -> "projection")(projection, samples),
+    Rule("infinite|exinfinite" -> "infinite")(image("L", optional = true), samples)
+  )
+
+  val area: Table = Table("AreaLightSource")(
+    Rule("diffuse|area" -> "diffuse")(keep("twosided"), Emission.toV4("L"), samples)
+  )
+
+  /** v3 projects its image upside down, compared with v4. */
+  def placed(l: LightDescription): LightDescription =
+    if l.light.name != "projection" then l
+    else
+      val flip = Transform.scale(1, -1, 1).get
+      val t = l.lightToWorld
+      l.copy(lightToWorld = AnimatedTransform(t.start * flip, t.end * flip))

@@ -1,0 +1,202 @@
+package candela.convert
+
+import candela.color.Rgb
+import candela.math.sqrt
+import candela.scenefile.{GraphicsState, Param, ParamType, TextureDescription, Declaration}
+
+/** Materials, from v3 to v4. */
+object ToV4Materials:
+  import Steps.*
+
+  private val bump = rename("bumpmap" -> "displacement")
+  private val white = isColor(1f)
+  private val black = isColor(0f)
+
+  private val kr = lose("Kr", "reflection has its full strength")(white)
+  private val kt = lose("Kt", "refraction has its full strength")(white)
+
+  /** An index of refraction: v4 has no textures of it. */
+  private def eta(default: Float): Step =
+    Step("`eta`, `index`", "`eta`"): s =>
+      val (index, named) = (s.take("index"), s.take("eta"))
+      for p <- named.orElse(index) do
+        val value = s.numberOf(p)
+        if value.isEmpty then
+          s.warn(p.at, s"an index of refraction can't vary in v4: $default is used")
+        s.addFloat("eta", value.getOrElse(default))(using p.at)
+
+  /** The coat's index of refraction: it then reflects at normal incidence what `Ks` says. */
+  private def coat(defaultKs: Float, fresnel: Float): Step =
+    Step("`Ks`", "`eta` of a coat that reflects as much at normal incidence"): s =>
+      val p = s.take("Ks")
+      val ks = p.flatMap(s.colorOf).getOrElse(Rgb.gray(defaultKs))
+      if p.exists(s.colorOf(_).isEmpty) then
+        s.warn(p.get.at, "the gloss of v4 has no texture: it is even all over")
+      else if !Values.isGray(ks) then s.warn(p.get.at, "the gloss of v4 has no colour")
+      val root = sqrt(Math.min(Math.max(ks.luminance * fresnel, 1e-4f), 0.9f))
+      s.addFloat("eta", (1f + root) / (1f - root))
+
+  private val coatNote = "its coat takes light from the base below, and is another model; the " +
+    "picture is near"
+
+  /** A surface without gloss is `diffuse`, and nothing is lost. */
+  private def plainIfBlack(names: String*): Step =
+    Step(names.mkString("`", "` and `", "` black"), "\"diffuse\""): s =>
+      val absent = names.forall(n => s.look(n).exists(isColor(0f)(_, s)))
+      if absent then
+        s.become("diffuse")
+        (names ++ Seq("roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"))
+          .foreach(s.take)
+
+  private def unlessPlain(step: Step): Step =
+    Step(step.source, step.target)(s => if !isPlain(s) then step.run(s))
+
+  private def isPlain(s: Statement) = s.becomes == "diffuse"
+
+  private def reflectance(default: Float): Seq[Step] = Seq(
+    rename("Kd" -> "reflectance"),
+    otherwise("reflectance", s"`reflectance` $default")(s =>
+      s.addRgb("reflectance", Rgb.gray(default))
+    )
+  )
+
+  private val uber: Step = Step(
+    "`Kr`, `Kt`, `opacity`",
+    "lost, unless without effect; `Kt` without " +
+      "`Kd` makes it \"dielectric\""
+  ): s =>
+    def isBlack(name: String, default: Float) =
+      s.look(name).fold(default == 0f)(isColor(0f)(_, s))
+    if isBlack("Kd", 0.25f) && !isBlack("Kt", 0f) then
+      s.become("dielectric")
+      Seq("Kd", "Ks", "Kr", "Kt").foreach(s.take)
+    for (name, why) <- Seq("Kr" -> "it has no second, smooth gloss", "Kt" -> "it is not clear") do
+      for p <- s.take(name) if !isColor(0f)(p, s) do
+        s.warn(p.at, s"`$name` of \"uber\" can't be said in v4: $why")
+    for p <- s.take("opacity") if !isColor(1f)(p, s) do
+      s.warn(p.at, "`opacity` of \"uber\" can't be said in v4: it is opaque")
+
+  /** v4 has two textures where v3 has one and two factors. */
+  private val translucent: Step =
+    Step("`Kd`, `reflect`, `transmit`", "`reflectance` and `transmittance`, multiplied"): s =>
+      val kd = s.take("Kd")
+      for (factor, name) <- Seq("reflect" -> "reflectance", "transmit" -> "transmittance") do
+        val p = s.take(factor)
+        val f = p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.5f))
+        if p.exists(s.colorOf(_).isEmpty) then
+          s.warn(p.get.at, s"`$factor` can't have a texture in v4: 0.5 is used")
+        kd.map(k => (k, s.colorOf(k))) match
+          case Some((k, None)) =>
+            if !Values.isGray(f) then
+              s.warn(k.at, s"`$factor` can't have a colour beside a texture")
+            s.addTexture(name, product(s, k.strings.head, f.luminance))(using k.at)
+          case colored => s.addRgb(name, colored.flatMap(_._2).getOrElse(Rgb.gray(0.25f)) * f)
+
+  private def product(s: Statement, texture: String, factor: Float): String =
+    val at = s.declaration.at
+    val params = Vector(
+      Param(ParamType.Texture, "tex", at, at, strings = Vector(texture)),
+      Param(ParamType.Float, "scale", at, at, floats = Array(factor))
+    )
+    val scale = Declaration("Texture", "scale", params, at, s.declaration.folder)
+    s.run.define(
+      TextureDescription(s"$texture times", "spectrum", scale, GraphicsState.Identity)
+    )
+
+  private val mix: Step =
+    Step(
+      "`namedmaterial1`, `namedmaterial2`, `amount`",
+      "`materials` in the other order, `amount`"
+    ): s =>
+      val names = Seq("namedmaterial2", "namedmaterial1").map(s.takeString(_, ""))
+      s.addString("materials", names*)
+      for p <- s.take("amount") do
+        s.numberOf(p).orElse(s.colorOf(p).map(_.average)) match
+          case Some(a) =>
+            if s.colorOf(p).exists(!Values.isGray(_)) then
+              s.warn(p.at, "`amount` has no colour in v4: its mean is used")
+            s.addFloat("amount", a)(using p.at)
+          case None =>
+            s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.at)
+
+  private val subsurface = Seq(
+    keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
+    eta(1.33f),
+    kr,
+    kt,
+    RoughnessSteps.v3(0f, smoothAtZero = true),
+    bump
+  )
+
+  val table: Table = Table("Material", fallback = "diffuse")(
+    Rule("matte" -> "diffuse")(
+      rename("Kd" -> "reflectance"),
+      lose("sigma", "the surface is Lambert's")(isNumber(0f)),
+      bump
+    ),
+    Rule.near("plastic" -> "coateddiffuse", coatNote)(
+      (plainIfBlack("Ks") +: reflectance(0.25f)) ++
+        Seq(unlessPlain(coat(0.25f, 0.04f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+    ),
+    Rule.near("substrate" -> "coateddiffuse", coatNote)(
+      (plainIfBlack("Ks") +: reflectance(0.5f)) ++
+        Seq(unlessPlain(coat(0.5f, 1f)), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+    ),
+    Rule.near("uber" -> "coateddiffuse", coatNote)(
+      Seq(uber, plainIfBlack("Ks")) ++ reflectanceOfUber ++
+        Seq(unlessPlain(uberCoat), unlessPlain(RoughnessSteps.v3(0.1f)), bump)*
+    ),
+    Rule("glass" -> "dielectric")(
+      eta(1.5f),
+      kr,
+      kt,
+      RoughnessSteps.v3(0f, smoothAtZero = true),
+      bump
+    ),
+    Rule("metal" -> "conductor")(keep("eta", "k"), RoughnessSteps.v3(0.01f), bump),
+    Rule.near("mirror" -> "conductor", "it reflects more towards grazing angles")(
+      rename("Kr" -> "reflectance"),
+      otherwise("reflectance", "`reflectance` 0.9")(_.addRgb("reflectance", Rgb.gray(0.9f))),
+      otherwise("roughness", "`roughness` 0")(_.addFloat("roughness", 0f)),
+      bump
+    ),
+    Rule("translucent" -> "diffusetransmission")(
+      translucent,
+      lose("Ks", "it has no gloss")(black),
+      otherwise("Ks", "a warning that the gloss is lost")(s =>
+        if !s.wasGiven("Ks") then
+          s.warn(s.declaration.at, "the gloss of \"translucent\" can't be said in v4")
+      ),
+      drop("roughness", "remaproughness"),
+      bump
+    ),
+    Rule("subsurface" -> "subsurface")(subsurface*),
+    Rule("kdsubsurface" -> "subsurface")(rename("Kd" -> "reflectance") +: subsurface*),
+    Rule("mix" -> "mix")(mix, drop("bumpmap")),
+    Rule("hair" -> "hair")(
+      rename("color" -> "reflectance"),
+      keep("sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
+    ),
+    Rule.near("disney" -> "diffuse", "only its colour is kept")(
+      rename("color" -> "reflectance"),
+      drop(
+        "metallic", "eta", "roughness", "speculartint", "anisotropic", "sheen", "sheentint",
+        "clearcoat", "clearcoatgloss", "spectrans", "scatterdistance", "thin", "flatness",
+        "difftrans"
+      ),
+      bump
+    ),
+    Rule("|none" -> "interface")()
+  )
+
+  // Neither holds for what has become a dielectric
+  private def reflectanceOfUber: Seq[Step] = reflectance(0.25f).map: step =>
+    Step(step.source, step.target)(s => if s.becomes != "dielectric" then step.run(s))
+
+  private def uberCoat: Step =
+    val gloss = coat(0.25f, 0.04f)
+    Step("`Ks`, `eta`, `index`", "`eta`"): s =>
+      if s.becomes == "dielectric" then eta(1.5f).run(s)
+      else
+        Seq("eta", "index").foreach(s.take)
+        gloss.run(s)

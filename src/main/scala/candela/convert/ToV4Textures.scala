@@ -1,0 +1,171 @@
+package candela.convert
+
+import candela.color.{Rgb, Srgb}
+import candela.scenefile.*
+
+/** Textures, from v3 to v4. */
+object ToV4Textures:
+  import Steps.*
+
+  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+
+  /** v3 decodes PNG and TGA unless told otherwise; v4 all files of 8 bits, and can be told
+    * otherwise of PNG alone. What it can't be told is written into a new image.
+    */
+  private val encoding: Step =
+    Step("`filename`, `gamma`", "`filename`, `encoding`; or a new image"): s =>
+      for p <- s.take("filename") do
+        val file = p.strings.headOption.getOrElse("").toLowerCase
+        val (isPng, isTga) = (file.endsWith(".png"), file.endsWith(".tga"))
+        val decodes = s.takeBool("gamma", isPng || isTga)
+        if decodes == (isPng || isTga) then s.add("filename", p)
+        else if isPng then
+          s.add("filename", p)
+          s.addString("encoding", "linear")
+        else
+          val meant = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
+          s.addString("filename", Pictures.baked(s, p)(meant))(using p.at)
+
+  private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
+    s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
+
+  private val image = Seq(encoding, filter, keep("wrap", "scale", "maxanisotropy"), mapping)
+
+  private def ptex = Rule("ptex" -> "ptex")(
+    keep("filename", "scale"),
+    Step("`gamma`", "`encoding` \"gamma …\"")(s =>
+      s.addString("encoding", s"gamma ${NumberText.of(s.takeNumber("gamma", 2.2f))}")
+    )
+  )
+
+  private def common = Seq(
+    Rule("constant" -> "constant")(keep("value")),
+    Rule("mix" -> "mix")(keep("tex1", "tex2", "amount")),
+    Rule("bilerp" -> "bilerp")(keep("v00", "v01", "v10", "v11"), mapping),
+    Rule("imagemap" -> "imagemap")(image*),
+    Rule("checkerboard" -> "checkerboard")(
+      keep("tex1", "tex2", "dimension"),
+      drop("aamode"),
+      mapping
+    ),
+    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
+    ptex
+  )
+
+  private val octaves = keep("octaves", "roughness")
+
+  val floats: Table = Table("float texture", fallback = "constant")(
+    (common ++ Seq(
+      Rule("scale" -> "scale")(rename("tex1" -> "tex", "tex2" -> "scale")),
+      Rule("fbm" -> "fbm")(octaves),
+      Rule("wrinkled" -> "wrinkled")(octaves),
+      Rule("windy" -> "windy")()
+    ))*
+  )
+
+  /** v4 multiplies a colour with a number. */
+  private val scale: Step = Step("`tex1`, `tex2`", "`tex` and `scale`, which has no colour"): s =>
+    val factors = Vector("tex1", "tex2").flatMap(s.take)
+    def gray(p: Param) = s.colorOf(p).filter(Values.isGray).map(_.r)
+    def color(p: Param) = s.colorOf(p)
+    factors match
+      case Vector(a, b) =>
+        val (tex, factor) = if gray(a).nonEmpty && gray(b).isEmpty then (b, a) else (a, b)
+        (color(tex), color(factor)) match
+          case (Some(x), Some(y)) => s.addRgb("tex", x * y)(using tex.at)
+          case _ =>
+            val (base, by) = if color(tex).nonEmpty && gray(factor).isEmpty then (factor, tex)
+            else (tex, factor)
+            val tinted = color(by).filter(_ => gray(by).isEmpty).flatMap(tint(s, base, _))
+            if tinted.nonEmpty then s.addTexture("tex", tinted.get)(using base.at)
+            else s.add("tex", base)
+            if tinted.isEmpty then
+              gray(by) match
+                case Some(g) => s.addFloat("scale", g)(using by.at)
+                case None =>
+                  s.warn(by.at, "v4 multiplies no two colours: of one only the brightness is used")
+                  color(by) match
+                    case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
+                    case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
+      case one => one.foreach(s.add("tex", _))
+
+  /** An image map times a colour: a new image. */
+  private def tint(s: Statement, p: Param, by: Rgb): Option[String] =
+    for
+      t <- s.run.texture(p.strings.headOption.getOrElse(""), "spectrum")
+      if t.texture.name == "imagemap"
+      file <- t.texture.param("filename")
+    yield
+      val name = file.strings.headOption.getOrElse("").toLowerCase
+      val isBytes = name.endsWith(".png") || name.endsWith(".tga")
+      val decodes = t.texture.param("gamma").flatMap(_.bools.headOption).getOrElse(isBytes)
+      val factors = Array(by.r, by.g, by.b)
+      val written = Pictures.baked(s, file): (x, c) =>
+        factors(c) * (if decodes then Srgb.decode(x) else x)
+      val others = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
+      val image = Param(ParamType.String, "filename", file.at, file.at, strings = Vector(written))
+      val d = t.texture.copy(params = image +: others)
+      val made = s.run.convert(d, "spectrum texture").get
+      s.run.define(placed(t).copy(name = s"${t.name} tinted", texture = made))
+
+  /** A float texture of the same kind as a spectrum texture: its brightness. */
+  def floatTwin(s: Statement, p: Param): String =
+    val name = p.strings.head
+    val twin =
+      for
+        t <- s.run.texture(name, "spectrum")
+        d <- s.run.convert(grayed(s, t.texture), "float texture")
+      yield s.run.define(t.copy(name = s"$name as number", valueType = "float", texture = d))
+    s.warn(p.at, s"where v4 wants a number, it gets the brightness of the texture \"$name\"")
+    twin.getOrElse(name)
+
+  private def grayed(s: Statement, d: Declaration): Declaration =
+    d.copy(params = d.params.map: p =>
+      if p.paramType == ParamType.Rgb || p.paramType == ParamType.Spectrum then
+        val c = s.colorOf(p).getOrElse(Rgb.White)
+        Param(ParamType.Float, p.name, p.at, p.valuesAt, floats = Array(c.luminance))
+      else p)
+
+  /** Colours between black and white, by a float texture. */
+  private def byNumber(kind: String)(steps: Step*): Rule =
+    Rule(kind -> "mix")(
+      Step("all", s"a float texture \"$kind\" between black and white"): s =>
+        val rule = Rule(kind -> kind)(steps*)
+        val number = Statement(s.declaration, s.run, rule).result()
+        s.declaration.params.foreach(p => s.take(p.name))
+        val made = TextureDescription(s"$kind as number", "float", number, s.run.textureToWorld)
+        s.addTexture("amount", s.run.define(made))
+    )
+
+  private val uv = Rule.near("uv" -> "bilerp", "it does not repeat beyond 0 … 1")(
+    Step("no colours", "red along u, green along v"): s =>
+      for (name, c) <- Seq(
+          "v00" -> Rgb(0, 0, 0),
+          "v01" -> Rgb(0, 1, 0),
+          "v10" -> Rgb(1, 0, 0),
+          "v11" -> Rgb(1, 1, 0)
+        )
+      do s.addRgb(name, c),
+    mapping
+  )
+
+  val colors: Table = Table("spectrum texture", fallback = "constant")(
+    (common ++ Seq(
+      Rule("scale" -> "scale")(scale),
+      Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation")),
+      byNumber("fbm")(octaves),
+      byNumber("wrinkled")(octaves),
+      byNumber("windy")(),
+      uv
+    ))*
+  )
+
+  /** Where the two read a transform differently: v3 has planar mappings in world space, and turns
+    * points in space by the texture's transform instead of its inverse.
+    */
+  def placed(t: TextureDescription): TextureDescription =
+    val d = t.texture
+    val isSpatial = Set("fbm", "wrinkled", "windy", "marble")(d.name) ||
+      (d.name == "checkerboard" && d.param("dimension").exists(_.ints.headOption.contains(3)))
+    val isPlanar = d.param("mapping").exists(_.strings.headOption.contains("planar"))
+    if isSpatial then PassRun.inverse(t) else if isPlanar then PassRun.unplaced(t) else t

@@ -1,0 +1,192 @@
+package candela.convert
+
+import candela.math.sqrt
+import candela.scenefile.Dialect
+
+/** What stands before `WorldBegin`, and media, from v3 to v4. */
+object ToV4View:
+  import Steps.*
+
+  private val shutter = keep("shutteropen", "shutterclose")
+  private val projective =
+    keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
+  private val planes = drop("hither", "yon")
+
+  private val cameras = Table("Camera", fallback = "perspective")(
+    Rule("perspective" -> "perspective")(
+      keep("fov"),
+      projective,
+      shutter,
+      planes,
+      Step("`halffov`", "`fov`")(s =>
+        for p <- s.take("halffov"); half <- s.numberOf(p) if half > 0f do
+          s.addFloat("fov", 2 * half)(using p.at)
+      )
+    ),
+    Rule("orthographic" -> "orthographic")(projective, shutter, planes),
+    Rule("environment" -> "spherical")(
+      projective,
+      shutter,
+      planes,
+      otherwise(
+        "mapping",
+        "`mapping` \"equirectangular\""
+      )(_.addString("mapping", "equirectangular"))
+    ),
+    Rule("realistic" -> "realistic")(
+      keep("lensfile", "aperturediameter", "focusdistance"),
+      shutter,
+      planes,
+      lose("simpleweighting", "the exposure is v4's")
+    )
+  )
+
+  /** v4 writes other formats than v3 does. */
+  private val filename: Step = Step("`filename`", "`filename`, as .exr if v4 can't write it"): s =>
+    for p <- s.take("filename") do
+      val name = p.strings.headOption.getOrElse("")
+      val isKnown = Seq(".exr", ".png", ".pfm", ".qoi").exists(name.toLowerCase.endsWith)
+      if isKnown then s.add("filename", p)
+      else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.at)
+
+  private val films = Table("Film", fallback = "rgb")(
+    Rule("image" -> "rgb")(
+      keep("xresolution", "yresolution", "cropwindow", "diagonal"),
+      filename,
+      Step("`scale`", "`iso`, 100 times")(s =>
+        for p <- s.take("scale"); x <- s.numberOf(p) if x != 1f do
+          s.addFloat("iso", 100f * x)(using p.at)
+      ),
+      Step("`maxsampleluminance`", "`maxcomponentvalue`, with a warning")(s =>
+        for p <- s.take("maxsampleluminance"); x <- s.numberOf(p) do
+          s.warn(p.at, "v4 limits the largest component of a sample, v3 its luminance")
+          s.addFloat("maxcomponentvalue", x)(using p.at)
+      ),
+      pixelBounds,
+      drop("display")
+    )
+  )
+
+  /** An integrator's window of pixels is the film's in v4. */
+  private def pixelBounds: Step = Step("the integrator's `pixelbounds`", "`pixelbounds`"): s =>
+    for i <- s.run.scene.integrator; p <- i.param("pixelbounds") do s.addRaw(p)
+
+  private val extents = Step("`xwidth`, `ywidth`", "`xradius`, `yradius`"): s =>
+    for axis <- Seq("x", "y"); p <- s.take(s"${axis}width") do s.add(s"${axis}radius", p)
+
+  private def extentsOf(default: Float): Step =
+    otherwise("xradius", s"`xradius`, `yradius` $default where they are not given"): s =>
+      for axis <- Seq("x", "y") if !s.has(s"${axis}radius") do s.addFloat(s"${axis}radius", default)
+
+  private val filters = Table("PixelFilter", fallback = "box")(
+    Rule("box" -> "box")(extents),
+    Rule("triangle" -> "triangle")(extents),
+    Rule("gaussian" -> "gaussian")(
+      extents,
+      extentsOf(2f),
+      Step("`alpha`", "`sigma`: √(1 / 2 alpha)")(s =>
+        s.addFloat("sigma", sqrt(1f / (2f * s.takeNumber("alpha", 2f))))
+      )
+    ),
+    Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
+    Rule("sinc" -> "sinc")(extents, keep("tau"))
+  )
+
+  private val pixelSamples = keep("pixelsamples")
+
+  private val samplers = Table("Sampler", fallback = "zsobol")(
+    Rule("halton" -> "halton")(pixelSamples, drop("samplepixelcenter")),
+    Rule("sobol" -> "sobol")(pixelSamples),
+    Rule("02sequence|lowdiscrepancy" -> "paddedsobol")(pixelSamples, drop("dimensions")),
+    Rule("maxmindist" -> "pmj02bn")(pixelSamples, drop("dimensions")),
+    Rule("random" -> "independent")(pixelSamples),
+    Rule("stratified" -> "stratified")(keep("xsamples", "ysamples", "jitter"), drop("dimensions"))
+  )
+
+  private val strategy = Step("`lightsamplestrategy`", "`lightsampler`"): s =>
+    for p <- s.take("lightsamplestrategy") do
+      val name = p.strings.headOption.filter(Set("uniform", "power"))
+      name.foreach(s.addString("lightsampler", _)(using p.at))
+
+  private val path = Seq(
+    keep("maxdepth"),
+    strategy,
+    drop("rrthreshold", "pixelbounds")
+  )
+
+  /** Nothing in v4 follows mirror reflections alone. */
+  private val direct = Step("`maxdepth`", "`maxdepth` 1, if the scene has no smooth surface"): s =>
+    val depth = s.takeInteger("maxdepth", 5)
+    if smoothMaterials(s).isEmpty then s.addInteger("maxdepth", 1)
+    else
+      s.warn(
+        s.declaration.at,
+        s"v4 has no \"${s.name}\": beyond mirrors and glass, \"path\" adds " +
+          "light that comes by way of other surfaces"
+      )
+      s.addInteger("maxdepth", depth)
+
+  private def smoothMaterials(s: Statement): Seq[String] =
+    val smooth = Set("glass", "mirror", "uber", "mix", "hair", "disney")
+    s.run.materials.map(_.name).filter(smooth)
+
+  private val sppm = Seq(
+    keep("maxdepth", "photonsperiteration", "radius"),
+    drop("imagewritefrequency"),
+    lose("iterations", "v4 takes as many as there are samples of a pixel"),
+    lose("numiterations", "v4 takes as many as there are samples of a pixel")
+  )
+
+  private val integrators = Table("Integrator", fallback = "path")(
+    Rule("path" -> "path")(path*),
+    Rule("volpath" -> "volpath")(path*),
+    Rule("directlighting" -> "path")(direct, drop("strategy", "pixelbounds")),
+    Rule("whitted" -> "path")(direct, drop("pixelbounds")),
+    Rule("bdpt" -> "bdpt")(
+      keep("maxdepth", "visualizestrategies", "visualizeweights"),
+      drop("lightsamplestrategy", "pixelbounds")
+    ),
+    Rule("mlt" -> "mlt")(
+      keep("maxdepth", "bootstrapsamples", "chains", "mutationsperpixel", "largestepprobability",
+        "sigma")
+    ),
+    Rule("sppm" -> "sppm")(sppm*),
+    Rule("ao|ambientocclusion" -> "ambientocclusion")(
+      keep("cossample"),
+      drop("nsamples", "pixelbounds")
+    )
+  )
+
+  private val bvh = keep("splitmethod", "maxnodeprims")
+  private val kdtree = keep("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
+
+  /** Whatever finds the surfaces, they are the same. */
+  private[convert] val accelerators = Table("Accelerator")(
+    Rule("bvh" -> "bvh")(bvh),
+    Rule("kdtree" -> "kdtree")(kdtree)
+  )
+
+  private val medium = keep("sigma_a", "sigma_s", "scale", "g", "preset")
+
+  private val media = Table("Medium")(
+    Rule("homogeneous" -> "homogeneous")(medium),
+    Rule("heterogeneous" -> "uniformgrid")(
+      medium,
+      keep("density", "nx", "ny", "nz", "p0", "p1")
+    )
+  )
+
+  // v2's, which are no more when this pass begins
+  private val none = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
+
+  val pass: Pass = Pass(
+    Dialect.V3,
+    Dialect.V4,
+    Vector(cameras, films, samplers, filters, integrators, accelerators, media) ++ none ++
+      Vector(ToV4Materials.table, ToV4Textures.floats, ToV4Textures.colors, ToV4Lights.table,
+        ToV4Lights.area, ToV4Shapes.table),
+    Map("PixelFilter" -> "box", "Integrator" -> "path", "Film" -> "image"),
+    ToV4Shapes.placed,
+    ToV4Textures.placed,
+    ToV4Lights.placed
+  )

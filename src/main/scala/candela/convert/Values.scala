@@ -1,0 +1,115 @@
+package candela.convert
+
+import java.nio.file.{Files, InvalidPathException}
+
+import candela.color.{Colorimetry, Rgb, Spectrum}
+import candela.color.Colorimetry.White
+import candela.scenefile.*
+
+/** What the values of parameters mean in one dialect, and how another one writes them. */
+final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
+
+  /** The value in the other dialect's way; None if it has none.
+    *
+    * @param name what it is called there
+    */
+  def adapt(p: Param, name: String, d: Declaration): Option[Param] =
+    val isUnbounded = Values.Unbounded(name)
+    p.paramType match
+      case ParamType.Xyz => colored(p, d, isUnbounded)
+      case ParamType.Blackbody => colored(p, d, isUnbounded)
+      case ParamType.Float if Values.Spectral(name) && to == Dialect.V4 =>
+        if isUnbounded then Some(Values.constant(p)) else colored(p, d, isUnbounded)
+      case ParamType.Rgb => colored(p, d, isUnbounded)
+      case ParamType.Spectrum if isUnbounded => indices(p, d)
+      case ParamType.Spectrum => colored(p, d, isUnbounded)
+      case _ => Some(p)
+
+  /** As RGB; what reflects is between 0 and 1 in v4. */
+  private def colored(p: Param, d: Declaration, isUnbounded: Boolean): Option[Param] =
+    color(p, d).map: c =>
+      val most = if isUnbounded || to != Dialect.V4 then Float.PositiveInfinity else 1f
+      val bounded = c.map(x => Math.max(0f, Math.min(x, most)))
+      if bounded != c && p.paramType == ParamType.Rgb then
+        warn(p, s"`${p.name}` has values that v4 does not allow; they are cut to 0 … 1")
+      Values.rgb(p, bounded)
+
+  /** Indices of refraction and the like by wavelength: v2 and v3 continue them beyond the first and
+    * last wavelength, v4 does not; only v4 knows spectra by name.
+    */
+  private def indices(p: Param, d: Declaration): Option[Param] =
+    if to == Dialect.V4 && p.strings.nonEmpty then Some(p)
+    else if to != Dialect.V4 && p.strings.nonEmpty && Colorimetry.named(p.strings.head).isEmpty then
+      Some(p)
+    else
+      spectrum(p, d).map: s =>
+        val pairs = s.lambda.zip(s.values)
+        val ends = Vector(360f, 830f).filter(x => x < s.lambda.head || x > s.lambda.last)
+        val all = if to == Dialect.V4 then pairs ++ ends.map(x => (x, s(x))) else pairs
+        Values.pairs(p, all.sortBy(_._1).toIndexedSeq)
+
+  /** The colour that the dialect that is read makes of a parameter. */
+  def color(p: Param, d: Declaration): Option[Rgb] = p.paramType match
+    case ParamType.Rgb if p.floats.length == 3 =>
+      Some(Rgb(p.floats(0), p.floats(1), p.floats(2)))
+    case ParamType.Float if p.floats.length == 1 => Some(Rgb.gray(p.floats(0)))
+    case ParamType.Xyz if p.floats.length == 3 =>
+      Some(Colorimetry.fromXyz(p.floats(0).toDouble, p.floats(1).toDouble, p.floats(2).toDouble))
+    case ParamType.Blackbody =>
+      val scale = if p.floats.length > 1 && from != Dialect.V4 then p.floats(1) else 1f
+      Some(Colorimetry.rgb(Spectrum.blackbody(p.floats(0))(_), white) * scale)
+    case ParamType.Spectrum => spectrum(p, d).map(s => Colorimetry.rgb(s(_), white))
+    case _ => None
+
+  private def white: White = if from == Dialect.V4 then White.D65 else White.EqualEnergy
+
+  /** A function of wavelength: pairs, a known name, or a file of pairs. */
+  def spectrum(p: Param, d: Declaration): Option[Spectrum] =
+    val outside = if from == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
+    def of(numbers: Array[Float]) =
+      val sorted = numbers.grouped(2).filter(_.length == 2).toArray.sortBy(_(0))
+      Option.when(sorted.nonEmpty)(Spectrum(sorted.map(_(0)), sorted.map(_(1)), outside))
+    p.strings.headOption match
+      case None => of(p.floats)
+      case Some(name) =>
+        Colorimetry.named(name).orElse:
+          val read = numbersOf(name, d).flatMap(of)
+          if read.isEmpty then warn(p, s"there is no spectrum `$name`: `${p.name}` is left out")
+          read
+
+  private def numbersOf(name: String, d: Declaration): Option[Array[Float]] =
+    val file =
+      try Some(d.folder.resolve(name.replace('\\', '/'))).filter(Files.isRegularFile(_))
+      catch case _: InvalidPathException => None
+    file.map: path =>
+      val lines = Files.readString(path, java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
+      lines.flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+")).flatMap(_.toFloatOption).toArray
+
+object Values:
+  /** Not between 0 and 1, though colours. */
+  private val Unbounded =
+    Set("eta", "k", "sigma_a", "sigma_s", "mfp", "Le", "conductor.eta", "conductor.k",
+      "interface.eta")
+
+  /** Where v4 wants a colour or a spectrum, never a plain number. */
+  private val Spectral = Set("reflectance", "transmittance", "k", "sigma_a", "sigma_s", "albedo")
+
+  def isGray(c: Rgb): Boolean = c.r == c.g && c.g == c.b
+
+  def renamed(p: Param, name: String): Param =
+    if p.name == name then p
+    else
+      Param(p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault)
+
+  def rgb(p: Param, c: Rgb): Param =
+    Param(ParamType.Rgb, p.name, p.at, p.valuesAt, floats = Array(c.r, c.g, c.b))
+
+  def pairs(p: Param, values: IndexedSeq[(Float, Float)]): Param =
+    val floats = values.flatMap((x, y) => Vector(x, y)).toArray
+    Param(ParamType.Spectrum, p.name, p.at, p.valuesAt, floats = floats)
+
+  /** The same number at all wavelengths. */
+  def constant(p: Param): Param = pairs(p, Vector((360f, p.floats(0)), (830f, p.floats(0))))
+
+  def typed(p: Param, t: ParamType): Param =
+    Param(t, p.name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault)
