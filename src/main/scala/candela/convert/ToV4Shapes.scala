@@ -6,7 +6,34 @@ import candela.scenefile.*
 object ToV4Shapes:
   import Steps.*
 
-  private val alpha = keep("alpha")
+  /** v3 cuts out what is exactly 0, and nothing else; in v4 alpha is the chance to be there. */
+  private val alpha: Step = Step("`alpha`", "`alpha`, 1 where not 0, if that can be told"): s =>
+    for p <- s.take("alpha") do
+      if p.paramType == ParamType.Texture then
+        val t = s.run.texture(p.strings.headOption.getOrElse(""), "float")
+        val values = t.toVector.flatMap(_.texture.params).filter(q => Amounts.contains(q.name))
+        val known = values.map(s.numberOf)
+        val isPlain = t.exists(x => Plain(x.texture.name)) && known.forall(_.nonEmpty)
+        if isPlain && known.flatten.exists(x => x != 0f && x != 1f) then
+          s.addTexture("alpha", allOrNothing(s, t.get))(using p.at)
+        else
+          s.add("alpha", p)
+          if !isPlain then
+            s.warn(p.at, "v3 cuts out where `alpha` is 0; v4 thins out also where it is below 1")
+      else s.numberOf(p).foreach(x => s.addFloat("alpha", if x == 0f then 0f else 1f)(using p.at))
+
+  private val Plain = Set("constant", "checkerboard", "dots")
+  private val Amounts = Set("value", "tex1", "tex2", "inside", "outside")
+
+  private def allOrNothing(s: Statement, t: TextureDescription): String =
+    val params = t.texture.params.map: q =>
+      if !Amounts.contains(q.name) then q
+      else
+        val x = if s.numberOf(q).contains(0f) then 0f else 1f
+        Param(ParamType.Float, q.name, q.at, q.valuesAt, floats = Array(x))
+    val made = s.run.convert(t.texture.copy(params = params), "float texture").get
+    s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} or nothing", texture = made))
+
   private val shadow = lose("shadowalpha", "shadows follow `alpha`")(isNumber(1f))
 
   /** v2 and v3 take texture coordinates as plain numbers too, by either name. */

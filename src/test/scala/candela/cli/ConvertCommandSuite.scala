@@ -1,0 +1,52 @@
+package candela.cli
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ConvertCommandSuite extends AnyFunSuite:
+
+  private def run(args: String*): (Int, Captured) =
+    val captured = Captured()
+    (Main.run("convert" +: args, captured.terminal.out, captured.terminal.err), captured)
+
+  private val old =
+    "WorldBegin\nMaterial \"matte\" \"float sigma\" 20\nShape \"sphere\"\nWorldEnd\n"
+
+  private def scene(folder: Path): Path = Files.writeString(folder.resolve("a.pbrt"), old)
+
+  test("without --out the scene is printed, and what is lost is said with its place"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val (code, captured) = run(file.toString, "--to", "v4", "--dialect", "v3")
+      assert(code == 0)
+      assert(captured.out.contains("Material \"diffuse\""))
+      val lost = "`sigma` of \"matte\" can't be said in v4: the surface is Lambert's"
+      assert(captured.err.contains(s"$file:2:18: warning: $lost\n 2 | Material"))
+      assert(TempFolder.names(folder) == Set("a.pbrt"))
+
+  test("with --out it is written, and one line says so"):
+    TempFolder.use: folder =>
+      val out = folder.resolve("b.pbrt")
+      val (code, captured) =
+        run(scene(folder).toString, "--to", "v4", "--dialect", "v3", "--out", out.toString)
+      assert(code == 0)
+      assert(captured.out == s"wrote $out  v4, 1 warning\n")
+      assert(Files.readString(out).contains("Film \"rgb\""))
+      assert(TempFolder.names(folder) == Set("a.pbrt", "b.pbrt"))
+
+  test("what is read is not overwritten, nor is a folder"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val (code, captured) = run(file.toString, "--to", "v3", "--out", s"$folder/./a.pbrt")
+      assert(code == 1 && captured.err.contains("is what is being read"))
+      assert(Files.readString(file) == old)
+      val (other, said) = run(file.toString, "--to", "v3", "--out", folder.toString)
+      assert(other == 1 && said.err.contains("it is a folder"))
+
+  test("a dialect to write must be named, and v2 is written from v2 alone"):
+    TempFolder.use: folder =>
+      val file = scene(folder).toString
+      assert(run(file)._1 == 2)
+      val (code, captured) = run(file, "--to", "v2", "--dialect", "v3")
+      assert(code == 1 && captured.err.contains("a v3 scene can't be written as v2"))

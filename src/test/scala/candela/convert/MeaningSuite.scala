@@ -1,0 +1,83 @@
+package candela.convert
+
+import candela.cli.TempFolder
+import candela.scenefile.*
+import candela.testing.SceneTexts
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Statements whose numbers must be calculated, so that they mean the same. */
+class MeaningSuite extends AnyFunSuite:
+
+  private val view = "Camera \"perspective\" Film \"image\" \"integer xresolution\" 4 \"integer " +
+    "yresolution\" 4 Sampler \"random\" \"integer pixelsamples\" 16 WorldBegin\n"
+
+  private def converted(world: String, from: Dialect, to: Dialect): Converted =
+    val start = if from == Dialect.V4 then view.replace("\"image\"", "\"rgb\"")
+      .replace("random", "independent") else view
+    TempFolder.use(folder => Converter.convert(SceneTexts.parse(start + world, from), to, folder))
+
+  private def assertSameLight(light: String, from: Dialect, to: Dialect) =
+    val start = if from == Dialect.V4 then view.replace("\"image\"", "\"rgb\"")
+      .replace("random", "independent") else view
+    val made = converted(light, from, to)
+    assert(made.warnings.isEmpty)
+    val a = SceneTexts.mean(start + light, from)
+    val b = SceneTexts.mean(Descriptions.text(made.scene), to)
+    for (x, y) <- Seq(a.r -> b.r, a.g -> b.g, a.b -> b.b) do
+      assert(Math.abs(x - y) < 2e-3 * Math.max(1f, Math.abs(x)), s"$light: $a and $b")
+
+  test("lights are as bright and have the same colour, however they are written"):
+    for light <- Vector(
+        "\"blackbody L\" [3000 2.5]", "\"blackbody L\" [9000 1] \"rgb scale\" [2 2 2]",
+        "\"rgb L\" [1 .5 2] \"rgb scale\" [.5 2 1]", "\"xyz L\" [.4 .5 .6]",
+        "\"rgb scale\" [3 2 1]", "\"spectrum L\" [400 .5 700 1.5]"
+      )
+    do assertSameLight(s"LightSource \"infinite\" $light\nWorldEnd", Dialect.V3, Dialect.V4)
+    for light <- Vector(
+        "\"blackbody L\" 3000 \"float scale\" 2", "\"rgb L\" [1 .5 2] \"float scale\" 3",
+        "\"float illuminance\" 7", "\"spectrum L\" [400 .5 700 1.5]"
+      )
+    do assertSameLight(s"LightSource \"infinite\" $light", Dialect.V4, Dialect.V3)
+
+  private def material(world: String, from: Dialect, to: Dialect): Declaration =
+    converted(s"$world Shape \"sphere\"", from, to).scene.shapes.head.material match
+      case MaterialRef.Inline(d) => d
+      case other => fail(other.toString)
+
+  private def number(d: Declaration, name: String) = d.param(name).get.floats.head
+
+  test("roughness is the same alpha"):
+    val metal = material("Material \"metal\" \"float roughness\" .2", Dialect.V3, Dialect.V4)
+    val alpha = candela.bsdf.Roughness.polynomialAlpha(.2f)
+    assert(number(metal, "roughness") == alpha)
+    assert(metal.param("remaproughness").get.bools == Vector(false))
+    val back = material("Material \"conductor\" \"float roughness\" .25", Dialect.V4, Dialect.V3)
+    assert(number(back, "roughness") == .5f)
+    val glass = material("Material \"glass\"", Dialect.V3, Dialect.V4)
+    assert(number(glass, "roughness") == 0f)
+
+  test("plastic without gloss is diffuse, and nothing is lost"):
+    val world = "Material \"plastic\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [.1 .2 .3] Shape \"sphere\""
+    assert(converted(world, Dialect.V3, Dialect.V4).warnings.isEmpty)
+
+  test("mixed materials change places, for the amount is the other one's"):
+    val mix = material(
+      "Material \"mix\" \"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\"",
+      Dialect.V3,
+      Dialect.V4
+    )
+    assert(mix.param("materials").get.strings == Vector("b", "a"))
+
+  test("ReverseOrientation does not turn a mesh with normals in v3, and does in v4"):
+    val mesh = "ReverseOrientation Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] " +
+      "\"integer indices\" [0 1 2] \"normal N\" [0 0 1 0 0 1 0 0 1]"
+    assert(!converted(mesh, Dialect.V3, Dialect.V4).scene.shapes.head.reverseOrientation)
+    val turned = converted(mesh, Dialect.V4, Dialect.V3).scene.shapes.head
+    assert(turned.shape.param("N").get.floats(2) == -1f && !turned.reverseOrientation)
+
+  test("what v4 has no more becomes triangles, or is left out, and is named"):
+    for kind <- Vector("cone", "paraboloid", "hyperboloid") do
+      val made = converted(s"Shape \"$kind\"", Dialect.V3, Dialect.V4)
+      assert(made.scene.shapes.map(_.shape.name) == Vector("trianglemesh"))
+      assert(made.warnings.head.message.contains(kind))
+    assert(converted("Shape \"nurbs\"", Dialect.V3, Dialect.V4).scene.shapes.isEmpty)
