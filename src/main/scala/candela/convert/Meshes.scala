@@ -11,6 +11,7 @@ object Meshes:
   /** Has every vertex a shading normal? */
   def hasNormals(shape: Declaration): Boolean = shape.name match
     case "trianglemesh" | "bilinearmesh" => shape.param("N").exists(_.floats.nonEmpty)
+    case "loopsubdiv" => true // those of the limit surface
     case "plymesh" => shape.param("filename").exists(p => plyHasNormals(shape, p.strings.head))
     case _ => false
 

@@ -61,8 +61,13 @@ object ToV3Shapes:
       else meshed
     Vector(ToV3Lights.powered(turned))
 
+  /** With its normals turned; those of a subdivided mesh follow the order of its corners. */
   private def reversed(d: Declaration): Declaration =
+    val isSubdivided = d.name == "loopsubdiv"
     d.copy(params = d.params.map: p =>
-      if p.name == "N" then
+      if isSubdivided && p.name == "indices" then
+        val turned = p.ints.grouped(3).toArray.flatMap(_.reverse)
+        Param(p.paramType, p.name, p.at, p.valuesAt, ints = turned)
+      else if !isSubdivided && p.name == "N" then
         Param(p.paramType, p.name, p.at, p.valuesAt, floats = p.floats.map(-_))
       else p)

@@ -29,7 +29,7 @@ class ConverterSuite extends AnyFunSuite:
         assert(converted.warnings.forall(_.at.exists(_.file.endsWith(s"$name.pbrt"))))
         // Where models differ the picture differs, and that was said
         val worst = if converted.warnings.isEmpty then difference(scene, again) else 0.0
-        assert(worst < 0.05, "of a quarter's mean")
+        assert(worst < 0.1, "of a quarter's mean, that noise does not explain")
 
 object ConverterSuite:
 
