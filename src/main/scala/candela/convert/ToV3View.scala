@@ -32,8 +32,8 @@ object ToV3View:
     )
   )
 
-  private val exposure = Step("`iso`, `exposuretime`", "`scale`"): s =>
-    val factor = s.takeNumber("iso", 100f) / 100f * s.takeNumber("exposuretime", 1f)
+  private val exposure = Step("`iso`", "`scale`, times how long the shutter is open"): s =>
+    val factor = s.takeNumber("iso", 100f) / 100f * ToV4View.shutterTime(s)
     if factor != 1f then s.addFloat("scale", factor)
 
   private val components = Step("`maxcomponentvalue`", "`maxsampleluminance`, with a warning"): s =>

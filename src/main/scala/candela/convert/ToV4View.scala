@@ -49,13 +49,21 @@ object ToV4View:
       if isKnown then s.add("filename", p)
       else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.at)
 
+  /** v4's film gathers light as long as the shutter is open; those of v2 and v3 don't count it. */
+  private[convert] def shutterTime(s: Statement): Float =
+    def time(name: String, default: Float) =
+      val p = s.run.scene.camera.flatMap(_.param(name))
+      p.flatMap(_.floats.headOption).getOrElse(default)
+    val open = time("shutterclose", 1f) - time("shutteropen", 0f)
+    if open > 0f then open else 1f
+
   private val films = Table("Film", fallback = "rgb")(
     Rule("image" -> "rgb")(
       keep("xresolution", "yresolution", "cropwindow", "diagonal"),
       filename,
-      Step("`scale`", "`iso`, 100 times")(s =>
-        for p <- s.take("scale"); x <- s.numberOf(p) if x != 1f do
-          s.addFloat("iso", 100f * x)(using p.at)
+      Step("`scale`", "`iso`, 100 times; divided by the time that the shutter is open")(s =>
+        val factor = s.takeNumber("scale", 1f) / shutterTime(s)
+        if factor != 1f then s.addFloat("iso", 100f * factor)
       ),
       Step("`maxsampleluminance`", "`maxcomponentvalue`, with a warning")(s =>
         for p <- s.take("maxsampleluminance"); x <- s.numberOf(p) do
