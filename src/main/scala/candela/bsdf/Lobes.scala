@@ -13,6 +13,9 @@ import candela.math.*
   */
 final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
+  /** The lobes and with which probability each is drawn from. */
+  def parts: Seq[(Bsdf, Float)] = lobes.toSeq.zip(probabilities)
+
   def f(wo: Vec3, wi: Vec3): Rgb =
     var sum = lobes(0).f(wo, wi)
     var i = 1
@@ -88,6 +91,16 @@ object Lobes:
         lobes = lobes :+ lobe
         albedos = albedos :+ albedo
       this
+
+    /** Adds all that `bsdf` is made of, times `scale`. */
+    def addScaled(bsdf: Bsdf, scale: Rgb): Builder = bsdf match
+      case several: Lobes =>
+        for (lobe, share) <- several.parts do add(scaled(lobe, scale), share * scale.max)
+        this
+      case one => add(scaled(one, scale), scale.max)
+
+    private def scaled(lobe: Bsdf, scale: Rgb): Bsdf =
+      if scale == Rgb.White then lobe else Scaled(lobe, scale)
 
     def result: Bsdf =
       if lobes.isEmpty then Black

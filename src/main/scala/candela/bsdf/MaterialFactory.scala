@@ -16,6 +16,23 @@ object MaterialFactory:
   def diffuseTransmission(r: RgbTexture, t: RgbTexture, scale: Float): Material =
     fold(DiffuseTransmissionMaterial(r, t, scale), isFixed(r) && isFixed(t))
 
+  def translucent(
+      kd: RgbTexture,
+      ks: RgbTexture,
+      reflect: RgbTexture,
+      transmit: RgbTexture,
+      roughness: Roughness,
+      edition: Edition
+  ): Material =
+    fold(
+      TranslucentMaterial(kd, ks, reflect, transmit, roughness, edition),
+      Seq(kd, ks, reflect, transmit).forall(isFixed) && roughness.isConstant
+    )
+
+  def mix(first: Material, second: Material, amount: RgbTexture): Material =
+    val isPlain = Seq(first, second).forall(m => m.isConstant || (m eq InterfaceMaterial))
+    fold(MixedMaterial(first, second, amount), isPlain && isFixed(amount))
+
   /** @param thickness in mean free paths of the coat's absorption
     * @param scattering albedo of the medium between coat and base
     * @param maxDepth  how many times light may meet coat or base from within
@@ -58,6 +75,9 @@ object MaterialFactory:
     fold(SubstrateMaterial(kd, ks, roughness), isFixed(kd) && isFixed(ks) && roughness.isConstant)
 
   def mirror(kr: RgbTexture): Material = fold(MirrorMaterial(kr), isFixed(kr))
+
+  def shinyMetal(ks: RgbTexture, kr: RgbTexture, roughness: Roughness): Material =
+    fold(ShinyMetalMaterial(ks, kr, roughness), isFixed(ks) && isFixed(kr) && roughness.isConstant)
 
   def conductor(curve: ReflectanceCurve, roughness: Roughness): Material =
     fold(ConductorMaterial(curve, roughness), roughness.isConstant)

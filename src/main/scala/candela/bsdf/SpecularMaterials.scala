@@ -2,6 +2,7 @@ package candela.bsdf
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
+import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** A smooth mirror of the same reflectance at every angle. */
@@ -108,3 +109,22 @@ final class UberMaterial(
       )
       .add(SmoothDielectric(index, mirror, clear, compresses = third), interface)
       .result
+
+/** A rough and a smooth metal on top of each other, by their reflectances at normal incidence (PBRT
+  * 2's "shinymetal"): each gets the index of refraction of the dielectric that reflects as much.
+  */
+final class ShinyMetalMaterial(ks: RgbTexture, kr: RgbTexture, roughness: Roughness)
+    extends Material:
+  def bsdf(at: ShadingPoint): Bsdf =
+    val (gloss, mirror) = (ks(at), kr(at))
+    Lobes.Builder()
+      .add(MicrofacetReflection(roughness(at), ShinyMetalMaterial.curve(gloss)), gloss.max)
+      .add(Mirror(Rgb.White, ShinyMetalMaterial.curve(mirror)), mirror.max)
+      .result
+
+object ShinyMetalMaterial:
+  private[bsdf] def curve(reflectance: Rgb): ReflectanceCurve =
+    val eta = reflectance.map: r =>
+      val root = sqrt(clamp(r, 0f, 0.999f))
+      (1f + root) / (1f - root)
+    StrongConductorReflectance(eta, Rgb.Black)

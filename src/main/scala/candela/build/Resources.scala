@@ -12,11 +12,13 @@ import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
-/** What statements of a scene file can refer to by name: textures, and files.
+/** What statements of a scene file can refer to by name: textures, materials, and files.
   *
   * @param basis in which all colours of the scene are given to the runtime
   */
 final class Resources(val basis: ColorBasis):
+  val materials = NamedMaterials()
+
   /** Tables of coated materials, shared by all of them that are alike. */
   val coats = Coats()
 

@@ -44,6 +44,8 @@ final class WorldBuilder(
     for t <- description.textures do
       if t.textureToWorld.isAnimated then problems.warn(t.texture.at, Motions.stands("a texture"))
       Textures.define(t, site(t.texture, t.textureToWorld.start))
+    for (name, d) <- description.namedMaterials do
+      resources.materials.define(name, () => Materials.build(site(d)))
     val uses = ObjectUses(description, problems)
     for s <- uses.world do add(s, world)
     val objectBuilders = uses.shared.map: placed =>
@@ -204,17 +206,7 @@ final class WorldBuilder(
           case MaterialRef.Default => Materials.default
           case MaterialRef.Inline(d) => Materials.build(site(d))
           case MaterialRef.Named(name, at) =>
-            named.get(name) match
-              case Some(d) => Materials.build(site(d))
-              case None =>
-                problems.unnamed(
-                  NameKind.Material,
-                  at,
-                  s"no material is named `$name`",
-                  StandIns.MagentaSurface,
-                  candela.base.Suggest.help(name, named.keys)
-                )
-                StandIns.material(resources.basis)
+            resources.materials(name, at, resources, problems)
         materials += made
         materials.length - 1
       }

@@ -1,19 +1,34 @@
 package candela.build
 
-import candela.bsdf.Material
+import candela.bsdf.{ConstantMaterial, Material}
 
-/** pbrt-v2's tables of measured reflectance. */
+/** pbrt-v2's measured reflectance. */
 object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a table", onlyV2):
   private val filename = string("filename", "a .brdf or .merl file", shown = "none")("")
 
-  override def pending: Option[String] = Some(Materials.instead)
-
   protected def make()(using site: Site): Material =
-    val given_ = site.declaration.param("filename").filter(_ => filename().nonEmpty)
-    val standIn = StandIns.MagentaSurface
-    if given_.forall(site.resources.file(_, site.declaration, site.problems, standIn).nonEmpty)
-    then Materials.default
-    else StandIns.material(site.resources.basis)
+    site.declaration.param("filename").filter(_ => filename().nonEmpty) match
+      case None =>
+        site.error("\"measured\" needs a `filename`")
+        Materials.default
+      case Some(p) =>
+        val made =
+          for
+            path <-
+              site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
+            bsdf <- BrdfFile.read(
+              path,
+              s => site.resources.basis.fromSrgb(
+                Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
+              )
+            ) match
+              case Right(b) => Some(b)
+              case Left(why) =>
+                val message = s"`${filename()}`: $why"
+                site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
+                None
+          yield ConstantMaterial(bsdf)
+        made.getOrElse(StandIns.material(site.resources.basis))
 
 object MeasuredBsdf
     extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4)

@@ -86,10 +86,13 @@ object Conductor extends RoughRecipe("conductor", "a metal, smooth or rough", on
       )
       site.resources.basis.fromSrgb(reflected)
 
-object ShinyMetal
-    extends RoughRecipe("shinymetal", "a metal by its colours", onlyV2, 0.1f, across = Set.empty)
-    with GreyInstead:
-  declare(
-    rgbTexture("Kr", "mirror reflectance at normal incidence")(Rgb.White),
-    rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.White)
-  )
+object ShinyMetal extends RoughRecipe(
+      "shinymetal",
+      "a metal by its colours",
+      onlyV2,
+      0.1f,
+      across = Set.empty
+    ):
+  private val kr = rgbTexture("Kr", "mirror reflectance at normal incidence")(Rgb.White)
+  private val ks = rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.White)
+  protected def make()(using Site): Material = Make.shinyMetal(ks(), kr(), roughness())

@@ -1,14 +1,32 @@
 package candela.build
 
+import candela.bsdf.{Material, MaterialFactory}
 import candela.color.Rgb
+import candela.scenefile.Dialect
+import candela.textures.GrayTexture
 
-object Mix
-    extends MaterialRecipe("mix", "a blend of two named materials", every, bumps = false)
-    with GreyInstead:
-  declare(
-    string("namedmaterial1", "where `amount` is 1", untilV3, "none")(""),
-    string("namedmaterial2", "where `amount` is 0", untilV3, "none")(""),
-    rgbTexture("amount", "of the first", untilV3)(Rgb.gray(0.5f)),
-    strings("materials", "string[2]", "where `amount` is 0, and where it is 1", onlyV4),
-    floatTexture("amount", "of the second", onlyV4)(0.5f)
-  )
+object Mix extends MaterialRecipe("mix", "a blend of two named materials", every, bumps = false):
+  private val first = string("namedmaterial1", "where `amount` is 1", untilV3, "none")("")
+  private val second = string("namedmaterial2", "where `amount` is 0", untilV3, "none")("")
+  private val part = rgbTexture("amount", "of the first", untilV3)(Rgb.gray(0.5f))
+  private val both =
+    strings("materials", "string[2]", "where `amount` is 0, and where it is 1", onlyV4)
+  private val partOfSecond = floatTexture("amount", "of the second", onlyV4)(0.5f)
+
+  protected def make()(using site: Site): Material =
+    if site.dialect == Dialect.V4 then
+      both() match
+        case Vector(a, b) =>
+          MaterialFactory.mix(
+            named(b, "materials"), named(a, "materials"), GrayTexture(partOfSecond())
+          )
+        case names =>
+          site.error(s"`materials` of \"mix\" takes two names of materials; found ${names.length}")
+          Materials.default
+    else
+      MaterialFactory
+        .mix(named(first(), "namedmaterial1"), named(second(), "namedmaterial2"), part())
+
+  private def named(name: String, parameter: String)(using site: Site): Material =
+    val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
+    site.resources.materials(name, at, site.resources, site.problems)

@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.bsdf.{Material, MaterialFactory}
 import candela.color.Rgb
 
 object Translucent
@@ -9,11 +10,11 @@ object Translucent
       untilV3,
       0.1f,
       across = Set.empty
-    )
-    with GreyInstead:
-  declare(
-    rgbTexture("Kd", "diffuse part")(Rgb.gray(0.25f)),
-    rgbTexture("Ks", "glossy part")(Rgb.gray(0.25f)),
-    rgbTexture("reflect", "factor of what is reflected")(Rgb.gray(0.5f)),
-    rgbTexture("transmit", "factor of what is transmitted")(Rgb.gray(0.5f))
-  )
+    ):
+  private val kd = rgbTexture("Kd", "diffuse part")(Rgb.gray(0.25f))
+  private val ks = rgbTexture("Ks", "glossy part")(Rgb.gray(0.25f))
+  private val reflect = rgbTexture("reflect", "factor of what is reflected")(Rgb.gray(0.5f))
+  private val transmit = rgbTexture("transmit", "factor of what is transmitted")(Rgb.gray(0.5f))
+  protected def make()(using site: Site): Material =
+    MaterialFactory
+      .translucent(kd(), ks(), reflect(), transmit(), roughness(), edition(site.dialect))

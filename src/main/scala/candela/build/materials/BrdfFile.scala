@@ -1,0 +1,74 @@
+package candela.build
+
+import java.nio.{ByteBuffer, ByteOrder}
+import java.nio.file.{Files, Path}
+
+import candela.bsdf.{Bsdf, HalfAngleReflection, ScatteredReflection}
+import candela.color.{Rgb, Spectrum}
+import candela.math.*
+
+/** Reads pbrt-v2's two kinds of measured reflectance.
+  *
+  * A `.brdf` file is text: how many wavelengths, these in nm, and for each measurement θ and φ of
+  * the light, θ and φ of the eye (radians), and a value in sr⁻¹ for each wavelength; `#` begins a
+  * comment. Any other is MERL's binary table: three little-endian 32-bit sizes (90, 90, 180), then
+  * all red, all green, all blue values as doubles.
+  */
+private[build] object BrdfFile:
+
+  /** The reflection, or what is wrong with the file. */
+  def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+    val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
+    try if isText then scattered(path, toRgb) else table(path)
+    catch case e: java.io.IOException => Left(s"cannot be read: ${e.getMessage}")
+
+  private def scattered(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+    val words = Files
+      .readString(path, java.nio.charset.StandardCharsets.ISO_8859_1)
+      .linesIterator
+      .flatMap(_.takeWhile(_ != '#').split("\\s+"))
+      .filter(_.nonEmpty)
+      .toArray
+    words.find(_.toFloatOption.isEmpty) match
+      case Some(word) => Left(s"`$word` is no number")
+      case None =>
+        val numbers = words.map(_.toFloat)
+        val count = numbers.headOption.fold(0)(_.toInt)
+        val size = 4 + count
+        if count < 1 || numbers.length <= 1 + count || (numbers.length - 1 - count) % size != 0 then
+          Left(
+            s"${numbers.length} numbers are no whole measurements of $count wavelengths"
+          )
+        else
+          val lambda = numbers.slice(1, 1 + count)
+          val measured = numbers.drop(1 + count).grouped(size).toArray
+          val points = measured.flatMap: m =>
+            val p = ScatteredReflection.pair(direction(m(2), m(3)), direction(m(0), m(1)))
+            Array(p.x, p.y, p.z)
+          val values = measured.flatMap: m =>
+            val c = toRgb(Spectrum(lambda, m.drop(4)))
+            Array(c.r, c.g, c.b)
+          Right(ScatteredReflection(points, values))
+
+  private def direction(theta: Float, phi: Float): Vec3 =
+    Vec3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
+
+  private def table(path: Path): Either[String, Bsdf] =
+    import HalfAngleReflection.{Azimuths, HalfAngles, Polar}
+    val entries = HalfAngles * Polar * Azimuths
+    val expected = 12L + 24L * entries
+    if Files.size(path) != expected then
+      Left(s"it has ${Files.size(path)} bytes, not the $expected of a table of 90 × 90 × 180")
+    else
+      val in = ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)
+      val sizes = Vector.fill(3)(in.getInt)
+      if sizes != Vector(HalfAngles, Polar, Azimuths) then
+        Left(s"it holds ${sizes.mkString(" × ")} values, not 90 × 90 × 180")
+      else
+        val values = new Array[Float](3 * entries)
+        for c <- 0 until 3; i <- 0 until entries do
+          values(3 * i + c) = Math.max(0.0, in.getDouble() * Scales(c)).toFloat
+        Right(HalfAngleReflection(values))
+
+  // How the database scales its channels
+  private val Scales = Array(1.0 / 1500, 1.15 / 1500, 1.66 / 1500)
