@@ -31,7 +31,8 @@ final class NamedMaterials:
             try make()
             finally open -= name
           case None =>
-            problems.missing(
+            problems.unnamed(
+              NameKind.Material,
               at,
               s"no material is named `$name`",
               StandIns.MagentaSurface,
