@@ -4,6 +4,7 @@ import scala.collection.mutable
 
 import candela.base.{SourcePos, Suggest}
 import candela.bsdf.Material
+import candela.scenefile.NameKind
 
 /** Materials by the names that `MakeNamedMaterial` gave them, each made when it is first asked
   * for.

@@ -68,8 +68,3 @@ object MixRgb:
 /** A texture of linear sRGB colours, in the components of another basis. */
 final class RebasedTexture(texture: RgbTexture, basis: ColorBasis) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = basis.fromSrgb(texture(at))
-
-/** The same number in each channel. */
-final class GrayTexture(value: FloatTexture) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = Rgb.gray(value(at))
-  override def constant: Option[Rgb] = value.constant.map(Rgb.gray)

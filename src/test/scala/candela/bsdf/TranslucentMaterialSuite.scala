@@ -10,8 +10,8 @@ class TranslucentMaterialSuite extends BsdfLaws:
   private def make(edition: Edition, kd: Float, ks: Float, r: Float, t: Float): Bsdf =
     val model =
       if edition == Edition.Second then RoughnessModel.BlinnExponent
-      else RoughnessModel.PolynomialAlpha
-    val roughness = Roughness(ConstantFloat(0.5f), ConstantFloat(0.5f), model)
+      else RoughnessModel.PlainAlpha
+    val roughness = Roughness(ConstantFloat(0.4f), ConstantFloat(0.4f), model)
     MaterialFactory
       .translucent(gray(kd), gray(ks), gray(r), gray(t), roughness, edition)
       .bsdf(ShadingPoint())

@@ -37,11 +37,11 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assert(p.at.map(_.column).contains(16))
 
   test("a misspelt parameter of a type that is not supported yet is found, too"):
-    val hair = s"Material \"hair\" \"float betam\" 0.5 $sphere"
-    val found = SceneTexts.problems(s"WorldBegin\n$hair\nLightSource \"point\"\n")
-    assert(found.size == 2 && found.exists(_.message.contains("\"hair\" is not supported yet")))
-    val slip = found.find(_.message.contains("betam")).get
-    assertWarning(slip, "`betam` is not a parameter of \"hair\"", "`beta_m`")
+    val disney = s"Material \"disney\" \"float metalic\" 0.5 $sphere"
+    val found = SceneTexts.problems(s"WorldBegin\n$disney\nLightSource \"point\"\n")
+    assert(found.size == 2 && found.exists(_.message.contains("\"disney\" is not supported yet")))
+    val slip = found.find(_.message.contains("metalic")).get
+    assertWarning(slip, "`metalic` is not a parameter of \"disney\"", "`metallic`")
 
   test("a parameter of another dialect is a warning that says so"):
     assertWarning(
@@ -69,7 +69,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
     assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
-    assertWarning(only(s"Material \"hair\" $sphere"), "grey diffuse")
+    assertWarning(only(s"Material \"disney\" $sphere"), "grey diffuse")
     val lamp = s"AreaLightSource \"diffuse\" \"string filename\" \"a.png\" $sphere"
     assertWarning(only(lamp, Dialect.V4), "`filename` of \"diffuse\"")
 

@@ -30,7 +30,8 @@ final class ShapeRecipesSuite
       )
     )
 
-final class MaterialRecipesSuite extends RecipeLaws[Material](Materials.all)
+final class MaterialRecipesSuite
+    extends RecipeLaws[Material](Materials.all, demanding = Set("measured", "mix"))
 
 final class LightRecipesSuite
     extends RecipeLaws[LightPlan](

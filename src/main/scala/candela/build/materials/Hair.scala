@@ -15,11 +15,8 @@ object Hair
     rgbTexture("color", "instead of `sigma_a`: of the hair", shown = "none")(Rgb.Black)
   private val reflectance =
     rgbTexture("reflectance", "another name of `color`", onlyV4, shown = "none")(Rgb.Black)
-  private val eumelanin = floatTexture(
-    "eumelanin",
-    "instead of `sigma_a`: black and brown pigment",
-    shown = "1.3 if nothing else is given"
-  )(0f)
+  private val eumelanin =
+    floatTexture("eumelanin", "instead of `sigma_a`: black and brown pigment", shown = "none")(0f)
   private val pheomelanin =
     floatTexture("pheomelanin", "instead of `sigma_a`: red pigment", shown = "none")(0f)
   private val eta = floatTexture("eta", "index of refraction")(1.55f)

@@ -8,9 +8,7 @@ object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a t
 
   protected def make()(using site: Site): Material =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
-      case None =>
-        site.error("\"measured\" needs a `filename`")
-        Materials.default
+      case None => MeasuredTable.unnamed
       case Some(p) =>
         val made =
           for
@@ -30,10 +28,16 @@ object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a t
           yield ConstantMaterial(bsdf)
         made.getOrElse(StandIns.material(site.resources.basis))
 
+  private[build] def unnamed(using site: Site): Material =
+    site.error("\"measured\" needs a `filename`")
+    Materials.default
+
 object MeasuredBsdf
-    extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4)
-    with GreyInstead:
-  declare(string("filename", "a .bsdf file", shown = "none")(""))
+    extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4):
+  private val filename = string("filename", "a .bsdf file", shown = "none")("")
+  override def pending: Option[String] = Some(Materials.instead)
+  protected def make()(using Site): Material =
+    if filename().isEmpty then MeasuredTable.unnamed else Materials.default
 
 object Fourier
     extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3)
