@@ -4,9 +4,9 @@ import candela.base.loop
 
 object HeightFieldRecipe
     extends ShapeRecipe("heightfield", "heights above a grid over the unit square", untilV3):
-  private val nu = integer("nu", "grid points along x", shown = "required")(0)
-  private val nv = integer("nv", "grid points along y", shown = "required")(0)
-  private val heights = numbers("Pz", "float[nu·nv]", "heights, row by row of constant y")
+  private val nu = integer("nu", "grid points along x", shown = "none")(0)
+  private val nv = integer("nv", "grid points along y", shown = "none")(0)
+  private val heights = numbers("Pz", "float[]", "heights, row by row of constant y")
 
   protected def make()(using site: Site): Option[ShapeGeometry] =
     val (columns, rows, z) = (nu(), nv(), heights())

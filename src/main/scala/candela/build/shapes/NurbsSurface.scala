@@ -43,15 +43,15 @@ object NurbsRecipe
     extends ShapeRecipe("nurbs", "a rational B-spline surface, as 29 × 29 × 2 triangles", untilV3):
   private val u = side("u")
   private val v = side("v")
-  private val points = numbers("P", "point3[nu·nv]", "control points, row by row of one v")
-  private val weighted = numbers("Pw", "float[4·nu·nv]", "the same with weights: x·w y·w z·w w")
+  private val points = numbers("P", "point3[]", "control points, row by row of one v")
+  private val weighted = numbers("Pw", "float[]", "the same with weights: x·w y·w z·w w")
 
   private def side(d: String): NurbsSide = NurbsSide(
     d,
-    integer(s"n$d", s"control points along $d", shown = "required")(0),
-    integer(s"${d}order", s"degree + 1 along $d", shown = "required")(0),
-    numbers(s"${d}knots", s"float[n$d+${d}order]", s"knots along $d"),
-    float(s"${d}0", s"where $d begins", shown = s"${d}knots[${d}order-1]")(0f),
+    integer(s"n$d", s"control points along $d", shown = "none")(0),
+    integer(s"${d}order", s"degree + 1 along $d", shown = "none")(0),
+    numbers(s"${d}knots", "float[]", s"knots along $d"),
+    float(s"${d}0", s"where $d begins", shown = s"${d}knots[${d}order - 1]")(0f),
     float(s"${d}1", s"where $d ends", shown = s"${d}knots[n$d]")(1f)
   )
 
