@@ -11,7 +11,7 @@ import candela.lights.{Light, LightSelection}
 import candela.math.{Motion, Transform}
 import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
-import candela.shapes.{BumpTangents, Shape, TriangleSampler, TriangleSoup}
+import candela.shapes.{BumpTangents, Shape}
 
 /** The world, ready to render, with what it holds in words. */
 final class World(
@@ -120,7 +120,7 @@ final class WorldBuilder(
     val here = site(declared)
     for geometry <- Shapes.all.build(here).flatten do
       val material = materialIndex(itsMaterial)
-      val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)))
+      val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)).flatten)
 
       def place(g: ShapeGeometry): Unit = g match
         case mesh: ShapeGeometry.Triangles =>
@@ -149,13 +149,17 @@ final class WorldBuilder(
       to: SurfaceBuilder
   ): Unit =
     val mask = Alpha.mask(using here)
-    lazy val area = shapes.foldLeft(0.0)(_ + _.area).toFloat
     for shape <- shapes do
-      val index = light.fold(-1): plan =>
-        lights += Alpha.emission(using here).of(plan.ofShape(shape, area))
+      val index = light.filter(_ => hasArea(shape, here)).fold(-1): plan =>
+        lights += Alpha.emission(using here).of(plan.ofShape(shape))
         lightSamples += plan.samples
         lights.length - 1
       to.add(ShapeInstance(shape, material, index, sinks), mask)
+
+  private def hasArea(shape: Shape, here: Site): Boolean =
+    val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
+    if !hasArea then here.warn("this light has no area: it emits nothing")
+    hasArea
 
   private def addMesh(
       s: ShapeDescription,
@@ -181,7 +185,7 @@ final class WorldBuilder(
       val first = to.soup.add(mesh, toWorld, reversed, flipNormals, material, firstLight, bumps)
       to.maskMesh(Alpha.mask(using here))
       for plan <- light do
-        meshLights += MeshLights(plan, Alpha.emission(using here), first, count, firstLight)
+        meshLights += MeshLights(plan, Alpha.emission(using here), first, count, firstLight, here)
         for _ <- 0 until count do
           lights += null // made as soon as all triangles are known
           lightSamples += plan.samples
@@ -214,24 +218,6 @@ final class WorldBuilder(
 
   private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
   private lazy val shapeMaterials = ShapeMaterials(description.dialect, named)
-
-/** The lights of an emitting mesh, to be.
-  *
-  * @param first of its triangles
-  * @param light number of the first triangle's light
-  */
-private final case class MeshLights(
-    plan: AreaLightPlan,
-    emission: Emission,
-    first: Int,
-    count: Int,
-    light: Int
-):
-  /** The lights with their numbers. */
-  def of(triangles: TriangleSoup): Seq[(Light, Int)] =
-    val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
-    val area = samplers.foldLeft(0.0)(_ + _.area).toFloat
-    samplers.zipWithIndex.map((s, k) => (emission.of(plan.ofTriangle(s, area)), light + k))
 
 object WorldBuilder:
   /** 9 Floats a triangle must fit into one array. */

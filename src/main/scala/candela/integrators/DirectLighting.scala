@@ -75,5 +75,5 @@ final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int]
         if found < 0 then Rgb.Black
         else
           val source = scene.environments(found)
-          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(wi))
-          bounce.weight * source.radiance(wi) * (weight / selected)
+          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, wi))
+          bounce.weight * source.radiance(at.p, wi) * (weight / selected)

@@ -3,7 +3,7 @@ package candela.integrators
 import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
-import candela.lights.LightSample
+import candela.lights.{EnvironmentLight, LightSample}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -20,18 +20,19 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
   def raysTraced: Long = rays
 
   /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight`
-    * of its index and of its density as a function of direction.
+    * of its index and itself.
     */
   protected inline def escaped(
-      direction: Vec3,
-      inline weight: (Int, Vec3 => Float) => Float
+      ray: Ray,
+      inline weight: (Int, EnvironmentLight) => Float
   ): Rgb =
+    val (origin, direction) = (ray.origin, ray.direction)
     var sum = Rgb.Black
     var i = 0
     while i < scene.environments.length do
       val light = scene.environments(i)
-      val w = weight(scene.environmentIndex(i), light.pdf)
-      sum += light.radiance(direction) * w
+      val w = weight(scene.environmentIndex(i), light)
+      sum += light.radiance(origin, direction) * w
       i += 1
     sum
 

@@ -38,12 +38,12 @@ final class PathTracer(
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        val d = ray.direction
         light += throughput * escaped(
-          d,
-          (i, pdf) =>
+          ray,
+          (i, source) =>
             if lastPdf > 0f then
-              misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf(d))
+              val pdf = source.pdf(lastP, ray.direction)
+              misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
             else 1f
         )
         alive = false

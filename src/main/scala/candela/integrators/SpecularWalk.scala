@@ -29,7 +29,7 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray.direction, (_, _) => 1f)
+        light += throughput * escaped(ray, (_, _) => 1f)
         alive = false
       else
         scene.surface(ray, hit, at)

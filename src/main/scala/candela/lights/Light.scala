@@ -1,7 +1,7 @@
 package candela.lights
 
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
+import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 
 /** A source of light. Immutable. */
@@ -43,6 +43,11 @@ final class LightSample:
   /** The point on the light, where a shadow ray ends; with normal (zero for a point light). */
   val target = candela.shapes.SurfaceSample()
 
+  /** Work space of [[PictureLight]]. */
+  val ray = Ray()
+  val hit = Hit()
+  val at = ShadingPoint()
+
 /** A light that is a surface in the scene. */
 abstract class SurfaceLight extends Light:
   final def isDelta: Boolean = false
@@ -58,8 +63,8 @@ abstract class EnvironmentLight extends Light:
   final def isDelta: Boolean = false
   final def bounds: Option[LightBounds] = None
 
-  /** Radiance from direction `d` (unit, away from the scene). */
-  def radiance(d: Vec3): Rgb
+  /** Radiance at `from` from direction `d` (unit, away from the scene). */
+  def radiance(from: Vec3, d: Vec3): Rgb
 
-  /** The density with which `sample` chooses `d`, per solid angle. */
-  def pdf(d: Vec3): Float
+  /** The density with which `sample` at `from` chooses `d`, per solid angle. */
+  def pdf(from: Vec3, d: Vec3): Float

@@ -21,12 +21,6 @@ final class SingleLight extends LightSelection:
   def probability(p: Vec3, n: Vec3, light: Int): Float = 1f
   def describe: String = "one light"
 
-/** All lights alike. */
-final class UniformSelection(lights: Int) extends LightSelection:
-  def choose(p: Vec3, n: Vec3, u: Float): Int = Math.min((u * lights).toInt, lights - 1)
-  def probability(p: Vec3, n: Vec3, light: Int): Float = 1f / lights
-  def describe: String = s"$lights lights, uniformly"
-
 /** By a binary tree of [[LightBounds]], going down at each node by the importance of its children;
   * the lights at infinity are chosen each as often as the whole tree.
   *

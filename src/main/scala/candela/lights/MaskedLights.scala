@@ -6,7 +6,7 @@ import candela.math.*
 /** A surface that lights the scene and is nowhere to be seen: pbrt-v4's emitters whose `alpha` is
   * 0. No ray meets it, so that only [[sample]] finds it.
   */
-final class HiddenLight(light: AreaLight) extends Light:
+final class HiddenLight(light: SurfaceLight) extends Light:
   def isDelta: Boolean = true
   def bounds: Option[LightBounds] = light.bounds
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
@@ -15,7 +15,7 @@ final class HiddenLight(light: AreaLight) extends Light:
 /** A surface with holes that emits where it has none. Points are not chosen on it, for they might
   * lie in holes: it shines on what meets it by chance.
   */
-final class PerforatedLight(light: AreaLight) extends SurfaceLight:
+final class PerforatedLight(light: SurfaceLight) extends SurfaceLight:
   override def isSampled: Boolean = false
   def bounds: Option[LightBounds] = light.bounds.map(_.copy(power = 0f))
   def radiance(at: ShadingPoint, w: Vec3): candela.color.Rgb = light.radiance(at, w)

@@ -35,7 +35,9 @@ object LatLongMap extends SphereMap:
   def stretch(y: Float): Float = 2f * Pi * Pi * sin(y * Pi)
 
   def wrapX(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(x, width)
-  def wrapY(x: Int, y: Int, width: Int, height: Int): Int = clamp(y, 0, height - 1)
+
+  // Beyond a pole pbrt has the other one's row, as of a texture that repeats
+  def wrapY(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(y, height)
 
 /** The equal-area octahedral map of pbrt-v4's environment images.
   *

@@ -23,6 +23,11 @@ abstract class Shape extends SurfaceSampler:
   /** Fills in the geometry of the hit that `intersect` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
 
+  final def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    val isMet = intersect(ray, hit)
+    if isMet then surface(ray, hit, at)
+    isMet
+
 /** A surface on which points can be chosen, as seen from a point: what an area light needs. */
 abstract class SurfaceSampler:
 
@@ -36,6 +41,9 @@ abstract class SurfaceSampler:
     * surface, whose unit normal is `n`.
     */
   def pdf(from: Vec3, p: Vec3, n: Vec3): Float
+
+  /** Is there a hit in (0, `ray.tMax`)? Then `at` gets its geometry. */
+  def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
 
 /** A point on a surface; mutable, one per worker. */
 final class SurfaceSample:

@@ -1,5 +1,6 @@
 package candela.shapes
 
+import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.sampling.SphericalTriangle
 
@@ -46,6 +47,13 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
     if isByAngle(angle) then (1 / angle).toFloat
     else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
+
+  private lazy val corners = Array(p0.x, p0.y, p0.z, p1.x, p1.y, p1.z, p2.x, p2.y, p2.z)
+
+  def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    val isMet = TriangleTest.intersect(corners, 0, ray, hit)
+    if isMet then soup.surface(triangle, hit, at)
+    isMet
 
   private def isByAngle(solidAngle: Double): Boolean =
     solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle

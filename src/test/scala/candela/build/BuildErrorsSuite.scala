@@ -68,10 +68,31 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertError(only(texture), "no float texture is named `constnat`", "`constant`")
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
-    assertWarning(only("LightSource \"spot\""), "\"spot\" is not supported yet")
     assertWarning(only(s"Material \"disney\" $sphere"), "grey diffuse")
-    val lamp = s"AreaLightSource \"diffuse\" \"string filename\" \"a.png\" $sphere"
-    assertWarning(only(lamp, Dialect.V4), "`filename` of \"diffuse\"")
+
+  test("lights that can't shine are left out, with a warning"):
+    def light(rest: String) = only(s"LightSource $rest")
+    assertWarning(light("\"point\" \"rgb I\" [0 0 0]"), "emits nothing: the light is left out")
+    assertWarning(light("\"spot\" \"point to\" [0 0 0]"), "the same point")
+    assertWarning(light("\"spot\" \"float coneangle\" 0"), "no width")
+    assertWarning(
+      light("\"distant\" \"point from\" [1 1 1] \"point to\" [1 1 1]"),
+      "the same point"
+    )
+    assertWarning(light("\"infinite\" \"rgb scale\" [0 0 0]"), "emits nothing")
+    assertWarning(light("\"projection\" \"float fov\" 180"), "not between 0 and 180 degrees")
+    assertWarning(only(s"AreaLightSource \"diffuse\" \"rgb L\" [0 0 0] $sphere"), "no lights")
+    val flat = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 1 1] " +
+      "\"point P\" [0 0 0 1 0 0 0 1 0]"
+    val lamp = only(s"AreaLightSource \"diffuse\" $flat")
+    assertWarning(lamp, "1 of 2 triangles of this light have no area")
+
+  test("lights without what they need are errors"):
+    def light(rest: String) = only(s"LightSource $rest", Dialect.V4)
+    assertError(light("\"goniometric\""), "needs the image `filename`")
+    assertError(light("\"projection\""), "needs the image `filename`")
+    val portal = "\"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 2 0]"
+    assertError(light(portal), "four corners of a rectangle")
 
   test("values of the wrong type or number are errors"):
     assertError(
@@ -87,10 +108,6 @@ final class BuildErrorsSuite extends AnyFunSuite:
   test("values out of range are errors"):
     assertError(only("Shape \"sphere\" \"float radius\" -1"), "radius must be above 0")
     assertError(only("Shape \"disk\" \"float innerradius\" 3"), "innerradius")
-    assertError(
-      only("LightSource \"distant\" \"point from\" [1 1 1] \"point to\" [1 1 1]"),
-      "the same point"
-    )
     val mesh = "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" "
     assertError(only(mesh + "[0 1 3]"), "names vertex 3, but `P` has 3")
     assertError(only(mesh + "[0 1]"), "not triples")

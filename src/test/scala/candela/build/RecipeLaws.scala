@@ -11,11 +11,13 @@ import candela.scenefile.{Declaration, Dialect}
 /** What holds for every recipe of a category.
   *
   * @param demanding recipes that cannot do without some parameter
+  * @param demandingIn the dialects in which they cannot
   * @param use       makes what the recipe gives, if it gives a function
   */
 abstract class RecipeLaws[A](
     recipes: Recipes[A],
     demanding: Set[String] = Set.empty,
+    demandingIn: Set[Dialect] = Dialect.values.toSet,
     use: A => Any = (a: A) => a
 ) extends AnyFunSuite:
   private val place = SourcePos("laws.pbrt", 1, 1)
@@ -30,7 +32,7 @@ abstract class RecipeLaws[A](
 
   for recipe <- recipes.all; dialect <- Dialect.values if recipe.dialects(dialect) do
     val called = s"${recipes.category} \"${recipe.name}\" in $dialect"
-    if demanding(recipe.name) then
+    if demanding(recipe.name) && demandingIn(dialect) then
       test(s"$called says what it needs"):
         val here = site(recipe.name, dialect)
         recipe.build(here): Unit

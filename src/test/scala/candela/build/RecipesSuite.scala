@@ -36,10 +36,12 @@ final class MaterialRecipesSuite
 final class LightRecipesSuite
     extends RecipeLaws[LightPlan](
       Lights.all,
+      demanding = Set("goniometric", "projection"),
+      demandingIn = Set(candela.scenefile.Dialect.V4),
       use = plan => plan.make(Transform.Identity, true)
     )
 
-final class AreaLightRecipesSuite extends RecipeLaws[AreaLightPlan](AreaLights.all)
+final class AreaLightRecipesSuite extends RecipeLaws[Option[AreaLightPlan]](AreaLights.all)
 
 final class IntegratorRecipesSuite extends RecipeLaws[IntegratorPlan](Integrators.all)
 

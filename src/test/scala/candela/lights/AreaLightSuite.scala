@@ -20,7 +20,7 @@ final class AreaLightSuite extends AnyFunSuite:
       val name: String,
       soup: TriangleSoup,
       shapes: Seq[Shape],
-      val light: AreaLight
+      val light: SurfaceLight
   ):
     private val world = Bvh(Primitives(soup, shapes.toArray))
     private val (ray, hit, at) = (Ray(), Hit(), ShadingPoint())
@@ -44,6 +44,24 @@ final class AreaLightSuite extends AnyFunSuite:
     val light = AreaLight(t, emitted, twoSided, Bounds3.of(t.vertices), t.normal, 1f)
     Case(name, soup, Seq.empty, light)
 
+  private val chart =
+    val draws = Draws(9)
+    Picture(
+      candela.image.Image(5, 4, candela.image.Image.RgbNames, Array.fill(60)(draws.unit())),
+      PictureLookup.Smooth
+    )
+
+  private def picture(name: String, shape: Shape): Case =
+    val (axis, spread) = shape.normals
+    val plain = AreaLight(shape, emitted, false, shape.bounds, axis, spread)
+    Case(name, Soups.of(Seq.empty), Seq(shape), PictureLight(plain, shape, chart))
+
+  private val pictureOnTriangle =
+    val soup = Soups.of(Seq(corners), true)
+    val t = TriangleSampler(soup, 0)
+    val plain = AreaLight(t, emitted, false, Bounds3.of(t.vertices), t.normal, 1f)
+    Case("picture on a triangle", soup, Seq.empty, PictureLight(plain, t, chart))
+
   private def disk(reversed: Boolean) = Disk(down, 0f, 1f, 0f, TwoPi, reversed)
   private val sphere = Sphere(place, 0.7f, -0.7f, 0.7f, TwoPi, false)
   private val cases = Seq(
@@ -54,7 +72,10 @@ final class AreaLightSuite extends AnyFunSuite:
     ofShape("disk of two sides", disk(true), true),
     ofTriangle("triangle", flipped = false, twoSided = false),
     ofTriangle("flipped triangle", flipped = true, twoSided = false),
-    ofTriangle("triangle of two sides", flipped = true, twoSided = true)
+    ofTriangle("triangle of two sides", flipped = true, twoSided = true),
+    picture("picture on a sphere", sphere),
+    picture("picture on a disk", disk(false)),
+    pictureOnTriangle
   )
 
   for c <- cases do
@@ -68,6 +89,8 @@ final class AreaLightSuite extends AnyFunSuite:
         if out.pdf > 0f then
           assert(!out.isInfinite && Math.abs(out.wi.length - 1f) < 1e-5f)
           at.p = out.target.p
+          at.u = out.at.u
+          at.v = out.at.v
           at.geometricNormal = out.target.n
           // Densities at grazing angles divide by a cosine that has lost digits
           val cosine = Math.abs(out.target.n dot out.wi)

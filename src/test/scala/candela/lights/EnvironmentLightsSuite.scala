@@ -18,9 +18,17 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
 
   private val turned = Draws(2).rotation()
 
+  private def environment(
+      image: Image,
+      layout: SphereMap,
+      factor: Rgb,
+      smooth: Boolean,
+      complete: Boolean
+  ) = ImageEnvironment(LightFrame(turned), SphereImage(image, layout, factor, smooth), complete)
+
   private def light(layout: SphereMap, smooth: Boolean, complete: Boolean): ImageEnvironment =
     val image = if layout eq LatLongMap then picture(16, 8) else picture(12, 12)
-    ImageEnvironment(turned, image, layout, Rgb(1f, 0.5f, 2f), smooth, complete)
+    environment(image, layout, Rgb(1f, 0.5f, 2f), smooth, complete)
 
   private val all =
     for
@@ -46,19 +54,19 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
       val off = (1 to count).count: _ =>
         env.sample(Vec3.Zero, draws.unit(), draws.unit(), out)
         assert(out.isInfinite && Math.abs(out.wi.length - 1f) < 1e-5f)
-        assert(out.radiance == env.radiance(out.wi))
-        Math.abs(out.pdf - env.pdf(out.wi)) > 1e-3f * out.pdf
+        assert(out.radiance == env.radiance(Vec3.Zero, out.wi))
+        Math.abs(out.pdf - env.pdf(Vec3.Zero, out.wi)) > 1e-3f * out.pdf
       // Rounding of 1e-6 may move a direction over one of the 16 borders between pixels
       assert(off <= 10, s"$off of $count")
 
     test(s"$name: the density integrates to 1"):
       // Steps of the density at the borders of pixels cost a cell of 512 at most, with random sign
-      val sum = Skies.sphere(d => env.pdf(d).toDouble)
+      val sum = Skies.sphere(d => env.pdf(Vec3.Zero, d).toDouble)
       assert(Math.abs(sum - 1) < 0.01, sum)
 
     if complete then
       test(s"$name: irradiance by sampling is that of all directions"):
-        val expected = Skies.irradiance(env.radiance(_).g.toDouble)
+        val expected = Skies.irradiance(env.radiance(Vec3.Zero, _).g.toDouble)
         // The cosine (and two zeroes below the horizon in three) make a deviation of about 1.5 of
         // the mean: of 200000 samples, 0.4 %
         val found = Skies.sampled(env, Vec3.Zero, 200000)
@@ -67,29 +75,23 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
       test(s"$name: dim directions are left to BSDF sampling, bright ones are not"):
         val draws = Draws(8)
         val directions = Seq.fill(5000)(draws.direction())
-        val mean = Skies.sphere(env.radiance(_).average.toDouble) / (4 * Math.PI)
-        assert(directions.exists(env.pdf(_) == 0f))
-        val bright = directions.maxBy(env.radiance(_).average)
-        assert(env.radiance(bright).average > mean && env.pdf(bright) > 0f)
+        val mean = Skies.sphere(env.radiance(Vec3.Zero, _).average.toDouble) / (4 * Math.PI)
+        assert(directions.exists(env.pdf(Vec3.Zero, _) == 0f))
+        val bright = directions.maxBy(env.radiance(Vec3.Zero, _).average)
+        assert(env.radiance(Vec3.Zero, bright).average > mean)
+        assert(env.pdf(Vec3.Zero, bright) > 0f)
 
   test("a factor multiplies the image"):
     val (one, scaled) = (
-      ImageEnvironment(turned, picture(16, 8), LatLongMap, Rgb.White, true, true),
+      environment(picture(16, 8), LatLongMap, Rgb.White, true, true),
       light(LatLongMap, smooth = true, complete = true)
     )
     val d = Vec3(0.6f, 0f, 0.8f)
-    val (a, b) = (one.radiance(d), scaled.radiance(d))
+    val (a, b) = (one.radiance(Vec3.Zero, d), scaled.radiance(Vec3.Zero, d))
     assert(Math.abs(a.g * 0.5f - b.g) < 1e-5f && Math.abs(a.b * 2f - b.b) < 1e-5f) // rounding
 
   test("an environment that need not be complete, or is black, is not sampled"):
     assert(!ConstantEnvironment(Rgb.White, complete = false).isSampled)
-    assert(ConstantEnvironment(Rgb.White, complete = false).pdf(Vec3.Z) == 0f)
+    assert(ConstantEnvironment(Rgb.White, complete = false).pdf(Vec3.Zero, Vec3.Z) == 0f)
     assert(!ConstantEnvironment(Rgb.Black, complete = true).isSampled)
-    assert(!ImageEnvironment(
-      turned,
-      Image.rgb(4, 4),
-      EqualAreaMap,
-      Rgb.White,
-      true,
-      true
-    ).isSampled)
+    assert(!environment(Image.rgb(4, 4), EqualAreaMap, Rgb.White, true, true).isSampled)

@@ -70,8 +70,3 @@ final class LightSelectionSuite extends AnyFunSuite:
 
   test("no lights: none is chosen"):
     assert(LightSelection.of(Array.empty[Light]).choose(Vec3.Zero, Vec3.Z, 0.5f) == -1)
-
-  test("uniform selection takes all lights alike"):
-    val uniform = UniformSelection(4)
-    assert(Seq(0f, 0.3f, 0.6f, 0.999f).map(uniform.choose(Vec3.Zero, Vec3.Z, _)) == Seq(0, 1, 2, 3))
-    assert(uniform.probability(Vec3.Zero, Vec3.Z, 2) == 0.25f)

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.color.Rgb
+import candela.color.{ColorBasis, Rgb}
 import candela.geometry.Bounds3
 import candela.lights.*
 import candela.math.*
@@ -9,48 +9,83 @@ import candela.shapes.{Shape, SurfaceSampler, TriangleSampler}
 
 /** Recipes of lights that are surfaces. */
 object AreaLights:
-  val all: Recipes[AreaLightPlan] =
+  val all: Recipes[Option[AreaLightPlan]] =
     Recipes("area light", Vector(DiffuseLight("diffuse", every), DiffuseLight("area", untilV3)))
 
-/** What an area light statement says; it applies to the shapes that follow. */
-final class AreaLightPlan(emitted: Rgb, power: Float, twoSided: Boolean, val samples: Int):
+/** What an area light statement says; it applies to the shapes that follow.
+  *
+  * @param emitted radiance, or factor of the picture
+  * @param power   v4's total of the whole shape, whatever its area; ≤ 0: none
+  * @param perUnit luminance of the picture's mean; 1 if there is none
+  */
+final class AreaLightPlan(
+    emitted: Rgb,
+    picture: Option[Picture],
+    perUnit: Float,
+    power: Float,
+    twoSided: Boolean,
+    val samples: Int
+):
 
-  /** Emission of the whole shape of `area`: v4's `power` fixes it, whatever the area. */
+  /** Emission of a shape of this area: v4's `power` fixes it, whatever the area. */
   private def radiance(area: => Float): Rgb =
     if power > 0f then
       val sides = if twoSided then 2f else 1f
-      emitted * (power / (area * Pi * sides))
+      emitted * (power / (perUnit * area * Pi * sides))
     else emitted
 
-  def ofTriangle(triangle: TriangleSampler, meshArea: Float): AreaLight =
-    AreaLight(
-      triangle, radiance(meshArea), twoSided, Bounds3.of(triangle.vertices), triangle.normal, 1f
-    )
+  /** Every triangle is a shape of its own, as in pbrt-v4: each has all of the power. */
+  def ofTriangle(triangle: TriangleSampler): SurfaceLight =
+    light(triangle, Bounds3.of(triangle.vertices), triangle.normal, 1f)
 
-  /** One of the shapes of a statement, which have `wholeArea` together. */
-  def ofShape(shape: Shape, wholeArea: => Float): AreaLight =
+  def ofShape(shape: Shape): SurfaceLight =
     val (axis, cosSpread) = shape.normals
-    AreaLight(shape: SurfaceSampler, radiance(wholeArea), twoSided, shape.bounds, axis, cosSpread)
+    light(shape, shape.bounds, axis, cosSpread)
 
-final class DiffuseLight(name: String, dialects: Set[Dialect])
-    extends Recipe[AreaLightPlan](name, "every point of the surface emits evenly", dialects)
+  private def light(
+      surface: SurfaceSampler,
+      bounds: Bounds3,
+      axis: Vec3,
+      cosSpread: Float
+  ): SurfaceLight =
+    val plain = AreaLight(surface, radiance(surface.area), twoSided, bounds, axis, cosSpread)
+    picture.fold(plain)(PictureLight(plain, surface, _))
+
+/** Makes nothing where nothing would shine. */
+final class DiffuseLight(
+    name: String,
+    dialects: Set[Dialect]
+) extends Recipe[Option[AreaLightPlan]](name, "a surface that emits evenly, or a picture", dialects)
     with SampleCounts:
   private val radiance =
     color("L", "emitted radiance", SpectrumRole.Emission, unit = "W/(m² sr)")(Rgb.White)
   private val colored =
     color("scale", "factor of `L`", SpectrumRole.Reflectance, untilV3)(Rgb.White)
-  private val scale = float("scale", "factor of `L`", onlyV4)(1f)
+  private val scale = float("scale", "factor of `L`, or of the picture", onlyV4)(1f)
   private val twoSided = bool("twosided", "does the inside emit too?", sinceV3)(false)
   private val power =
-    float("power", "total, instead of the size of `L`", onlyV4, "lm", "none")(-1f)
-  notYet("the surface emits `L` all over")(
-    string("filename", "image over the surface's uv", onlyV4, shown = "none")("")
-  )
-
-  protected def make()(using Site): AreaLightPlan =
-    AreaLightPlan(
-      radiance() * colored() * scale(),
-      power(),
-      twoSided(),
-      sampleCount()
+    float(
+      "power", "total of each shape or triangle, instead of the size of `L`", onlyV4, "lm", "none"
+    )(
+      -1f
     )
+  private val filename =
+    string("filename", "image over the surface's uv, instead of `L`", onlyV4, "none")("")
+
+  protected def make()(using site: Site): Option[AreaLightPlan] =
+    val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
+    if isPicture && radiance.given_().isDefined then
+      site.error("give a diffuse light `L` or `filename`, not both")
+    val image = if isPicture then LightImages.read("filename") else None
+    val picture = image.map(Picture(_, PictureLookup.Smooth))
+    val emitted = radiance() * colored() * scale()
+    val perUnit = picture.fold(1f)(DiffuseLight.luminance(_, site.resources.basis))
+    if isPicture && picture.isEmpty then None
+    else if !(emitted.isFinite && emitted.max > 0f && perUnit > 0f) then
+      site.warn("it emits nothing: shapes that follow are no lights")
+      None
+    else Some(AreaLightPlan(emitted, picture, perUnit, power(), twoSided(), sampleCount()))
+
+private object DiffuseLight:
+  def luminance(picture: Picture, basis: ColorBasis): Float =
+    picture.mean((c, _, _) => basis.toSrgb(c).luminance)

@@ -1,8 +1,9 @@
 package candela.build
 
 import candela.color.Rgb
-import candela.lights.{DistantLight, PointLight}
+import candela.lights.*
 import candela.math.*
+import candela.scenefile.Dialect
 
 object PointLights extends LightRecipe("point", "shines from a point to all sides"):
   private val intensity =
@@ -10,10 +11,40 @@ object PointLights extends LightRecipe("point", "shines from a point to all side
   private val from = point("from", "where it is")(Vec3.Zero)
   private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
 
-  protected def make()(using Site): LightPlan =
-    val wanted = if power() > 0f then Rgb.gray(power() / (4f * Pi)) else Rgb.White
-    val (i, p) = (scaled(intensity()) * wanted, from())
-    LightPlan((toWorld, _) => Some(PointLight(toWorld.point(p), i)), samples = 1)
+  protected def make()(using site: Site): LightPlan =
+    val (i, p) = (scaled(intensity(), power(), 4f * Pi), from())
+    // v2 and v3 move the light by `from` after the transform, not before it
+    def place(toWorld: Transform) =
+      if site.dialect == Dialect.V4 then toWorld.point(p) else toWorld.point(Vec3.Zero) + p
+    if !shines(i) then LightPlan.leftOut(LightPlan.Black)
+    else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
+
+object SpotLights extends LightRecipe("spot", "a cone of light from a point"):
+  private val intensity =
+    color("I", "radiant intensity along the axis", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
+  private val from = point("from", "where it is")(Vec3.Zero)
+  private val to = point("to", "a point on the axis")(Vec3.Z)
+  private val cone = float("coneangle", "between axis and edge", unit = "degrees")(30f)
+  private val fading =
+    float("conedeltaangle", "over which light fades towards the edge", unit = "degrees")(5f)
+  private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
+
+  protected def make()(using site: Site): LightPlan =
+    val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
+    val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
+    val (p, axis) = (from(), to() - from())
+    val fade = if site.dialect == Dialect.V4 then Fade.Cubic else Fade.Quartic
+    if !shines(i) then LightPlan.leftOut(LightPlan.Black)
+    else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
+    else if !(cone() > 0f) then LightPlan.leftOut("the cone of light has no width")
+    else
+      LightPlan(
+        (toWorld, _) =>
+          val frame = LightFrame(toWorld * Transform.translate(p.x, p.y, p.z))
+          Some(SpotLight(frame, axis.normalized, i, edge, full, fade))
+        ,
+        samples = 1
+      )
 
 object DistantLights extends LightRecipe("distant", "parallel light, as the sun's"):
   private val radiance =
@@ -24,10 +55,11 @@ object DistantLights extends LightRecipe("distant", "parallel light, as the sun'
     float("illuminance", "on a facing plane, instead of the size of `L`", onlyV4, "lx", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
-    val lit = if illuminance() > 0f then Rgb.gray(illuminance()) else Rgb.White
-    val (l, d) = (scaled(radiance()) * lit, from() - to())
-    if d.isZero then site.error("`from` and `to` of a distant light are the same point")
-    LightPlan(
-      (toWorld, _) => Option.when(!d.isZero)(DistantLight(toWorld.vector(d).normalized, l)),
-      samples = 1
-    )
+    val (l, d) = (scaled(radiance(), illuminance(), 1f), from() - to())
+    if d.isZero then LightPlan.leftOut("`from` and `to` are the same point")
+    else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
+    else
+      LightPlan(
+        (toWorld, _) => Some(DistantLight(toWorld.vector(d).normalized, l)),
+        samples = 1
+      )

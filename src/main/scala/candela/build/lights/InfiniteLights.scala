@@ -1,7 +1,7 @@
 package candela.build
 
-import candela.base.loop
-import candela.color.{ColorBasis, Rgb}
+import candela.color.Rgb
+import candela.geometry.Frame
 import candela.image.Image
 import candela.lights.*
 import candela.math.*
@@ -18,47 +18,82 @@ final class InfiniteLights(name: String, dialects: Set[Dialect])
   private val filename = string("filename", "equal-area octahedral image", onlyV4, "none")("")
   private val illuminance =
     float("illuminance", "on a plane, instead of the size of `L`", onlyV4, "lx", "none")(-1f)
-  notYet("the light shines from all sides")(
-    numbers("portal", "point3[4]", "corners of the window that light comes through", onlyV4)
+  private val portal = numbers(
+    "portal",
+    "point3[4]",
+    "corners of the rectangular window that light comes through, in world space",
+    onlyV4
   )
 
   protected def make()(using site: Site): LightPlan =
-    val named = if site.dialect == Dialect.V4 then "filename" else "mapname"
-    val given_ = if site.dialect == Dialect.V4 then filename() else mapname()
-    val p = site.declaration.param(named).filter(_ => given_.nonEmpty)
-    val map = p.map: q =>
-      site.resources.image(q, site.declaration, site.problems).getOrElse(StandIns.picture)
-    val l = scaled(radiance())
     val octahedral = site.dialect == Dialect.V4
-    for image <- map if octahedral && image.width != image.height do
-      site.error(
-        s"`$given_` is ${image.width}×${image.height}; an equal-area map is square",
-        Some("pbrt-v4's `imgtool makeequiarea` turns an equirectangular image into one")
-      )
-    val e = if illuminance() > 0f then Rgb.gray(illuminance() / Pi) else Rgb.White
-    if illuminance() > 0f && map.isDefined then
-      site.warn(
-        "`illuminance` of an image light is not supported yet; the image is used as it is"
-      )
-    LightPlan(
-      (toWorld, complete) =>
-        map match
-          case Some(image) =>
-            val layout = if octahedral then EqualAreaMap else LatLongMap
-            val pixels = rebased(image.toImage.linear.toRgb, site.resources.basis)
-            Some(ImageEnvironment(toWorld, pixels, layout, l, smooth = !octahedral, complete))
-          case None => Some(ConstantEnvironment(l * e, complete))
-      ,
-      sampleCount()
-    )
+    val (named, given_) =
+      if octahedral then ("filename", filename()) else ("mapname", mapname())
+    if octahedral && given_.nonEmpty && radiance.given_().isDefined then
+      site.error("give an infinite light `L` or `filename`, not both")
+    if given_.nonEmpty then
+      LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
+        case None => LightPlan.nothing
+        case Some(image) =>
+          val l = scaled(radiance(), illuminance(), if octahedral then onThePlane(image) else 1f)
+          val layout = if octahedral then EqualAreaMap else LatLongMap
+          around(l, SphereImage(image, layout, l, smooth = !octahedral))
+    else
+      val l = scaled(radiance(), illuminance(), Pi)
+      if portal().nonEmpty then
+        val one = Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f))
+        around(l, SphereImage(one, EqualAreaMap, l, smooth = false))
+      else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
+      else LightPlan((_, complete) => Some(ConstantEnvironment(l, complete)), sampleCount())
 
-private def rebased(image: Image, basis: ColorBasis): Image =
-  if basis.isSrgb then image
-  else
-    val data = new Array[Float](image.data.length)
-    loop(data.length / 3): i =>
-      val c = basis.fromSrgb(Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2)))
-      data(3 * i) = c.r
-      data(3 * i + 1) = c.g
-      data(3 * i + 2) = c.b
-    Image(image.width, image.height, image.channelNames, data)
+  private def around(l: Rgb, image: SphereImage)(using Site): LightPlan =
+    if !shines(l) || !(image.meanOfMax > 0f) then LightPlan.leftOut(LightPlan.Black)
+    else
+      val p = portal()
+      if p.isEmpty then
+        LightPlan(
+          (toWorld, complete) => Some(ImageEnvironment(LightFrame(toWorld), image, complete)),
+          sampleCount()
+        )
+      else
+        window(p) match
+          case None => LightPlan.nothing
+          case Some(frame) =>
+            val (corner, opposite) = (Vec3(p(0), p(1), p(2)), Vec3(p(6), p(7), p(8)))
+            LightPlan(
+              (toWorld, _) =>
+                Some(PortalEnvironment(LightFrame(toWorld), image, corner, opposite, frame)),
+              sampleCount()
+            )
+
+  /** The sides of the portal, which must be a rectangle. */
+  private def window(p: Array[Float])(using site: Site): Option[Frame] =
+    val frame =
+      if p.length != 12 then None
+      else
+        val corners = Vector.tabulate(4)(i => Vec3(p(3 * i), p(3 * i + 1), p(3 * i + 2)))
+        val (up, across) = (corners(1) - corners(0), corners(3) - corners(0))
+        val closes = ((corners(2) - corners(1)) - across).length <= 1e-3f * across.length
+        val (t, s) = (up.normalized, across.normalized)
+        Option.when(closes && Math.abs(s dot t) <= 1e-3f)(Frame(s, t, s cross t))
+    if frame.isEmpty then
+      site.error("`portal` takes the four corners of a rectangle, in order around it")
+    frame
+
+  /** Illuminance by `image` on the plane below its pole, as pbrt-v4 reckons it: half of the true
+    * one, for it gives each pixel 2π over their count instead of 4π; and of EXR files, whose
+    * channels lie in the order B, G, R, it takes blue for red and red for blue.
+    */
+  private def onThePlane(image: Image)(using site: Site): Float =
+    var sum = 0.0
+    val size = image.width
+    val isSwapped = filename().toLowerCase.endsWith(".exr")
+    for y <- 0 until size; x <- 0 until size do
+      val d = EqualAreaMap.toDirection((x + 0.5f) / size, (y + 0.5f) / size)
+      if d.z > 0f then
+        val i = 3 * (y * size + x)
+        val c = Rgb(image.data(i), image.data(i + 1), image.data(i + 2))
+        val srgb = site.resources.basis.toSrgb(c)
+        val weighed = if isSwapped then Rgb(srgb.b, srgb.g, srgb.r) else srgb
+        sum += weighed.luminance * d.z
+    (sum * 2 * Math.PI / (size.toDouble * size)).toFloat

@@ -12,6 +12,17 @@ import candela.scenefile.Dialect
   */
 final case class LightPlan(make: (Transform, Boolean) => Option[Light], samples: Int)
 
+object LightPlan:
+  /** Of a light that can't shine: says so. */
+  def leftOut(why: String)(using site: Site): LightPlan =
+    site.warn(s"$why: the light is left out")
+    nothing
+
+  /** Of a light that an error was reported for. */
+  val nothing: LightPlan = LightPlan((_, _) => None, samples = 1)
+
+  val Black = "it emits nothing"
+
 /** What all lights have that are no surfaces. */
 abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends Recipe[LightPlan](name, meaning, dialects):
@@ -21,7 +32,8 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
 
   protected def scaled(c: Rgb)(using Site): Rgb = c * colored() * scale()
 
-/** Of lights that are not rendered yet. */
-trait Dark extends Recipe[LightPlan]:
-  override def pending: Option[String] = Some("it is left out")
-  protected def make()(using Site): LightPlan = LightPlan((_, _) => None, samples = 1)
+  /** `scaled`, with v4's total given instead: `perUnit` is what the light sends out at 1. */
+  protected def scaled(c: Rgb, total: Float, perUnit: Float)(using Site): Rgb =
+    scaled(c) * (if total > 0f then total / perUnit else 1f)
+
+  protected def shines(c: Rgb): Boolean = c.isFinite && c.max > 0f

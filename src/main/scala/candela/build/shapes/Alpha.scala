@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.accel.{HoleMask, Mask, SolidMask, StochasticMask}
-import candela.lights.{AreaLight, HiddenLight, Light, PerforatedLight}
+import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.scenefile.Dialect
 import candela.textures.{ConstantFloat, FloatTexture}
 
@@ -51,7 +51,7 @@ private[build] object Alpha extends Fields:
 private[build] enum Emission:
   case Plain, Hidden, Perforated
 
-  def of(light: AreaLight): Light = this match
+  def of(light: SurfaceLight): Light = this match
     case Plain => light
     case Hidden => HiddenLight(light)
     case Perforated => PerforatedLight(light)

@@ -1,0 +1,78 @@
+package candela.build
+
+import candela.color.Rgb
+import candela.lights.*
+import candela.math.*
+import candela.scenefile.Dialect
+
+object GoniometricLights
+    extends LightRecipe("goniometric", "shines from a point, by an image of directions"):
+  private val intensity =
+    color("I", "factor of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
+  private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
+  private val filename =
+    string("filename", "equal-area octahedral image; its colours are averaged", onlyV4, "none")("")
+  private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
+
+  protected def make()(using site: Site): LightPlan =
+    if site.dialect == Dialect.V4 then
+      if filename().isEmpty then site.error("a goniometric light needs the image `filename`")
+      LightImages.read("filename").filter(LightImages.isSquare) match
+        case None => LightPlan.nothing
+        case Some(image) =>
+          val gray = LightImages.gray(image)
+          val mean = gray.data.foldLeft(0.0)(_ + _) / gray.data.length
+          val i = scaled(intensity(), power(), 4f * Pi * mean.toFloat)
+          shining(i, SphereImage(gray, EqualAreaMap, i, smooth = false))
+    else
+      val i = scaled(intensity())
+      if mapname().isEmpty then
+        if !shines(i) then LightPlan.leftOut(LightPlan.Black)
+        else
+          LightPlan((toWorld, _) => Some(PointLight(toWorld.point(Vec3.Zero), i)), samples = 1)
+      else
+        LightImages.read("mapname") match
+          case None => LightPlan.nothing
+          case Some(image) => shining(i, SphereImage(image, LatLongMap, i, smooth = true))
+
+  private def shining(i: Rgb, image: SphereImage)(using Site): LightPlan =
+    if !shines(i) || !(image.meanOfMax > 0f) then LightPlan.leftOut(LightPlan.Black)
+    else
+      LightPlan(
+        (toWorld, _) => Some(GoniometricLight(LightFrame(toWorld), image)),
+        samples = 1
+      )
+
+object ProjectionLights extends LightRecipe("projection", "a slide projector"):
+  private val intensity =
+    color("I", "factor of the image", SpectrumRole.Emission, untilV3, "W/sr")(Rgb.White)
+  private val mapname = string("mapname", "the slide; none: white", untilV3, "none")("")
+  private val filename = string("filename", "the slide", onlyV4, "none")("")
+  private val fov =
+    float("fov", "angle of the shorter side", unit = "degrees")(if v4 then 90f else 45f)
+  private val power =
+    float("power", "total, instead of the size of the image", onlyV4, "lm", "none")(-1f)
+
+  protected def make()(using site: Site): LightPlan =
+    val isV4 = site.dialect == Dialect.V4
+    val (name, given_) = if isV4 then ("filename", filename()) else ("mapname", mapname())
+    if isV4 && given_.isEmpty then site.error("a projection light needs the image `filename`")
+    val image = if given_.isEmpty then None else LightImages.read(name)
+    val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
+    val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
+    val slide = image.map(Picture(_, lookup))
+    val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat
+    val perUnit =
+      slide.fold(1f)(ProjectionLight.power(_, tanHalf, site.resources.basis.toSrgb(_).luminance))
+    val all = scaled(intensity(), power(), perUnit)
+    if isLost then LightPlan.nothing
+    else if !shines(all) || slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f)) then
+      LightPlan.leftOut(LightPlan.Black)
+    else if !(fov() > 0f && fov() < 180f) then
+      LightPlan.leftOut(s"`fov` is ${DefaultText.number(fov())}, not between 0 and 180 degrees")
+    else
+      LightPlan(
+        (toWorld, _) =>
+          Some(ProjectionLight(LightFrame(toWorld), all, tanHalf, slide, upright = isV4)),
+        samples = 1
+      )

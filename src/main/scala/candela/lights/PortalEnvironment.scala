@@ -1,0 +1,102 @@
+package candela.lights
+
+import candela.base.loop
+import candela.color.Rgb
+import candela.geometry.Frame
+import candela.image.Image
+import candela.math.*
+import candela.sampling.WindowedDistribution2D
+
+/** Radiance from an image around the scene that comes in through a rectangular window alone.
+  *
+  * The image is redrawn so that straight lines along the window's sides are its rows and columns;
+  * what a point sees of the window then is a rectangle of the image, and just that is sampled.
+  *
+  * Source: Bitterli, Novák, Jarosz, "Portal-Masked Environment Map Sampling", CGF 34(4), 2015; PBRT
+  * 4th ed., §12.5.3.
+  *
+  * @param frame    turns the image
+  * @param corner   of the window, in world space
+  * @param opposite its other end
+  * @param window   its sides along `s` and `t`; the light is on the side of `n`
+  */
+final class PortalEnvironment(
+    frame: LightFrame,
+    image: SphereImage,
+    corner: Vec3,
+    opposite: Vec3,
+    window: Frame
+) extends EnvironmentLight:
+  private val (width, height) = (image.width, image.height)
+
+  /** As seen through the window: one colour a pixel. */
+  private val rectified: Picture =
+    val drawn = Image.rgb(width, height)
+    loop(width * height): i =>
+      val d = frame.toLight(direction((i % width + 0.5f) / width, (i / width + 0.5f) / height))
+      val c = image.between(image.layout.toImage(d))
+      drawn.data(3 * i) = Math.max(0f, c.r)
+      drawn.data(3 * i + 1) = Math.max(0f, c.g)
+      drawn.data(3 * i + 2) = Math.max(0f, c.b)
+    Picture(drawn, PictureLookup.Nearest)
+
+  private val distribution: WindowedDistribution2D =
+    val weights = Array.tabulate(width * height): i =>
+      val (x, y) = ((i % width + 0.5f) / width, (i / width + 0.5f) / height)
+      rectified(x, y).average / density(window.toLocal(direction(x, y)))
+    WindowedDistribution2D(weights, width, height)
+
+  override def isSampled: Boolean = distribution.integral(0f, 0f, 1f, 1f) > 0
+
+  /** World direction of the place of the rectified image. */
+  private def direction(x: Float, y: Float): Vec3 =
+    val a = Math.tan((x - 0.5) * Math.PI).toFloat
+    val b = Math.tan((y - 0.5) * Math.PI).toFloat
+    window.toWorld(Vec3(a, b, 1f).normalized)
+
+  /** Image area per steradian around the direction `w` of the window's frame. */
+  private def density(w: Vec3): Float =
+    InvPi * InvPi * w.z / ((1f - w.x * w.x) * (1f - w.y * w.y))
+
+  private def place(along: Float, z: Float): Float =
+    clamp(Math.atan2(along.toDouble, z.toDouble).toFloat * InvPi + 0.5f, 0f, 1f)
+
+  /** What `from` sees of the window, (x0, y0, x1, y1) of the image, is handed to `use`; or `none`
+    * if the window is behind.
+    */
+  private inline def seen[A](from: Vec3, none: A)(
+      inline use: (Float, Float, Float, Float) => A
+  ): A =
+    val a = window.toLocal(corner - from)
+    val b = window.toLocal(opposite - from)
+    if !(a.z > 0f && b.z > 0f) then none
+    else
+      val (ax, ay) = (place(a.x, a.z), place(a.y, a.z))
+      val (bx, by) = (place(b.x, b.z), place(b.y, b.z))
+      use(Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by))
+
+  def radiance(from: Vec3, d: Vec3): Rgb =
+    val w = window.toLocal(d)
+    if w.z <= 0f then Rgb.Black
+    else
+      val (x, y) = (place(w.x, w.z), place(w.y, w.z))
+      seen(from, Rgb.Black): (x0, y0, x1, y1) =>
+        if x < x0 || x > x1 || y < y0 || y > y1 then Rgb.Black else rectified(x, y)
+
+  def pdf(from: Vec3, d: Vec3): Float =
+    val w = window.toLocal(d)
+    if w.z <= 0f then 0f
+    else
+      val (x, y) = (place(w.x, w.z), place(w.y, w.z))
+      seen(from, 0f): (x0, y0, x1, y1) =>
+        distribution.pdf(x, y, x0, y0, x1, y1) * density(w)
+
+  def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
+    out.pdf = 0f
+    out.isInfinite = true
+    val at = seen(from, Vec3.Zero): (x0, y0, x1, y1) =>
+      distribution.sample(u1, u2, x0, y0, x1, y1)
+    if at.z > 0f then
+      out.wi = direction(at.x, at.y)
+      out.radiance = rectified(at.x, at.y)
+      out.pdf = at.z * density(window.toLocal(out.wi))

@@ -1,0 +1,93 @@
+package candela.lights
+
+import candela.base.loop
+import candela.color.Rgb
+import candela.image.Image
+import candela.math.*
+
+/** A colour for each direction, from an image that `layout` spreads over the sphere.
+  *
+  * @param image  red, green, blue, linear
+  * @param factor of the image's values
+  * @param smooth bilinear between pixel centres (pbrt-v2, v3), or each pixel of one colour (v4)
+  */
+final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val smooth: Boolean):
+  val width: Int = image.width
+  val height: Int = image.height
+
+  private val data: Array[Float] =
+    val d = image.data.clone()
+    loop(width * height): i =>
+      d(3 * i) *= factor.r
+      d(3 * i + 1) *= factor.g
+      d(3 * i + 2) *= factor.b
+    d
+
+  /** Towards the unit direction `d` of light space. */
+  def apply(d: Vec3): Rgb = at(layout.toImage(d))
+
+  /** At the image place (x, y, 0). */
+  def at(place: Vec3): Rgb =
+    if smooth then between(place)
+    else
+      val x = Math.min((place.x * width).toInt, width - 1)
+      val first = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
+      Rgb(data(first), data(first + 1), data(first + 2))
+
+  /** Bilinear, whatever `smooth` says. */
+  def between(place: Vec3): Rgb =
+    val fx = place.x * width - 0.5f
+    val fy = place.y * height - 0.5f
+    val x = Math.floor(fx).toInt
+    val y = Math.floor(fy).toInt
+    val (tx, ty) = (fx - x, fy - y)
+    val a = pixel(x, y)
+    val b = pixel(x + 1, y)
+    val c = pixel(x, y + 1)
+    val e = pixel(x + 1, y + 1)
+    Rgb(
+      mix(a, b, c, e, 0, tx, ty),
+      mix(a, b, c, e, 1, tx, ty),
+      mix(a, b, c, e, 2, tx, ty)
+    )
+
+  private def pixel(x: Int, y: Int): Int =
+    3 * (layout.wrapY(x, y, width, height) * width + layout.wrapX(x, y, width, height))
+
+  private def mix(a: Int, b: Int, c: Int, d: Int, channel: Int, tx: Float, ty: Float): Float =
+    lerp(
+      ty,
+      lerp(tx, data(a + channel), data(b + channel)),
+      lerp(tx, data(c + channel), data(d + channel))
+    )
+
+  /** Mean brightness over the pixel: what lookups within it average to. */
+  def brightness(x: Int, y: Int): Float =
+    if !smooth then brightness(pixel(x, y))
+    else
+      var sum = 0f
+      loop(9): k =>
+        val (i, j) = (k % 3 - 1, k / 3 - 1)
+        sum += SphereImage.Tent(k) * brightness(pixel(x + i, y + j))
+      sum
+
+  private def brightness(at: Int): Float = (data(at) + data(at + 1) + data(at + 2)) * (1f / 3f)
+
+  /** Of the largest component, over all directions. */
+  def meanOfMax: Float =
+    var (sum, weights) = (0.0, 0.0)
+    loop(height): y =>
+      val share = layout.stretch((y + 0.5f) / height)
+      loop(width): x =>
+        val i = 3 * (y * width + x)
+        sum += share * Math.max(data(i), Math.max(data(i + 1), data(i + 2)))
+        weights += share
+    (sum / weights).toFloat
+
+object SphereImage:
+  /** What each pixel of a 3×3 neighbourhood adds to the mean of bilinear lookups in the middle one:
+    * the products of 1/8, 3/4, 1/8.
+    */
+  private val Tent: Array[Float] =
+    val side = Array(0.125f, 0.75f, 0.125f)
+    Array.tabulate(9)(k => side(k % 3) * side(k / 3))

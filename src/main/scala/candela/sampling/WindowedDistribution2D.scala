@@ -1,0 +1,91 @@
+package candela.sampling
+
+import candela.base.loop
+import candela.math.*
+
+/** A density over any window of the unit square, in proportion to a function that is constant on a
+  * grid of equal cells. Immutable.
+  *
+  * Sums over rectangles come from a summed-area table, between whose entries they are bilinear.
+  *
+  * Sources: Crow, "Summed-Area Tables for Texture Mapping", SIGGRAPH 1984; PBRT 4th ed., §A.5.6.
+  *
+  * @param values of the function, row by row; x runs along a row, y from row to row
+  */
+final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int):
+  require(values.length == Math.multiplyExact(columns, rows))
+
+  /** Sums of all cells left of column x and above row y, (rows + 1) × (columns + 1). */
+  private val sums: Array[Double] =
+    val s = new Array[Double]((columns + 1) * (rows + 1))
+    loop(rows): y =>
+      var row = 0.0
+      loop(columns): x =>
+        row += values(y * columns + x)
+        val below = (y + 1) * (columns + 1) + x + 1
+        s(below) = s(below - columns - 1) + row
+    s
+
+  /** ∫ over [0, x] × [0, y]. */
+  private def upTo(x: Double, y: Double): Double =
+    val (cx, cy) = (x * columns, y * rows)
+    val (i, j) = (Math.min(cx.toInt, columns - 1), Math.min(cy.toInt, rows - 1))
+    val (tx, ty) = (cx - i, cy - j)
+    val at = j * (columns + 1) + i
+    val top = sums(at) * (1 - tx) + sums(at + 1) * tx
+    val bottom = sums(at + columns + 1) * (1 - tx) + sums(at + columns + 2) * tx
+    (top * (1 - ty) + bottom * ty) / (columns.toDouble * rows)
+
+  /** ∫ of the function over the window; its edges in [0, 1]. */
+  def integral(x0: Float, y0: Float, x1: Float, y1: Float): Double =
+    Math.max(0.0, over(x0.toDouble, y0.toDouble, x1.toDouble, y1.toDouble))
+
+  private def over(x0: Double, y0: Double, x1: Double, y1: Double): Double =
+    upTo(x1, y1) - upTo(x0, y1) - upTo(x1, y0) + upTo(x0, y0)
+
+  /** (x, y, density): the place in the window for (`u1`, `u2`) of the unit square; the density is 0
+    * if there is nothing in the window.
+    */
+  def sample(u1: Float, u2: Float, x0: Float, y0: Float, x1: Float, y1: Float): Vec3 =
+    val all = integral(x0, y0, x1, y1)
+    if !(all > 0) then Vec3.Zero
+    else
+      val (top, bottom) = (y0.toDouble, y1.toDouble)
+      val x = place(u1 * all, x0.toDouble, x1.toDouble, columns)(over(x0.toDouble, top, _, bottom))
+      val column = Math.min((x * columns).toInt, columns - 1).toDouble
+      val (left, right) = (column / columns, (column + 1) / columns)
+      val within = over(left, top, right, bottom)
+      if !(within > 0) then Vec3.Zero
+      else
+        val y = place(u2 * within, top, bottom, rows)(over(left, top, right, _))
+        Vec3(x.toFloat, y.toFloat, density(x.toFloat, y.toFloat, all))
+
+  /** Where the sum that grows with the place reaches `target`: the cell by bisection, then
+    * linearly.
+    */
+  private inline def place(target: Double, low: Double, high: Double, cells: Int)(
+      inline sum: Double => Double
+  ): Double =
+    // Cell borders within the window, by their numbers: sum(first) ≤ target < sum(last)
+    var first = Math.floor(low * cells).toInt
+    var last = Math.ceil(high * cells).toInt
+    while last - first > 1 do
+      val middle = (first + last) >>> 1
+      if sum(middle.toDouble / cells) <= target then first = middle else last = middle
+    val (a, b) =
+      (Math.max(low, first.toDouble / cells), Math.min(high, last.toDouble / cells))
+    val (sumA, sumB) = (sum(a), sum(b))
+    val t = if sumB > sumA then (target - sumA) / (sumB - sumA) else 0.5
+    Math.max(a, Math.min(b, a + t * (b - a)))
+
+  /** The density of `sample` for the window at the place within it. */
+  def pdf(x: Float, y: Float, x0: Float, y0: Float, x1: Float, y1: Float): Float =
+    if x < x0 || x > x1 || y < y0 || y > y1 then 0f
+    else
+      val all = integral(x0, y0, x1, y1)
+      if all > 0 then density(x, y, all) else 0f
+
+  private def density(x: Float, y: Float, all: Double): Float =
+    val i = Math.min((x * columns).toInt, columns - 1)
+    val j = Math.min((y * rows).toInt, rows - 1)
+    (values(j * columns + i) / all).toFloat
