@@ -27,7 +27,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
 
-  /** How the point moves with `u` and `v`, and how the unit normal `frame.n` turns. */
+  /** How the point moves with `u` and `v`, and how the normal `frame.n` turns; of meshes
+    * with normals, how these change that are interpolated, whatever their length.
+    */
   var dpdu, dpdv: Vec3 = Vec3.Zero
   var dndu, dndv: Vec3 = Vec3.Zero
 

@@ -6,8 +6,7 @@ import candela.math.*
 /** How point and normal change over a triangle. */
 private[shapes] object TrianglePartials:
 
-  /** Fills in the partial derivatives at the point with the weights `b1` and `b2`, once its frame
-    * is known.
+  /** Fills in the partial derivatives at a point, once its frame is known.
     *
     * A triangle whose corners' u and v do not span an area gets tangents of unit length in any
     * direction. Where a mesh has normals, the tangents for displacements follow them.
@@ -19,8 +18,6 @@ private[shapes] object TrianglePartials:
       i0: Int,
       i1: Int,
       i2: Int,
-      b1: Float,
-      b2: Float,
       e1: Vec3,
       e2: Vec3,
       at: ShadingPoint
@@ -45,16 +42,12 @@ private[shapes] object TrianglePartials:
       val dpdv = (e2 * u1 - e1 * u2) * inverse
       if n.length == 0 then at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
       else
+        // Of the interpolated normal as it is, not of the unit vector made of it: so in pbrt
         val n0 = normal(n, k0)
-        val n1 = normal(n, k1)
-        val n2 = normal(n, k2)
-        val sum = n0 * (1f - b1 - b2) + n1 * b1 + n2 * b2
-        val (d1, d2) = (n1 - n0, n2 - n0)
-        if sum.lengthSquared > 0f then
-          val dndu = ShadingPoint.turn(sum, (d1 * v2 - d2 * v1) * inverse)
-          val dndv = ShadingPoint.turn(sum, (d2 * u1 - d1 * u2) * inverse)
-          at.setPartials(dpdu, dpdv, dndu, dndv)
-        else at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
+        val (d1, d2) = (normal(n, k1) - n0, normal(n, k2) - n0)
+        val dndu = (d1 * v2 - d2 * v1) * inverse
+        val dndv = (d2 * u1 - d1 * u2) * inverse
+        at.setPartials(dpdu, dpdv, dndu, dndv)
     if n.length > 0 then tangents(at, mesh.bumps)
 
   private def tangents(at: ShadingPoint, bumps: BumpTangents): Unit =

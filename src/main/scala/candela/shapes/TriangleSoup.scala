@@ -79,7 +79,7 @@ final class TriangleSoup(
     at.frame =
       if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
     if at.wantsPartials then
-      TrianglePartials.fill(mesh, i0, i1, i2, b1, b2, e1, e2, at)
+      TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
