@@ -65,6 +65,12 @@ lazy val root = (project in file("."))
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
   )
 
+/** Measurements, by JMH. No part of `root`: `sbt test` does not compile it. */
+lazy val bench = (project in file("bench"))
+  .dependsOn(root)
+  .enablePlugins(JmhPlugin)
+  .settings(scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"))
+
 /** `candela.base.Version`, so that the program and the files it writes can name their version. */
 def versionSource = Def.task {
   val file = (Compile / sourceManaged).value / "candela" / "base" / "Version.scala"
