@@ -146,7 +146,6 @@ object SceneBuilder:
       )
     bounds
 
-
 /** What each dialect does where the scene says nothing. */
 private final case class Defaults(
     film: String,

@@ -108,5 +108,8 @@ object FromV2Surfaces:
   val floats: Table = Table("float texture", fallback = "constant")(common*)
 
   val colors: Table = Table("spectrum texture", fallback = "constant")(
-    (common :+ Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation")))*
+    (common :+ Rule.near(
+      "marble" -> "marble",
+      MarbleNote
+    )(keep("octaves", "roughness", "scale", "variation")))*
   )

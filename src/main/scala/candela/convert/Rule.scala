@@ -76,3 +76,6 @@ object Steps:
     s.colorOf(p).exists(c => c.r == value && c.g == value && c.b == value)
 
   def isNumber(value: Float)(p: Param, s: Statement): Boolean = s.numberOf(p).contains(value)
+
+/** pbrt-v3 goes on along the first curves between the colours; v2 and v4 have all six. */
+private[convert] val MarbleNote = "pbrt-v3's marble runs beyond the colours of v2's and v4's"

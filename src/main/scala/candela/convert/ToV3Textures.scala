@@ -100,6 +100,9 @@ object ToV3Textures:
   val colors: Table = Table("spectrum texture", fallback = "constant")(
     (common ++ Seq(
       Rule("scale" -> "scale")(scale),
-      Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation"))
+      Rule.near(
+        "marble" -> "marble",
+        MarbleNote
+      )(keep("octaves", "roughness", "scale", "variation"))
     ))*
   )

@@ -152,7 +152,10 @@ object ToV4Textures:
   val colors: Table = Table("spectrum texture", fallback = "constant")(
     (common ++ Seq(
       Rule("scale" -> "scale")(scale),
-      Rule("marble" -> "marble")(keep("octaves", "roughness", "scale", "variation")),
+      Rule.near(
+        "marble" -> "marble",
+        MarbleNote
+      )(keep("octaves", "roughness", "scale", "variation")),
       byNumber("fbm")(octaves),
       byNumber("wrinkled")(octaves),
       byNumber("windy")(),

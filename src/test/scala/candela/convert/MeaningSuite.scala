@@ -12,13 +12,17 @@ class MeaningSuite extends AnyFunSuite:
     "yresolution\" 4 Sampler \"random\" \"integer pixelsamples\" 16 WorldBegin\n"
 
   private def converted(world: String, from: Dialect, to: Dialect): Converted =
-    val start = if from == Dialect.V4 then view.replace("\"image\"", "\"rgb\"")
-      .replace("random", "independent") else view
+    val start = if from == Dialect.V4 then
+      view.replace("\"image\"", "\"rgb\"")
+        .replace("random", "independent")
+    else view
     TempFolder.use(folder => Converter.convert(SceneTexts.parse(start + world, from), to, folder))
 
   private def assertSameLight(light: String, from: Dialect, to: Dialect) =
-    val start = if from == Dialect.V4 then view.replace("\"image\"", "\"rgb\"")
-      .replace("random", "independent") else view
+    val start = if from == Dialect.V4 then
+      view.replace("\"image\"", "\"rgb\"")
+        .replace("random", "independent")
+    else view
     val made = converted(light, from, to)
     assert(made.warnings.isEmpty)
     val a = SceneTexts.mean(start + light, from)
@@ -34,8 +38,10 @@ class MeaningSuite extends AnyFunSuite:
       )
     do assertSameLight(s"LightSource \"infinite\" $light\nWorldEnd", Dialect.V3, Dialect.V4)
     for light <- Vector(
-        "\"blackbody L\" 3000 \"float scale\" 2", "\"rgb L\" [1 .5 2] \"float scale\" 3",
-        "\"float illuminance\" 7", "\"spectrum L\" [400 .5 700 1.5]"
+        "\"blackbody L\" 3000 \"float scale\" 2",
+        "\"rgb L\" [1 .5 2] \"float scale\" 3",
+        "\"float illuminance\" 7",
+        "\"spectrum L\" [400 .5 700 1.5]"
       )
     do assertSameLight(s"LightSource \"infinite\" $light", Dialect.V4, Dialect.V3)
 

@@ -74,8 +74,14 @@ final class PositionedLightsSuite extends AnyFunSuite:
     val across = (axis cross Vec3.X).normalized
     for angle <- Seq(5.0, 20.5, 25.0, 30.0, 39.0, 41.0) do
       val local = axis * degrees(angle) + across * degrees(90 - angle)
-      val t = Math.max(0.0, Math.min(1.0, (degrees(angle) - degrees(40)) /
-        (degrees(20) - degrees(40))))
+      val t = Math.max(
+        0.0,
+        Math.min(
+          1.0,
+          (degrees(angle) - degrees(40)) /
+            (degrees(20) - degrees(40))
+        )
+      )
       val found = light.intensity(frame.toWorld(local)).r
       assert(Math.abs(found - Math.pow(t, 4)) < 1e-4, s"$angle") // cosines of Floats, steep
 

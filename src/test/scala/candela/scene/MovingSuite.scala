@@ -46,7 +46,11 @@ class MovingSuite extends AnyFunSuite:
   test("a shutter that is open shortly makes a small box"):
     val soup = Soups.icosphere(2, Transform.Identity)
     val far = Interpolation(
-      Transform.Identity, Transform.translate(100, 0, 0), 0f, 1f, shortest = true
+      Transform.Identity,
+      Transform.translate(100, 0, 0),
+      0f,
+      1f,
+      shortest = true
     )
     val objects = Array[Accelerator](Bvh(Primitives(soup, Array.empty)))
     val short = Instances.of(objects, Vector((0, far)), 0.5f, 0.51f)
@@ -106,7 +110,11 @@ class MovingSuite extends AnyFunSuite:
     val soup = Soups.icosphere(1, Transform.Identity)
     val objects = Array[Accelerator](Bvh(Primitives(soup, Array.empty)))
     val way = Interpolation(
-      Transform.Identity, Transform.translate(9, 0, 0), 0f, 1f, shortest = true
+      Transform.Identity,
+      Transform.translate(9, 0, 0),
+      0f,
+      1f,
+      shortest = true
     )
     val instances = Instances.of(objects, Vector((0, way), (0, Still(Transform.Identity))))
     assert(instances.count == 2 && instances.moving == 1)

@@ -39,5 +39,7 @@ object Hair
       case _ if hasMelanin => Pigment.Melanin(eumelanin(), pheomelanin(), site.resources.basis)
       case _ =>
         Pigment.Melanin(
-          candela.textures.ConstantFloat(1.3f), pheomelanin(), site.resources.basis
+          candela.textures.ConstantFloat(1.3f),
+          pheomelanin(),
+          site.resources.basis
         )

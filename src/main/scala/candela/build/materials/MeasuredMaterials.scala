@@ -16,9 +16,10 @@ object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a t
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
             bsdf <- BrdfFile.read(
               path,
-              s => site.resources.basis.fromSrgb(
-                Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
-              )
+              s =>
+                site.resources.basis.fromSrgb(
+                  Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
+                )
             ) match
               case Right(b) => Some(b)
               case Left(why) =>

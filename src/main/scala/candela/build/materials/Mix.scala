@@ -18,7 +18,9 @@ object Mix extends MaterialRecipe("mix", "a blend of two named materials", every
       both() match
         case Vector(a, b) =>
           MaterialFactory.mix(
-            named(b, "materials"), named(a, "materials"), GrayTexture(partOfSecond())
+            named(b, "materials"),
+            named(a, "materials"),
+            GrayTexture(partOfSecond())
           )
         case names =>
           site.error(s"`materials` of \"mix\" takes two names of materials; found ${names.length}")
