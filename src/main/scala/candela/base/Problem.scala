@@ -45,10 +45,20 @@ object Problem:
     placed.sortBy(_.at.map(_.path)) ++ others
 
   def error(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Error, Some(at), message, help)
+    Problem(Severity.Error, Some(at), line(message), help.map(line))
 
   def warning(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Warning, Some(at), message, help)
+    Problem(Severity.Warning, Some(at), line(message), help.map(line))
+
+  /** One line that a terminal can show, whatever names the file has: no control characters, and not
+    * longer than a few lines of a terminal.
+    */
+  private def line(text: String): String =
+    val shown = text.map(c => if c.isControl then '?' else c)
+    if shown.length <= Longest then shown
+    else s"${shown.take(Longest - 100)} … ${shown.takeRight(90)}"
+
+  private inline val Longest = 500
 
   /** Something that the scene names is not there.
     *
@@ -64,7 +74,7 @@ object Problem:
   ): Problem =
     val (severity, text) =
       if keepGoing then (Severity.Warning, s"$message; $standIn") else (Severity.Error, message)
-    Problem(severity, Some(at), text, help, standIn = Some(standIn))
+    Problem(severity, Some(at), line(text), help.map(line), standIn = Some(standIn))
 
   /** An error that belongs to no place in a scene file, e.g. an output folder that can't be
     * written.
