@@ -72,7 +72,12 @@ object Spectra:
     if p.floats.length == 0 || !(p.floats(0) > 0f) then
       site.problems.error(p.valuesAt, s"`${p.name}` takes a temperature above 0 K")
       None
-    else Some(toRgb(Spectrum.blackbody(p.floats(0)), role, site.dialect) * scale)
+    else
+      // pbrt-v2 has a 1 where the eye is most sensitive, v3 and v4 at the maximum
+      val body =
+        if site.dialect == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
+        else Spectrum.blackbody(p.floats(0))
+      Some(toRgb(body, role, site.dialect) * scale)
 
   private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
     val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)

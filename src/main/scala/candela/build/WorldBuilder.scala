@@ -127,10 +127,12 @@ final class WorldBuilder(
           addMesh(s, mesh, toWorld, material, light, here, to)
         case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
         case ShapeGeometry.Solid(make) =>
-          // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards
-          val sinks = description.dialect != Dialect.V2 && toWorld.swapsHandedness
+          // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards, v2 those of all disks
+          val inverted =
+            if description.dialect == Dialect.V2 then declared.name == "disk"
+            else toWorld.swapsHandedness
           val shape = make(toWorld, s.reverseOrientation)
-          addSolids(Vector(shape), material, light, sinks, here, to)
+          addSolids(Vector(shape), material, light, inverted, here, to)
         case ShapeGeometry.Solids(make, emits) =>
           if light.isDefined && !emits then
             here.warn(s"a ${s.shape.name} can't emit light, as in pbrt: it is no lamp")
@@ -144,7 +146,7 @@ final class WorldBuilder(
       shapes: Vector[Shape],
       material: Int,
       light: Option[AreaLightPlan],
-      sinks: Boolean,
+      inverted: Boolean,
       here: Site,
       to: SurfaceBuilder
   ): Unit =
@@ -154,7 +156,7 @@ final class WorldBuilder(
         lights += Alpha.emission(using here).of(plan.ofShape(shape))
         lightSamples += plan.samples
         lights.length - 1
-      to.add(ShapeInstance(shape, material, index, sinks), mask)
+      to.add(ShapeInstance(shape, material, index, inverted), mask)
 
   private def hasArea(shape: Shape, here: Site): Boolean =
     val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)

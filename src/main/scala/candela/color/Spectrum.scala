@@ -34,10 +34,13 @@ object Spectrum:
   /** Spectral radiance of a black body of `kelvin`, scaled to a maximum of 1 (Planck's law; the
     * maximum by Wien's displacement law).
     */
-  def blackbody(kelvin: Float): Spectrum =
-    val peak = planck(2.8977721e-3 / kelvin, kelvin)
+  def blackbody(kelvin: Float): Spectrum = blackbody(kelvin, 2.8977721e6f / kelvin)
+
+  /** The same, scaled to 1 at the wavelength `unitAt`, in nm. */
+  def blackbody(kelvin: Float, unitAt: Float): Spectrum =
+    val unit = planck(unitAt * 1e-9, kelvin)
     val lambda = Array.tabulate(95)(i => 360f + 5f * i)
-    Spectrum(lambda, lambda.map(l => (planck(l * 1e-9, kelvin) / peak).toFloat))
+    Spectrum(lambda, lambda.map(l => (planck(l * 1e-9, kelvin) / unit).toFloat))
 
   /** W·m⁻²·sr⁻¹·m⁻¹ at a wavelength in metres; constants of CODATA 2018 (exact). */
   private def planck(meters: Double, kelvin: Double): Double =

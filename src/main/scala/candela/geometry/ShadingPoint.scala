@@ -57,6 +57,11 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     tangentV = dpdv
     bumpSide = 1f
 
+  /** Calls the other side the outside. The tangents stay, and what normals do along them. */
+  def invert(): Unit =
+    geometricNormal = -geometricNormal
+    frame = Frame(frame.s, -frame.t, -frame.n)
+
   /** Works out the footprint's `dudx` … `dvdy` from `dpdx` and `dpdy`: the least-squares solution
     * of dp = dpdu·du + dpdv·dv.
     */

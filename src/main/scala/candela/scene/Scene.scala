@@ -11,9 +11,16 @@ import candela.shapes.Shape
   *
   * @param material index into the scene's materials
   * @param light    index into its lights, −1: it does not emit
-  * @param sinks    do displacements sink into it, instead of rising?
+  * @param inverted do its normals point to the other side where rays meet it than where light
+  *                 sampling does? So with some of pbrt's, whose emission is seen on one side while
+  *                 what they light lies on the other
   */
-final case class ShapeInstance(shape: Shape, material: Int, light: Int, sinks: Boolean = false)
+final case class ShapeInstance(
+    shape: Shape,
+    material: Int,
+    light: Int,
+    inverted: Boolean = false
+)
 
 /** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
   *

@@ -26,7 +26,7 @@ final class Surfaces(
       solid.shape.surface(ray, hit, at)
       at.material = solid.material
       at.areaLight = solid.light
-      if solid.sinks then at.bumpSide = -1f
+      if solid.inverted then at.invert()
 
 object Surfaces:
   val None: Surfaces = Surfaces(TriangleSoup.Empty, Array.empty)

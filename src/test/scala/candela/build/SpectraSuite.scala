@@ -47,6 +47,12 @@ final class SpectraSuite extends AnyFunSuite:
     assert(close(one * 2f, two, 1e-5f)) // rounding
     assert(one.r > one.b)
 
+  test("blackbody is scaled to 1 at 555 nm in v2, at its maximum in v3"):
+    val v2 = emission("\"blackbody I\" [3500 2]", Dialect.V2).get
+    val v3 = emission("\"blackbody I\" [3500 2]", Dialect.V3).get
+    // 3500 K has 0.6387 of its maximum (828 nm) there: Planck's law by hand, four digits
+    assert(close(v2 * 0.6387f, v3, 2e-4f * v3.r))
+
   test("a name that is neither a spectrum nor a file is an error"):
     val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D56\"\n"
     val p = SceneTexts.problems(text, Dialect.V4).head

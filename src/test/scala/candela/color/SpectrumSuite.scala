@@ -31,6 +31,11 @@ final class SpectrumSuite extends AnyFunSuite:
     assert(Math.abs(sun(500f) - 1f) < 1e-4f)
     assert(sun(400f) < 1f && sun(700f) < 1f)
 
+  test("a black body can be 1 at any wavelength instead, and keeps its shape"):
+    val (plain, scaled) = (Spectrum.blackbody(3500f), Spectrum.blackbody(3500f, unitAt = 555f))
+    assert(Math.abs(scaled(555f) - 1f) < 1e-6f)
+    assert(Math.abs(scaled(700f) / scaled(450f) - plain(700f) / plain(450f)) < 1e-4f) // rounding
+
   test("hotter bodies are bluer"):
     def blueness(k: Float) =
       val c = Colorimetry.unitLuminance(Spectrum.blackbody(k)(_))
