@@ -13,9 +13,13 @@ object Suggest:
     * slip: at most a third of the longer name's length. Upper and lower case count as equal.
     */
   def nearest(name: String, known: Iterable[String]): Option[String] =
+    def most(k: String) = math.max(1, math.max(name.length, k.length) / 3)
+    val lower = name.toLowerCase
     known.toVector.sorted
-      .map(k => (k, distance(name.toLowerCase, k.toLowerCase)))
-      .filter((k, d) => d <= math.max(1, math.max(name.length, k.length) / 3))
+      // no fewer edits than lengths differ: most names need no table
+      .filter(k => math.abs(k.length - name.length) <= most(k))
+      .map(k => (k, distance(lower, k.toLowerCase)))
+      .filter((k, d) => d <= most(k))
       .minByOption(_._2)
       .map(_._1)
 

@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, ShapeDescription}
 
 /** What stands before `WorldBegin`, lights and shapes, from v2 to v3. */
 object FromV2:
@@ -141,6 +141,20 @@ object FromV2:
     )
   )
 
+  private val quadrics = Set("sphere", "cylinder", "paraboloid", "disk", "cone", "hyperboloid")
+
+  /** A lamp's light falls on the same side in both; the side that looks bright may be the other. */
+  private def lamp(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
+    val isDisk = s.shape.name == "disk"
+    val isMirrored = s.objectToWorld.start.swapsHandedness
+    if s.areaLight.nonEmpty && quadrics(s.shape.name) && isDisk != isMirrored then
+      val text =
+        if isDisk then
+          "v2 shows this disk bright on the side that it does not light, v3 on the other"
+        else "v2 shows this mirrored lamp bright outside, v3 inside"
+      run.warn(s.shape.at, text)
+    Vector(s)
+
   private val accelerators = Table("Accelerator")(
     Rule("bvh" -> "bvh")(keep("splitmethod"), rename("maxnodeprims" -> "maxnodeprims")),
     Rule("kdtree" -> "kdtree")(
@@ -174,5 +188,6 @@ object FromV2:
       "Integrator" -> "directlighting",
       "Film" -> "image",
       "Sampler" -> "lowdiscrepancy"
-    )
+    ),
+    shape = lamp
   )

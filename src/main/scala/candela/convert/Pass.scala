@@ -28,6 +28,7 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
     scene.textures.map(t => (t.name, t.valueType) -> t)
   )
   private val added = mutable.ArrayBuffer.empty[TextureDescription]
+  private val taken = mutable.HashSet.from(scene.textures.map(_.name))
   private val shared = mutable.HashMap.empty[Declaration, Option[Declaration]]
   private var place = GraphicsState.Identity
 
@@ -49,9 +50,8 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
 
   /** A texture of the other dialect, of which the scene that is read has nothing. */
   def define(t: TextureDescription): String =
-    val taken = textures.keySet.map(_._1) ++ added.map(_.name)
-    val names = t.name +: LazyList.from(2).map(i => s"${t.name} ($i)")
-    val name = names.find(n => !taken(n)).get
+    val names = Iterator(t.name) ++ Iterator.from(2).map(i => s"${t.name} ($i)")
+    val name = names.find(taken.add).get
     added += t.copy(name = name)
     name
 

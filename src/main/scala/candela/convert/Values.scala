@@ -57,7 +57,10 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       Some(Colorimetry.fromXyz(p.floats(0).toDouble, p.floats(1).toDouble, p.floats(2).toDouble))
     case ParamType.Blackbody =>
       val scale = if p.floats.length > 1 && from != Dialect.V4 then p.floats(1) else 1f
-      Some(Colorimetry.rgb(Spectrum.blackbody(p.floats(0))(_), white) * scale)
+      val body =
+        if from == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
+        else Spectrum.blackbody(p.floats(0))
+      Some(Colorimetry.rgb(body(_), white) * scale)
     case ParamType.Spectrum => spectrum(p, d).map(s => Colorimetry.rgb(s(_), white))
     case _ => None
 

@@ -18,7 +18,7 @@ class ConverterSuite extends AnyFunSuite:
     name <- ReferenceScenes.names(ReferenceScenes.Scenes, ".pbrt") if name != "showcase"
     to <- Vector(Dialect.V3, Dialect.V4) if !name.startsWith(to.toString.toLowerCase)
   do
-    def check(): Unit =
+    test(s"$name in $to"):
       TempFolder.use: folder =>
         val scene = Parser.parse(ReferenceScenes.Scenes.resolve(s"$name.pbrt"))
         val converted = Converter.convert(scene, to, folder)
@@ -29,25 +29,9 @@ class ConverterSuite extends AnyFunSuite:
         assert(converted.warnings.forall(_.at.exists(_.file.endsWith(s"$name.pbrt"))))
         // Where models differ the picture differs, and that was said
         val worst = if converted.warnings.isEmpty then difference(scene, again) else 0.0
-        val _ = assert(worst < 0.1, "of a quarter's mean, that noise does not explain")
-
-    test(s"$name in $to"):
-      if Unlike((name, to)) then pendingUntilFixed(check()): Unit else check()
+        assert(worst < 0.1, "of a quarter's mean, that noise does not explain")
 
 object ConverterSuite:
-
-  /** Faults of the converter that are known: v2's black bodies have another brightness, and a
-    * texture of noise that is used as a number in two places is written twice. Whoever mends one is
-    * told to take it from this list.
-    */
-  private val Unlike: Set[(String, Dialect)] = Set(
-    "v2-defaults-emission" -> Dialect.V3,
-    "v2-defaults-emission" -> Dialect.V4,
-    "v2-defaults-lights" -> Dialect.V3,
-    "v2-defaults-lights" -> Dialect.V4,
-    "v2-defaults-noise" -> Dialect.V4,
-    "v3-defaults-noise" -> Dialect.V4
-  )
 
   /** Scenes that lose nothing. */
   private val Exact: Set[(String, Dialect)] =
