@@ -12,7 +12,7 @@ import java.nio.file.{Files, Path}
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
-    val out = options.out.map(OutputFiles.path)
+    val out = options.outfiles.headOption.map(OutputFiles.path)
     out.foreach(check)
     val scene = Parser.parse(SceneLoader.existing(options.files.head), options.dialect)
     out.foreach(keepSource(_, scene))
@@ -61,5 +61,5 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     val isSource = Files.exists(path) &&
       sources.exists(s => Files.exists(Path.of(s)) && Files.isSameFile(Path.of(s), path))
     if isSource then
-      val help = Some("--out FILE with another name keeps both")
+      val help = Some("--outfile FILE with another name keeps both")
       throw SceneError(Problem.general(s"`$path` is what is being read", help))

@@ -103,9 +103,9 @@ private[cli] object OptionTable:
     opt[Dialect]("to").required().valueName("v4|v3")
       .text("the dialect to write; the scene's own formats it (v2 only from v2)")
       .action((d, o) => o.copy(to = Some(d))),
-    opt[String]("out").valueName("FILE")
+    opt[String]("outfile").valueName("FILE")
       .text("the scene to write, instead of printing it; its images and meshes go beside it")
-      .action((f, o) => o.copy(out = Some(f))),
+      .action((f, o) => o.copy(outfiles = Vector(f))),
     opt[Int]("to-ply").valueName("N")
       .text("write meshes of N triangles or more as binary PLY files")
       .validate(atLeast("to-ply", 1))

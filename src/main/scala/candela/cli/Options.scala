@@ -40,6 +40,5 @@ final case class Options(
     maxRelMse: Option[Double] = None,
     markdown: Boolean = false,
     to: Option[Dialect] = None,
-    out: Option[String] = None,
     toPly: Option[Int] = None
 )

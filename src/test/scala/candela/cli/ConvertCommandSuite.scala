@@ -15,7 +15,7 @@ class ConvertCommandSuite extends AnyFunSuite:
 
   private def scene(folder: Path): Path = Files.writeString(folder.resolve("a.pbrt"), old)
 
-  test("without --out the scene is printed, and what is lost is said with its place"):
+  test("without --outfile the scene is printed, and what is lost is said with its place"):
     TempFolder.use: folder =>
       val file = scene(folder)
       val (code, captured) = run(file.toString, "--to", "v4", "--dialect", "v3")
@@ -25,11 +25,11 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(captured.err.contains(s"$file:2:18: warning: $lost\n 2 | Material"))
       assert(TempFolder.names(folder) == Set("a.pbrt"))
 
-  test("with --out it is written, and one line says so"):
+  test("with --outfile it is written, and one line says so"):
     TempFolder.use: folder =>
       val out = folder.resolve("b.pbrt")
       val (code, captured) =
-        run(scene(folder).toString, "--to", "v4", "--dialect", "v3", "--out", out.toString)
+        run(scene(folder).toString, "--to", "v4", "--dialect", "v3", "--outfile", out.toString)
       assert(code == 0)
       assert(captured.out == s"wrote $out  v4, 1 warning\n")
       assert(Files.readString(out).contains("Film \"rgb\""))
@@ -38,10 +38,10 @@ class ConvertCommandSuite extends AnyFunSuite:
   test("what is read is not overwritten, nor is a folder"):
     TempFolder.use: folder =>
       val file = scene(folder)
-      val (code, captured) = run(file.toString, "--to", "v3", "--out", s"$folder/./a.pbrt")
+      val (code, captured) = run(file.toString, "--to", "v3", "--outfile", s"$folder/./a.pbrt")
       assert(code == 1 && captured.err.contains("is what is being read"))
       assert(Files.readString(file) == old)
-      val (other, said) = run(file.toString, "--to", "v3", "--out", folder.toString)
+      val (other, said) = run(file.toString, "--to", "v3", "--outfile", folder.toString)
       assert(other == 1 && said.err.contains("it is a folder"))
 
   test("a dialect to write must be named, and v2 is written from v2 alone"):
