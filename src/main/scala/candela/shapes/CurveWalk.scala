@@ -17,31 +17,22 @@ private[shapes] final class CurveWalk(
   /** Tests the part s0 to s1 of a segment, with its control points in the ray's space, after
     * halving it `depth` times. (wx, wy, wz) is the ray's unit direction in the curve's space.
     */
+  // format: off
   def refine(
-      x0: Double,
-      y0: Double,
-      z0: Double,
-      x1: Double,
-      y1: Double,
-      z1: Double,
-      x2: Double,
-      y2: Double,
-      z2: Double,
-      x3: Double,
-      y3: Double,
-      z3: Double,
-      s0: Double,
-      s1: Double,
+      x0: Double, y0: Double, z0: Double,
+      x1: Double, y1: Double, z1: Double,
+      x2: Double, y2: Double, z2: Double,
+      x3: Double, y3: Double, z3: Double,
+      s0: Double, s1: Double,
       depth: Int,
       segment: Int,
-      wx: Double,
-      wy: Double,
-      wz: Double,
+      wx: Double, wy: Double, wz: Double,
       length: Double,
       ray: Ray,
       hit: Hit,
       write: Boolean
   ): Boolean =
+    // format: on
     val w0 = widths(2 * segment).toDouble
     val w1 = widths(2 * segment + 1).toDouble
     val half = 0.5 * Math.max(w0 + s0 * (w1 - w0), w0 + s1 * (w1 - w0))
@@ -68,58 +59,20 @@ private[shapes] final class CurveWalk(
       val ym = 0.5 * (ya + yb)
       val zm = 0.5 * (za + zb)
       val sm = 0.5 * (s0 + s1)
+      // format: off
       val first = refine(
-        x0,
-        y0,
-        z0,
-        x01,
-        y01,
-        z01,
-        xa,
-        ya,
-        za,
-        xm,
-        ym,
-        zm,
-        s0,
-        sm,
-        depth - 1,
-        segment,
-        wx,
-        wy,
-        wz,
-        length,
-        ray,
-        hit,
-        write
+        x0, y0, z0, x01, y01, z01, xa, ya, za, xm, ym, zm, s0, sm,
+        depth - 1, segment, wx, wy, wz, length, ray, hit, write
       )
+      // format: on
       if first && !write then true
       else
+        // format: off
         val second = refine(
-          xm,
-          ym,
-          zm,
-          xb,
-          yb,
-          zb,
-          x23,
-          y23,
-          z23,
-          x3,
-          y3,
-          z3,
-          sm,
-          s1,
-          depth - 1,
-          segment,
-          wx,
-          wy,
-          wz,
-          length,
-          ray,
-          hit,
-          write
+          xm, ym, zm, xb, yb, zb, x23, y23, z23, x3, y3, z3, sm, s1,
+          depth - 1, segment, wx, wy, wz, length, ray, hit, write
         )
+        // format: on
         first || second
     // Beyond the perpendiculars at both ends the neighbours are in charge
     else if (y1 - y0) * -y0 + x0 * (x0 - x1) < 0.0 || (y2 - y3) * -y3 + x3 * (x3 - x2) < 0.0 then

@@ -17,17 +17,6 @@ abstract class ImageLookup(bottomUp: Boolean):
   /** Distance from the picture's upper edge, as a part of its height. */
   protected final def row(t: Float): Float = if bottomUp then 1f - t else t
 
-/** Reads one picture, whatever part of it is seen at once: noisy from afar, but right on average.
-  *
-  * @param interpolates between the four nearest texels? Else the one that the point lies in
-  */
-final class FinestLookup(level: MipLevel, interpolates: Boolean, bottomUp: Boolean)
-    extends ImageLookup(bottomUp):
-  def color(mapping: Mapping2D, at: ShadingPoint): Rgb = color(mapping(at))
-
-  def color(c: TexCoord): Rgb =
-    if interpolates then level.bilinear(c.s, row(c.t)) else level.nearest(c.s, row(c.t))
-
 /** Reads what the footprint of a sample covers of the picture, from a pyramid.
   *
   * @param turned does a step along t count upwards in the picture, as t itself does? pbrt-v4

@@ -20,9 +20,11 @@ class ImageTextureSuite extends AnyFunSuite:
       interpolates: Boolean,
       wrap: Wrap = Wrap.Repeat,
       bottomUp: Boolean = true
-  ) = FinestLookup(MipLevel(Texels.color(image, linear), wrap), interpolates, bottomUp)
+  ) = LevelLookup(Array(MipLevel(Texels.color(image, linear), wrap)), interpolates, bottomUp, true)
 
-  extension (lookup: FinestLookup) private def value(c: TexCoord): Float = lookup.color(c).r
+  extension (lookup: LevelLookup)
+    private def color(c: TexCoord): Rgb = lookup.color(UvMapping.Identity, at(c.s, c.t))
+    private def value(c: TexCoord): Float = lookup.color(c).r
 
   private def at(u: Float, v: Float): ShadingPoint =
     val point = ShadingPoint()
