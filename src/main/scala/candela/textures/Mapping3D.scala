@@ -17,3 +17,13 @@ final class Mapping3D(worldToTexture: Transform):
       worldToTexture.vector(at.dpdx).lengthSquared,
       worldToTexture.vector(at.dpdy).lengthSquared
     )
+
+  /** For each axis, how far the place moves at most to its neighbours on the film. */
+  def extent(at: ShadingPoint): Vec3 =
+    val x = worldToTexture.vector(at.dpdx)
+    val y = worldToTexture.vector(at.dpdy)
+    Vec3(
+      Math.max(abs(x.x), abs(y.x)),
+      Math.max(abs(x.y), abs(y.y)),
+      Math.max(abs(x.z), abs(y.z))
+    )

@@ -4,28 +4,6 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** Unit squares of `even` and `odd` in turn; the one from (0, 0) to (1, 1) is even. Not filtered:
-  * its edges are smoothed by the pixel's samples.
-  */
-final class CheckerboardFloat(mapping: Mapping2D, even: FloatTexture, odd: FloatTexture)
-    extends FloatTexture:
-  def apply(at: ShadingPoint): Float =
-    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
-
-/** Unit squares of `even` and `odd` in turn, as [[CheckerboardFloat]]. */
-final class CheckerboardRgb(mapping: Mapping2D, even: RgbTexture, odd: RgbTexture)
-    extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb =
-    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
-
-private object Checkerboard:
-  def isEven(c: TexCoord): Boolean =
-    ((floor(c.s) + floor(c.t)) & 1) == 0
-
-  def isEven(p: Vec3): Boolean = ((floor(p.x) + floor(p.y) + floor(p.z)) & 1) == 0
-
-  private def floor(x: Float): Long = Math.floor(x.toDouble).toLong
-
 /** Bilinear between four corners, `v10` being that at s = 1, t = 0; goes on linearly outside. */
 final class BilerpFloat(mapping: Mapping2D, v00: Float, v01: Float, v10: Float, v11: Float)
     extends FloatTexture:

@@ -71,14 +71,3 @@ private object MarbleColors:
     val sum = colors(first) * (s * s * s) + colors(first + 1) * (3f * s * s * t) +
       colors(first + 2) * (3f * s * t * t) + colors(first + 3) * (t * t * t)
     sum.map(v => Math.max(0f, v * Brightness))
-
-/** Cubes of `even` and `odd` in turn. */
-final class CubesFloat(mapping: Mapping3D, even: FloatTexture, odd: FloatTexture)
-    extends FloatTexture:
-  def apply(at: ShadingPoint): Float =
-    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)
-
-/** Cubes of `even` and `odd` in turn. */
-final class CubesRgb(mapping: Mapping3D, even: RgbTexture, odd: RgbTexture) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb =
-    if Checkerboard.isEven(mapping(at)) then even(at) else odd(at)

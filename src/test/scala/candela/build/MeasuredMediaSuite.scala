@@ -12,7 +12,10 @@ class MeasuredMediaSuite extends AnyFunSuite:
     assert(names.forall(_.size == 47))
     assert(names(1) == names(2))
     assert((names(0) -- names(1)) == Set(
-      "Lemon Tea", "Orange Juice Powder", "Pink Lemonade", "Suisse Mocha"
+      "Lemon Tea",
+      "Orange Juice Powder",
+      "Pink Lemonade",
+      "Suisse Mocha"
     ))
 
   test("their numbers are those that were published"):

@@ -50,11 +50,3 @@ class CombinedSuite extends AnyFunSuite:
     assert(numbers(at(0.5f, 0.5f)) == 2.5f)
     assert(rgbRamp(at(0f, 1f)) == Rgb(0f, 2f, 0f))
     assert(rgbRamp(at(0.5f, 0.5f)) == Rgb(0.5f, 1f, 0.5f))
-
-  test("checkerboards alternate, on the negative side too"):
-    val numbers = CheckerboardFloat(UvMapping(2f, 2f, 0f, 0f), number(1f), number(0f))
-    val colors = CheckerboardRgb(UvMapping(2f, 2f, 0f, 0f), gray(1f), gray(0f))
-    for i <- -6 to 6; j <- -6 to 6 do
-      val p = at(i / 2f + 0.25f, j / 2f + 0.25f)
-      val wanted = if (i + j) % 2 == 0 then 1f else 0f
-      assert(numbers(p) == wanted && colors(p) == Rgb.gray(wanted), s"$i $j")

@@ -1,28 +1,33 @@
 package candela.build
 
 import candela.color.Rgb
+import candela.scenefile.Dialect
 import candela.textures.*
 
-abstract class Checks[A] extends Mapped[A]("checkerboard", "squares of two in turn"):
+abstract class CheckerboardRecipe[A] extends Mapped[A]("checkerboard", "squares of two in turn"):
   private val dimension = integer("dimension", "2, or 3 for cubes in space")(2)
-  noMeaning("the pixel's samples smooth its edges")(
-    string("aamode", "how edges are smoothed: closedform, none", untilV3)("closedform")
-  )
-  protected def isSolid()(using Site): Boolean = dimension() == 3
+  private val aamode =
+    oneOf("aamode", "how edges are smoothed", Seq("closedform", "none"), untilV3)("closedform")
 
-object FloatChecks extends Checks[FloatTexture]:
+  /** pbrt-v2 and v3 filter squares alone, v4 cubes as well. */
+  protected def checks()(using site: Site): Checks =
+    val isSolid = dimension() == 3
+    val filter =
+      if site.dialect == Dialect.V4 then CheckFilter.Triangle
+      else if isSolid || aamode() == "none" then CheckFilter.Point
+      else CheckFilter.Box
+    if filter != CheckFilter.Point then site.resources.askForFootprints("checkerboards")
+    if isSolid then Cubes(Solid.mapping, filter) else Squares(mapped(), filter)
+
+object FloatChecks extends CheckerboardRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "of even squares")(1f)
   private val tex2 = floatTexture("tex2", "of odd squares")(0f)
-  protected def make()(using Site): FloatTexture =
-    if isSolid() then CubesFloat(Solid.mapping, tex1(), tex2())
-    else CheckerboardFloat(mapped(), tex1(), tex2())
+  protected def make()(using Site): FloatTexture = CheckerboardFloat(checks(), tex1(), tex2())
 
-object RgbChecks extends Checks[RgbTexture]:
+object RgbChecks extends CheckerboardRecipe[RgbTexture]:
   private val tex1 = rgbTexture("tex1", "of even squares")(Rgb.White)
   private val tex2 = rgbTexture("tex2", "of odd squares")(Rgb.Black)
-  protected def make()(using Site): RgbTexture =
-    if isSolid() then CubesRgb(Solid.mapping, tex1(), tex2())
-    else CheckerboardRgb(mapped(), tex1(), tex2())
+  protected def make()(using Site): RgbTexture = CheckerboardRgb(checks(), tex1(), tex2())
 
 object FloatBilerp extends Mapped[FloatTexture]("bilerp", "blends the values at four corners"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
