@@ -38,7 +38,7 @@ object MaterialFactory:
     * @param maxDepth  how many times light may meet coat or base from within
     * @param bySpectrum applies a function to the reflectance, wavelength by wavelength, if that is
     *                  known: what goes back and forth under the coat grows faster than its colour
-    * @return None if the medium scatters or the thickness varies: neither is supported
+    * @return None if the medium scatters or the thickness varies: then layers must be walked
     */
   def coatedDiffuse(
       reflectance: RgbTexture,
@@ -71,6 +71,33 @@ object MaterialFactory:
           val material = CoatedDiffuseMaterial(reflectance, roughness, family, hits)
           fold(material, isFixed(reflectance) && roughness.isConstant)
 
+  /** A diffuse surface under a coat, by walks between the two. */
+  def layeredDiffuse(
+      reflectance: RgbTexture,
+      roughness: Roughness,
+      eta: Float,
+      medium: LayerMedium
+  ): Material = LayeredDiffuseMaterial(reflectance, roughness, eta, medium)
+
+  /** A metal under a coat: smooth on smooth if that can be summed, else by walks between the two.
+    *
+    * @param metal    as seen from within the coat
+    * @param mirrored what a smooth metal and a smooth coat reflect together at the cosine, if that
+    *                 is known
+    */
+  def coatedConductor(
+      metal: MetalTexture,
+      bottom: Roughness,
+      top: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      mirrored: Option[Float => Rgb]
+  ): Material =
+    def isSmooth(r: Roughness) = r.isConstant && r.trowbridgeReitz(ShadingPoint()).isSmooth
+    mirrored.filter(_ => isSmooth(bottom) && (isSmooth(top) || (top.isConstant && eta == 1f))) match
+      case Some(curve) => conductor(TabulatedReflectance.of(256)(curve), bottom)
+      case None => LayeredConductorMaterial(metal, bottom, top, eta, medium)
+
   def substrate(kd: RgbTexture, ks: RgbTexture, roughness: Roughness): Material =
     fold(SubstrateMaterial(kd, ks, roughness), isFixed(kd) && isFixed(ks) && roughness.isConstant)
 
@@ -79,20 +106,17 @@ object MaterialFactory:
   def shinyMetal(ks: RgbTexture, kr: RgbTexture, roughness: Roughness): Material =
     fold(ShinyMetalMaterial(ks, kr, roughness), isFixed(ks) && isFixed(kr) && roughness.isConstant)
 
+  def conductor(metal: MetalTexture, roughness: Roughness): Material =
+    fold(ConductorMaterial(metal, roughness), metal.isConstant && roughness.isConstant)
+
   def conductor(curve: ReflectanceCurve, roughness: Roughness): Material =
-    fold(ConductorMaterial(curve, roughness), roughness.isConstant)
+    conductor(UniformMetal(curve), roughness)
 
   def conductor(eta: RgbTexture, k: RgbTexture, roughness: Roughness): Material =
-    fold(
-      IndexedConductorMaterial(eta, k, roughness),
-      isFixed(eta) && isFixed(k) && roughness.isConstant
-    )
+    conductor(IndexedMetal(eta, k), roughness)
 
   def conductor(reflectance: RgbTexture, roughness: Roughness): Material =
-    fold(
-      TintedConductorMaterial(reflectance, roughness),
-      isFixed(reflectance) && roughness.isConstant
-    )
+    conductor(TintedMetal(reflectance), roughness)
 
   /** PBRT 4's dielectric, and PBRT 3's glass. */
   def dielectric(

@@ -30,13 +30,15 @@ final class ConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurve:
 
 object ConductorReflectance:
 
-  /** The metal with `eta` 1 that reflects `reflectance` (below 0.9999) at normal incidence. */
-  def ofReflectance(reflectance: Rgb): ConductorReflectance =
+  /** The metal with `eta` 1 that reflects `reflectance` (below 0.9999) at normal incidence, seen
+    * from a medium of index `outside`.
+    */
+  def ofReflectance(reflectance: Rgb, outside: Float = 1f): ConductorReflectance =
     ConductorReflectance(
-      Rgb.White,
+      Rgb.gray(1f / outside),
       reflectance.map: r =>
         val bounded = clamp(r, 0f, 0.9999f)
-        2f * sqrt(bounded) / sqrt(1f - bounded)
+        2f * sqrt(bounded) / (sqrt(1f - bounded) * outside)
     )
 
 /** [[Fresnel.strongConductor]] in each channel. */

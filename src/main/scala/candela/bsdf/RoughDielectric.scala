@@ -20,6 +20,8 @@ final class RoughDielectric(
     reflectance: Rgb = Rgb.White,
     transmittance: Rgb = Rgb.White
 ) extends Bsdf:
+  import RoughDielectric.{facet, jacobian}
+
   private val maxReflectance = reflectance.max
   private val maxTransmittance = transmittance.max
 
@@ -30,15 +32,6 @@ final class RoughDielectric(
   private def reflects(fresnel: Float): Float =
     val r = fresnel * maxReflectance
     r / (r + (1f - fresnel) * maxTransmittance)
-
-  /** The facet that scatters `o` (above) to `i`; zero if none faces both. */
-  private def facet(o: Vec3, i: Vec3, relative: Float): Vec3 =
-    val across = if i.z > 0f then o + i else o + i * relative
-    if across.isZero then Vec3.Zero
-    else
-      val unit = across.normalized
-      val m = if unit.z < 0f then -unit else unit
-      if (o dot m) > 0f && (i dot m) * i.z > 0f then m else Vec3.Zero
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if wo.z == 0f || wi.z == 0f then Rgb.Black
@@ -55,11 +48,6 @@ final class RoughDielectric(
         else
           val spread = 4f * (o dot m) * jacobian(o, i, m, relative) / (relative * relative)
           transmittance * ((1f - fresnel) * density * spread)
-
-  /** Solid angle of facet normals for that of refracted directions. */
-  private def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
-    val cosI = i dot m
-    Math.abs(cosI) / square(cosI + (o dot m) / relative)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     if wo.z == 0f || wi.z == 0f then 0f
@@ -115,6 +103,25 @@ final class RoughDielectric(
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack
+
+object RoughDielectric:
+
+  /** The facet that scatters `o` (above) to `i`; zero if none faces both.
+    *
+    * @param relative index beyond the interface over that above it
+    */
+  private[bsdf] def facet(o: Vec3, i: Vec3, relative: Float): Vec3 =
+    val across = if i.z > 0f then o + i else o + i * relative
+    if across.isZero then Vec3.Zero
+    else
+      val unit = across.normalized
+      val m = if unit.z < 0f then -unit else unit
+      if (o dot m) > 0f && (i dot m) * i.z > 0f then m else Vec3.Zero
+
+  /** Solid angle of facet normals for that of refracted directions. */
+  private[bsdf] def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val cosI = i dot m
+    Math.abs(cosI) / square(cosI + (o dot m) / relative)
 
 /** The interface of two transparent media, as rough as `distribution` says. */
 object Dielectric:

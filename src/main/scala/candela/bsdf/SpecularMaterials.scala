@@ -9,20 +9,9 @@ import candela.textures.{FloatTexture, RgbTexture}
 final class MirrorMaterial(kr: RgbTexture) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = Mirror(kr(at).map(c => Math.max(c, 0f)))
 
-/** A metal whose reflectance at each angle is known. */
-final class ConductorMaterial(curve: ReflectanceCurve, roughness: Roughness) extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), curve)
-
-/** A metal whose complex index of refraction varies. */
-final class IndexedConductorMaterial(eta: RgbTexture, k: RgbTexture, roughness: Roughness)
-    extends Material:
-  def bsdf(at: ShadingPoint): Bsdf =
-    Conductor(roughness(at), ConductorReflectance(eta(at), k(at)))
-
-/** A metal given by what it reflects at normal incidence. */
-final class TintedConductorMaterial(reflectance: RgbTexture, roughness: Roughness) extends Material:
-  def bsdf(at: ShadingPoint): Bsdf =
-    Conductor(roughness(at), ConductorReflectance.ofReflectance(reflectance(at)))
+/** A metal. */
+final class ConductorMaterial(metal: MetalTexture, roughness: Roughness) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at))
 
 /** Glass, water: reflects and refracts.
   *

@@ -44,6 +44,11 @@ object Spectra:
     else if role == SpectrumRole.Emission then Colorimetry.unitLuminance(s(_))
     else Colorimetry.rgb(s(_), White.D65)
 
+  /** What a reflectance by cosine and wavelength looks like under white light. */
+  def underWhite(reflected: Float => Float => Float)(using site: Site): Float => Rgb =
+    cosTheta =>
+      site.resources.basis.fromSrgb(Colorimetry.rgb(reflected(cosTheta), White.D65))
+
   def value(p: Param, site: Site): Option[SpectralValue] =
     p.paramType match
       case ParamType.Rgb if p.floats.length == 3 =>

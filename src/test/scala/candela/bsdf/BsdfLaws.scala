@@ -18,6 +18,7 @@ abstract class BsdfLaws extends AnyFunSuite:
     * @param isLossless all power is scattered
     * @param compresses refraction scales radiance by the square of the index
     * @param isReciprocal false where the model itself isn't
+    * @param isWalked   values are random numbers with the right mean, and the pdf is but a guide
     */
   protected def obeysLaws(
       name: String,
@@ -25,22 +26,33 @@ abstract class BsdfLaws extends AnyFunSuite:
       isNarrow: Boolean = false,
       isLossless: Boolean = false,
       compresses: Boolean = true,
-      isReciprocal: Boolean = true
+      isReciprocal: Boolean = true,
+      isWalked: Boolean = false
   ): Unit =
     test(s"$name: is finite and not negative for all directions, however awkward"):
-      staysFinite(bsdf)
-    test(s"$name: a sample's weight is f·cos/pdf, its pdf that of its direction"):
-      samplesConsistently(bsdf, isNarrow)
+      staysFinite(bsdf, if isWalked then 10000 else 100000)
+    if isWalked then obeysOnAverage(name, bsdf)
+    else
+      test(s"$name: a sample's weight is f·cos/pdf, its pdf that of its direction"):
+        samplesConsistently(bsdf, isNarrow)
     test(s"$name: scatters ${if isLossless then "all the" else "no more"} power than arrives"):
       conserves(bsdf, isLossless, compresses)
-    if !bsdf.isSpecular && isReciprocal then
+    if !bsdf.isSpecular && isReciprocal && !isWalked then
       test(s"$name: is reciprocal, but for the square of the index in refraction"):
         reciprocates(bsdf)
-    if !bsdf.isSpecular && !isNarrow then
+    if !bsdf.isSpecular && !isNarrow && !isWalked then
       test(s"$name: sampled directions are spread like the pdf"):
         spreadsLikePdf(bsdf)
       test(s"$name: the mean weight of samples is the integral of f·cos"):
         weighsLikeIntegral(bsdf)
+
+  private def obeysOnAverage(name: String, bsdf: Bsdf): Unit =
+    test(s"$name: a sample's pdf is that of its direction, and all of them are at most 1"):
+      guides(bsdf)
+    test(s"$name: is reciprocal on average"):
+      reciprocatesOnAverage(bsdf)
+    test(s"$name: samples send as much everywhere as f·cos says"):
+      sendsLikeValues(bsdf)
 
   private def isSane(c: Rgb): Boolean = c.isFinite && c.r >= 0 && c.g >= 0 && c.b >= 0
   private def isSane(x: Float): Boolean = java.lang.Float.isFinite(x) && x >= 0
@@ -49,11 +61,11 @@ abstract class BsdfLaws extends AnyFunSuite:
     def unit() = Math.min(random.nextDouble().toFloat, OneMinusEpsilon)
     bsdf.sample(wo, unit(), unit(), unit())
 
-  private def staysFinite(bsdf: Bsdf): Unit =
+  private def staysFinite(bsdf: Bsdf, count: Int): Unit =
     val random = SplittableRandom(1)
     val corners = Array(0f, 0.25f, 0.5f, 0.75f, OneMinusEpsilon)
     def corner() = corners(random.nextInt(corners.length))
-    for i <- 0 until 100000 do
+    for i <- 0 until count do
       val (wo, wi) = (Directions.awkward(random), Directions.awkward(random))
       val (f, pdf) = (bsdf.f(wo, wi), bsdf.pdf(wo, wi))
       assert(isSane(f) && isSane(pdf), s"f=$f pdf=$pdf at wo=$wo wi=$wi")
@@ -132,6 +144,44 @@ abstract class BsdfLaws extends AnyFunSuite:
       // A thousandth for the grid.
       val allowed = 4.5 * mean.error + 1e-3 * integral
       assert(Math.abs(mean.mean - integral) <= allowed, s"$mean, not $integral, at wo=$wo")
+
+  private def guides(bsdf: Bsdf): Unit =
+    val random = SplittableRandom(2)
+    for wo <- Directions.few do
+      for _ <- 0 until 2000 do
+        val s = draw(bsdf, wo, random)
+        assert(s.weight.isBlack || s.pdf > 0f)
+        if s.pdf > 0f && !s.isSpecular then assert(bsdf.pdf(wo, s.wi) == s.pdf): Unit
+      val total = Directions.integrals(1, 1, fine = 100)(wi => bsdf.pdf(wo, wi)).sum
+      assert(total < 1.005, s"$total at wo=$wo")
+
+  /** For thirds of both cosines. */
+  private def reciprocatesOnAverage(bsdf: Bsdf): Unit =
+    val random = SplittableRandom(4)
+    val apart = Array.fill(9)(Statistics())
+    def third(w: Vec3) = Math.min((Math.abs(w.z) * 3).toInt, 2)
+    for _ <- 0 until 20000 do
+      val (wo, wi) = (Directions.uniform(random), Directions.uniform(random))
+      apart(3 * third(wo) + third(wi)).add(bsdf.f(wo, wi).g - bsdf.f(wi, wo).g)
+    for part <- apart do assert(Math.abs(part.mean) <= 4.5 * part.error + 1e-6, part)
+
+  private def sendsLikeValues(bsdf: Bsdf): Unit =
+    val (rows, columns, n) = (4, 4, 8000)
+    val random = SplittableRandom(6)
+    for wo <- Directions.few do
+      def parts() = Array.fill(rows * columns)(Statistics())
+      val (sent, said) = (parts(), parts())
+      def add(parts: Array[Statistics], wi: Vec3, power: Double): Unit =
+        val cell = Directions.cell(rows, columns)(wi)
+        for i <- parts.indices do parts(i).add(if i == cell then power else 0.0)
+      for _ <- 0 until n do
+        val s = draw(bsdf, wo, random)
+        add(sent, s.wi, if s.isSpecular then 0.0 else s.weight.g)
+        val wi = Directions.uniform(random)
+        add(said, wi, 4 * Math.PI * bsdf.f(wo, wi).g * Math.abs(wi.z))
+      for (a, b) <- sent.zip(said) do
+        val allowed = 4.5 * Math.hypot(a.error, b.error) + 1e-6
+        assert(Math.abs(a.mean - b.mean) <= allowed, s"samples $a, values $b, at wo=$wo")
 
 /** Mean and standard error of a stream of numbers. */
 final class Statistics:

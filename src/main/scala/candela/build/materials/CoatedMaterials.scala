@@ -1,19 +1,39 @@
 package candela.build
 
-import candela.bsdf.{Material, MaterialFactory as Make}
+import candela.bsdf.{
+  Fresnel, LayerMedium, Material, MaterialFactory as Make, Roughness, RoughnessModel
+}
 import candela.color.{Colorimetry, Rgb, Upsampling}
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture}
+
+/** The parameters of what is between a coat's side and its base. */
+private[build] trait LayerFields extends Fields:
+
+  private[build] final class LayerParameters(
+      val thickness: Field[FloatTexture],
+      val albedo: Field[RgbTexture],
+      val g: Field[FloatTexture],
+      val depth: Field[Int],
+      val walks: Field[Int]
+  ):
+    def medium(using Site): LayerMedium =
+      LayerMedium(thickness(), albedo(), g(), depth(), walks())
+
+  protected final def layerParameters(): LayerParameters = LayerParameters(
+    floatTexture("thickness", "of the coat, mean free paths")(0.01f),
+    rgbTexture("albedo", "of the medium in the coat")(Rgb.Black),
+    floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f),
+    integer("maxdepth", "most interactions within the layers")(10),
+    integer("nsamples", "random walks that are averaged, where layers are walked at random")(1)
+  )
 
 object CoatedDiffuse
-    extends RoughRecipe("coateddiffuse", "diffuse under a dielectric coat", onlyV4, 0f):
+    extends RoughRecipe("coateddiffuse", "diffuse under a dielectric coat", onlyV4, 0f)
+    with LayerFields:
   private val reflectance = rgbTexture("reflectance", "of the base, 0 to 1")(Rgb.gray(0.5f))
-  private val thickness = floatTexture("thickness", "of the coat, mean free paths")(0.01f)
-  private val albedo = rgbTexture("albedo", "of the medium in the coat")(Rgb.Black)
+  private val layers = layerParameters()
   private val eta = spectrum("eta", "index of refraction of the coat")(Indices.glass)
-  private val depth = integer("maxdepth", "most interactions within the layers")(10)
-  declare(floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f))
-  noMeaning("nothing is sampled at random here")(
-    integer("nsamples", "random walks that are averaged")(1)
-  )
   protected def make()(using site: Site): Material =
     val coats = site.resources.coats
     val basis = site.resources.basis
@@ -22,42 +42,69 @@ object CoatedDiffuse
       val base = Upsampling.spectrum(basis.toSrgb(color))
       (f: Float => Float) =>
         basis.fromSrgb(Colorimetry.rgb(nm => f(base(nm)), Colorimetry.White.D65))
+    val index = Indices.one(eta())
+    val medium = layers.medium
     Make
       .coatedDiffuse(
-        reflectance(), roughness(), thickness(), albedo(), Indices.one(eta()), depth(), coats,
+        reflectance(), roughness(), medium.thickness, medium.albedo, index, medium.maxDepth, coats,
         bySpectrum
       )
-      .getOrElse {
-        site.warn(
-          s"a coat that scatters or varies in thickness is not supported yet: ${Materials.instead}"
-        )
-        Make.diffuse(reflectance())
-      }
+      .getOrElse(Make.layeredDiffuse(reflectance(), roughness(), index, medium))
 
 object CoatedConductor
     extends MaterialRecipe("coatedconductor", "a metal under a dielectric coat", onlyV4)
-    with GreyInstead:
-  for layer <- Seq("interface", "conductor") do
-    declare(
-      floatTexture(s"$layer.roughness", "of this side; 0: smooth")(0f),
-      floatTexture(s"$layer.uroughness", "along u", shown = s"$layer.roughness")(0f),
-      floatTexture(s"$layer.vroughness", "along v", shown = s"$layer.roughness")(0f)
+    with LayerFields
+    with MetalFields:
+
+  /** The roughness of one side of the coat. */
+  private final class Side(name: String):
+    private val both = floatTexture(s"$name.roughness", "of this side; 0: smooth")(0f)
+    private val u = along("u")
+    private val v = along("v")
+    private def along(axis: String) =
+      floatTexture(s"$name.${axis}roughness", s"along $axis", shown = s"$name.roughness")(0f)
+    def apply()(using Site): Roughness =
+      val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
+      Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
+
+  private val interface = Side("interface")
+  private val conductor = Side("conductor")
+  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?")(true)
+  private val eta = spectrum("interface.eta", "index of refraction of the coat")(Indices.glass)
+  private val index = metalIndex("conductor.", tint = true)
+  private val layers = layerParameters()
+
+  protected def make()(using Site): Material =
+    val outside = Indices.one(eta())
+    val medium = layers.medium
+    Make.coatedConductor(
+      metal(index, outside),
+      conductor(),
+      interface(),
+      outside,
+      medium,
+      spectral(index, outside).flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
     )
-  declare(
-    bool("remaproughness", "is roughness 0 to 1, or alpha?")(true),
-    floatTexture("thickness", "of the coat, mean free paths")(0.01f),
-    spectrum("interface.eta", "index of refraction of the coat")(Indices.glass),
-    spectrum("conductor.eta", "of the metal", shown = "of copper", typeName = "spectrum texture")(
-      copper("eta")
-    ),
-    spectrum("conductor.k", "of the metal", shown = "of copper", typeName = "spectrum texture")(
-      copper("k")
-    ),
-    rgbTexture("reflectance", "of the metal, instead of eta and k", shown = "none")(Rgb.White),
-    rgbTexture("albedo", "of the medium in the coat")(Rgb.Black),
-    floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f),
-    integer("maxdepth", "most interactions within the layers")(10)
-  )
-  noMeaning("nothing is sampled at random here")(
-    integer("nsamples", "random walks that are averaged")(1)
-  )
+
+  /** What a smooth metal under a smooth coat reflects, if the coat at most absorbs: the sum of all
+    * that goes back and forth.
+    */
+  private def mirrored(
+      metal: Float => Float => Float,
+      eta: Float,
+      medium: LayerMedium
+  ): Option[Float => Float => Float] =
+    for
+      thickness <- medium.thickness.constant
+      albedo <- medium.albedo.constant if albedo.isBlack
+    yield cosTheta =>
+      val outer = Fresnel.dielectric(cosTheta, eta)
+      val inside = Fresnel.cosRefracted(cosTheta, eta)
+      // At both ends of the way down and up
+      val kept = if inside > 0f then exp(-2f * Math.max(thickness, 0f) / inside) else 0f
+      val base = metal(Math.max(inside, 0f))
+      nm =>
+        val trip = base(nm) * kept
+        var sum = 0f
+        for _ <- 0 until (medium.maxDepth + 1) / 2 do sum = trip * (1f + outer * sum)
+        outer + square(1f - outer) * sum

@@ -10,10 +10,19 @@ private[build] object Indices:
     case SpectralValue.Wavelengths(s) => s(_)
     case SpectralValue.Color(c) => Upsampling.unbounded(c)
 
+  /** By wavelength, of a colour that is reflected; a grey is the same everywhere. */
+  def reflectance(c: Rgb): Float => Float =
+    val isGrey = (c - Rgb.gray(c.g)).map(Math.abs(_)).max <= 1e-5f * c.g
+    if isGrey then _ => c.g else Upsampling.spectrum(c)
+
   /** The index at the sodium line (589.3 nm), by which glass is named; dispersion is not
-    * modelled.
+    * modelled. 0 stands for 1, as in pbrt-v4.
     */
-  def one(v: SpectralValue)(using site: Site): Float = v match
+  def one(v: SpectralValue)(using Site): Float =
+    val index = named(v)
+    if index == 0f then 1f else index
+
+  private def named(v: SpectralValue)(using site: Site): Float = v match
     case SpectralValue.Color(c) => c.average
     case SpectralValue.Wavelengths(s) =>
       if s.values.distinct.length > 1 then

@@ -1,90 +1,110 @@
 package candela.build
 
 import candela.bsdf.{
-  ConductorReflectance, Fresnel, Material, MaterialFactory as Make, ReflectanceCurve,
-  StrongConductorReflectance, TabulatedReflectance
+  Fresnel, IndexedMetal, Material, MaterialFactory as Make, MetalTexture,
+  TabulatedReflectance, TintedMetal, UniformMetal
 }
 import candela.color.{Colorimetry, Rgb}
+import candela.math.*
 import candela.scenefile.Dialect
+import candela.textures.RgbTexture
 
-/** Copper, where no metal is named. */
-private[build] def copper(quantity: String): SpectralValue =
-  SpectralValue.Wavelengths(Colorimetry.named(s"metal-Cu-$quantity").get)
+/** The parameters of a metal; those of copper where a scene says nothing. */
+private[build] final class MetalIndex(
+    val eta: Field[SpectrumSource],
+    val k: Field[SpectrumSource],
+    val reflectance: Option[Field[RgbTexture]]
+)
+
+/** How recipes read metals. */
+private[build] trait MetalFields extends SpectrumFields:
+
+  /** @param prefix of the names of the parameters
+    * @param tint   whether a reflectance at normal incidence can be given instead
+    */
+  protected final def metalIndex(prefix: String = "", tint: Boolean = false): MetalIndex =
+    def copper(quantity: String) =
+      SpectralValue.Wavelengths(Colorimetry.named(s"metal-Cu-$quantity").get)
+    def number(name: String, meaning: String) =
+      spectrumTexture(s"$prefix$name", meaning, shown = "of copper")(copper(name))
+    MetalIndex(
+      number("eta", "index of refraction"),
+      number("k", "absorption coefficient"),
+      Option.when(tint):
+        rgbTexture("reflectance", "at normal incidence, instead of eta and k", shown = "none")(
+          Rgb.White
+        )
+    )
+
+  /** A metal of pbrt-v4, whose spectra are kept as long as they are the same everywhere.
+    *
+    * @param outside index of the medium that it is in
+    */
+  protected final def metal(index: MetalIndex, outside: Float = 1f)(using
+      site: Site
+  ): MetalTexture =
+    val tint = index.reflectance.flatMap(_.given_())
+    if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
+      val names = s"`${index.eta.name}` and `${index.k.name}`"
+      site.error(s"\"${site.declaration.name}\" takes `reflectance` or $names, not both")
+    (spectral(index, outside), tint) match
+      case (Some(reflected), _) =>
+        UniformMetal(TabulatedReflectance.of(128)(Spectra.underWhite(reflected)))
+      case (None, Some(reflectance)) => TintedMetal(reflectance, outside)
+      case (None, None) =>
+        def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
+          val color = Colorimetry.rgb(Indices.spectrum(value), Colorimetry.White.D65)
+          site.resources.basis.fromSrgb(color)
+        IndexedMetal(varying(index.eta()), varying(index.k()), outside)
+
+  /** What it reflects, by cosine and wavelength; None if that varies over the surface. */
+  protected final def spectral(index: MetalIndex, outside: Float)(using
+      site: Site
+  ): Option[Float => Float => Float] =
+    index.reflectance.flatMap(_.given_()) match
+      case Some(texture) =>
+        for c <- texture.constant yield
+          val reflectance = Indices.reflectance(site.resources.basis.toSrgb(c))
+          cosTheta =>
+            nm =>
+              val r = clamp(reflectance(nm), 0f, 0.9999f)
+              val k = 2f * sqrt(r) / sqrt(1f - r)
+              Fresnel.conductor(cosTheta, 1f / outside, k / outside)
+      case None =>
+        (index.eta(), index.k()) match
+          case (SpectrumSource.Uniform(eta), SpectrumSource.Uniform(k)) =>
+            val (n, a) = (Indices.spectrum(eta), Indices.spectrum(k))
+            Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
+          case _ => None
 
 object Mirror extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))
   protected def make()(using Site): Material = Make.mirror(kr())
 
-object Metal extends RoughRecipe(
+object Metal
+    extends RoughRecipe(
       "metal",
       "a conductor, by its index of refraction and absorption",
       untilV3,
       0.01f
-    ):
-  private val eta =
-    spectrum(
-      "eta",
-      "index of refraction",
-      shown = "of copper",
-      typeName = "spectrum texture"
-    )(copper("eta"))
-  private val k =
-    spectrum(
-      "k",
-      "absorption coefficient",
-      shown = "of copper",
-      typeName = "spectrum texture"
-    )(copper("k"))
+    )
+    with MetalFields:
+  private val index = metalIndex()
   protected def make()(using site: Site): Material =
     def rgb(v: SpectralValue): Rgb = v match
       case SpectralValue.Color(c) => c
       case SpectralValue.Wavelengths(s) =>
         Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
-    val (n, a) = (rgb(eta()), rgb(k()))
+    val eta = SpectrumSource.textured(index.eta())(rgb)
+    val k = SpectrumSource.textured(index.k())(rgb)
     // pbrt-v2 has the approximation for strongly absorbing metals
-    val curve =
-      if site.dialect == Dialect.V2 then StrongConductorReflectance(n, a)
-      else ConductorReflectance(n, a)
-    Make.conductor(curve, roughness())
+    Make.conductor(IndexedMetal(eta, k, strong = site.dialect == Dialect.V2), roughness())
 
-object Conductor extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f):
-  private val eta =
-    spectrum(
-      "eta",
-      "index of refraction",
-      shown = "of copper",
-      typeName = "spectrum texture"
-    )(copper("eta"))
-  private val k =
-    spectrum(
-      "k",
-      "absorption coefficient",
-      shown = "of copper",
-      typeName = "spectrum texture"
-    )(copper("k"))
-  private val reflectance =
-    rgbTexture(
-      "reflectance",
-      "at normal incidence, instead of eta and k",
-      shown = "none"
-    )(Rgb.White)
-  protected def make()(using site: Site): Material =
-    reflectance.given_() match
-      case Some(r) => Make.conductor(r, roughness())
-      case None =>
-        val curve = reflectanceOf(Indices.spectrum(eta()), Indices.spectrum(k()))
-        Make.conductor(curve, roughness())
-
-  /** Fresnel's equations by wavelength, seen under white light, for each angle. */
-  private def reflectanceOf(eta: Float => Float, k: Float => Float)(using
-      site: Site
-  ): ReflectanceCurve =
-    TabulatedReflectance.of(128): cosTheta =>
-      val reflected = Colorimetry.rgb(
-        nm => Fresnel.conductor(cosTheta, eta(nm), k(nm)),
-        Colorimetry.White.D65
-      )
-      site.resources.basis.fromSrgb(reflected)
+object Conductor
+    extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f)
+    with MetalFields:
+  private val index = metalIndex(tint = true)
+  protected def make()(using Site): Material = Make.conductor(metal(index), roughness())
 
 object ShinyMetal extends RoughRecipe(
       "shinymetal",

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bsdf.{Material, MaterialFactory}
+import candela.bsdf.{InterfaceMaterial, Material, MaterialFactory}
 import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.GrayTexture
@@ -31,4 +31,7 @@ object Mix extends MaterialRecipe("mix", "a blend of two named materials", every
 
   private def named(name: String, parameter: String)(using site: Site): Material =
     val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
-    site.resources.materials(name, at, site.resources, site.problems)
+    val found = site.resources.materials(name, at, site.resources, site.problems)
+    if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
+      site.problems.error(at, s"`$name` is an interface, which can't be a part of \"mix\"")
+    found
