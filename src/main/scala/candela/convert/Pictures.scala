@@ -3,6 +3,7 @@ package candela.convert
 import java.nio.file.InvalidPathException
 
 import candela.base.loop
+import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.scenefile.Param
 
@@ -11,8 +12,18 @@ import candela.scenefile.Param
   */
 object Pictures:
 
-  /** A picture with the values that its file means by itself. */
-  def asExr(s: Statement, p: Param): String = written(s, p)(_.linear.toRgb)
+  /** A picture with the values that its file means by itself, times a colour. */
+  def asExr(s: Statement, p: Param, tint: Rgb = Rgb.White): String =
+    val factors = Array(tint.r, tint.g, tint.b)
+    written(s, p): image =>
+      val made = image.linear.toRgb
+      loop(made.data.length)(i => made.data(i) *= factors(i % 3))
+      made
+
+  /** A single pixel. */
+  def plain(s: Statement, color: Rgb): String =
+    val image = Image(1, 1, Image.RgbNames, Array(color.r, color.g, color.b))
+    s.run.files.add("image", "exr", ImageFiles.exr(image))
 
   /** A picture with `change` applied to the numbers of its file (8 bits: 0 to 1), given a channel.
     */

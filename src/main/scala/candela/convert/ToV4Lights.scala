@@ -32,13 +32,16 @@ object ToV4Lights:
           else if isGray && factor.r != 1f then s.addFloat("scale", factor.r)
 
   private val projection: Step =
-    Step("`mapname`, `I`, `scale`, `fov`", "`filename`, `scale`, `fov`"): s =>
+    Step("`mapname`, `I`, `scale`, `fov`", "`filename` (with the colour), `scale`, `fov`"): s =>
       s.addFloat("fov", s.takeNumber("fov", 45f))
       val factor = s.takeColor("I", Rgb.White) * s.takeColor("scale", Rgb.White)
-      if !Values.isGray(factor) then
-        s.warn(s.declaration.at, "a projection has no colour but its image's in v4")
-      if factor.luminance != 1f then s.addFloat("scale", factor.luminance)
-      for p <- s.take("mapname") do s.addString("filename", Pictures.asExr(s, p))(using p.at)
+      val y = factor.luminance
+      if y != 1f then s.addFloat("scale", y)
+      // v4 knows no colour but the image's, and no projection without one
+      val tint = if y > 0f && !Values.isGray(factor) then factor * (1f / y) else Rgb.White
+      s.take("mapname") match
+        case Some(p) => s.addString("filename", Pictures.asExr(s, p, tint))(using p.at)
+        case None => s.addString("filename", Pictures.plain(s, tint))
 
   val table: Table = Table("LightSource")(
     Rule("point" -> "point")(keep("from"), Emission.toV4("I"), samples),
