@@ -40,6 +40,7 @@ final class CoatedDiffuseMaterial(
     val top = roughness.trowbridgeReitz(at)
     val coat = if family.length == 1 then family(0) else Coats.between(family, top)
     CoatedDiffuse(reflectance(at).map(c => clamp(c, 0f, 1f)), top, coat, baseHits)
+  override def isAnisotropic: Boolean = roughness.isAnisotropic
 
 /** [[FresnelBlend]]: a glossy coat on a diffuse base. */
 final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness)
@@ -49,3 +50,4 @@ final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughne
     ks(at).map(c => Math.max(c, 0f)),
     roughness(at)
   )
+  override def isAnisotropic: Boolean = roughness.isAnisotropic

@@ -74,6 +74,7 @@ final class LayeredDiffuseMaterial(
 
   protected def glossy(at: ShadingPoint): TrowbridgeReitz = LayeredMaterial.NoGloss
   protected def share: Float = 0f
+  override def isAnisotropic: Boolean = top.isAnisotropic
 
 /** A metal as base.
   *
@@ -103,6 +104,8 @@ final class LayeredConductorMaterial(
     TrowbridgeReitz(along(b.alphaX, t.alphaX), along(b.alphaY, t.alphaY))
 
   protected def share: Float = if medium.albedo.constant.exists(_.isBlack) then 0.85f else 0.5f
+
+  override def isAnisotropic: Boolean = top.isAnisotropic || bottom.isAnisotropic
 
 private object LayeredMaterial:
   val NoGloss = TrowbridgeReitz(1f, 1f)

@@ -65,7 +65,8 @@ object MaterialFactory:
           val coat = family(0)
           val series = colored(CoatedDiffuse.series(_, coat, hits))
           ConstantMaterial(
-            new CoatedDiffuse(series, roughness.trowbridgeReitz(ShadingPoint()), coat)
+            new CoatedDiffuse(series, roughness.trowbridgeReitz(ShadingPoint()), coat),
+            roughness.isAnisotropic
           )
         case None =>
           val material = CoatedDiffuseMaterial(reflectance, roughness, family, hits)
@@ -164,6 +165,9 @@ object MaterialFactory:
       Seq(kd, ks, kr, kt, opacity).forall(isFixed) && isFixed(eta) && roughness.isConstant
     )
 
+  def disney(parameters: DisneyParameters): Material =
+    fold(DisneyMaterial(parameters), parameters.isConstant)
+
   private val White = ConstantRgb(Rgb.White)
   private val Zero = ConstantFloat(0f)
   private val Smooth = Roughness(Zero, Zero, RoughnessModel.PlainAlpha)
@@ -173,4 +177,5 @@ object MaterialFactory:
 
   /** No texture looks at the point if all are constant. */
   private def fold(material: Material, isFixed: Boolean): Material =
-    if isFixed then ConstantMaterial(material.bsdf(ShadingPoint())) else material
+    if isFixed then ConstantMaterial(material.bsdf(ShadingPoint()), material.isAnisotropic)
+    else material

@@ -4,28 +4,6 @@ import candela.base.loop
 import candela.color.Rgb
 import candela.math.*
 
-/** Isotropic reflection known by measurement, the same on both sides. Directions are drawn by the
-  * cosine: of such data no better density is known.
-  */
-abstract class MeasuredReflection extends Bsdf:
-
-  /** The measured value in sr⁻¹, for directions on one side. */
-  protected def value(wo: Vec3, wi: Vec3): Rgb
-
-  final def f(wo: Vec3, wi: Vec3): Rgb =
-    if Hemisphere.same(wo, wi) then value(wo, wi) else Rgb.Black
-
-  final def pdf(wo: Vec3, wi: Vec3): Float =
-    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
-
-  final def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
-    else BsdfSample(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
-
-  final def isSpecular: Boolean = false
-  final def isTransmissive: Boolean = false
-
 /** Reflection measured for pairs of directions that lie anywhere: a mean of what was measured
   * nearby.
   *
@@ -40,7 +18,7 @@ abstract class MeasuredReflection extends Bsdf:
   * human skin", EGWR 1999).
   */
 final class ScatteredReflection(points: Array[Float], values: Array[Float])
-    extends MeasuredReflection:
+    extends CosineSampled:
   import ScatteredReflection.*
   private val count = points.length / 3
 
@@ -118,7 +96,7 @@ object ScatteredReflection:
   *
   * Source: Matusik et al., "A Data-Driven Reflectance Model", SIGGRAPH 2003 (the MERL database).
   */
-final class HalfAngleReflection(values: Array[Float]) extends MeasuredReflection:
+final class HalfAngleReflection(values: Array[Float]) extends CosineSampled:
   import HalfAngleReflection.*
 
   protected def value(wo: Vec3, wi: Vec3): Rgb =

@@ -57,6 +57,11 @@ final class Roughness(
 ):
   val isConstant: Boolean = u.constant.isDefined && v.constant.isDefined
 
+  /** Does it depend on the direction along the surface? */
+  val isAnisotropic: Boolean = (u.constant, v.constant) match
+    case (Some(a), Some(b)) => a != b && model != RoughnessModel.BlinnExponent
+    case _ => !(u eq v)
+
   // Only a constant roughness is read from here.
   private val fixed = evaluate(u.constant.getOrElse(1f), v.constant.getOrElse(1f))
 

@@ -12,6 +12,7 @@ final class MirrorMaterial(kr: RgbTexture) extends Material:
 /** A metal. */
 final class ConductorMaterial(metal: MetalTexture, roughness: Roughness) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at))
+  override def isAnisotropic: Boolean = roughness.isAnisotropic
 
 /** Glass, water: reflects and refracts.
   *
@@ -36,6 +37,7 @@ final class DielectricMaterial(
     val transmittance = kt(at).map(c => Math.max(c, 0f))
     if compresses then Dielectric(distribution, index, reflectance, transmittance)
     else SmoothDielectric(index, reflectance, transmittance, compresses = false)
+  override def isAnisotropic: Boolean = roughness.isAnisotropic
 
 /** Which edition of PBRT's layered materials is meant. */
 enum Edition:
@@ -98,6 +100,7 @@ final class UberMaterial(
       )
       .add(SmoothDielectric(index, mirror, clear, compresses = third), interface)
       .result
+  override def isAnisotropic: Boolean = roughness.isAnisotropic
 
 /** A rough and a smooth metal on top of each other, by their reflectances at normal incidence (PBRT
   * 2's "shinymetal"): each gets the index of refraction of the dielectric that reflects as much.

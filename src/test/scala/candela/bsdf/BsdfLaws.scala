@@ -18,6 +18,7 @@ abstract class BsdfLaws extends AnyFunSuite:
     * @param isLossless all power is scattered
     * @param compresses refraction scales radiance by the square of the index
     * @param isReciprocal false where the model itself isn't
+    * @param isPassive  false where the model itself scatters more power than arrives
     * @param isWalked   values are random numbers with the right mean, and the pdf is but a guide
     */
   protected def obeysLaws(
@@ -27,6 +28,7 @@ abstract class BsdfLaws extends AnyFunSuite:
       isLossless: Boolean = false,
       compresses: Boolean = true,
       isReciprocal: Boolean = true,
+      isPassive: Boolean = true,
       isWalked: Boolean = false
   ): Unit =
     test(s"$name: is finite and not negative for all directions, however awkward"):
@@ -35,8 +37,9 @@ abstract class BsdfLaws extends AnyFunSuite:
     else
       test(s"$name: a sample's weight is f·cos/pdf, its pdf that of its direction"):
         samplesConsistently(bsdf, isNarrow)
-    test(s"$name: scatters ${if isLossless then "all the" else "no more"} power than arrives"):
-      conserves(bsdf, isLossless, compresses)
+    if isPassive then
+      test(s"$name: scatters ${if isLossless then "all the" else "no more"} power than arrives"):
+        conserves(bsdf, isLossless, compresses)
     if !bsdf.isSpecular && isReciprocal && !isWalked then
       test(s"$name: is reciprocal, but for the square of the index in refraction"):
         reciprocates(bsdf)

@@ -37,11 +37,24 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assert(p.at.map(_.column).contains(16))
 
   test("a misspelt parameter of a type that is not supported yet is found, too"):
-    val disney = s"Material \"disney\" \"float metalic\" 0.5 $sphere"
-    val found = SceneTexts.problems(s"WorldBegin\n$disney\nLightSource \"point\"\n")
-    assert(found.size == 2 && found.exists(_.message.contains("\"disney\" is not supported yet")))
-    val slip = found.find(_.message.contains("metalic")).get
-    assertWarning(slip, "`metalic` is not a parameter of \"disney\"", "`metallic`")
+    val fourier = s"Material \"fourier\" \"string bsdffil\" \"x\" $sphere"
+    val found = SceneTexts.problems(s"WorldBegin\n$fourier\nLightSource \"point\"\n")
+    assert(found.size == 2 && found.exists(_.message.contains("\"fourier\" is not supported yet")))
+    val slip = found.find(_.message.contains("bsdffil`")).get
+    assertWarning(slip, "`bsdffil` is not a parameter of \"fourier\"", "`bsdffile`")
+
+  test("what scatters below a surface of \"disney\" says what is done instead"):
+    val p = only(s"Material \"disney\" \"rgb scatterdistance\" [1 .5 .2] $sphere")
+    assertWarning(p, "\"disney\" is not supported yet: its diffuse part reflects")
+
+  test("a metal by its index and by its reflectance, or an interface in a mixture, is an error"):
+    val both = "Material \"conductor\" \"rgb reflectance\" [.5 .5 .5] \"rgb k\" [1 1 1] "
+    assert(SceneTexts.problems(s"WorldBegin\n$both$sphere\n", Dialect.V4).exists: p =>
+      p.message == "\"conductor\" takes `reflectance` or `eta` and `k`, not both")
+    val mixed = "MakeNamedMaterial \"air\" \"string type\" \"interface\"\n" +
+      "Material \"mix\" \"string materials\" [\"air\" \"air\"] "
+    assert(SceneTexts.problems(s"WorldBegin\n$mixed$sphere\n", Dialect.V4).exists: p =>
+      p.message == "`air` is an interface, which can't be a part of \"mix\"")
 
   test("a parameter of another dialect is a warning that says so"):
     assertWarning(
@@ -68,7 +81,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertError(only(texture), "no float texture is named `constnat`", "`constant`")
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
-    assertWarning(only(s"Material \"disney\" $sphere"), "grey diffuse")
+    assertWarning(only(s"Material \"fourier\" $sphere"), "grey diffuse")
 
   test("lights that can't shine are left out, with a warning"):
     def light(rest: String) = only(s"LightSource $rest")

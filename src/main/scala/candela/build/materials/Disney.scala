@@ -1,26 +1,51 @@
 package candela.build
 
+import candela.bsdf.{DisneyParameters, Material, MaterialFactory as Make}
 import candela.color.Rgb
 
-object Disney
-    extends MaterialRecipe("disney", "the material of Burley 2012 and 2015", onlyV3)
-    with GreyInstead:
-  declare(
-    rgbTexture("color", "of the surface")(Rgb.gray(0.5f)),
-    floatTexture("metallic", "0: dielectric, 1: metal")(0f),
-    floatTexture("eta", "index of refraction")(1.5f),
-    floatTexture("roughness", "of the surface")(0.5f),
-    floatTexture("speculartint", "highlights white, or of the surface's hue")(0f),
-    floatTexture("anisotropic", "how much highlights are stretched")(0f),
-    floatTexture("sheen", "of cloth, at grazing angles")(0f),
-    floatTexture("sheentint", "sheen white, or of the surface's hue")(0.5f),
-    floatTexture("clearcoat", "a second, thin gloss")(0f),
-    floatTexture("clearcoatgloss", "how sharp that is")(1f),
-    floatTexture("spectrans", "how much is refracted")(0f),
+object Disney extends MaterialRecipe("disney", "the material of Burley 2012 and 2015", onlyV3):
+  private val color = rgbTexture("color", "of the surface")(Rgb.gray(0.5f))
+  private val metallic = floatTexture("metallic", "0: dielectric, 1: metal")(0f)
+  private val eta = floatTexture("eta", "index of refraction")(1.5f)
+  private val roughness = floatTexture("roughness", "of the surface")(0.5f)
+  private val tint = floatTexture("speculartint", "highlights white, or of the surface's hue")(0f)
+  private val anisotropic = floatTexture("anisotropic", "how much highlights are stretched")(0f)
+  private val sheen = floatTexture("sheen", "of cloth, at grazing angles")(0f)
+  private val sheenTint = floatTexture("sheentint", "sheen white, or of the surface's hue")(0.5f)
+  private val clearcoat = floatTexture("clearcoat", "a second, thin gloss")(0f)
+  private val coatGloss = floatTexture("clearcoatgloss", "how sharp that is")(1f)
+  private val transmission = floatTexture("spectrans", "how much is refracted")(0f)
+  private val distance =
     rgbTexture("scatterdistance", "mean free path below the surface", unit = "scene units")(
       Rgb.Black
-    ),
-    bool("thin", "is it a thin sheet?")(false),
-    floatTexture("flatness", "of a thin sheet: how flat it looks")(0f),
+    )
+  private val thin = bool("thin", "is it a thin sheet?")(false)
+  private val flatness = floatTexture("flatness", "of a thin sheet: how flat it looks")(0f)
+  private val diffTrans =
     floatTexture("difftrans", "of a thin sheet: transmitted diffuse light, 0 to 2")(1f)
-  )
+
+  protected def make()(using site: Site): Material =
+    val scatters = distance().constant.forall(!_.isBlack)
+    for p <- site.declaration.param("scatterdistance") if scatters && !thin() do
+      site.problems.warn(
+        p.at,
+        "scattering below the surface of \"disney\" is not supported yet: its diffuse part reflects"
+      )
+    Make.disney(
+      DisneyParameters(
+        color(),
+        metallic(),
+        eta(),
+        roughness(),
+        tint(),
+        anisotropic(),
+        sheen(),
+        sheenTint(),
+        clearcoat(),
+        coatGloss(),
+        transmission(),
+        thin(),
+        flatness(),
+        diffTrans()
+      )
+    )

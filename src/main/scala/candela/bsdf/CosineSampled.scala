@@ -1,0 +1,26 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.math.*
+
+/** Reflection whose directions are drawn by the cosine, because no better density is known; the
+  * same on both sides.
+  */
+abstract class CosineSampled extends Bsdf:
+
+  /** The value in sr⁻¹, for directions on one side. */
+  protected def value(wo: Vec3, wi: Vec3): Rgb
+
+  final def f(wo: Vec3, wi: Vec3): Rgb =
+    if Hemisphere.same(wo, wi) then value(wo, wi) else Rgb.Black
+
+  final def pdf(wo: Vec3, wi: Vec3): Float =
+    if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
+
+  final def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val wi = Hemisphere.cosineSample(wo, u1, u2)
+    if !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
+    else BsdfSample(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
+
+  final def isSpecular: Boolean = false
+  final def isTransmissive: Boolean = false
