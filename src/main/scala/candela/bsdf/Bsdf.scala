@@ -60,6 +60,14 @@ abstract class Material:
   /** Does it scatter differently when turned about its normal? Then the tangent matters. */
   def isAnisotropic: Boolean = false
 
+  /** How light that was sent into the surface here comes out again elsewhere; null: it goes on
+    * straight inside. Asked after [[bsdf]], which may have turned the frame.
+    */
+  def bssrdf(at: ShadingPoint): Bssrdf | Null = null
+
+  /** Does [[bssrdf]] have an answer? */
+  def isSubsurface: Boolean = false
+
 /** No surface at all: rays go straight on (pbrt's "interface" and "none"). */
 object InterfaceMaterial extends Material:
   def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("an interface has no BSDF")

@@ -14,6 +14,8 @@ import candela.textures.{FloatTexture, MipLevel}
   */
 final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isSubsurface: Boolean = inner.isSubsurface
+  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val (p, u, v) = (at.p, at.u, at.v)
@@ -47,6 +49,8 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
   */
 final class NormalMapMaterial(inner: Material, picture: MipLevel) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isSubsurface: Boolean = inner.isSubsurface
+  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val c = picture.bilinear(at.u, 1f - at.v)

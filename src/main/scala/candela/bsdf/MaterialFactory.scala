@@ -144,6 +144,10 @@ object MaterialFactory:
   def thinDielectric(eta: Float): Material =
     ConstantMaterial(ThinDielectric(if eta == 0f then 1f else eta))
 
+  /** PBRT 2's translucent surfaces: always smooth. */
+  def reflectingInterface(kr: RgbTexture, eta: FloatTexture): Material =
+    fold(ReflectingInterfaceMaterial(kr, eta), isFixed(kr) && isFixed(eta))
+
   def plastic(kd: RgbTexture, ks: RgbTexture, roughness: Roughness, edition: Edition): Material =
     fold(
       PlasticMaterial(kd, ks, roughness, edition),

@@ -6,7 +6,7 @@ import scala.collection.mutable
 import scala.util.Try
 
 import candela.base.Suggest
-import candela.bsdf.Coats
+import candela.bsdf.{Coats, ProfileTables}
 import candela.color.ColorBasis
 import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, NameKind, Param}
@@ -21,6 +21,9 @@ final class Resources(val basis: ColorBasis):
 
   /** Tables of coated materials, shared by all of them that are alike. */
   val coats = Coats()
+
+  /** Likewise of media beneath surfaces. */
+  val profiles = ProfileTables()
 
   private var footprints = Vector.empty[String]
 

@@ -86,6 +86,7 @@ final class WorldBuilder(
         "instances" -> instanced.describe,
         "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
+        "subsurface" -> beneath(integrator),
         "ray differentials" ->
           (if resources.footprintUses.isEmpty then "none: no texture asks for them"
            else resources.footprintUses.mkString("for ", ", ", "")),
@@ -97,6 +98,12 @@ final class WorldBuilder(
   private def masked(surfaces: Vector[Surfaces]): String =
     val (meshes, shapes) = (surfaces.map(_.masks.meshes).sum, surfaces.map(_.masks.shapes).sum)
     if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
+
+  private def beneath(integrator: IntegratorPlan): String =
+    val count = materials.count(_.isSubsurface)
+    if count == 0 then "none"
+    else if integrator.goesBeneath then s"light travels beneath $count materials"
+    else s"$count materials show their surface alone: so this integrator does in pbrt, too"
 
   private def warnOfDarkness(): Unit =
     for c <- description.camera do

@@ -17,7 +17,7 @@ import candela.scene.Scene
   * the same mean at a cost that does not double with each bounce.
   * Source: PBRT 3rd ed., §14.3; multiple importance sampling as in Veach 1997, §9.2.
   */
-final class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
+class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
     extends SpecularWalk(scene, maxDepth):
   private val bsdfRay = Ray()
   private val bsdfHit = Hit()

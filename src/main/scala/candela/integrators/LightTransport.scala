@@ -11,7 +11,9 @@ import candela.scene.Scene
 /** What the integrators that walk from the camera share: work space, and light sampling. */
 abstract class LightTransport(protected val scene: Scene) extends Integrator:
   protected val hit = Hit()
-  protected val at = scene.newPoint()
+
+  /** The point that is being lit. */
+  protected var at = scene.newPoint()
   protected val shadowRay = Ray()
   protected val shadowHit = Hit()
   protected val lightSample = LightSample()
@@ -62,10 +64,12 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
       else
         val pdf = selected * lightSample.pdf
         val weight =
-          if combined && !source.isDelta then
-            LightTransport.powerHeuristic(pdf, bsdf.pdf(local, towards))
-          else 1f
+          if combined && !source.isDelta then lightWeight(pdf, bsdf, local, towards) else 1f
         f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
+
+  /** Weight of a light sample of density `pdf` where BSDF sampling finds this light, too. */
+  protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =
+    LightTransport.powerHeuristic(pdf, bsdf.pdf(wo, wi))
 
   /** Can a BSDF that only reflects send light from `wi` to `wo` (world space) at all? */
   protected final def isOpenSide(wi: Vec3, wo: Vec3, bsdf: Bsdf): Boolean =

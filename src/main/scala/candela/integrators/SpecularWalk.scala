@@ -17,6 +17,10 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
   /** Light that the sources send to `at` and on to `wo` (world space). */
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb
 
+  /** All that leaves `at` towards `wo` and did not come by mirrors or glass. */
+  protected def gathered(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    if bsdf.isSpecular then Rgb.Black else direct(bsdf, wo, sampler)
+
   /** What is left to do before a camera ray is followed. */
   protected def begin(ray: Ray): Unit = shadowRay.time = ray.time
 
@@ -40,7 +44,7 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
           scene.passed(ray)
         else
           val bsdf = scene.bsdf(at)
-          if !bsdf.isSpecular then light += throughput * direct(bsdf, wo, sampler)
+          light += throughput * gathered(bsdf, wo, sampler)
           depth += 1
           alive = depth < maxDepth
           if alive then

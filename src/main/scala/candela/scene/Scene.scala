@@ -1,7 +1,7 @@
 package candela.scene
 
 import candela.accel.Accelerator
-import candela.bsdf.{Bsdf, BsdfSample, InterfaceMaterial, Material}
+import candela.bsdf.{Bsdf, BsdfSample, Bssrdf, InterfaceMaterial, Material}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
 import candela.math.Vec3
@@ -82,6 +82,18 @@ final class Scene(
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 
   def bsdf(at: ShadingPoint): Bsdf = materials(at.material).bsdf(at)
+
+  /** Does light travel beneath any surface? */
+  val hasSubsurface: Boolean = materials.exists(_.isSubsurface)
+
+  /** Does it beneath surfaces of this material? */
+  def isSubsurface(material: Int): Boolean = materials(material).isSubsurface
+
+  /** How light travels beneath the surface; null: it does not. */
+  def bssrdf(at: ShadingPoint): Bssrdf | Null = materials(at.material).bssrdf(at)
+
+  /** One material may have several numbers. */
+  def isSameMaterial(a: Int, b: Int): Boolean = materials(a) eq materials(b)
 
   /** The light whose surface `at` is on; only if `at.areaLight` ≥ 0. */
   def surfaceLight(at: ShadingPoint): SurfaceLight = surfaceLights(at.areaLight)

@@ -8,13 +8,15 @@ import candela.scenefile.Dialect
   *
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
+  * @param goesBeneath  does light travel beneath surfaces?
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
   */
 final case class IntegratorPlan(
     make: (Scene, Array[Int]) => Integrator,
     samplesBsdf: Boolean,
     describe: String,
-    followsSpecular: Boolean = true
+    followsSpecular: Boolean = true,
+    goesBeneath: Boolean = false
 )
 
 /** What many integrators have: how far light is followed. */

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.color.Rgb
+import candela.integrators.{DipoleLighting, DirectLighting}
 
 /** pbrt-v2's surface integrators that are not there yet. */
 final class PhotonMap(name: String)
@@ -44,14 +45,26 @@ object IrradianceCache
   )
 
 object DipoleSubsurface
-    extends IntegratorRecipe("dipolesubsurface", "light under surfaces, by a dipole", onlyV2)
-    with PathInstead:
-  declare(
+    extends IntegratorRecipe("dipolesubsurface", "light under surfaces, by a dipole", onlyV2):
+  noMeaning("no points are laid out on surfaces beforehand: each sample draws its own")(
     float("maxerror", "solid angle up to which points are taken together", unit = "sr")(0.05f),
-    float("minsampledistance", "between points on surfaces", unit = "scene units")(0.25f),
+    float("minsampledistance", "between points on surfaces", unit = "scene units")(0.25f)
+  )
+  notYet("light enters all over the surfaces")(
     string("pointsfile", "file of points", shown = "none")("")
   )
-  override protected def depth()(using Site): Int = maxDepth()
+
+  protected def make()(using Site): IntegratorPlan =
+    // Specular bounces, where "directlighting" counts the last surface, too
+    val depth = Math.max(0, maxDepth()) + 1
+    IntegratorPlan(
+      (scene, samples) =>
+        if scene.hasSubsurface then DipoleLighting(scene, depth, samples)
+        else DirectLighting(scene, depth, samples),
+      samplesBsdf = true,
+      "dipolesubsurface, all lights at each point",
+      goesBeneath = true
+    )
 
 object DiffusePrt
     extends Recipe[IntegratorPlan]("diffuseprt", "diffuse transfer, precomputed", onlyV2)

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.integrators.PathTracer
+import candela.integrators.{PathTracer, SubsurfacePathTracer}
 import candela.scenefile.Dialect
 
 final class Path(name: String, meaning: String, dialects: Set[Dialect])
@@ -22,11 +22,18 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
     // v2 lights one vertex more than it counts
     val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
     val patience = if site.dialect == Dialect.V4 then 1 else 4
+    // v2's path and v4's take such a surface for glass, or see its reflection alone
+    val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     IntegratorPlan(
-      (scene, _) => PathTracer(scene, depth, patience, threshold()),
+      (scene, _) =>
+        if goesBeneath && scene.hasSubsurface then
+          val seesThrough = site.dialect == Dialect.V3
+          SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough)
+        else PathTracer(scene, depth, patience, threshold()),
       samplesBsdf = true,
       s"path, up to $depth scattering events",
-      followsSpecular = site.dialect == Dialect.V4
+      followsSpecular = site.dialect == Dialect.V4,
+      goesBeneath = goesBeneath
     )
 
 object SimplePath

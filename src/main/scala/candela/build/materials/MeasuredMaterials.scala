@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bsdf.{ConstantMaterial, Material}
+import candela.bsdf.{ConstantMaterial, FourierBsdf, Material}
 
 /** pbrt-v2's measured reflectance. */
 object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a table", onlyV2):
@@ -41,6 +41,24 @@ object MeasuredBsdf
     if filename().isEmpty then MeasuredTable.unnamed else Materials.default
 
 object Fourier
-    extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3)
-    with GreyInstead:
-  declare(string("bsdffile", "a .bsdf file", shown = "none")(""))
+    extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3):
+  private val bsdffile = string("bsdffile", "a .bsdf file", shown = "none")("")
+
+  protected def make()(using site: Site): Material =
+    site.declaration.param("bsdffile").filter(_ => bsdffile().nonEmpty) match
+      case None =>
+        site.error("\"fourier\" needs a `bsdffile`")
+        Materials.default
+      case Some(p) =>
+        val made =
+          for
+            path <-
+              site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
+            table <- BsdfFile.read(path) match
+              case Right(t) => Some(t)
+              case Left(why) =>
+                val message = s"`${bsdffile()}`: $why"
+                site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
+                None
+          yield ConstantMaterial(FourierBsdf(table))
+        made.getOrElse(StandIns.material(site.resources.basis))

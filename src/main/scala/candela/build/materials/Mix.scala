@@ -3,7 +3,7 @@ package candela.build
 import candela.bsdf.{InterfaceMaterial, Material, MaterialFactory}
 import candela.color.Rgb
 import candela.scenefile.Dialect
-import candela.textures.GrayTexture
+import candela.textures.{GrayTexture, RgbTexture}
 
 object Mix extends MaterialRecipe("mix", "a blend of two named materials", every, bumps = false):
   private val first = string("namedmaterial1", "where `amount` is 1", untilV3, "none")("")
@@ -17,17 +17,17 @@ object Mix extends MaterialRecipe("mix", "a blend of two named materials", every
     if site.dialect == Dialect.V4 then
       both() match
         case Vector(a, b) =>
-          MaterialFactory.mix(
-            named(b, "materials"),
-            named(a, "materials"),
-            GrayTexture(partOfSecond())
-          )
+          mixed(named(b, "materials"), named(a, "materials"), GrayTexture(partOfSecond()))
         case names =>
           site.error(s"`materials` of \"mix\" takes two names of materials; found ${names.length}")
           Materials.default
     else
-      MaterialFactory
-        .mix(named(first(), "namedmaterial1"), named(second(), "namedmaterial2"), part())
+      mixed(named(first(), "namedmaterial1"), named(second(), "namedmaterial2"), part())
+
+  private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
+    if a.isSubsurface || b.isSubsurface then
+      site.warn("light does not travel beneath a mixed surface: it goes straight on inside")
+    MaterialFactory.mix(a, b, amount)
 
   private def named(name: String, parameter: String)(using site: Site): Material =
     val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)

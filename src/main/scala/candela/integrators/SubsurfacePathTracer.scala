@@ -1,0 +1,128 @@
+package candela.integrators
+
+import candela.bsdf.{Bsdf, BsdfSample}
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** [[PathTracer]] for scenes in which light travels beneath surfaces: a path that is sent into such
+  * a surface comes out where a [[SubsurfaceProbe]] finds one, as a part of the same scattering
+  * event.
+  *
+  * @param seesThrough does light of the sources also go straight through a rough surface, where
+  *                    nothing beneath it is in the way? So in pbrt-v3; v4 loses a part of it, that
+  *                    which sampling of the BSDF would have found
+  */
+final class SubsurfacePathTracer(
+    scene: Scene,
+    maxDepth: Int,
+    rouletteAfter: Int,
+    rouletteThreshold: Float,
+    seesThrough: Boolean
+) extends LightTransport(scene):
+  private val probe = SubsurfaceProbe(scene)
+
+  /** Is the point that is being lit the boundary of a medium? */
+  private var atBoundary = false
+
+  def copy(): SubsurfacePathTracer =
+    SubsurfacePathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, seesThrough)
+
+  override def raysTraced: Long = rays + probe.raysTraced
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    shadowRay.time = ray.time
+    var light = Rgb.Black
+    var throughput = Rgb.White
+    var depth = 0
+    var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
+    var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
+    var lastP = Vec3.Zero
+    var lastN = Vec3.Zero
+    var alive = true
+    while alive do
+      rays += 1
+      if !scene.closest(ray, hit) then
+        light += throughput * escaped(
+          ray,
+          (i, source) =>
+            if lastPdf > 0f then
+              val pdf = scene.selection.probability(lastP, lastN, i) *
+                source.pdf(lastP, ray.direction)
+              LightTransport.powerHeuristic(lastPdf, pdf)
+            else 1f
+        )
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        var wo = -ray.direction
+        if at.areaLight >= 0 then
+          val source = scene.surfaceLight(at)
+          val emitted = source.radiance(at, wo)
+          if !emitted.isBlack then
+            val weight =
+              if lastPdf > 0f then
+                val selected = scene.selection.probability(lastP, lastN, at.areaLight)
+                LightTransport.powerHeuristic(lastPdf, selected * source.pdf(lastP, at))
+              else 1f
+            light += throughput * emitted * weight
+        if depth == maxDepth then alive = false
+        else if scene.isInterface(at) then
+          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+          scene.passed(ray)
+        else
+          depth += 1
+          var bsdf = scene.bsdf(at)
+          atBoundary = scene.isSubsurface(at.material)
+          light += throughput * direct(bsdf, wo, sampler)
+          var local = at.frame.toLocal(wo)
+          var bounce = sample(bsdf, local, sampler)
+          throughput = throughput * bounce.weight
+          val inside = if local.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
+          if inside == null then etaScale *= square(bounce.eta)
+          else if !throughput.isBlack then
+            throughput = throughput * probe.enter(at, inside, ray.time, sampler, at)
+            if !throughput.isBlack then
+              atBoundary = false
+              bsdf = inside.entry
+              wo = at.frame.n
+              local = Vec3.Z
+              light += throughput * direct(bsdf, wo, sampler)
+              bounce = sample(bsdf, local, sampler)
+              throughput = throughput * bounce.weight
+          lastPdf = if bounce.isSpecular then 0f else bounce.pdf
+          lastP = at.p
+          lastN = at.frame.n
+          val wi = at.frame.toWorld(bounce.wi)
+          ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+          scene.scattered(ray, at, wo, wi, bounce)
+          alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
+          if alive && depth > rouletteAfter then
+            val q = throughput.max * etaScale
+            if q < rouletteThreshold then
+              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+    light
+
+  private def sample(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    bsdf.sample(wo, choice, sampler.x, sampler.y)
+
+  /** Light of one of the sources, chosen at random. */
+  private def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    if bsdf.isSpecular || scene.lights.length == 0 then Rgb.Black
+    else
+      val choice = sampler.next1D()
+      sampler.next2D()
+      val chosen = scene.selection.choose(at.p, at.frame.n, choice)
+      if chosen < 0 then Rgb.Black
+      else
+        val selected = scene.selection.probability(at.p, at.frame.n, chosen)
+        sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+
+  /** What BSDF sampling sends through the boundary doesn't meet the light. */
+  override protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =
+    if seesThrough && atBoundary && wo.z * wi.z < 0f then 1f
+    else super.lightWeight(pdf, bsdf, wo, wi)

@@ -1,0 +1,112 @@
+package candela.integrators
+
+import candela.bsdf.Bssrdf
+import candela.color.Rgb
+import candela.geometry.{Frame, Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Finds where light that leaves a surface may have entered it: on probe rays that run along one of
+  * three axes, near the place where it leaves. Owned by one worker.
+  *
+  * @param acrossMaterials does any material serve that light travels beneath? Else only the same
+  *
+  * Source: King et al., "BSSRDF Importance Sampling", SIGGRAPH 2013 Talks; PBRT 3rd ed., §15.4.1.
+  */
+final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
+  private val ray = Ray()
+  private val point = ShadingPoint()
+  private var hit = Hit()
+  private var chosen = Hit()
+  private var chosenFrom = Vec3.Zero
+  private var chosenAt = 0f
+  private var traced = 0L
+
+  def raysTraced: Long = traced
+
+  /** Draws a place where light enters that leaves at `at`.
+    *
+    * @param inside how it travels
+    * @param entry  becomes the place; may be `at` itself
+    * @return       the factor of the light that enters there, over the density of the place; black:
+    *               there is none, and `entry` is as it was
+    */
+  def enter(
+      at: ShadingPoint,
+      inside: Bssrdf,
+      time: Float,
+      sampler: Sampler,
+      entry: ShadingPoint
+  ): Rgb =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    // Half of the rays are normal to the surface, and a quarter along either tangent
+    val axis = if choice < 0.5f then 2 else if choice < 0.75f then 0 else 1
+    val within = if axis == 2 then 2f * choice else 4f * choice - (2f + axis)
+    val channel = Math.min((3f * within).toInt, 2)
+    val radius = inside.sample(channel, sampler.x)
+    val reach = inside.reach(channel)
+    if !(radius >= 0f && radius < reach) then Rgb.Black
+    else
+      val phi = TwoPi * sampler.y
+      val half = sqrt(reach * reach - radius * radius)
+      val (x, y) = (radius * cos(phi), radius * sin(phi))
+      val (p, frame) = (at.p, at.frame)
+      val (start, direction) = axis match
+        case 0 => (p + frame.t * x + frame.n * y - frame.s * half, frame.s)
+        case 1 => (p + frame.n * x + frame.s * y - frame.t * half, frame.t)
+        case _ => (p + frame.s * x + frame.t * y - frame.n * half, frame.n)
+      ray.time = time
+      val found = walk(start, direction, 2f * half, at.material, 3f * within - channel)
+      if found == 0 then Rgb.Black
+      else
+        ray.set(chosenFrom, direction, chosenAt)
+        scene.surface(ray, chosen, entry)
+        val density = pdf(p, frame, inside, entry)
+        if density > 0f then inside((p - entry.p).length) * (found / density) else Rgb.Black
+
+  /** Chooses one of the places on the segment where light could get in, all alike.
+    *
+    * @param u of which the choice is made
+    * @return  how many there are
+    */
+  private def walk(start: Vec3, direction: Vec3, length: Float, material: Int, u: Float): Int =
+    var from = start
+    var rest = length
+    var choice = u
+    var found = 0
+    var goesOn = true
+    while goesOn do
+      ray.set(from, direction, rest)
+      traced += 1
+      goesOn = scene.closest(ray, hit)
+      if goesOn then
+        scene.surface(ray, hit, point)
+        if isEntry(point.material, material) then
+          found += 1
+          // The n-th takes the place of the earlier ones with probability 1/n
+          if choice * found < 1f then
+            choice *= found
+            val free = chosen
+            chosen = hit
+            hit = free
+            chosenFrom = from
+            chosenAt = ray.tMax
+          else choice = (choice * found - 1f) / (found - 1)
+        from = point.offsetOrigin(direction)
+        val left = length - ((from - start) dot direction)
+        goesOn = left > 0f && left < rest
+        rest = left
+    found
+
+  private def isEntry(there: Int, here: Int): Boolean =
+    if acrossMaterials then scene.isSubsurface(there) else scene.isSameMaterial(there, here)
+
+  /** The density of the entry for each unit of its area, by all axes. */
+  private def pdf(p: Vec3, frame: Frame, inside: Bssrdf, entry: ShadingPoint): Float =
+    val d = frame.toLocal(entry.p - p)
+    val n = frame.toLocal(entry.geometricNormal)
+    0.25f * Math.abs(n.x) * inside.density(sqrt(d.y * d.y + d.z * d.z)) +
+      0.25f * Math.abs(n.y) * inside.density(sqrt(d.z * d.z + d.x * d.x)) +
+      0.5f * Math.abs(n.z) * inside.density(sqrt(d.x * d.x + d.y * d.y))

@@ -1,0 +1,130 @@
+package candela.math
+
+/** Cubic splines through values at rising nodes: the slope at an inner node is that of the line
+  * through its neighbours, at the first and last that of the outermost piece's chord.
+  *
+  * Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974; as a density: PBRT 3rd
+  * ed., §8.6 and §14.1.5.
+  */
+object CatmullRom:
+  /** What [[weights]] returns for a place beyond the nodes. */
+  inline val Outside = -2
+
+  /** The piece that holds `x`, if the nodes do; else the nearest. */
+  def piece(nodes: Array[Float], x: Float): Int =
+    var low = 0
+    var high = nodes.length - 1
+    while high - low > 1 do
+      val middle = (low + high) >>> 1
+      if nodes(middle) <= x then low = middle else high = middle
+    low
+
+  /** The spline at `x` is Σ to(k)·value(first + k), k from 0 to 3; weights are 0 where there is no
+    * such node.
+    *
+    * @return first, which may be −1; or [[Outside]]
+    */
+  def weights(nodes: Array[Float], x: Float, to: Array[Float]): Int =
+    val last = nodes.length - 1
+    if !(x >= nodes(0) && x <= nodes(last)) then Outside
+    else
+      val i = piece(nodes, x)
+      val width = nodes(i + 1) - nodes(i)
+      val t = (x - nodes(i)) / width
+      val t2 = t * t
+      val t3 = t2 * t
+      val (slope0, slope1) = (t3 - 2f * t2 + t, t3 - t2)
+      to(1) = 2f * t3 - 3f * t2 + 1f
+      to(2) = 3f * t2 - 2f * t3
+      if i > 0 then
+        val w = slope0 * width / (nodes(i + 1) - nodes(i - 1))
+        to(0) = -w
+        to(2) += w
+      else
+        to(0) = 0f
+        to(1) -= slope0
+        to(2) += slope0
+      if i + 2 <= last then
+        val w = slope1 * width / (nodes(i + 2) - nodes(i))
+        to(1) -= w
+        to(3) = w
+      else
+        to(1) -= slope1
+        to(2) += slope1
+        to(3) = 0f
+      i - 1
+
+  /** The value at `x`; 0 beyond the nodes. */
+  def value(nodes: Array[Float], values: Array[Float], x: Float): Float =
+    if !(x >= nodes(0) && x <= nodes(nodes.length - 1)) then 0f
+    else
+      val i = piece(nodes, x)
+      val t = (x - nodes(i)) / (nodes(i + 1) - nodes(i))
+      cubic(nodes, values, i)(t.toDouble).toFloat
+
+  /** The integral from the first node to each. */
+  def integrals(nodes: Array[Float], values: Array[Float]): Array[Float] =
+    val sums = new Array[Float](nodes.length)
+    var sum = 0.0
+    for i <- 0 until nodes.length - 1 do
+      sum += cubic(nodes, values, i).area(1.0) * (nodes(i + 1) - nodes(i))
+      sums(i + 1) = sum.toFloat
+    sums
+
+  /** Where the integral is `u` of the whole one: a sample of the spline as a density.
+    *
+    * @param integrals of the same values, by [[integrals]]
+    */
+  def sample(
+      nodes: Array[Float],
+      values: Array[Float],
+      integrals: Array[Float],
+      u: Float
+  ): Float =
+    val target = u * integrals(integrals.length - 1)
+    val i = piece(integrals, target)
+    val width = nodes(i + 1) - nodes(i)
+    val within = (target - integrals(i)).toDouble / width
+    nodes(i) + width * cubic(nodes, values, i).whereAreaIs(within).toFloat
+
+  /** Where rising values are `y`; the first or last node if they are nowhere. */
+  def invert(nodes: Array[Float], values: Array[Float], y: Float): Float =
+    val last = nodes.length - 1
+    if !(y > values(0)) then nodes(0)
+    else if !(y < values(last)) then nodes(last)
+    else
+      val i = piece(values, y)
+      val width = nodes(i + 1) - nodes(i)
+      nodes(i) + width * cubic(nodes, values, i).whereValueIs(y.toDouble).toFloat
+
+  /** Of a table of rows that lie one after the other, the row that belongs to `x` between the
+    * nodes; all 0 beyond.
+    */
+  def row(nodes: Array[Float], table: Array[Float], x: Float): Array[Float] =
+    val width = table.length / nodes.length
+    val blended = new Array[Float](width)
+    val w = new Array[Float](4)
+    val first = weights(nodes, x, w)
+    if first != Outside then
+      var k = 0
+      while k < 4 do
+        if w(k) != 0f then
+          val from = (first + k) * width
+          var i = 0
+          while i < width do
+            blended(i) += w(k) * table(from + i)
+            i += 1
+        k += 1
+    blended
+
+  private def cubic(nodes: Array[Float], values: Array[Float], i: Int): CubicPiece =
+    val width = nodes(i + 1) - nodes(i)
+    val chord = values(i + 1) - values(i)
+    val d0 =
+      if i > 0 then width * (values(i + 1) - values(i - 1)) / (nodes(i + 1) - nodes(i - 1))
+      else chord
+    val d1 =
+      if i + 2 < nodes.length then
+        width * (values(i + 2) - values(i)) / (nodes(i + 2) - nodes(i))
+      else chord
+    CubicPiece(values(i), values(i + 1), d0, d1)

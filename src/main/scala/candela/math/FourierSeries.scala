@@ -1,0 +1,58 @@
+package candela.math
+
+/** Even Fourier series: Σ a(k)·cos(kφ). The coefficients lie in an array from some place on. */
+object FourierSeries:
+
+  /** The sum of `count` terms. Source of the recurrence: PBRT 3rd ed., §8.6.1. */
+  def value(a: Array[Float], from: Int, count: Int, cosPhi: Float): Float =
+    val twice = 2.0 * cosPhi
+    var before = cosPhi.toDouble // cos((k − 1)φ), of k = 0
+    var current = 1.0
+    var sum = 0.0
+    var k = 0
+    while k < count do
+      sum += a(from + k) * current
+      val next = twice * current - before
+      before = current
+      current = next
+      k += 1
+    sum.toFloat
+
+  /** Draws φ in [0, 2π] with a density proportional to the series, if it is nowhere negative.
+    *
+    * @param a its first coefficient is positive
+    */
+  def sample(a: Array[Float], count: Int, u: Float): Float =
+    // The series is the same on either side of π
+    val half = if u < 0.5f then 2.0 * u else 2.0 - 2.0 * u
+    val target = half * a(0) * Math.PI
+    var low = 0.0
+    var high = Math.PI
+    var phi = half * Math.PI
+    var residual = Double.PositiveInfinity
+    while Math.abs(residual) > Exact && high - low > Exact do
+      if !(phi >= low && phi <= high) then phi = 0.5 * (low + high)
+      // The integral from 0 on, and the value
+      val twice = 2 * Math.cos(phi)
+      var (sinBefore, sin) = (0.0, Math.sin(phi))
+      var (cosBefore, cos) = (1.0, Math.cos(phi))
+      var integral = a(0) * phi
+      var density = a(0).toDouble
+      var k = 1
+      while k < count do
+        integral += a(k) * sin / k
+        density += a(k) * cos
+        val sinNext = twice * sin - sinBefore
+        val cosNext = twice * cos - cosBefore
+        sinBefore = sin
+        sin = sinNext
+        cosBefore = cos
+        cos = cosNext
+        k += 1
+      residual = (integral - target) / a(0)
+      if residual < 0 then low = phi else high = phi
+      if Math.abs(residual) > Exact then phi -= residual * a(0) / density
+    (if u < 0.5f then phi else 2 * Math.PI - phi).toFloat
+
+  /** An angle that no Float can tell from 0, beside others. */
+  private inline val Exact = 1e-9
