@@ -1,7 +1,8 @@
 package candela.bsdf
 
-/** Averages of Fresnel's reflectance over directions, as polynomials of the relative index. `eta` is
-  * the index on the side where light arrives over that beyond: above 1 inside of a denser medium.
+/** Averages of Fresnel's reflectance over directions, as polynomials of the relative index. `eta`
+  * is the index on the side where light arrives over that beyond: above 1 inside of a denser
+  * medium.
   */
 object FresnelMoments:
 

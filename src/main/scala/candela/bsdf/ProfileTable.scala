@@ -73,7 +73,9 @@ final class RadialProfile(radii: Array[Float], values: Array[Float]):
 final class ProfileTables:
   private val made = ConcurrentHashMap[(Float, Float), ProfileTable]
 
-  /** That of [[ProfileTable.beamDiffusion]]; `g` is held to where scattering still spreads light. */
+  /** That of [[ProfileTable.beamDiffusion]]; `g` is held to where scattering still spreads
+    * light.
+    */
   def of(g: Float, eta: Float): ProfileTable =
     made.computeIfAbsent(
       (clamp(g, -ProfileTables.Narrowest, ProfileTables.Narrowest), eta),

@@ -7,8 +7,8 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** [[DirectLighting]], and what comes straight from the sources into translucent surfaces and out of
-  * them again elsewhere.
+/** [[DirectLighting]], and what comes straight from the sources into translucent surfaces and out
+  * of them again elsewhere.
   *
   * @param maxDepth     most specular bounces, plus one
   * @param lightSamples how often each light is sampled at a point

@@ -31,7 +31,7 @@ final class ShapeRecipesSuite
     )
 
 final class MaterialRecipesSuite
-    extends RecipeLaws[Material](Materials.all, demanding = Set("measured", "mix"))
+    extends RecipeLaws[Material](Materials.all, demanding = Set("measured", "fourier", "mix"))
 
 final class LightRecipesSuite
     extends RecipeLaws[LightPlan](

@@ -31,7 +31,7 @@ abstract class SubsurfaceRecipe(
 
   protected def interior()(using Site): Interior
 
-  protected def make()(using site: Site): Material = 
+  protected def make()(using site: Site): Material =
     SubsurfaceMaterial(boundary(), interior())
 
   private def boundary()(using site: Site): Material = site.dialect match
