@@ -14,8 +14,7 @@ final case class MediumCoefficients(absorption: Rgb, scattering: Rgb)
 
 /** Media that were measured, by the names that pbrt gives them; in 1/mm.
   *
-  * Sources: Jensen et al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001, fig.
-  * 5;
+  * Sources: Jensen et al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001;
   * Narasimhan et al., "Acquiring Scattering Properties of Participating Media by Dilution",
   * SIGGRAPH 2006.
   */

@@ -76,8 +76,8 @@ object SceneBuilder:
     def footprints =
       val cone = Option.when(isV4)(PixelCone.of(camera, eye, width, height, scale))
       Footprints(integrator.followsSpecular, cone)
-    val world = WorldBuilder(description, shutter, resources, problems)
-      .build(integrator, footprints)
+    val world =
+      WorldBuilder(description, integrator, shutter, resources, problems).build(footprints)
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -99,7 +99,7 @@ object SceneBuilder:
     )
     (plan, problems.result)
 
-  private val NoPlace = candela.base.SourcePos("", 0, 0)
+  private[build] val NoPlace = candela.base.SourcePos("", 0, 0)
   private val NoFolder = java.nio.file.Path.of("")
 
   /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
@@ -118,9 +118,6 @@ object SceneBuilder:
     def check(recipes: Recipes[?], statement: Declaration): Unit =
       val _ = recipes.build(Site(statement, d.dialect, resources, problems))
     for r <- d.renderer do check(Renderers.all, r)
-    for v <- d.volumeIntegrator do check(VolumeIntegrators.all, v)
-    for v <- d.volumes do check(Volumes.all, v.light)
-    for m <- d.media do check(Media.all, m.medium)
 
   private def cropOf(
       film: FilmSettings,

@@ -4,11 +4,12 @@ import scala.collection.mutable
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Accelerator, Bvh, Instances, Primitives}
-import candela.bsdf.Material
+import candela.bsdf.{InterfaceMaterial, Material}
 import candela.cameras.Shutter
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
 import candela.math.{Motion, Transform}
+import candela.media.MediumBorder
 import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
 import candela.shapes.{BumpTangents, Shape}
@@ -23,12 +24,15 @@ final class World(
 /** Makes shapes, materials and lights of a description. */
 final class WorldBuilder(
     description: SceneDescription,
+    integratorPlan: IntegratorPlan,
     shutter: Shutter,
     resources: Resources,
     problems: Findings
 ):
   private val materials = ArrayBuffer.empty[Material]
-  private val materialOf = mutable.HashMap.empty[MaterialRef, Int]
+  private val borders = ArrayBuffer.empty[MediumBorder]
+  private val materialOf = mutable.HashMap.empty[(MaterialRef, MediumBorder), Int]
+  private val madeOf = mutable.HashMap.empty[MaterialRef, Material]
   private val world = SurfaceBuilder()
   private val lights = ArrayBuffer.empty[Light]
   private val lightSamples = ArrayBuffer.empty[Int]
@@ -36,11 +40,13 @@ final class WorldBuilder(
   /** Lights of mesh triangles can be made only when all triangles are known. */
   private val meshLights = ArrayBuffer.empty[MeshLights]
 
+  private val media = MediaBuilder(description, integratorPlan, resources, problems)
+
   private def site(d: Declaration, toWorld: Transform = Transform.Identity) =
     Site(d, description.dialect, resources, problems, toWorld)
 
   /** @param footprints made if a texture or a material has asked for them */
-  def build(integrator: IntegratorPlan, footprints: => Footprints): World =
+  def build(footprints: => Footprints): World =
     for t <- description.textures do
       if t.textureToWorld.isAnimated then problems.warn(t.texture.at, Motions.stands("a texture"))
       Textures.define(t, site(t.texture, t.textureToWorld.start))
@@ -60,7 +66,7 @@ final class WorldBuilder(
     val triangles = surfaces.soup
     for (light, k) <- meshLights.flatMap(_.of(triangles)) do lights(k) = light
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
-    val complete = !integrator.samplesBsdf || description.dialect != Dialect.V4
+    val complete = !integratorPlan.samplesBsdf || description.dialect != Dialect.V4
     for (l, made) <- description.lights.zip(lightPlans) do addLight(l, made, complete)
     val instanced = instances(objects, uses.shared.map(_.places))
     val accelerator = accelerate(surfaces, instanced.instances)
@@ -77,8 +83,15 @@ final class WorldBuilder(
       Option.when(resources.footprintUses.nonEmpty)(footprints)
     )
     if sources.isEmpty && !problems.hasErrors then warnOfDarkness()
+    val (integrator, inMedia) = media.integrator(
+      scene,
+      lightSamples.toArray,
+      borders.toArray,
+      hasInterfaces = materials.exists(_ eq InterfaceMaterial),
+      reach = 2f * accelerator.bounds.radius
+    )
     World(
-      integrator.make(scene, lightSamples.toArray),
+      integrator,
       Vector(
         "accelerator" -> accelerator.describe,
         "triangles" -> triangles.count.toString,
@@ -86,10 +99,11 @@ final class WorldBuilder(
         "instances" -> instanced.describe,
         "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
-        "subsurface" -> beneath(integrator),
+        "subsurface" -> beneath,
         "ray differentials" ->
           (if resources.footprintUses.isEmpty then "none: no texture asks for them"
            else resources.footprintUses.mkString("for ", ", ", "")),
+        "media" -> inMedia,
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
       ),
       instanced.instances.moving > 0
@@ -99,10 +113,10 @@ final class WorldBuilder(
     val (meshes, shapes) = (surfaces.map(_.masks.meshes).sum, surfaces.map(_.masks.shapes).sum)
     if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
 
-  private def beneath(integrator: IntegratorPlan): String =
+  private def beneath: String =
     val count = materials.count(_.isSubsurface)
     if count == 0 then "none"
-    else if integrator.goesBeneath then s"light travels beneath $count materials"
+    else if integratorPlan.goesBeneath then s"light travels beneath $count materials"
     else s"$count materials show their surface alone: so this integrator does in pbrt, too"
 
   private def warnOfDarkness(): Unit =
@@ -126,7 +140,7 @@ final class WorldBuilder(
     val (declared, itsMaterial) = shapeMaterials.split(s.shape, s.material)
     val here = site(declared)
     for geometry <- Shapes.all.build(here).flatten do
-      val material = materialIndex(itsMaterial)
+      val material = materialIndex(itsMaterial, media.border(s))
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)).flatten)
 
       def place(g: ShapeGeometry): Unit = g match
@@ -211,19 +225,20 @@ final class WorldBuilder(
       lights += light
       lightSamples += plan.samples
 
-  /** Index of the material, made when it is first used. */
-  private def materialIndex(ref: MaterialRef): Int =
+  /** Index of the material, with its own for each border of media. */
+  private def materialIndex(ref: MaterialRef, border: MediumBorder): Int =
     materialOf.getOrElseUpdate(
-      ref, {
-        val made = ref match
-          case MaterialRef.Default => Materials.default
-          case MaterialRef.Inline(d) => Materials.build(site(d))
-          case MaterialRef.Named(name, at) =>
-            resources.materials(name, at, resources, problems)
-        materials += made
+      (ref, border), {
+        materials += madeOf.getOrElseUpdate(ref, material(ref))
+        borders += border
         materials.length - 1
       }
     )
+
+  private def material(ref: MaterialRef): Material = ref match
+    case MaterialRef.Default => Materials.default
+    case MaterialRef.Inline(d) => Materials.build(site(d))
+    case MaterialRef.Named(name, at) => resources.materials(name, at, resources, problems)
 
   private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
   private lazy val shapeMaterials = ShapeMaterials(description.dialect, named)

@@ -17,14 +17,19 @@ import candela.scene.Scene
   * Buhler, "A Rapid Hierarchical Rendering Technique for Translucent Materials", SIGGRAPH 2002);
   * here each sample draws a place of its own, and light from one source.
   */
-final class DipoleLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
-    extends DirectLighting(scene, maxDepth, lightSamples):
+final class DipoleLighting(
+    scene: Scene,
+    maxDepth: Int,
+    lightSamples: Array[Int],
+    volumes: VolumeMarch | Null = null
+) extends DirectLighting(scene, maxDepth, lightSamples, volumes):
   private val probe = SubsurfaceProbe(scene, acrossMaterials = true)
   private val entry = scene.newPoint()
 
-  override def copy(): DipoleLighting = DipoleLighting(scene, maxDepth, lightSamples)
+  override def copy(): DipoleLighting =
+    DipoleLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
-  override def raysTraced: Long = rays + probe.raysTraced
+  override def raysTraced: Long = super.raysTraced + probe.raysTraced
 
   override protected def gathered(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
     val fromSurface = super.gathered(bsdf, wo, sampler)

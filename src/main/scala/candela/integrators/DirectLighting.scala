@@ -17,13 +17,18 @@ import candela.scene.Scene
   * the same mean at a cost that does not double with each bounce.
   * Source: PBRT 3rd ed., §14.3; multiple importance sampling as in Veach 1997, §9.2.
   */
-class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
-    extends SpecularWalk(scene, maxDepth):
+class DirectLighting(
+    scene: Scene,
+    maxDepth: Int,
+    lightSamples: Array[Int],
+    volumes: VolumeMarch | Null = null
+) extends SpecularWalk(scene, maxDepth, volumes):
   private val bsdfRay = Ray()
   private val bsdfHit = Hit()
   private val met = ShadingPoint()
 
-  def copy(): DirectLighting = DirectLighting(scene, maxDepth, lightSamples)
+  def copy(): DirectLighting =
+    DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
   override protected def begin(ray: Ray): Unit =
     super.begin(ray)
@@ -69,11 +74,15 @@ class DirectLighting(scene: Scene, maxDepth: Int, lightSamples: Array[Int])
         else
           val source = scene.surfaceLight(met)
           val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, met))
-          bounce.weight * source.radiance(met, -wi) * (weight / selected)
+          bounce.weight * dimmed(source.radiance(met, -wi)) * (weight / selected)
       else
         val found = scene.environmentIndex.indexOf(light)
         if found < 0 then Rgb.Black
         else
           val source = scene.environments(found)
           val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, wi))
-          bounce.weight * source.radiance(at.p, wi) * (weight / selected)
+          bounce.weight * dimmed(source.radiance(at.p, wi)) * (weight / selected)
+
+  private def dimmed(light: Rgb): Rgb =
+    val march = volumes
+    if march == null then light else light * march.dimming(bsdfRay, stepsToLights)

@@ -8,8 +8,14 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** What the integrators that walk from the camera share: work space, and light sampling. */
-abstract class LightTransport(protected val scene: Scene) extends Integrator:
+/** What the integrators that walk from the camera share: work space, and light sampling.
+  *
+  * @param volumes what dims light between surfaces, if anything does
+  */
+abstract class LightTransport(
+    protected val scene: Scene,
+    protected val volumes: VolumeMarch | Null = null
+) extends Integrator:
   protected val hit = Hit()
 
   /** The point that is being lit. */
@@ -19,7 +25,12 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
   protected val lightSample = LightSample()
   protected var rays = 0L
 
-  def raysTraced: Long = rays
+  def raysTraced: Long =
+    val march = volumes
+    if march == null then rays else rays + march.raysTraced
+
+  /** Size of steps through volumes towards lights, in that of the steps towards the camera. */
+  protected def stepsToLights: Float = VolumeMarch.StepsToLights
 
   /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight`
     * of its index and itself.
@@ -65,7 +76,11 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
         val pdf = selected * lightSample.pdf
         val weight =
           if combined && !source.isDelta then lightWeight(pdf, bsdf, local, towards) else 1f
-        f * lightSample.radiance * (Math.abs(wi.z) * weight / pdf)
+        val march = volumes
+        val arriving =
+          if march == null then lightSample.radiance
+          else lightSample.radiance * march.dimming(shadowRay, stepsToLights)
+        f * arriving * (Math.abs(wi.z) * weight / pdf)
 
   /** Weight of a light sample of density `pdf` where BSDF sampling finds this light, too. */
   protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =
@@ -77,19 +92,13 @@ abstract class LightTransport(protected val scene: Scene) extends Integrator:
       ((wi dot at.geometricNormal) > 0f) == ((wo dot at.geometricNormal) > 0f)
 
   /** The local `wi`, put on the side of `wo` if geometry has decided that it is a reflection. */
-  private def onSide(wi: Vec3, wo: Vec3, bsdf: Bsdf): Vec3 =
+  protected final def onSide(wi: Vec3, wo: Vec3, bsdf: Bsdf): Vec3 =
     if !scene.sidesByGeometry || bsdf.isTransmissive || (wi.z > 0f) == (wo.z > 0f) then wi
     else Vec3(wi.x, wi.y, -wi.z)
 
   /** Is something between the shading point and the chosen point on the light? */
   private def isBlocked(): Boolean =
-    val origin = at.offsetOrigin(lightSample.wi)
-    if lightSample.isInfinite then
-      shadowRay.set(origin, lightSample.wi, Float.PositiveInfinity)
-    else
-      val target = lightSample.target
-      val end = ShadingPoint.offset(target.p, target.pError, target.n, -lightSample.wi)
-      shadowRay.set(origin, end - origin, LightTransport.ShadowEnd)
+    LightTransport.towards(at.offsetOrigin(lightSample.wi), lightSample, shadowRay)
     rays += 1
     scene.isOccluded(shadowRay, shadowHit)
 
@@ -98,6 +107,16 @@ object LightTransport:
     * its two ends must not reach the light's own surface.
     */
   inline val ShadowEnd = 0.9999f
+
+  /** Sets a ray from `origin` to the point that was sampled on a light. */
+  def towards(origin: Vec3, sample: LightSample, ray: Ray): Unit =
+    if sample.isInfinite then ray.set(origin, sample.wi, Float.PositiveInfinity)
+    else ray.set(origin, end(sample) - origin, ShadowEnd)
+
+  /** Of a shadow ray: beside the point on the light, so that it does not meet the light itself. */
+  def end(sample: LightSample): Vec3 =
+    val target = sample.target
+    ShadingPoint.offset(target.p, target.pError, target.n, -sample.wi)
 
   /** Weight of a sample drawn with density `a` where `b` could have drawn it too.
     *

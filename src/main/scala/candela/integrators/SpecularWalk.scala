@@ -12,7 +12,8 @@ import candela.scene.Scene
   *
   * @param maxDepth most specular bounces, plus one
   */
-abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(scene):
+abstract class SpecularWalk(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null)
+    extends LightTransport(scene, volumes):
 
   /** Light that the sources send to `at` and on to `wo` (world space). */
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb
@@ -26,13 +27,20 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int) extends LightTransport(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     begin(ray)
+    val march = volumes
+    if march != null then march.start(ray, sampler)
     var light = Rgb.Black
     var throughput = Rgb.White
     var depth = 0
     var alive = true
     while alive do
       rays += 1
-      if !scene.closest(ray, hit) then
+      val met = scene.closest(ray, hit)
+      if march != null then
+        march.march(ray, sampler)
+        light += throughput * march.light
+        throughput = throughput * march.transmitted
+      if !met then
         light += throughput * escaped(ray, (_, _) => 1f)
         alive = false
       else

@@ -14,9 +14,12 @@ import candela.scene.Scene
   * Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; one
   * random specular branch instead of a tree, as in [[DirectLighting]].
   */
-final class Whitted(scene: Scene, maxDepth: Int) extends SpecularWalk(scene, maxDepth):
+final class Whitted(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null = null)
+    extends SpecularWalk(scene, maxDepth, volumes):
 
-  def copy(): Whitted = Whitted(scene, maxDepth)
+  def copy(): Whitted = Whitted(scene, maxDepth, VolumeMarch.copy(volumes))
+
+  override protected def stepsToLights: Float = 1f
 
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
     var sum = Rgb.Black

@@ -3,6 +3,7 @@ package candela.build
 import candela.bsdf.Material
 import candela.film.Filter
 import candela.math.Transform
+import candela.media.{Medium, Region}
 import candela.sampling.Sampler
 import candela.textures.{FloatTexture, RgbTexture}
 
@@ -51,12 +52,17 @@ final class FloatTextureRecipesSuite
 final class RgbTextureRecipesSuite
     extends RecipeLaws[RgbTexture](Textures.colors, Set("imagemap"))
 
-final class MediumRecipesSuite extends RecipeLaws[Unit](Media.all)
+final class MediumRecipesSuite
+    extends RecipeLaws[Option[Medium]](
+      Media.all,
+      demanding = Set("heterogeneous", "uniformgrid", "rgbgrid")
+    )
 
-final class VolumeRecipesSuite extends RecipeLaws[Unit](Volumes.all)
+final class VolumeRecipesSuite
+    extends RecipeLaws[Option[Region]](Volumes.all, demanding = Set("volumegrid"))
 
 final class RendererRecipesSuite extends RecipeLaws[Unit](Renderers.all)
 
-final class VolumeIntegratorRecipesSuite extends RecipeLaws[Unit](VolumeIntegrators.all)
+final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](VolumeIntegrators.all)
 
 final class OptionRecipesSuite extends RecipeLaws[SceneSettings](SceneOptionRecipes.all)

@@ -19,7 +19,10 @@ object Direct
       (scene, samples) => DirectLighting(scene, depth, if every then samples else Array.empty),
       // Only when each light has its turn can one of them be left to BSDF sampling
       samplesBsdf = every,
-      s"directlighting, ${if every then "all lights" else "one light"} at each point"
+      s"directlighting, ${if every then "all lights" else "one light"} at each point",
+      throughVolumes = Some((scene, samples, march) =>
+        DirectLighting(scene, depth, if every then samples else Array.empty, march)
+      )
     )
 
 object WhittedRecipe
@@ -28,7 +31,12 @@ object WhittedRecipe
 
   protected def make()(using Site): IntegratorPlan =
     val depth = Math.max(1, maxDepth())
-    IntegratorPlan((scene, _) => Whitted(scene, depth), samplesBsdf = false, "whitted")
+    IntegratorPlan(
+      (scene, _) => Whitted(scene, depth),
+      samplesBsdf = false,
+      "whitted",
+      throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
+    )
 
 object AmbientOcclusion
     extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees")

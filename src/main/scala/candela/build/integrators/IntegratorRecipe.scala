@@ -1,6 +1,7 @@
 package candela.build
 
-import candela.integrators.{Integrator, PathTracer}
+import candela.integrators.*
+import candela.media.SceneMedia
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -10,13 +11,17 @@ import candela.scenefile.Dialect
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
+  * @param throughMedia   makes the integrator where there are media, if it sees them
+  * @param throughVolumes likewise for v2's volumes
   */
 final case class IntegratorPlan(
     make: (Scene, Array[Int]) => Integrator,
     samplesBsdf: Boolean,
     describe: String,
     followsSpecular: Boolean = true,
-    goesBeneath: Boolean = false
+    goesBeneath: Boolean = false,
+    throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
+    throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )
 
 /** What many integrators have: how far light is followed. */
@@ -38,11 +43,20 @@ trait PathInstead extends Recipe[IntegratorPlan]:
 
   protected def depth()(using Site): Int = 5
 
+  /** Does it see media in v3 and v4? */
+  protected def seesMedia: Boolean = false
+
   protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
     IntegratorPlan(
       (scene, _) => PathTracer(scene, most, 1, 1f),
       samplesBsdf = true,
       s"path, up to $most scattering events",
-      followsSpecular = site.dialect == Dialect.V4
+      followsSpecular = site.dialect == Dialect.V4,
+      throughMedia =
+        Option.when(seesMedia)((scene, media) =>
+          VolumePathTracer(scene, media, most, 1, 1f, site.dialect == Dialect.V3)
+        ),
+      throughVolumes =
+        Some((scene, _, march) => PathThroughVolumes(scene, march, most, 1, 1f))
     )

@@ -4,6 +4,7 @@ package candela.build
 object Bdpt
     extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
     with PathInstead:
+  override protected def seesMedia: Boolean = true
   declare(
     bool("visualizestrategies", "write an image for each way to join")(false),
     bool("visualizeweights", "write their weights")(false),
@@ -18,6 +19,7 @@ object Bdpt
 object Mlt
     extends IntegratorRecipe("mlt", "Metropolis light transport", sinceV3)
     with PathInstead:
+  override protected def seesMedia: Boolean = true
   declare(
     integer("bootstrapsamples", "paths to start with")(100000),
     integer("chains", "Markov chains")(1000),

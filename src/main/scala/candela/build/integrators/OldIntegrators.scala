@@ -63,7 +63,11 @@ object DipoleSubsurface
         else DirectLighting(scene, depth, samples),
       samplesBsdf = true,
       "dipolesubsurface, all lights at each point",
-      goesBeneath = true
+      goesBeneath = true,
+      throughVolumes = Some((scene, samples, march) =>
+        if scene.hasSubsurface then DipoleLighting(scene, depth, samples, march)
+        else DirectLighting(scene, depth, samples, march)
+      )
     )
 
 object DiffusePrt

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.integrators.{PathTracer, SubsurfacePathTracer}
+import candela.integrators.*
 import candela.scenefile.Dialect
 
 final class Path(name: String, meaning: String, dialects: Set[Dialect])
@@ -31,9 +31,15 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
           SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough)
         else PathTracer(scene, depth, patience, threshold()),
       samplesBsdf = true,
-      s"path, up to $depth scattering events",
+      s"$name, up to $depth scattering events",
       followsSpecular = site.dialect == Dialect.V4,
-      goesBeneath = goesBeneath
+      goesBeneath = goesBeneath,
+      throughMedia = Option.when(name == "volpath")((scene, media) =>
+        VolumePathTracer(scene, media, depth, patience, threshold(), site.dialect == Dialect.V3)
+      ),
+      throughVolumes = Some((scene, _, march) =>
+        PathThroughVolumes(scene, march, depth, patience, threshold())
+      )
     )
 
 object SimplePath
@@ -48,6 +54,7 @@ object SimplePath
 object SimpleVolPath
     extends IntegratorRecipe("simplevolpath", "path tracing through media, without lights", onlyV4)
     with PathInstead:
+  override protected def seesMedia: Boolean = true
   override protected def depth()(using Site): Int = maxDepth()
 
 object RandomWalk

@@ -1,34 +1,71 @@
 package candela.build
 
 import candela.color.Rgb
-import candela.math.Vec3
+import candela.geometry.Bounds3
+import candela.math.*
+import candela.media.*
 
 /** What all volumes of v2 have. */
 abstract class VolumeRecipe(name: String, meaning: String)
-    extends Recipe[Unit](name, meaning, onlyV2)
-    with Vacuum:
-  declare(
-    color("sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black),
-    color("sigma_s", "scattering coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black),
-    float("g", "asymmetry of scattering, -1 to 1")(0f),
-    color("Le", "emitted radiance", SpectrumRole.Emission, unit = "W/(m³ sr)")(Rgb.Black),
-    point("p0", "a corner of the box")(Vec3.Zero),
-    point("p1", "the opposite one")(Vec3(1f, 1f, 1f))
-  )
+    extends Recipe[Option[Region]](name, meaning, onlyV2)
+    with Scatters
+    with HasBox:
+  private val sigmaA =
+    color("sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black)
+  private val sigmaS =
+    color("sigma_s", "scattering coefficient", SpectrumRole.Reflectance, unit = PerUnit)(Rgb.Black)
+  private val emitted =
+    color("Le", "emitted radiance", SpectrumRole.Emission, unit = "W/(m³ sr)")(Rgb.Black)
 
-object HomogeneousVolume extends VolumeRecipe("homogeneous", "the same everywhere in a box")
+  protected def absorption()(using Site): Rgb = held(sigmaA(), "sigma_a")
+  protected def scattering()(using Site): Rgb = held(sigmaS(), "sigma_s")
+  protected def light()(using Site): Rgb = held(emitted(), "Le")
+
+  /** The box, if it and its place in the world can be had; else it was said that they can't. */
+  protected def box()(using site: Site): Option[Bounds3] =
+    val (low, high) = corners(sorted = true)
+    val size = high - low
+    val hasVolume = size.isFinite && size.x > 0f && size.y > 0f && size.z > 0f
+    if !hasVolume || site.toWorld.isFlat then
+      site.warn("this volume is empty: it is left out")
+      None
+    else Some(Bounds3(low, high))
+
+object HomogeneousVolume extends VolumeRecipe("homogeneous", "the same everywhere in a box"):
+  protected def make()(using site: Site): Option[Region] =
+    box().map(UniformRegion(site.toWorld, _, absorption(), scattering(), light(), phase()))
 
 object ExponentialVolume extends VolumeRecipe("exponential", "thinner with height: a exp(-b h)"):
-  declare(
-    float("a", "density at height 0")(1f),
-    float("b", "how fast it falls", unit = PerUnit)(1f),
-    vector("updir", "along which height is measured")(Vec3.Y)
-  )
+  private val ground = float("a", "density at height 0")(1f)
+  private val fall = float("b", "how fast it falls", unit = PerUnit)(1f)
+  private val up = vector("updir", "along which height is measured")(Vec3.Y)
 
-object VolumeGrid extends VolumeRecipe("volumegrid", "a grid of densities"):
-  declare(
-    numbers("density", "float[]", "nx by ny by nz densities, x first"),
-    integer("nx", "cells along x")(1),
-    integer("ny", "cells along y")(1),
-    integer("nz", "cells along z")(1)
-  )
+  protected def make()(using site: Site): Option[Region] =
+    val direction = up()
+    if direction.isZero then
+      site.error("`updir` has no direction")
+      None
+    else
+      for b <- box()
+      yield ExponentialRegion(
+        site.toWorld,
+        b,
+        absorption(),
+        scattering(),
+        light(),
+        phase(),
+        direction.normalized,
+        Math.max(0f, ground()),
+        fall()
+      )
+
+object VolumeGrid extends VolumeRecipe("volumegrid", "a grid of densities") with HasGrid:
+  private val density = numbers("density", "float[]", "nx by ny by nz densities, x first")
+
+  protected def make()(using site: Site): Option[Region] =
+    for
+      b <- box()
+      grids <- samples("density", density())
+    yield GridRegion(
+      site.toWorld, b, absorption(), scattering(), light(), phase(), grids.head
+    )

@@ -1,0 +1,68 @@
+package candela.integrators
+
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.lights.LightSample
+import candela.math.*
+import candela.media.{MediumWork, SceneMedia}
+import candela.scene.Scene
+
+/** What comes of a sampled light's way to a point through media, and through surfaces that are
+  * their borders only. One per worker.
+  *
+  * @param work its `shadow` holds the answer
+  */
+private[integrators] final class MediumVisibility(
+    scene: Scene,
+    media: SceneMedia,
+    work: MediumWork
+):
+  private val ray = Ray()
+  private val hit = Hit()
+  private val border = ShadingPoint()
+  private var rays = 0L
+
+  def raysTraced: Long = rays
+
+  /** For a new path from the camera. */
+  def start(time: Float): Unit = ray.time = time
+
+  /** Sets `work.shadow` to what is left of the light at `origin`, which lies in `medium`; false if
+    * that is nothing.
+    */
+  def reaches(origin: Vec3, light: LightSample, medium: Int): Boolean =
+    work.shadow.start(work.weights.hero, 1f)
+    val end =
+      if light.isInfinite then origin + light.wi * media.reach else LightTransport.end(light)
+    if media.hasInterfaces then passes(origin, end, medium)
+    else
+      if light.isInfinite then ray.set(origin, light.wi, Float.PositiveInfinity)
+      else ray.set(origin, end - origin, LightTransport.ShadowEnd)
+      rays += 1
+      if scene.isOccluded(ray, hit) then false
+      else
+        if light.isInfinite then ray.tMax = media.reach
+        dim(medium)
+
+  private def dim(medium: Int): Boolean =
+    if medium >= 0 then media.media(medium).dim(ray, work)
+    !work.shadow.isDead
+
+  private def passes(origin: Vec3, end: Vec3, first: Int): Boolean =
+    var medium = first
+    ray.set(origin, end - origin, LightTransport.ShadowEnd)
+    var going = true
+    var arrives = true
+    while going do
+      rays += 1
+      going = scene.closest(ray, hit)
+      if going then
+        scene.surface(ray, hit, border)
+        arrives = scene.isInterface(border)
+      arrives = arrives && dim(medium)
+      going = going && arrives
+      if going then
+        val direction = ray.direction
+        medium = media.beyond(border, direction, medium)
+        val from = border.offsetOrigin(direction)
+        ray.set(from, end - from, LightTransport.ShadowEnd)
+    arrives

@@ -1,0 +1,95 @@
+package candela.integrators
+
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Path tracing where volumes fill boxes, as pbrt-v2 has it: the camera's ray gathers what they
+  * emit and scatter, and all other ways of light are dimmed by them.
+  *
+  * @param maxDepth, rouletteAfter, rouletteThreshold as in [[PathTracer]]
+  */
+final class PathThroughVolumes(
+    scene: Scene,
+    march: VolumeMarch,
+    maxDepth: Int,
+    rouletteAfter: Int,
+    rouletteThreshold: Float
+) extends LightTransport(scene, march):
+
+  def copy(): PathThroughVolumes =
+    PathThroughVolumes(scene, march.copy(), maxDepth, rouletteAfter, rouletteThreshold)
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    shadowRay.time = ray.time
+    march.start(ray, sampler)
+    var met = scene.closest(ray, hit)
+    rays += 1
+    march.march(ray, sampler)
+    var light = march.light
+    var throughput = march.transmitted
+    var depth = 0
+    var etaScale = 1f
+    var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
+    var lastP = Vec3.Zero
+    var lastN = Vec3.Zero
+    var alive = true
+    while alive do
+      if !met then
+        light += throughput * escaped(
+          ray,
+          (i, source) =>
+            val pdf = source.pdf(lastP, ray.direction)
+            misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
+        )
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        val wo = -ray.direction
+        if at.areaLight >= 0 then
+          val source = scene.surfaceLight(at)
+          val selected = scene.selection.probability(lastP, lastN, at.areaLight)
+          val weight = misWeight(lastPdf, selected * source.pdf(lastP, at))
+          light += throughput * source.radiance(at, wo) * weight
+        if depth == maxDepth then alive = false
+        else
+          depth += 1
+          val bsdf = scene.bsdf(at)
+          val n = at.frame.n
+          val choice = sampler.next1D()
+          sampler.next2D()
+          if !bsdf.isSpecular && scene.lights.length > 0 then
+            val chosen = scene.selection.choose(at.p, n, choice)
+            if chosen >= 0 then
+              val selected = scene.selection.probability(at.p, n, chosen)
+              val sampled = sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+              light += throughput * sampled
+          val lobe = sampler.next1D()
+          sampler.next2D()
+          val bounce = bsdf.sample(at.frame.toLocal(wo), lobe, sampler.x, sampler.y)
+          throughput = throughput * bounce.weight
+          lastPdf = if bounce.isSpecular then 0f else bounce.pdf
+          lastP = at.p
+          lastN = n
+          etaScale *= square(bounce.eta)
+          val wi = at.frame.toWorld(bounce.wi)
+          ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+          scene.scattered(ray, at, wo, wi, bounce)
+          alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
+          if alive && depth > rouletteAfter then
+            val q = throughput.max * etaScale
+            if q < rouletteThreshold then
+              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+          if alive then
+            met = scene.closest(ray, hit)
+            rays += 1
+            throughput = throughput * march.dimming(ray, stepsToLights)
+    light
+
+  /** Weight of light that a sampled direction met, which light sampling finds with density
+    * `pdf`.
+    */
+  private def misWeight(sampled: Float, pdf: Float): Float =
+    if sampled > 0f then LightTransport.powerHeuristic(sampled, pdf) else 1f

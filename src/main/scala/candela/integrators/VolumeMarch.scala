@@ -1,0 +1,126 @@
+package candela.integrators
+
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray}
+import candela.lights.LightSample
+import candela.math.*
+import candela.media.Regions
+import candela.sampling.{RandomStream, Sampler}
+import candela.scene.Scene
+
+/** Light that volumes emit and, if `scatters`, that they scatter once towards the camera, summed in
+  * steps along a ray: pbrt-v2's volume integrators. The size of the steps is part of the picture:
+  * like these, it takes the transmittance up to the last step's sample for that of the whole way,
+  * and steps four times as large towards lights.
+  *
+  * Mutable, one per worker.
+  *
+  * @param stepSize in scene units
+  *
+  * Source: PBRT 2nd ed., §16.3 and §16.4.
+  */
+final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatters: Boolean):
+  private val work = regions.newWork()
+  private val lightSample = LightSample()
+  private val shadowRay = Ray()
+  private val shadowHit = Hit()
+  private val random = RandomStream()
+  private var rays = 0L
+
+  /** What the volumes add along the ray of the last [[march]], and what they leave of the rest. */
+  var light, transmitted: Rgb = Rgb.Black
+
+  def raysTraced: Long = rays
+  def copy(): VolumeMarch = VolumeMarch(scene, regions, stepSize, scatters)
+
+  /** For a new path from the camera. */
+  def start(ray: Ray, sampler: Sampler): Unit =
+    shadowRay.time = ray.time
+    random.seed(sampler.next1D(), sampler.next1D())
+
+  /** Follows the ray as far as `ray.tMax`. */
+  def march(ray: Ray, sampler: Sampler): Unit =
+    light = Rgb.Black
+    transmitted = Rgb.White
+    if regions.clip(ray, work) then
+      val unit = ray.direction.length
+      val (begin, end) = (work.overlap.begin, work.overlap.end)
+      val wanted = Math.ceil(((end - begin) * unit / stepSize).toDouble).toInt
+      val count = clamp(wanted, 1, Regions.MostSteps)
+      val step = (end - begin) / count
+      val offset = sampler.next1D()
+      work.clearDepth()
+      var boost = 1f
+      var sumR, sumG, sumB = 0f
+      var before = begin
+      var i = 0
+      while i < count do
+        val t = begin + (i + offset) * step
+        regions.addDepth(ray, before, t, unit, 0.5f * stepSize, random.next(), work)
+        before = t
+        val left = work.transmittance * boost
+        // Where hardly any light comes from, most of the work is left to chance
+        if left.luminance < VolumeMarch.Faint then
+          if random.next() < 0.5f then boost *= 2f
+          else
+            boost = 0f
+            i = count
+        if boost > 0f then
+          val here = work.transmittance * boost
+          val p = ray.at(t)
+          regions.at(p, work)
+          sumR += here.r * work.glowR
+          sumG += here.g * work.glowG
+          sumB += here.b * work.glowB
+          if scatters && work.scatters && scene.lights.length > 0 then
+            val (dr, dg, db) = (work.depthR, work.depthG, work.depthB)
+            val arrived = scattered(p, -ray.direction * (1f / unit))
+            work.depthR = dr
+            work.depthG = dg
+            work.depthB = db
+            sumR += here.r * arrived.r
+            sumG += here.g * arrived.g
+            sumB += here.b * arrived.b
+        i += 1
+      light = Rgb(sumR, sumG, sumB) * (step * unit)
+      transmitted = work.transmittance * boost
+
+  /** Light of one source that is scattered to `wo`, per scene unit. */
+  private def scattered(p: Vec3, wo: Vec3): Rgb =
+    val chosen = scene.selection.choose(p, Vec3.Zero, random.next())
+    if chosen < 0 then Rgb.Black
+    else
+      val selected = scene.selection.probability(p, Vec3.Zero, chosen)
+      scene.lights(chosen).sample(p, random.next(), random.next(), lightSample)
+      if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
+      else
+        LightTransport.towards(p, lightSample, shadowRay)
+        rays += 1
+        if scene.isOccluded(shadowRay, shadowHit) then Rgb.Black
+        else
+          val phase = regions.phase(wo, lightSample.wi, work)
+          val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * lightSample.radiance
+          sent * dimming(
+            shadowRay,
+            VolumeMarch.StepsToLights
+          ) * (phase / (selected * lightSample.pdf))
+
+  /** What the volumes leave of light that comes along the ray, as far as `ray.tMax`.
+    *
+    * @param steps their size, in that of the steps towards the camera
+    */
+  def dimming(ray: Ray, steps: Float): Rgb =
+    work.clearDepth()
+    val unit = ray.direction.length
+    regions.addDepth(ray, 0f, ray.tMax, unit, steps * stepSize, random.next(), work)
+    work.transmittance
+
+object VolumeMarch:
+  /** For the next worker. */
+  def copy(march: VolumeMarch | Null): VolumeMarch | Null =
+    if march == null then null else march.copy()
+
+  private val Faint = 1e-3f
+
+  /** Times the size of steps along the camera's ray; so in pbrt-v2. */
+  inline val StepsToLights = 4f

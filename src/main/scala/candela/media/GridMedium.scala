@@ -1,0 +1,113 @@
+package candela.media
+
+import candela.color.Rgb
+import candela.math.Transform
+
+/** A grid of densities, which multiply the coefficients.
+  *
+  * @param absorption, scattering coefficients at a density of 1, per scene unit
+  */
+final class GridMedium(
+    toUnit: Transform,
+    density: SampledGrid,
+    absorption: Rgb,
+    scattering: Rgb,
+    glow: Option[Glow],
+    val phase: HenyeyGreenstein
+) extends VaryingMedium(toUnit, GridMedium.bounds(density), absorption + scattering):
+  private val glowing: Glow | Null = glow.orNull
+  def isEmissive: Boolean = glow.isDefined
+  def isChromatic: Boolean =
+    Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)
+
+  def describe: String =
+    val light = glow.fold("")(g => s", ${g.describe}")
+    s"grid ${density.describe} with bounds of ${GridMedium.bounds(density).describe}$light"
+
+  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+    val d = Math.max(0f, density(x, y, z))
+    out.absorbR = d * absorption.r
+    out.absorbG = d * absorption.g
+    out.absorbB = d * absorption.b
+    out.scatterR = d * scattering.r
+    out.scatterG = d * scattering.g
+    out.scatterB = d * scattering.b
+    val light = glowing
+    if light != null then
+      light.fill(x, y, z, out)
+      out.glowR *= out.absorbR
+      out.glowG *= out.absorbG
+      out.glowB *= out.absorbB
+
+object GridMedium:
+  private def bounds(density: SampledGrid): MajorantGrid =
+    MajorantGrid.of(density.nx, density.ny, density.nz)(density.most)
+
+/** Three grids, one for each colour. */
+final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid):
+  private[media] def most(
+      x0: Float,
+      y0: Float,
+      z0: Float,
+      x1: Float,
+      y1: Float,
+      z1: Float
+  ): Float =
+    val (mr, mg) = (r.most(x0, y0, z0, x1, y1, z1), g.most(x0, y0, z0, x1, y1, z1))
+    Math.max(Math.max(mr, mg), b.most(x0, y0, z0, x1, y1, z1))
+
+/** Grids of coefficients; what is not given as a grid is the same all over the box.
+  *
+  * @param constant absorption or scattering where it has no grid
+  * @param factor   of all coefficients
+  */
+final class ColorGridMedium(
+    toUnit: Transform,
+    size: SampledGrid,
+    absorption: Option[ColorGrid],
+    scattering: Option[ColorGrid],
+    constant: Float,
+    factor: Float,
+    glow: Option[ColorGrid],
+    val phase: HenyeyGreenstein
+) extends VaryingMedium(
+      toUnit,
+      ColorGridMedium.bounds(size, absorption, scattering, constant, factor),
+      Rgb.White
+    ):
+  private val absorbing: ColorGrid | Null = absorption.orNull
+  private val scatters: ColorGrid | Null = scattering.orNull
+  private val glowing: ColorGrid | Null = glow.orNull
+  private val plain = constant * factor
+  def isEmissive: Boolean = glow.isDefined
+  def isChromatic: Boolean = true
+
+  def describe: String =
+    s"grid ${size.describe} of colours" + (if glow.isDefined then ", glowing" else "")
+
+  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+    val a = absorbing
+    out.absorbR = if a == null then plain else factor * a.r(x, y, z)
+    out.absorbG = if a == null then plain else factor * a.g(x, y, z)
+    out.absorbB = if a == null then plain else factor * a.b(x, y, z)
+    val s = scatters
+    out.scatterR = if s == null then plain else factor * s.r(x, y, z)
+    out.scatterG = if s == null then plain else factor * s.g(x, y, z)
+    out.scatterB = if s == null then plain else factor * s.b(x, y, z)
+    val light = glowing
+    if light != null then
+      out.glowR = out.absorbR * light.r(x, y, z)
+      out.glowG = out.absorbG * light.g(x, y, z)
+      out.glowB = out.absorbB * light.b(x, y, z)
+
+object ColorGridMedium:
+  private def bounds(
+      size: SampledGrid,
+      absorption: Option[ColorGrid],
+      scattering: Option[ColorGrid],
+      constant: Float,
+      factor: Float
+  ): MajorantGrid =
+    MajorantGrid.of(size.nx, size.ny, size.nz): (x0, y0, z0, x1, y1, z1) =>
+      def most(grid: Option[ColorGrid]) = grid.fold(constant)(_.most(x0, y0, z0, x1, y1, z1))
+      factor * (most(absorption) + most(scattering))

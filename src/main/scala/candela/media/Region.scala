@@ -1,0 +1,115 @@
+package candela.media
+
+import candela.color.Rgb
+import candela.geometry.{Bounds3, Ray}
+import candela.math.*
+
+/** A box that is filled with a medium whose density varies: pbrt-v2's volumes. Unlike a [[Medium]]
+  * it needs no surface around it, and several may overlap. Immutable.
+  *
+  * @param toWorld    from the volume's space, where `box` is
+  * @param absorption, scattering, emitted  at a density of 1, per scene unit
+  */
+abstract class Region(
+    toWorld: Transform,
+    box: Bounds3,
+    val absorption: Rgb,
+    val scattering: Rgb,
+    val emitted: Rgb,
+    val phase: HenyeyGreenstein
+):
+  private val toVolume = toWorld.inverse
+  val extinction: Rgb = absorption + scattering
+
+  /** At a place of the volume's space within the box. */
+  protected def density(p: Vec3): Float
+
+  /** Is it the same all over the box? */
+  def isUniform: Boolean
+
+  def describe: String
+
+  final def densityAt(world: Vec3): Float =
+    val p = toVolume.point(world)
+    val isInside = p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&
+      p.z >= box.min.z && p.z <= box.max.z
+    if isInside then density(p) else 0f
+
+  /** Sets `overlap` to the part of the ray's way from `from` to `to` that is in the box. */
+  final def clip(ray: Ray, from: Float, to: Float, overlap: Overlap): Boolean =
+    val o = toVolume.point(ray.origin)
+    val d = toVolume.vector(ray.direction)
+    overlap.begin = from
+    overlap.end = to
+    overlap.cut(o.x, d.x, box.min.x, box.max.x)
+    overlap.cut(o.y, d.y, box.min.y, box.max.y)
+    overlap.cut(o.z, d.z, box.min.z, box.max.z)
+    overlap.begin <= overlap.end
+
+/** A part of a ray's way; mutable. */
+final class Overlap:
+  var begin, end = 0f
+
+  /** Leaves what is between two planes across an axis. */
+  private[media] def cut(o: Float, d: Float, low: Float, high: Float): Unit =
+    if d == 0f then
+      if o < low || o > high then end = Float.NegativeInfinity
+    else
+      val a = (low - o) / d
+      val b = (high - o) / d
+      begin = Math.max(begin, Math.min(a, b))
+      end = Math.min(end, Math.max(a, b))
+
+/** The same all over a box. */
+final class UniformRegion(
+    toWorld: Transform,
+    box: Bounds3,
+    absorption: Rgb,
+    scattering: Rgb,
+    emitted: Rgb,
+    phase: HenyeyGreenstein
+) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+  def isUniform: Boolean = true
+  def describe: String = "homogeneous"
+  protected def density(p: Vec3): Float = 1f
+
+/** Thinner with height above the box's lowest corner, exponentially.
+  *
+  * @param up     unit vector along which height is measured
+  * @param ground density at height 0
+  * @param fall   by how much its logarithm falls, per unit of the volume's space
+  */
+final class ExponentialRegion(
+    toWorld: Transform,
+    box: Bounds3,
+    absorption: Rgb,
+    scattering: Rgb,
+    emitted: Rgb,
+    phase: HenyeyGreenstein,
+    up: Vec3,
+    ground: Float,
+    fall: Float
+) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+  def isUniform: Boolean = false
+  def describe: String = "exponential"
+  protected def density(p: Vec3): Float = ground * exp(-fall * ((p - box.min) dot up))
+
+/** A grid of densities. */
+final class GridRegion(
+    toWorld: Transform,
+    box: Bounds3,
+    absorption: Rgb,
+    scattering: Rgb,
+    emitted: Rgb,
+    phase: HenyeyGreenstein,
+    grid: SampledGrid
+) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+  private val size = box.extent
+  def isUniform: Boolean = false
+  def describe: String = s"grid ${grid.describe}"
+
+  protected def density(p: Vec3): Float = grid(
+    (p.x - box.min.x) / size.x,
+    (p.y - box.min.y) / size.y,
+    (p.z - box.min.z) / size.z
+  )

@@ -1,0 +1,126 @@
+package candela.media
+
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+
+/** All volumes of a scene, whose densities add up where they overlap. Immutable; the work space of
+  * a walk is a [[RegionWork]].
+  */
+final class Regions(all: Array[Region]):
+  def newWork(): RegionWork = RegionWork(all.length)
+
+  def describe: String = s"${all.length} (${all.map(_.describe).mkString("; ")})"
+
+  /** Sets `out.overlap` to the part of the ray, as far as `ray.tMax`, from where it first enters a
+    * region to where it last leaves one.
+    */
+  def clip(ray: Ray, out: RegionWork): Boolean =
+    var begin = Float.PositiveInfinity
+    var end = Float.NegativeInfinity
+    var i = 0
+    while i < all.length do
+      if all(i).clip(ray, 0f, ray.tMax, out.overlap) then
+        begin = Math.min(begin, out.overlap.begin)
+        end = Math.max(end, out.overlap.end)
+      i += 1
+    out.overlap.begin = begin
+    out.overlap.end = end
+    begin < end
+
+  /** Adds to `out.depth…` the optical depth of the ray's way from `from` to `to`: exact where a
+    * region is uniform, else summed in steps.
+    *
+    * @param unit   length of the ray's direction
+    * @param step   length of a step, in scene units
+    * @param offset of the first sample, as a part of a step
+    */
+  def addDepth(
+      ray: Ray,
+      from: Float,
+      to: Float,
+      unit: Float,
+      step: Float,
+      offset: Float,
+      out: RegionWork
+  ): Unit =
+    var i = 0
+    while i < all.length do
+      val region = all(i)
+      if region.clip(ray, from, to, out.overlap) then
+        val length =
+          if region.isUniform then (out.overlap.end - out.overlap.begin) * unit
+          else
+            var sum = 0f
+            val (begin, end) = (out.overlap.begin * unit, out.overlap.end * unit)
+            val length = Math.max(step, (end - begin) / Regions.MostSteps)
+            var t = begin + offset * length
+            while t < end do
+              sum += region.densityAt(ray.at(t / unit))
+              t += length
+            sum * length
+        out.depthR += length * region.extinction.r
+        out.depthG += length * region.extinction.g
+        out.depthB += length * region.extinction.b
+      i += 1
+
+  /** Sets coefficients at a place, and the density of each region. */
+  def at(p: Vec3, out: RegionWork): Unit =
+    out.scatterR = 0f
+    out.scatterG = 0f
+    out.scatterB = 0f
+    out.glowR = 0f
+    out.glowG = 0f
+    out.glowB = 0f
+    var i = 0
+    while i < all.length do
+      val region = all(i)
+      val d = region.densityAt(p)
+      out.density(i) = d
+      out.scatterR += d * region.scattering.r
+      out.scatterG += d * region.scattering.g
+      out.scatterB += d * region.scattering.b
+      out.glowR += d * region.emitted.r
+      out.glowG += d * region.emitted.g
+      out.glowB += d * region.emitted.b
+      i += 1
+
+  /** How the regions together scatter from `wi` to `wo` at the place of the last [[at]]: by the
+    * mean of their phase functions, weighted by the luminance of what they scatter.
+    */
+  def phase(wo: Vec3, wi: Vec3, work: RegionWork): Float =
+    var sum, weights = 0f
+    var i = 0
+    while i < all.length do
+      val weight = work.density(i) * all(i).scattering.luminance
+      if weight > 0f then
+        sum += weight * all(i).phase.value(wo, wi)
+        weights += weight
+      i += 1
+    if weights > 0f then sum / weights else 0f
+
+object Regions:
+  /** Of a way through a region: whatever step a scene asks for, a ray comes to an end. */
+  inline val MostSteps = 65536
+
+/** Work space of walks through [[Regions]], one per worker. */
+final class RegionWork(count: Int):
+  val overlap = Overlap()
+  private[media] val density = new Array[Float](count)
+
+  /** Optical depth. */
+  var depthR, depthG, depthB = 0f
+
+  /** What is scattered and emitted at a place, per scene unit. */
+  var scatterR, scatterG, scatterB = 0f
+  var glowR, glowG, glowB = 0f
+
+  def clearDepth(): Unit =
+    depthR = 0f
+    depthG = 0f
+    depthB = 0f
+
+  /** What passes the optical depth. */
+  def transmittance: Rgb = Rgb(exp(-depthR), exp(-depthG), exp(-depthB))
+
+  def scatters: Boolean = scatterR > 0f || scatterG > 0f || scatterB > 0f

@@ -1,0 +1,144 @@
+package candela.media
+
+import candela.color.Rgb
+import candela.geometry.Ray
+import candela.math.*
+
+/** A medium that varies within a box, outside of which it is not. Collisions are sampled with a
+  * density that nowhere falls short of the true one, and those beyond the true one change nothing
+  * (null collisions, Woodcock tracking).
+  *
+  * @param toUnit  from world space to the unit cube, which the medium fills
+  * @param bounds  greatest density, cell by cell
+  * @param most    coefficients of extinction at a density of 1, per scene unit
+  *
+  * Sources: Woodcock et al. 1965; Novák, Georgiev, Hanika, Jarosz, "Monte Carlo Methods for
+  * Volumetric Light Transport Simulation", CGF 37(2), 2018, §4.4 (weighted tracking) and §5.1.4
+  * (ratio tracking).
+  */
+abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb) extends Medium:
+
+  /** Coefficients at a place of the unit cube; of `glow` only if the medium is emissive. */
+  protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit
+
+  final def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float =
+    val w = work.weights
+    val walk = work.walk
+    val point = work.point
+    val unit = ray.direction.length
+    val glows = emits && isEmissive
+    var scattered = -1f
+    if enter(ray, walk) then
+      var u = first
+      while scattered < 0f && !w.isDead && walk.next() do
+        val mr = most.r * walk.most * unit
+        val mg = most.g * walk.most * unit
+        val mb = most.b * walk.most * unit
+        val mh = w.ofHero(mr, mg, mb)
+        var t = walk.begin
+        while t < walk.end do
+          val rest = walk.end - t
+          val step = if mh > 0f then -log(1f - u) / mh else Float.PositiveInfinity
+          if mh > 0f then u = work.random.next()
+          if !(step < rest) then
+            w.pass(mr * rest, mg * rest, mb * rest)
+            t = walk.end
+          else
+            w.pass(mr * step, mg * step, mb * step)
+            t += step
+            at(walk, t, point)
+            if glows then addGlow(work, mr, mg, mb, unit)
+            val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / mh
+            if work.random.next() < chance then
+              scattered = t
+              scatter(w, point)
+              t = walk.end
+            else
+              meetNothing(w, point, mr, mg, mb, unit, 1f - chance)
+              if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
+              if w.isDead then t = walk.end
+    w.balance()
+    scattered
+
+  final def dim(ray: Ray, work: MediumWork): Unit =
+    val w = work.shadow
+    val walk = work.walk
+    val point = work.point
+    val unit = ray.direction.length
+    if enter(ray, walk) then
+      while !w.isDead && walk.next() do
+        val mr = most.r * walk.most * unit
+        val mg = most.g * walk.most * unit
+        val mb = most.b * walk.most * unit
+        val mh = w.ofHero(mr, mg, mb)
+        var t = walk.begin
+        while t < walk.end do
+          val rest = walk.end - t
+          val step =
+            if mh > 0f then -log(1f - work.random.next()) / mh else Float.PositiveInfinity
+          if !(step < rest) then
+            w.pass(mr * rest, mg * rest, mb * rest)
+            t = walk.end
+          else
+            w.pass(mr * step, mg * step, mb * step)
+            t += step
+            at(walk, t, point)
+            meetNothing(w, point, mr, mg, mb, unit, 1f)
+            if w.brightest < VaryingMedium.Faint * w.lightDensity then
+              w.gamble(work.random.next(), 0.5f)
+            if w.isDead then t = walk.end
+
+  private def enter(ray: Ray, walk: MajorantWalk): Boolean =
+    walk.enter(toUnit.point(ray.origin), toUnit.vector(ray.direction), ray.tMax, bounds)
+
+  private def at(walk: MajorantWalk, t: Float, point: MediumPoint): Unit =
+    coefficients(walk.ox + t * walk.dx, walk.oy + t * walk.dy, walk.oz + t * walk.dz, point)
+
+  private def scatter(w: PathWeights, p: MediumPoint): Unit =
+    val inverse = 1f / w.ofHero(p.scatterR, p.scatterG, p.scatterB)
+    val r = p.scatterR * inverse
+    val g = p.scatterG * inverse
+    val b = p.scatterB * inverse
+    w.r *= r
+    w.g *= g
+    w.b *= b
+    w.scaleDensity(r, g, b)
+
+  /** A collision that does not scatter: what is absorbed is a weight.
+    *
+    * @param mr, mg, mb density of collisions, per unit of the ray's parameter
+    * @param chance     the hero's, of going on; light sampling always does
+    */
+  private def meetNothing(
+      w: PathWeights,
+      p: MediumPoint,
+      mr: Float,
+      mg: Float,
+      mb: Float,
+      unit: Float,
+      chance: Float
+  ): Unit =
+    val inverse = 1f / (w.ofHero(mr, mg, mb) * chance)
+    val kr = Math.max(0f, mr - unit * p.scatterR) * inverse
+    val kg = Math.max(0f, mg - unit * p.scatterG) * inverse
+    val kb = Math.max(0f, mb - unit * p.scatterB) * inverse
+    w.r *= Math.max(0f, kr - unit * p.absorbR * inverse)
+    w.g *= Math.max(0f, kg - unit * p.absorbG * inverse)
+    w.b *= Math.max(0f, kb - unit * p.absorbB * inverse)
+    w.scaleDensity(kr, kg, kb)
+    w.scaleLight(mr * inverse, mg * inverse, mb * inverse)
+
+  /** What the medium emits at a collision of any kind, over the density of such collisions. */
+  private def addGlow(work: MediumWork, mr: Float, mg: Float, mb: Float, unit: Float): Unit =
+    val w = work.weights
+    val p = work.point
+    val density = w.ur * mr + w.ug * mg + w.ub * mb
+    if density > 0f then
+      val weight = 3f * unit / density
+      work.glowR += w.r * p.glowR * weight
+      work.glowG += w.g * p.glowG * weight
+      work.glowB += w.b * p.glowB * weight
+
+object VaryingMedium:
+  /** What is left of the light, where going on is left to chance. */
+  private val Faint = 0.02f

@@ -1,0 +1,106 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.Severity
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+final class MediaBuilderSuite extends AnyFunSuite:
+
+  private def scene(integrator: String, body: String): String =
+    s"""Camera "perspective"
+       |Integrator "$integrator"
+       |WorldBegin
+       |LightSource "infinite"
+       |$body
+       |Shape "sphere"
+       |""".stripMargin
+
+  private def media(plan: candela.render.RenderPlan): String =
+    plan.features.toMap.apply("media")
+
+  private val fog = """MakeNamedMedium "fog" "string type" "homogeneous"
+    MediumInterface "fog" """""
+
+  test("the plan names the media, and none where there are none"):
+    val plan = SceneTexts.plan(scene("volpath", fog), Dialect.V4)
+    assert(media(plan) == "1 (homogeneous)")
+    assert(media(SceneTexts.plan(scene("volpath", ""), Dialect.V4)) == "none")
+
+  test("media that nothing has around it, or that are empty space, cost nothing"):
+    val unused = """MakeNamedMedium "fog" "string type" "homogeneous""""
+    assert(media(SceneTexts.plan(scene("volpath", unused), Dialect.V4)) == "none")
+    val empty = fog.replace("\"homogeneous\"", "\"homogeneous\" \"float scale\" 0")
+    assert(media(SceneTexts.plan(scene("volpath", empty), Dialect.V4)) == "none")
+
+  private val blind = Seq("path" -> Dialect.V3, "path" -> Dialect.V4, "whitted" -> Dialect.V3)
+
+  for (integrator, dialect) <- blind do
+    test(s"$integrator of $dialect does not see media, and says so"):
+      val text = scene(integrator, fog)
+      val found = SceneTexts.problems(text, dialect)
+      assert(found.exists(_.message.contains("does not see the media")), found)
+      assert(media(SceneTexts.plan(text, dialect)) == "none")
+
+  test("a medium that nobody made is an error, with the nearest name"):
+    val text = scene("volpath", fog + "\nMediumInterface \"fogg\" \"\"")
+    val found = SceneTexts.problems(text, Dialect.V4).filter(_.severity == Severity.Error)
+    assert(found.map(_.message) == Vector("no medium is named `fogg`"))
+    assert(found.head.help.exists(_.contains("fog")))
+
+  test("nanovdb says what is missing"):
+    val text = scene(
+      "volpath",
+      """MakeNamedMedium "v" "string type" "nanovdb" "string filename" "a.nvdb"
+        |MediumInterface "v" """"".stripMargin
+    )
+    val found = SceneTexts.problems(text, Dialect.V4)
+    assert(found.exists(_.message.contains("no reader of NanoVDB files")), found)
+
+  test("a grid of the wrong size is an error that counts"):
+    val text = scene(
+      "volpath",
+      """MakeNamedMedium "g" "string type" "uniformgrid" "integer nx" 2 "float density" [1 2 3]"""
+    )
+    val found = SceneTexts.problems(text, Dialect.V4).filter(_.severity == Severity.Error)
+    assert(found.map(_.message) == Vector("`density` holds 3 numbers, not 2·1·1"))
+
+  test("an unknown preset is missing, and a known one is measured"):
+    val text = scene(
+      "volpath",
+      """MakeNamedMedium "m" "string type" "homogeneous" "string preset" "Skimmilc""""
+    )
+    val found = SceneTexts.problems(text, Dialect.V3)
+    assert(found.exists(_.message == "no measured medium is named `Skimmilc`"), found)
+    val known = SceneTexts.problems(text.replace("milc", "milk"), Dialect.V3)
+    assert(known.isEmpty, known)
+
+  test("volumes are rendered by the surface integrator and the volume integrator together"):
+    val text =
+      """Camera "perspective"
+        |SurfaceIntegrator "path"
+        |VolumeIntegrator "single" "float stepsize" .5
+        |WorldBegin
+        |LightSource "point"
+        |Volume "homogeneous" "color sigma_s" [1 1 1]
+        |Volume "exponential" "color sigma_a" [1 1 1]
+        |Shape "sphere"
+        |WorldEnd
+        |""".stripMargin
+    val plan = SceneTexts.plan(text, Dialect.V2)
+    assert(
+      media(plan) == "2 (homogeneous; exponential), emission and single scattering in steps of 0.5"
+    )
+
+  test("steps through volumes must have a size"):
+    val text =
+      """Camera "perspective"
+        |VolumeIntegrator "emission" "float stepsize" 0
+        |WorldBegin
+        |LightSource "point"
+        |Shape "sphere"
+        |WorldEnd
+        |""".stripMargin
+    val found = SceneTexts.problems(text, Dialect.V2)
+    assert(found.exists(_.message == "`stepsize` must be above 0, not 0.0"), found)
