@@ -1,10 +1,12 @@
 package candela.build
 
 import candela.base.{Problem, SceneError, Severity}
-import candela.cameras.{MovingCamera, PixelCone, Shutter}
+import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
+import candela.film.Layer
+import candela.integrators.SurfaceProbe
 import candela.math.*
-import candela.render.{PixelBounds, RenderPlan}
+import candela.render.{LayerPlan, PixelBounds, RenderPlan}
 import candela.scene.Footprints
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 
@@ -14,13 +16,15 @@ import candela.scenefile.{Declaration, Dialect, SceneDescription}
   * @param quick      a sixteenth of the pixels, one sample each
   * @param cropWindow x0, x1, y0, y1 as parts of the image, instead of the scene's
   * @param keepGoing  use stand-ins for what is missing
+  * @param layers     what the image is to hold beside the scene's own
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
     seed: Int = 0,
     quick: Boolean = false,
     cropWindow: Option[(Float, Float, Float, Float)] = None,
-    keepGoing: Boolean = false
+    keepGoing: Boolean = false,
+    layers: Vector[Layer] = Vector.empty
 )
 
 /** Makes a render plan of a description: the bridge between the two towers.
@@ -61,10 +65,12 @@ object SceneBuilder:
       description.camera.foreach(c => problems.warn(c.at, Motions.stands("this camera")))
     val cameraPlan = view(description.camera, Cameras.all, "perspective")
     val motions = Motions(description)
+    val frame = FilmFrame(width, height, film.diagonal)
     val camera = motions.camera match
-      case Some(motion) =>
-        MovingCamera(cameraPlan.make(Transform.Identity, width, height), motion)
-      case None => cameraPlan.make(description.worldToCamera.start.inverse, width, height)
+      case Some(motion) => MovingCamera(cameraPlan.make(Transform.Identity, frame), motion)
+      case None => cameraPlan.make(description.worldToCamera.start.inverse, frame)
+    val layers = (film.layers ++ options.layers).distinct
+    if layers.contains(Layer.Gradient) then resources.askForFootprints("the image's dzdx and dzdy")
     val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val integrator = view(description.integrator, Integrators.all, defaults.integrator)
@@ -88,14 +94,21 @@ object SceneBuilder:
       sampler = sampler,
       integrator = world.integrator,
       basis = basis,
-      maxComponent = film.maxComponent / exposure,
-      imageScale = film.scale * exposure,
+      limit = film.limit(exposure),
+      development = film.development.copy(scale = film.development.scale * exposure),
       filename = film.filename,
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features :+
-        ("motion", moving(motions.camera.isDefined, world.moves, shutter)),
+        ("motion", moving(motions.camera.isDefined, world.moves, shutter)) :+
+        ("layers", if layers.isEmpty then "none" else layers.map(_.word).mkString(", ")),
       differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
-      shutter = Option.when(motions.camera.isDefined || world.moves)(shutter)
+      shutter = Option.when(motions.camera.isDefined || world.moves)(shutter),
+      weighsFirst = isV4,
+      layers = Option.when(layers.nonEmpty):
+        val space =
+          if film.layersInWorld then Still(Transform.Identity)
+          else motions.camera.fold(Still(description.worldToCamera.start))(InverseMotion(_))
+        LayerPlan(layers, SurfaceProbe(world.scene, space, basis, layers.contains(Layer.Albedo)))
     )
     (plan, problems.result)
 

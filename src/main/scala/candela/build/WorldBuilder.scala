@@ -16,6 +16,7 @@ import candela.shapes.{BumpTangents, Shape}
 
 /** The world, ready to render, with what it holds in words. */
 final class World(
+    val scene: Scene,
     val integrator: Integrator,
     val features: Vector[(String, String)],
     val moves: Boolean
@@ -91,6 +92,7 @@ final class WorldBuilder(
       reach = 2f * accelerator.bounds.radius
     )
     World(
+      scene,
       integrator,
       Vector(
         "accelerator" -> accelerator.describe,

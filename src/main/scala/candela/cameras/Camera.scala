@@ -2,6 +2,13 @@ package candela.cameras
 
 import candela.geometry.Ray
 
+/** How large the film is.
+  *
+  * @param width    of the full image in pixels, as `height`
+  * @param diagonal of the film in metres; only cameras with lenses of glass ask for it
+  */
+final case class FilmFrame(width: Int, height: Int, diagonal: Float = 0.035f)
+
 /** Turns a place on the film into a ray into the world. */
 abstract class Camera:
 
@@ -11,6 +18,15 @@ abstract class Camera:
     * @param lensU with `lensV` a point in the unit square, for the aperture
     */
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit
+
+  /** Do rays differ in what their light counts? Then `generate` sets `ray.weight`; at 0 no light
+    * reaches the film there, and the ray itself is left as it was. All others leave the weight
+    * alone, and nobody looks at it.
+    */
+  def weighs: Boolean = false
+
+  /** How far away the neighbours lie that `differential` takes, in pixels. */
+  protected[cameras] def step: Float = 1f
 
   /** Fills in the differential of a ray that `generate` has written, from the rays one pixel to the
     * right and one below, through the same point of the aperture.
@@ -29,10 +45,25 @@ abstract class Camera:
   ): Unit =
     val (o, d) = (ray.origin, ray.direction)
     val neighbours = ray.differential
-    generate(x + 1f, y, lensU, lensV, scratch)
-    neighbours.xOrigin = o + (scratch.origin - o) * scale
-    neighbours.xDirection = d + (scratch.direction - d) * scale
-    generate(x, y + 1f, lensU, lensV, scratch)
-    neighbours.yOrigin = o + (scratch.origin - o) * scale
-    neighbours.yDirection = d + (scratch.direction - d) * scale
-    neighbours.isKnown = true
+    val across = reaches(x + step, y, lensU, lensV, scratch)
+    val alongX =
+      if across || reaches(x - step, y, lensU, lensV, scratch) then
+        val share = if across then scale / step else -scale / step
+        neighbours.xOrigin = o + (scratch.origin - o) * share
+        neighbours.xDirection = d + (scratch.direction - d) * share
+        true
+      else false
+    val down = reaches(x, y + step, lensU, lensV, scratch)
+    val alongY =
+      if down || reaches(x, y - step, lensU, lensV, scratch) then
+        val share = if down then scale / step else -scale / step
+        neighbours.yOrigin = o + (scratch.origin - o) * share
+        neighbours.yDirection = d + (scratch.direction - d) * share
+        true
+      else false
+    neighbours.isKnown = alongX && alongY
+
+  /** Generates a ray; false if the lenses let none through. */
+  private def reaches(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Boolean =
+    generate(x, y, lensU, lensV, ray)
+    !weighs || ray.weight > 0f

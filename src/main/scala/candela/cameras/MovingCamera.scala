@@ -14,6 +14,8 @@ final case class Shutter(open: Float, close: Float):
   * @param toWorld moves it
   */
 final class MovingCamera(camera: Camera, toWorld: Motion) extends Camera:
+  override def weighs: Boolean = camera.weighs
+  override protected[cameras] def step: Float = camera.step
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
     camera.generate(x, y, lensU, lensV, ray)

@@ -44,17 +44,19 @@ object PixelCone:
 
   def of(camera: Camera, eye: Vec3, width: Int, height: Int, scale: Float): PixelCone =
     val (ray, scratch) = (Ray(), Ray())
-    val found = (0 until Probes).map: i =>
+    val found = (0 until Probes).flatMap: i =>
       val part = i.toFloat / (Probes - 1)
       val (x, y) = (part * width, part * height)
       camera.generate(x, y, 0.5f, 0.5f, ray)
-      camera.differential(x, y, 0.5f, 0.5f, 1f, ray, scratch)
+      val isRay = !camera.weighs || ray.weight > 0f
+      if isRay then camera.differential(x, y, 0.5f, 0.5f, 1f, ray, scratch)
       val d = ray.differential
-      Array(
-        (d.xOrigin - ray.origin).length,
-        (d.yOrigin - ray.origin).length,
-        (d.xDirection - ray.direction).length,
-        (d.yDirection - ray.direction).length
-      )
-    def least(k: Int) = found.map(_(k)).min
+      Option.when(isRay && d.isKnown):
+        Array(
+          (d.xOrigin - ray.origin).length,
+          (d.yOrigin - ray.origin).length,
+          (d.xDirection - ray.direction).length,
+          (d.yDirection - ray.direction).length
+        )
+    def least(k: Int) = found.map(_(k)).minOption.getOrElse(0f)
     PixelCone(eye, least(0), least(1), least(2), least(3), scale)

@@ -41,8 +41,9 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
     axisX.z * x + axisY.z * y + axisZ.z * z
   )
 
-  /** Starts the ray on the lens at (u, v), through the point of the plane of focus that the pinhole
-    * ray from camera-space (`ox`, `oy`, 0) along (`dx`, `dy`, 1) meets.
+  /** Starts the ray on the lens at (u, v), which lies around the axis, through the point of the
+    * plane of focus that the pinhole ray from camera-space (`ox`, `oy`, 0) along (`dx`, `dy`, 1)
+    * meets.
     */
   protected final def throughLens(
       ox: Float,
@@ -54,8 +55,8 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
       ray: Ray
   ): Unit =
     val disk = candela.sampling.Warp.concentricDisk(u, v)
-    val lx = disk.x * setup.lensRadius + ox
-    val ly = disk.y * setup.lensRadius + oy
+    val lx = disk.x * setup.lensRadius
+    val ly = disk.y * setup.lensRadius
     val f = setup.focalDistance
     val direction = world(ox + dx * f - lx, oy + dy * f - ly, f)
     ray.set(eye + world(lx, ly, 0f), direction.normalized, Float.PositiveInfinity)
@@ -76,7 +77,11 @@ final class PerspectiveCamera(setup: ProjectiveSetup, fov: Float) extends Projec
     if hasLens then throughLens(0f, 0f, dx, dy, lensU, lensV, ray)
     else ray.set(eye, world(dx, dy, 1f).normalized, Float.PositiveInfinity)
 
-/** Parallel projection along +z of camera space; the screen is in units of camera space. */
+/** Parallel projection along +z of camera space; the screen is in units of camera space.
+  *
+  * With a lens all rays start on it, as in every pbrt: what lies before or behind the plane of
+  * focus is then seen as by a perspective camera.
+  */
 final class OrthographicCamera(setup: ProjectiveSetup) extends ProjectiveCamera(setup):
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Version
+import candela.film.Layer
 import candela.scenefile.Dialect
 
 import scopt.{OParser, Read}
@@ -26,6 +27,12 @@ private[cli] object OptionTable:
         throw IllegalArgumentException(
           "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
         )
+
+  private given Read[Layer] = Read.reads: text =>
+    val words = Layer.values.map(_.word)
+    Layer.values
+      .find(_.word.equalsIgnoreCase(text.trim))
+      .getOrElse(throw IllegalArgumentException(s"expected some of ${words.mkString(", ")}"))
 
   private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
     if number.gteq(n, number.fromInt(least)) then success
@@ -75,7 +82,14 @@ private[cli] object OptionTable:
       .action((_, o) => o.copy(quick = true)),
     opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
       .text("render only this part of the image, in fractions of its size")
-      .action((w, o) => o.copy(cropWindow = Some(w)))
+      .action((w, o) => o.copy(cropWindow = Some(w))),
+    opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
+      .text(s"write these into the .exr, too: ${Layer.values.map(_.word).mkString(", ")}")
+      .action((l, o) => o.copy(layers = o.layers ++ l)),
+    opt[String]("film").valueName("gbuffer")
+      .text("write all layers that pbrt-v4's film of this name has")
+      .validate(f => if f == "gbuffer" then success else failure(s"--film: only gbuffer, not `$f`"))
+      .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer))
   ) ++ shared
 
   private val checkOptions: Vector[Row] = shared

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.film.Layer
 import candela.scenefile.Dialect
 
 enum Command(val word: String):
@@ -21,6 +22,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param to        the dialect that `convert` writes
   * @param out       where it writes the scene
   * @param toPly     meshes of at least as many triangles go into PLY files
+  * @param layers    what images hold beside colours and what the scene asks for
   * @param maxRelMse the relative mean squared error above which `compare` fails
   */
 final case class Options(
@@ -37,6 +39,7 @@ final case class Options(
     cropWindow: Option[CropWindow] = None,
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
+    layers: Vector[Layer] = Vector.empty,
     maxRelMse: Option[Double] = None,
     markdown: Boolean = false,
     to: Option[Dialect] = None,

@@ -16,6 +16,12 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
     val problems = paths.flatMap(OutputFiles.problem)
     if problems.nonEmpty then throw SceneError(problems)
 
+  /** @throws SceneError if no file can hold more than colours */
+  def checkLayers(): Unit =
+    if !paths.exists(OutputFiles.extension(_) == "exr") then
+      val message = s"only .exr files hold layers; `${paths.head}` does not"
+      throw SceneError(Problem.general(message, Some("--outfile FILE.exr writes them")))
+
 object OutputFiles:
 
   /** Exactly the files that were asked for. */

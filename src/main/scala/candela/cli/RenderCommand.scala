@@ -26,6 +26,7 @@ final class RenderCommand(
         report.guarded:
           val loaded = load(scene)
           val files = outputs(loaded.plan.filename)
+          if loaded.plan.layers.nonEmpty then files.checkLayers()
           for path <- files.paths.map(_.toAbsolutePath.normalize) do
             taken.get(path).foreach(other => throw overwrite(path, scene, other))
             taken += path -> scene
@@ -74,9 +75,11 @@ final class RenderCommand(
       loaded: LoadedScene,
       rendering: Rendering
   ): Vector[Path] =
-    val image = rendering.film.toImage(loaded.plan.imageScale)
+    val development = loaded.plan.development
+    val image = rendering.image(development)
     val about = metadata(scene, loaded, rendering)
-    val attempts = paths.map(path => path -> Try(ImageFiles.write(path, image, about)))
+    def write(path: Path) = Try(ImageFiles.write(path, image, about, development.isHalf))
+    val attempts = paths.map(path => path -> write(path))
     val failures = attempts.collect:
       case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)
       case (_, Failure(e)) => throw e

@@ -45,7 +45,7 @@ object SceneLoader:
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
-    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing)
+    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing, o.layers)
 
   /** The file, if there is one. */
   def existing(scene: String): Path =

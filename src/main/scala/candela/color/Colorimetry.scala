@@ -36,6 +36,13 @@ object Colorimetry:
     val c = rgb(spectrum, White.EqualEnergy)
     c * (1f / c.luminance)
 
+  /** X, Y and Z of linear sRGB: the primaries of IEC 61966-2-1, row by row. */
+  val XyzOfRgb: Array[Float] = Array(
+    0.412453f, 0.357580f, 0.180423f, //
+    0.212671f, 0.715160f, 0.072169f, //
+    0.019334f, 0.119193f, 0.950227f
+  )
+
   /** IEC 61966-2-1, the inverse of its matrix of primaries. */
   def fromXyz(x: Double, y: Double, z: Double): Rgb = Rgb(
     (3.240479 * x - 1.537150 * y - 0.498535 * z).toFloat,

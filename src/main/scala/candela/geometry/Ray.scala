@@ -39,6 +39,9 @@ final class Ray:
     */
   var time = 0f
 
+  /** Of the light along a camera ray; only cameras that weigh their rays set it. */
+  var weight = 1f
+
   private var within: Option[Ray] = None
   private var matrices: Array[Double] = Array.empty
 

@@ -13,6 +13,13 @@ final class RayDifferential:
 
   var xOrigin, xDirection, yOrigin, yDirection: Vec3 = Vec3.Zero
 
+  def copy(from: RayDifferential): Unit =
+    isKnown = from.isKnown
+    xOrigin = from.xOrigin
+    xDirection = from.xDirection
+    yOrigin = from.yOrigin
+    yDirection = from.yDirection
+
   /** Sets `at.dpdx` and `at.dpdy`: where the two rays meet the tangent plane.
     *
     * @return false, and nothing is set, if they don't

@@ -25,8 +25,15 @@ private[image] object Exr:
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
     Image(part.width, part.height, order.map(inFile), data)
 
-  /** 32-bit floats, ZIP; every channel under its own name. Encoded pictures are decoded first. */
-  def write(image: Image, metadata: Vector[(String, String)]): Array[Byte] =
+  /** ZIP; every channel under its own name. Encoded pictures are decoded first.
+    *
+    * @param isHalf floats of 16 bits, not 32
+    */
+  def write(
+      image: Image,
+      metadata: Vector[(String, String)],
+      isHalf: Boolean = false
+  ): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
-    ExrEncoder.encode(image.linear, metadata)
+    ExrEncoder.encode(image.linear, metadata, isHalf)

@@ -15,13 +15,23 @@ import java.nio.charset.StandardCharsets.UTF_8
 /** Calls of the native encoder. */
 private[image] object ExrEncoder:
 
-  def encode(image: Image, metadata: Vector[(String, String)]): Array[Byte] =
+  /** Of the finite numbers of 16 bits. */
+  private val LargestHalf = 65504f
+
+  /** @param isHalf stores 16 bits of each value; the encoder rounds */
+  def encode(
+      image: Image,
+      metadata: Vector[(String, String)],
+      isHalf: Boolean
+  ): Array[Byte] =
     // Readers look channels up by binary search: the file must have them sorted by name.
     val order = image.channelNames.indices.sortBy(image.channelNames)
-    val planes = order.map(plane(image, _))
+    val planes = order.map(plane(image, _, if isHalf then LargestHalf else Float.MaxValue))
     // Named one by one: MemoryStack is too small for many channels.
     val channels = EXRChannelInfo.calloc(order.size)
     val types = MemoryUtil.memCallocInt(order.size)
+    val stored = MemoryUtil.memCallocInt(order.size)
+    val storedType = if isHalf then TINYEXR_PIXELTYPE_HALF else TINYEXR_PIXELTYPE_FLOAT
     val attributes = EXRAttribute.calloc(Math.max(1, metadata.size))
     val texts = metadata.map((_, text) => MemoryUtil.memUTF8(text, false))
     val stack = stackPush()
@@ -31,6 +41,7 @@ private[image] object ExrEncoder:
         put(channels.get(i).name, name)
         val _ = channels.get(i).pixel_type(TINYEXR_PIXELTYPE_FLOAT).x_sampling(1).y_sampling(1)
         val _ = types.put(i, TINYEXR_PIXELTYPE_FLOAT)
+        val _ = stored.put(i, storedType)
       loop(metadata.size): i =>
         put(attributes.get(i).name, metadata(i)(0))
         put(attributes.get(i).`type`, "string")
@@ -41,7 +52,7 @@ private[image] object ExrEncoder:
         .num_channels(order.size)
         .channels(channels)
         .pixel_types(types)
-        .requested_pixel_types(types)
+        .requested_pixel_types(stored)
         .compression_type(TINYEXR_COMPRESSIONTYPE_ZIP)
       if metadata.nonEmpty then
         val _ = header.num_custom_attributes(metadata.size).custom_attributes(attributes)
@@ -52,6 +63,7 @@ private[image] object ExrEncoder:
       channels.free()
       attributes.free()
       MemoryUtil.memFree(types)
+      MemoryUtil.memFree(stored)
       stack.close()
 
   private def save(
@@ -79,10 +91,13 @@ private[image] object ExrEncoder:
       finally LibCStdlib.nfree(memory.get(0))
     finally MemoryUtil.memFree(pointers)
 
-  private def plane(image: Image, channel: Int): FloatBuffer =
+  /** @param most to which larger finite values are cut */
+  private def plane(image: Image, channel: Int, most: Float): FloatBuffer =
     val values = MemoryUtil.memAllocFloat(image.width * image.height)
     loop(values.capacity): i =>
-      val _ = values.put(i, image.data(i * image.channels + channel))
+      val value = image.data(i * image.channels + channel)
+      val isBeyond = java.lang.Float.isFinite(value) && Math.abs(value) > most
+      val _ = values.put(i, if isBeyond then Math.copySign(most, value) else value)
     values
 
   /** Into a zeroed array of 256 bytes. */

@@ -44,17 +44,23 @@ object ImageFiles:
       throw ImageError(s"not a valid .$extension file: it begins with other bytes")
     else throw ImageError(s"unknown format; $Readable")
 
-  /** Writes by extension: `.exr` (32-bit float, all channels) or `.png` (8-bit sRGB, R, G, B or Y).
+  /** Writes by extension: `.exr` (all channels) or `.png` (8-bit sRGB, R, G, B or Y).
     *
     * The picture appears under its name whole or not at all: it is written beside it and renamed.
     *
     * @param metadata names and texts that the file carries along
+    * @param isHalf   floats of 16 bits in an `.exr`, not 32
     */
-  def write(path: Path, image: Image, metadata: Vector[(String, String)] = Vector.empty): Unit =
+  def write(
+      path: Path,
+      image: Image,
+      metadata: Vector[(String, String)] = Vector.empty,
+      isHalf: Boolean = false
+  ): Unit =
     val bytes =
       try
         suffix(path) match
-          case "exr" => Exr.write(image, metadata)
+          case "exr" => Exr.write(image, metadata, isHalf)
           case "png" => Png.write(image, metadata)
           case "" => throw ImageError(s"the name has no extension; $Writable")
           case other => throw ImageError(s"can't write .$other files; $Writable")

@@ -2,8 +2,8 @@ package candela.render
 
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
-import candela.film.Filter
-import candela.integrators.Integrator
+import candela.film.{Development, Filter, Layer, SampleLimit}
+import candela.integrators.{Integrator, SurfaceProbe}
 import candela.sampling.Sampler
 
 /** The pixels to render, as half-open ranges of the full image: x0 ≤ x < x1, y0 ≤ y < y1. */
@@ -16,11 +16,13 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   *
   * @param width        of the full image in pixels, of which `crop` is rendered
   * @param basis        of the radiance that the integrator returns
-  * @param maxComponent radiance samples are scaled down to this (pbrt's `maxcomponentvalue`); if
-  *                     infinity, never
+  * @param limit        of samples, if the scene sets one
+  * @param development  makes the image of what the film has gathered
   * @param differentialScale of camera rays' differentials; 0: nothing in the scene asks for them
   * @param features     what the plan holds and what it left out, for people: (what, value)
   * @param shutter      when it is open, if anything moves; else all rays have the same time
+  * @param weighsFirst  is the limit one of the light as the camera weighs it, not as it arrives?
+  * @param layers       what else the image holds, if anything
   */
 final class RenderPlan(
     val width: Int,
@@ -31,10 +33,15 @@ final class RenderPlan(
     val sampler: Sampler,
     val integrator: Integrator,
     val basis: ColorBasis,
-    val maxComponent: Float,
-    val imageScale: Float,
+    val limit: Option[SampleLimit],
+    val development: Development,
     val filename: String,
     val features: Vector[(String, String)],
     val differentialScale: Float = 0f,
-    val shutter: Option[Shutter] = None
+    val shutter: Option[Shutter] = None,
+    val weighsFirst: Boolean = true,
+    val layers: Option[LayerPlan] = None
 )
+
+/** Layers of an image, and what looks for them. */
+final case class LayerPlan(layers: Vector[Layer], probe: SurfaceProbe)

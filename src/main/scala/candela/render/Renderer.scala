@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.film.{Film, FilterSampler}
+import candela.film.{Film, FilterSampler, LayerFilm}
 
 /** Turns a plan into an image. */
 object Renderer:
@@ -24,10 +24,12 @@ object Renderer:
     val samplesPerPixel = plan.sampler.samplesPerPixel
     val schedule = Schedule(plan.crop, samplesPerPixel)
     val board = Board(schedule, cancellation)
-    val film = Film(plan.crop.x0, plan.crop.y0, plan.crop.x1, plan.crop.y1)
+    val PixelBounds(x0, y0, x1, y1) = plan.crop
+    val film = Film(x0, y0, x1, y1)
+    val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     val filterSampler = new FilterSampler(plan.filter)
     val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt):
-      TileWorker(plan, schedule, board, film, filterSampler.copy())
+      TileWorker(plan, schedule, board, film, layers, filterSampler.copy())
 
     val total = plan.crop.pixels * samplesPerPixel
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
@@ -41,7 +43,8 @@ object Renderer:
       board.samplesTaken.sum,
       workers.map(_.raysTraced).sum,
       seconds,
-      firstOf(workers.flatMap(_.refused))
+      firstOf(workers.flatMap(_.refused)),
+      layers
     )
 
   private def firstOf(refused: Vector[Refused]): Option[Refused] =

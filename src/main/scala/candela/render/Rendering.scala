@@ -1,6 +1,7 @@
 package candela.render
 
-import candela.film.Film
+import candela.film.{Development, Film, LayerFilm}
+import candela.image.Image
 
 /** Camera samples that were no light (NaN or infinite), and so were left out of the image.
   *
@@ -15,6 +16,7 @@ final case class Refused(count: Long, x: Int, y: Int, sample: Int)
   * @param samplesTaken    camera samples in all pixels together
   * @param rays            traced, of all kinds
   * @param refused         none if there were none
+  * @param layers          if the image has more than colours
   */
 final case class Rendering(
     film: Film,
@@ -23,8 +25,14 @@ final case class Rendering(
     samplesTaken: Long,
     rays: Long,
     seconds: Double,
-    refused: Option[Refused]
+    refused: Option[Refused],
+    layers: Option[LayerFilm] = None
 ):
+  /** Colours, then the layers. */
+  def image(development: Development): Image =
+    val colors = development(film)
+    layers.fold(colors)(_.behind(colors, development.scale))
+
   def isComplete: Boolean = samplesDone == samplesPerPixel
 
 /** A bug that showed itself in one sample: `cause` says what, the rest where. */

@@ -1,8 +1,10 @@
 package candela.render
 
 import candela.cameras.Shutter
-import candela.film.{Film, FilterSampler}
+import candela.color.Rgb
+import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
 import candela.geometry.Ray
+import candela.integrators.SurfaceProbe
 
 /** One of several that render the same image: takes tiles from the board, and owns all that it
   * scribbles on.
@@ -12,6 +14,7 @@ private[render] final class TileWorker(
     schedule: Schedule,
     board: Board,
     film: Film,
+    layers: Option[LayerFilm],
     filterSampler: FilterSampler
 ) extends Runnable:
   private val camera = plan.camera
@@ -21,6 +24,11 @@ private[render] final class TileWorker(
   private val scratch = Ray()
   private val hasDifferentials = plan.differentialScale > 0f
   private val moves = plan.shutter.isDefined
+  private val weighs = camera.weighs
+  private val weighsLast = weighs && !plan.weighsFirst
+  private val limit: SampleLimit | Null = plan.limit.orNull
+  private val layerFilm: LayerFilm | Null = layers.orNull
+  private val probe: SurfaceProbe | Null = plan.layers.map(_.probe.copy()).orNull
   private val shutter = plan.shutter.getOrElse(Shutter(0f, 0f))
 
   // Where the worker is, for the message if something fails.
@@ -73,16 +81,28 @@ private[render] final class TileWorker(
       ray.time = shutter.at(sampler.next1D()) // leaves x and y as they are
       scratch.time = ray.time
     camera.generate(filmX, filmY, sampler.x, sampler.y, ray)
-    if hasDifferentials then
-      val scale = plan.differentialScale
-      camera.differential(filmX, filmY, sampler.x, sampler.y, scale, ray, scratch)
-    val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
-    if radiance.isFinite then
-      val brightest = radiance.max
-      val scale = if brightest > plan.maxComponent then plan.maxComponent / brightest else 1f
-      val light = radiance * scale
-      film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
-    else refuse()
+    val weight = if weighs then ray.weight else 1f
+    if weight == 0f then
+      film.add(x, y, 0f, 0f, 0f, filterSampler.weight)
+      if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
+    else
+      if hasDifferentials then
+        val scale = plan.differentialScale
+        camera.differential(filmX, filmY, sampler.x, sampler.y, scale, ray, scratch)
+      if probe != null then probe.look(ray)
+      val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
+      if radiance.isFinite then record(if weighs then weighed(radiance, weight) else radiance)
+      else refuse()
+
+  private def record(radiance: Rgb): Unit =
+    val light = if limit != null && !weighsLast then radiance * limit.scale(radiance) else radiance
+    film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
+    if layerFilm != null && probe != null then
+      layerFilm.add(x, y, light, filterSampler.weight, probe.seen)
+
+  private def weighed(radiance: Rgb, weight: Float): Rgb =
+    if limit != null && weighsLast then radiance * (limit.scale(radiance) * weight)
+    else radiance * weight
 
   private def refuse(): Unit =
     val comesFirst = sample < refusedSample ||

@@ -47,7 +47,9 @@ final class PbrtParametersSuite extends AnyFunSuite:
         camera <- Vector("perspective", "orthographic", "environment")
         parameter <- Vector("hither", "yon")
       yield (Dialect.V2, camera, parameter)
-    assert(beyond.toSet == cameras.toSet + ((Dialect.V2, "sample", "visualizeobjectids")))
+    // and of pbrt-v2 only forks have lenses
+    val forks = Set("shutteropen", "shutterclose").map((Dialect.V2, "realistic", _))
+    assert(beyond.toSet == cameras.toSet ++ forks + ((Dialect.V2, "sample", "visualizeobjectids")))
 
   test("the reader knows the names of v4's options, too"):
     for f <- SceneOptionRecipe.fields do

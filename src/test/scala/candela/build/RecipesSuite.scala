@@ -20,7 +20,9 @@ final class SamplerRecipesSuite
 final class CameraRecipesSuite
     extends RecipeLaws[CameraPlan](
       Cameras.all,
-      use = _.make(Transform.Identity, 8, 8)
+      demanding = Set("realistic"),
+      demandingIn = Set(candela.scenefile.Dialect.V3, candela.scenefile.Dialect.V4),
+      use = _.make(Transform.Identity, candela.cameras.FilmFrame(8, 8))
     )
 
 final class ShapeRecipesSuite

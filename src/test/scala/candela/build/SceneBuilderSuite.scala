@@ -58,8 +58,8 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val film = "Film \"rgb\" \"float iso\" 400 \"float maxcomponentvalue\" 6"
     val v4 = SceneTexts.plan(s"$camera\n$film\n$nothing", Dialect.V4)
     // 400 / 100 · 0.5 s; samples are limited as the sensor sees them, before that
-    assert(v4.imageScale == 2f && v4.maxComponent == 3f)
-    assert(SceneTexts.plan(s"$camera\n$nothing", Dialect.V3).imageScale == 1f)
+    assert(v4.development.scale == 2f && v4.limit.map(_.most) == Some(3f))
+    assert(SceneTexts.plan(s"$camera\n$nothing", Dialect.V3).development.scale == 1f)
     val closed = s"Camera \"perspective\" \"float shutterclose\" 0\n$nothing"
     assert(SceneTexts.problems(closed, Dialect.V4).exists(_.message.contains("never opens")))
 
@@ -81,7 +81,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   test("film settings reach the plan"):
     val scene = s"$film \"string filename\" \"a.png\" \"float scale\" 2\n$nothing"
     val plan = SceneTexts.plan(scene)
-    assert(plan.filename == "a.png" && plan.imageScale == 2f)
+    assert(plan.filename == "a.png" && plan.development.scale == 2f)
 
   private val triangle =
     """Shape "trianglemesh" "integer indices" [0 1 2] "point P" [0 0 0 1 0 0 0 1 0]"""

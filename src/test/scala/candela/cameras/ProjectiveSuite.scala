@@ -78,10 +78,11 @@ final class ProjectiveSuite extends AnyFunSuite:
       assertClose(r.direction, Vec3.Z)
       assertClose(r.origin, eye + Vec3(-2 + x / 50, 1 - y / 50, 0))
 
-  test("orthographic rays through a lens meet in the plane of focus"):
+  test("orthographic rays through a lens start on it and meet in the plane of focus"):
     val camera = OrthographicCamera(setup(lens = 0.3f))
     val draws = Draws(5)
     for _ <- 1 to 100 do
       val r = ray(camera, 60f, 30f, draws.unit(), draws.unit())
+      assert((r.origin - eye).length <= 0.3f + 1e-5f)
       assertUnit(r)
       assertClose(r.at((eye.z + 5f - r.oz) / r.dz), eye + Vec3(-0.8f, 0.4f, 5f), 1e-4f) // as above

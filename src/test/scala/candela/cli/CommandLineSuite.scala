@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Version
+import candela.film.Layer
 import candela.scenefile.Dialect
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -27,6 +28,9 @@ class CommandLineSuite extends AnyFunSuite:
     "--outfile x.exr a.pbrt --outfile y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
     "a.pbrt --cropwindow 0.25,0.75,0,1" ->
       one.copy(cropWindow = Some(CropWindow(0.25f, 0.75f, 0f, 1f))),
+    "a.pbrt --aov albedo,Depth --aov samples" ->
+      one.copy(layers = Vector(Layer.Albedo, Layer.Depth, Layer.Samples)),
+    "a.pbrt --film gbuffer" -> one.copy(layers = Layer.gbuffer),
     "a.pbrt --dialect v2" -> one.copy(dialect = Some(Dialect.V2)),
     "check a.pbrt --dialect V4 --explain" ->
       one.copy(command = Command.Check, dialect = Some(Dialect.V4), explain = true),

@@ -50,6 +50,21 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(code == 0)
       assert(TempFolder.names(folder) == Set("b.png"))
 
+  test("layers go into an EXR; without one they are refused before anything is rendered"):
+    TempFolder.use: folder =>
+      val scene = folder.resolve("s.pbrt")
+      val film = "Film \"rgb\" \"integer xresolution\" 6 \"integer yresolution\" 4"
+      val _ = Files.writeString(scene, s"$film\nWorldBegin\nLightSource \"infinite\"")
+      def render(words: String*) =
+        val captured = Captured()
+        (Main.run(scene.toString +: words, captured.terminal), captured)
+      val (code, _) = render("--aov", "depth,samples", "--outfile", s"$folder/a.exr,$folder/a.png")
+      assert(code == 0)
+      val names = ImageFiles.read(folder.resolve("a.exr")).channelNames
+      assert(names == Vector("R", "G", "B", "Z", "samples"))
+      val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")
+      assert(refused == 1 && captured.err.contains("only .exr files hold layers"))
+
   test("the EXR says of what it is an image"):
     TempFolder.use: folder =>
       val file = folder.resolve("a.exr")

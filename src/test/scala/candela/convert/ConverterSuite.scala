@@ -53,7 +53,7 @@ object ConverterSuite:
     if isWhole then difference(image(before), image(after), 2) else 0.0
 
   private def image(plan: RenderPlan): Image =
-    Renderer.render(plan, 2).film.toImage(plan.imageScale)
+    Renderer.render(plan, 2).image(plan.development)
 
   /** The largest relative difference of the means of `parts` × `parts` blocks, in any channel;
     * what is darker than a tenth of the image counts as that bright.

@@ -107,6 +107,23 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       val message = intercept[ImageError](Exr.read(damaged)).getMessage
       assert(message == "attribute `chunkCount` is damaged")
 
+  test("layers written in 16 or 32 bits are read back"):
+    val names = Image.RgbNames ++ Vector("Albedo.R", "P.X", "samples")
+    val data = Array.tabulate(6 * 35)(i => (i - 70) * 1.000123f)
+    data(4) = 1e6f
+    data(5) = Float.PositiveInfinity
+    val image = Image(7, 5, names, data)
+    val whole = Exr.read(Exr.write(image, Vector.empty))
+    assert(whole.channelNames == names && whole.data.sameElements(data))
+    val file = Exr.write(image, Vector.empty, isHalf = true)
+    assert(ExrHeader.parts(file).head.channels.forall(_.pixelType == ExrHeader.Half))
+    val half = Exr.read(file)
+    assert(half.channelNames == names)
+    assert(half.data(4) == 65504f && half.data(5) == Float.PositiveInfinity)
+    // Eleven bits, rounded
+    for i <- 6 until data.length do
+      assert(Math.abs(half.data(i) - data(i)) <= Math.abs(data(i)) / 2048 + 1e-7f): Unit
+
   test("tiles are counted over all levels"):
     // By hand, for 37×21 pixels in tiles of 16×8: 3·3, halved to 18×10: 2·2, 9×5: 1, 4×2, 2×1, 1×1.
     assert(ExrTiling(16, 8, 0, roundsUp = false).tiles(37, 21) == 9)

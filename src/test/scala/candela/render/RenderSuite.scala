@@ -108,7 +108,7 @@ object RenderSuite:
     val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(spp), seed = seed))
     val rendering = Renderer.render(plan, threads)
     assert(rendering.refused.isEmpty, s"not a number: ${rendering.refused}")
-    rendering.film.toImage(plan.imageScale)
+    rendering.image(plan.development)
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =

@@ -1,6 +1,7 @@
 package candela.render
 
 import candela.color.Rgb
+import candela.film.SampleLimit
 import candela.image.Image
 
 import java.util.concurrent.ConcurrentHashMap
@@ -59,8 +60,10 @@ class RendererSuite extends AnyFunSuite:
     val image = Renderer.render(plan, threads = 2).film.toImage(1f)
     assert(pixels(image).forall(_ == Rgb(3.5f, 0f, 1f)))
 
-  test("brighter samples are scaled down to the largest component, and keep their hue"):
-    val plan = TinyPlan(maxComponent = 4f): (where, _) =>
+  test("samples above the limit are scaled down to it, and keep their hue"):
+    // The largest component, as measures go that are the components themselves
+    val limit = SampleLimit(4f, Array(1f, 0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f))
+    val plan = TinyPlan(limit = Some(limit)): (where, _) =>
       if where.x == 3 then Rgb(16f, 8f, 0f) else Rgb(4f, 1f, 0f)
     val image = Renderer.render(plan, threads = 1).film.toImage(1f)
     assert(pixel(image, 3, 0) == Rgb(4f, 2f, 0f))

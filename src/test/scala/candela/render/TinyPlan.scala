@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.Camera
 import candela.color.Rgb
-import candela.film.BoxFilter
+import candela.film.{BoxFilter, Development, SampleLimit}
 import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.math.Vec3
@@ -19,8 +19,7 @@ object TinyPlan:
       height: Int = 27,
       spp: Int = 5,
       crop: Option[PixelBounds] = None,
-      maxComponent: Float = Float.PositiveInfinity,
-      imageScale: Float = 1f,
+      limit: Option[SampleLimit] = None,
       filename: String = "pbrt.exr"
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
@@ -33,8 +32,8 @@ object TinyPlan:
       HashSampler(spp),
       Formula(radiance),
       candela.color.ColorBasis.Srgb,
-      maxComponent,
-      imageScale,
+      limit,
+      Development(),
       filename,
       Vector("integrator" -> "formula")
     )

@@ -32,7 +32,7 @@ object SceneTexts:
   /** The mean of all pixels, in linear sRGB. */
   def mean(text: String, dialect: Dialect = Dialect.V3): Rgb =
     val made = plan(text, dialect)
-    val data = Renderer.render(made, threads = 1).film.toImage(made.imageScale).data
+    val data = Renderer.render(made, threads = 1).image(made.development).data
     def channel(c: Int) =
       (data.indices.by(3).map(i => data(i + c).toDouble).sum * 3 / data.length).toFloat
     Rgb(channel(0), channel(1), channel(2))

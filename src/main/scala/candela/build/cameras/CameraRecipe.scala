@@ -1,15 +1,15 @@
 package candela.build
 
-import candela.cameras.{Camera, PerspectiveCamera, ProjectiveSetup}
+import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup}
 import candela.math.Transform
 import candela.scenefile.Dialect
 
 /** A camera to be placed.
   *
-  * @param make     takes its transform, and the film's width and height
+  * @param make     takes its transform and the film
   * @param exposure how long the shutter is open: v4's images are the brighter for it
   */
-final case class CameraPlan(make: (Transform, Int, Int) => Camera, exposure: Float)
+final case class CameraPlan(make: (Transform, FilmFrame) => Camera, exposure: Float)
 
 /** What all cameras have. */
 abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
@@ -27,7 +27,6 @@ abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect
 /** What cameras have that look at a film through one lens. */
 abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends CameraRecipe(name, meaning, dialects):
-  private val isPanorama = name == "environment" || name == "spherical"
   private val aspect = float("frameaspectratio", "width over height", shown = "the image's")(0f)
   private val window =
     numbers(
@@ -40,16 +39,15 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
     float("lensradius", "of the aperture; 0: a pinhole", unit = "scene units")(0f)
   private val focus =
     float("focaldistance", "to the plane in focus", unit = "scene units")(
-      if v2 || isPanorama then 1e30f else 1e6f
+      if v2 then 1e30f else 1e6f
     )
   noMeaning("pbrt-v1 had it; nothing is cut off")(
     float("hither", "nearest distance that is seen", onlyV2, "scene units")(1e-3f),
     float("yon", "farthest distance that is seen", onlyV2, "scene units")(1e30f)
   )
 
-  protected def setup(toWorld: Transform, width: Int, height: Int)(using
-      site: Site
-  ): ProjectiveSetup =
+  protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
+    val FilmFrame(width, height, _) = frame
     val ratio = if aspect() > 0f then aspect() else width.toFloat / height
     val screen = window() match
       case Array(l, r, b, t) => (l, r, b, t)
@@ -64,13 +62,10 @@ private[build] object ScreenWindow:
   def of(ratio: Float): (Float, Float, Float, Float) =
     if ratio > 1f then (-ratio, ratio, -1f, 1f) else (-1f, 1f, -1f / ratio, 1f / ratio)
 
-/** Of cameras that are not rendered yet. */
-trait PerspectiveInstead extends CameraRecipe:
-  override def pending: Option[String] = Some("a perspective camera of 90 degrees is used")
-  protected def make()(using Site): CameraPlan = CameraPlan(
-    (toWorld, width, height) =>
-      val screen = ScreenWindow.of(width.toFloat / height)
-      PerspectiveCamera(ProjectiveSetup(toWorld, width, height, screen, 0f, 1f), 90f)
-    ,
-    exposure()
-  )
+/** A pinhole camera of 90 degrees, for what can't be made. */
+private[build] object StandInCamera:
+  val words = "a perspective camera of 90 degrees is used"
+
+  def make(toWorld: Transform, frame: FilmFrame): Camera =
+    val screen = ScreenWindow.of(frame.width.toFloat / frame.height)
+    PerspectiveCamera(ProjectiveSetup(toWorld, frame.width, frame.height, screen, 0f, 1f), 90f)

@@ -3,4 +3,7 @@ package candela.build
 /** Recipes of cameras. */
 object Cameras:
   val all: Recipes[CameraPlan] =
-    Recipes("camera", Vector(Perspective, Orthographic, Environment, Spherical, Realistic))
+    Recipes(
+      "camera",
+      Vector(Perspective, Orthographic, Environment, Spherical, Realistic, RealisticOfForks)
+    )

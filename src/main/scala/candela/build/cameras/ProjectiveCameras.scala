@@ -13,13 +13,12 @@ object Perspective extends ProjectiveRecipe("perspective", "things far away look
     if !(angle > 0f && angle < 180f) then
       site.error(s"`fov` lies between 0 and 180 degrees; found $angle")
     CameraPlan(
-      (toWorld, width, height) =>
-        PerspectiveCamera(setup(toWorld, width, height), clamp(angle, 1e-3f, 179.9f)),
+      (toWorld, frame) => PerspectiveCamera(setup(toWorld, frame), clamp(angle, 1e-3f, 179.9f)),
       exposure()
     )
 
 object Orthographic extends ProjectiveRecipe("orthographic", "parallel lines stay parallel"):
   protected def make()(using Site): CameraPlan = CameraPlan(
-    (toWorld, width, height) => OrthographicCamera(setup(toWorld, width, height)),
+    (toWorld, frame) => OrthographicCamera(setup(toWorld, frame)),
     exposure()
   )

@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.film.{Development, Layer, SampleLimit}
+
 object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", untilV3):
   private val scale = float("scale", "factor of all pixel values", onlyV3)(1f)
   private val most =
@@ -7,22 +9,27 @@ object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", 
   noMeaning("no other program shows the image")(
     bool("display", "show the image while it is rendered", onlyV2)(false)
   )
-  protected def make()(using Site): FilmSettings = settings(scale(), most())
+  protected def make()(using Site): FilmSettings =
+    settings(
+      Development(scale(), clipsNegative = true),
+      _ => SampleLimit.luminance(most())
+    )
 
 object RgbFilm extends SensorFilm("rgb", "an image of red, green and blue")
 
-/** Of films with more channels than are rendered. */
-trait OnlyColors extends SensorFilm:
-  override def pending: Option[String] = Some("only the channels R, G and B are written")
-
 object GBufferFilm
-    extends SensorFilm("gbuffer", "an image with positions, normals, albedo and more")
-    with OnlyColors:
-  declare(
-    string("coordinatesystem", "of positions and normals: camera, world")("camera")
-  )
+    extends SensorFilm("gbuffer", "an image with positions, normals, albedo and more"):
+  private val space = oneOf(
+    "coordinatesystem",
+    "of positions and normals",
+    Vector("camera", "world")
+  )("camera")
+  override protected def make()(using Site): FilmSettings =
+    super.make().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
 
-object SpectralFilm extends SensorFilm("spectral", "an image of many wavelengths") with OnlyColors:
+object SpectralFilm extends SensorFilm("spectral", "an image of many wavelengths"):
+  override def pending: Option[String] =
+    Some("light has three components here, no wavelengths; only R, G and B are written")
   declare(
     integer("nbuckets", "bands of wavelengths")(16),
     float("lambdamin", "shortest wavelength", unit = "nm")(360f),

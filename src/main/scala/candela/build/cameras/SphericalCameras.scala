@@ -1,0 +1,42 @@
+package candela.build
+
+import candela.cameras.SphericalCamera
+import candela.lights.{EqualAreaMap, LatLongMap}
+import candela.scenefile.Dialect
+
+/** What cameras have that look to all sides. */
+abstract class PanoramaRecipe(name: String, meaning: String, dialects: Set[Dialect])
+    extends CameraRecipe(name, meaning, dialects):
+  noMeaning("all sides are seen")(
+    float("frameaspectratio", "width over height", shown = "the image's")(0f),
+    numbers(
+      "screenwindow",
+      "float[4]",
+      "left right bottom top of the film",
+      shown = "by the aspect"
+    ),
+    float("hither", "nearest distance that is seen", onlyV2, "scene units")(1e-3f),
+    float("yon", "farthest distance that is seen", onlyV2, "scene units")(1e30f)
+  )
+  noMeaning("everything is sharp")(
+    float("lensradius", "of the aperture; 0: a pinhole", unit = "scene units")(0f),
+    float("focaldistance", "to the plane in focus", unit = "scene units")(1e30f)
+  )
+
+object Environment
+    extends PanoramaRecipe(
+      "environment",
+      "looks to all sides, as an equirectangular map",
+      untilV3
+    ):
+  protected def make()(using Site): CameraPlan =
+    CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false), exposure())
+
+object Spherical extends PanoramaRecipe("spherical", "looks to all sides", onlyV4):
+  private val mapping =
+    oneOf("mapping", "layout of the image", Vector("equalarea", "equirectangular"))("equalarea")
+
+  protected def make()(using Site): CameraPlan =
+    val isEqualArea = mapping() == "equalarea"
+    val map = if isEqualArea then EqualAreaMap else LatLongMap
+    CameraPlan(SphericalCamera(_, _, map, folds = isEqualArea), exposure())

@@ -1,0 +1,132 @@
+package candela.cameras
+
+/** Where on the surface next to the film light may enter that reaches a place of the film, as a
+  * rectangle for each of some rings of the film around its middle. It holds for places on the
+  * film's +x axis, and turns with the others.
+  *
+  * @param bounds      x0, x1, y0, y1 for each ring, in metres; x0 > x1: no light reaches it
+  * @param halfDiagonal of the film
+  *
+  * Source: Steinert et al., "General Spectral Camera Lens Simulation", Computer Graphics Forum
+  * 30(6), 2011, for bounds tabulated over the film's radius; PBRT 4th ed., §5.4.5.
+  */
+final class ExitPupil private (bounds: Array[Double], halfDiagonal: Double):
+  private val rings = bounds.length / 4
+
+  def ring(filmRadius: Double): Int =
+    Math.min((filmRadius / halfDiagonal * rings).toInt, rings - 1)
+
+  def isDark(ring: Int): Boolean = bounds(4 * ring) > bounds(4 * ring + 1)
+  def x(ring: Int, u: Double): Double = lerp(u, bounds(4 * ring), bounds(4 * ring + 1))
+  def y(ring: Int, v: Double): Double = lerp(v, bounds(4 * ring + 2), bounds(4 * ring + 3))
+
+  /** In square metres; 0 if no light reaches the ring. */
+  def area(ring: Int): Double =
+    if isDark(ring) then 0.0
+    else
+      (bounds(4 * ring + 1) - bounds(4 * ring)) * (bounds(4 * ring + 3) - bounds(4 * ring + 2))
+
+  private def lerp(t: Double, a: Double, b: Double) = (1 - t) * a + t * b
+
+object ExitPupil:
+  private val Rings = 64
+
+  /** Cells across and up in which a pupil is looked for at a time; up is half as far, for both
+    * halves are alike.
+    */
+  private val Across = 48
+  private val Up = 24
+
+  /** A pupil that covers fewer cells across than this is looked at more closely. */
+  private val Enough = 12
+  private val Zooms = 8
+
+  /** The rectangles, which hold all light that a stop without a shape of its own would let
+    * through.
+    *
+    * They are found by rays from both borders and the middle of each ring to a grid on the rear
+    * surface: first over the whole of it, then around the pupil of the ring before, which is never
+    * far away. Rims are then halved down between the outermost rays that pass and the next ones,
+    * and the rectangle grows by as much as pbrt's does, which has to make up for its own spacing.
+    */
+  def of(lens: LensSystem, diagonal: Double): ExitPupil =
+    val round = lens.withRoundStop
+    val reach = 1.5 * round.rearAperture
+    val margin = 2 * Math.sqrt(2.0) * 2 * reach / 1024
+    val half = diagonal / 2
+    var area = Region(-reach, reach, reach)
+    var isDark = false
+    val bounds = new Array[Double](4 * Rings)
+    for ring <- 0 until Rings do
+      val radii = Vector(ring.toDouble, ring + 0.5, ring + 1.0).map(_ / Rings * half)
+      val found = if isDark then None else search(round, radii, area)
+      found match
+        case Some(r) =>
+          put(bounds, ring, r.x0 - margin, r.x1 + margin, r.top + margin)
+          val around = Math.max((r.x1 - r.x0) / 2, 2 * half / Rings)
+          area = Region(
+            Math.max(-reach, r.x0 - around),
+            Math.min(reach, r.x1 + around),
+            Math.min(reach, r.top + around)
+          )
+        case None =>
+          isDark = true // and further out it is no brighter
+          put(bounds, ring, 1.0, -1.0, 0.0)
+    ExitPupil(bounds, half)
+
+  private def put(to: Array[Double], ring: Int, x0: Double, x1: Double, top: Double): Unit =
+    to(4 * ring) = x0
+    to(4 * ring + 1) = x1
+    to(4 * ring + 2) = -top
+    to(4 * ring + 3) = top
+
+  /** From x0 to x1, and up to ±top. */
+  private final case class Region(x0: Double, x1: Double, top: Double)
+
+  private def search(lens: LensSystem, radii: Vector[Double], area: Region): Option[Region] =
+    var region = area
+    var found = Option.empty[Region]
+    var zooms = 0
+    while zooms < Zooms do
+      val cell = (region.x1 - region.x0) / Across
+      val seen = radii.flatMap(scan(lens, _, region))
+      found = Option.when(seen.nonEmpty):
+        Region(seen.map(_.x0).min, seen.map(_.x1).max, seen.map(_.top).max)
+      found match
+        case Some(r) if r.x1 - r.x0 < Enough * cell || r.top < Enough / 2 * region.top / Up =>
+          region = Region(r.x0 - cell, r.x1 + cell, r.top + region.top / Up)
+          zooms += 1
+        case _ => zooms = Zooms
+    found
+
+  /** The rectangle around all rays from `radius` that pass. */
+  private def scan(lens: LensSystem, radius: Double, region: Region): Option[Region] =
+    val ray = new Array[Double](6)
+    def passes(x: Double, y: Double): Boolean =
+      ray(0) = radius
+      ray(1) = 0
+      ray(2) = 0
+      ray(3) = x - radius
+      ray(4) = y
+      ray(5) = lens.rearZ
+      lens.fromFilm(ray) > 0
+    val dx = (region.x1 - region.x0) / Across
+    val dy = region.top / Up
+    def rim(inside: Double, outside: Double)(isIn: Double => Boolean): Double =
+      var (a, b) = (inside, outside)
+      for _ <- 1 to 12 do
+        val middle = (a + b) / 2
+        if isIn(middle) then a = middle else b = middle
+      b
+    var (x0, x1, top) = (Double.PositiveInfinity, Double.NegativeInfinity, -1.0)
+    for row <- 0 to Up do
+      val y = row * dy
+      val hits = (0 to Across).filter(i => passes(region.x0 + i * dx, y))
+      if hits.nonEmpty then
+        val (left, right) = (region.x0 + hits.head * dx, region.x0 + hits.last * dx)
+        x0 = Math.min(x0, rim(left, left - dx)(passes(_, y)))
+        x1 = Math.max(x1, rim(right, right + dx)(passes(_, y)))
+        for i <- hits do
+          val x = region.x0 + i * dx
+          if y > top - dy then top = Math.max(top, rim(y, y + dy)(passes(x, _)))
+    Option.when(x0 <= x1)(Region(x0, x1, top))

@@ -1,0 +1,67 @@
+package candela.cameras
+
+import candela.geometry.Ray
+import candela.math.*
+
+/** Takes pictures through lenses of glass onto a film of some centimetres; the scene's unit is the
+  * metre.
+  *
+  * A ray's weight makes the mean over samples the measurement that the film makes: cos⁴θ of the
+  * angle between its path to the rear lens and the axis, times the area in which it was chosen.
+  * Rays that hit the rim of a lens weigh nothing, which darkens the corners.
+  *
+  * @param lens  focused
+  * @param pupil of the lens
+  * @param gain  weight of a ray for each square metre of the pupil's rectangle, but for cos⁴θ
+  *
+  * Source: Kolb et al. 1995, as [[LensSystem]], equation 4; PBRT 4th ed., §5.4.7.
+  */
+final class RealisticCamera(
+    cameraToWorld: Transform,
+    frame: FilmFrame,
+    lens: LensSystem,
+    pupil: ExitPupil,
+    gain: Double
+) extends Camera:
+  private val aspect = frame.height.toDouble / frame.width
+  private val filmWidth = frame.diagonal / Math.sqrt(1 + aspect * aspect)
+  private val stepX = filmWidth / frame.width
+  private val stepY = filmWidth * aspect / frame.height
+
+  override def weighs: Boolean = true
+  override protected[cameras] def step: Float = 0.05f
+
+  def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
+    // The image stands on its head and is mirrored
+    val filmX = 0.5 * filmWidth - x * stepX
+    val filmY = y * stepY - 0.5 * filmWidth * aspect
+    val radius = Math.sqrt(filmX * filmX + filmY * filmY)
+    val ring = pupil.ring(radius)
+    ray.weight = 0f
+    if !pupil.isDark(ring) then
+      val (px, py) = (pupil.x(ring, lensU), pupil.y(ring, lensV))
+      val c = if radius > 0 then filmX / radius else 1.0
+      val s = if radius > 0 then filmY / radius else 0.0
+      val path = ray.space
+      path(0) = filmX
+      path(1) = filmY
+      path(2) = 0
+      path(3) = c * px - s * py - filmX
+      path(4) = s * px + c * py - filmY
+      path(5) = lens.rearZ
+      val cosine2 = path(5) * path(5) / (path(3) * path(3) + path(4) * path(4) + path(5) * path(5))
+      val passed = lens.fromFilm(path)
+      if passed > 0 then
+        ray.weight = (passed * cosine2 * cosine2 * pupil.area(ring) * gain).toFloat
+        val o = cameraToWorld.point(Vec3(path(0).toFloat, path(1).toFloat, path(2).toFloat))
+        val d = cameraToWorld.vector(Vec3(path(3).toFloat, path(4).toFloat, path(5).toFloat))
+        ray.set(o, d.normalized, Float.PositiveInfinity)
+
+object RealisticCamera:
+  /** In W·s/m² for each unit of radiance: what a film gathers in `seconds`. */
+  def exposureGain(lens: LensSystem, seconds: Double): Double =
+    seconds / (lens.rearZ * lens.rearZ)
+
+  /** So that the middle of the image is about as bright as by other cameras. */
+  def relativeGain(pupil: ExitPupil): Double =
+    if pupil.isDark(0) then 0.0 else 1 / pupil.area(0)

@@ -1,0 +1,40 @@
+package candela.cameras
+
+import candela.geometry.Ray
+import candela.lights.SphereMap
+import candela.math.*
+
+/** Looks to all sides from one point; the image's middle looks along −x of camera space in the
+  * equirectangular layout, and along +y in the equal-area one.
+  *
+  * @param map   how the image covers the sphere, around the camera's y axis
+  * @param folds do images end at their border, as octahedral ones do, so that a place beyond is one
+  *              on the same border? Else longitude and latitude just go on
+  *
+  * Source: PBRT 4th ed., §5.3; for the border Clarberg 2008, as [[candela.lights.EqualAreaMap]].
+  */
+final class SphericalCamera(
+    cameraToWorld: Transform,
+    frame: FilmFrame,
+    map: SphereMap,
+    folds: Boolean
+) extends Camera:
+  private val eye = cameraToWorld.point(Vec3.Zero)
+
+  // Neighbouring pixels lie far apart where the map bends
+  override protected[cameras] def step: Float = 0.05f
+
+  def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
+    val (u, v) = (x / frame.width, y / frame.height)
+    val d =
+      if folds then
+        // Over a vertical border, then over a horizontal one: each mirrors the other coordinate
+        val isBeside = u < 0f || u > 1f
+        val v1 = if isBeside then 1f - v else v
+        val isBeyond = v1 < 0f || v1 > 1f
+        val u1 = mirrored(u)
+        map.toDirection(if isBeyond then 1f - u1 else u1, mirrored(v1))
+      else map.toDirection(u, v)
+    ray.set(eye, cameraToWorld.vector(Vec3(d.x, d.z, d.y)).normalized, Float.PositiveInfinity)
+
+  private def mirrored(t: Float): Float = if t < 0f then -t else if t > 1f then 2f - t else t

@@ -1,0 +1,30 @@
+package candela.film
+
+import candela.base.loop
+import candela.image.Image
+
+/** What becomes of the means of a pixel's samples.
+  *
+  * @param scale         factor of all values
+  * @param balance       nine numbers, row by row, that map red, green and blue to what is
+  *                      written; if empty they stay as they are
+  * @param clipsNegative filters with negative lobes leave values below 0: pbrt-v2 and v3 write 0
+  *                      for them
+  * @param isHalf        are 16 bits of each value written, not 32?
+  */
+final case class Development(
+    scale: Float = 1f,
+    balance: Option[Array[Float]] = None,
+    clipsNegative: Boolean = false,
+    isHalf: Boolean = false
+):
+
+  def apply(film: Film): Image =
+    val image = film.toImage(scale)
+    for m <- balance do
+      loop(image.width * image.height): pixel =>
+        val at = 3 * pixel
+        val (r, g, b) = (image.data(at), image.data(at + 1), image.data(at + 2))
+        loop(3)(c => image.data(at + c) = m(3 * c) * r + m(3 * c + 1) * g + m(3 * c + 2) * b)
+    if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))
+    image

@@ -1,0 +1,32 @@
+package candela.film
+
+import candela.color.{Colorimetry, Rgb}
+
+/** The brightest that a sample may be; what is brighter is scaled down, and keeps its colour.
+  *
+  * @param most    of any of the measures
+  * @param weights of linear red, green and blue in each measure, three numbers each
+  */
+final class SampleLimit(val most: Float, weights: Array[Float]):
+
+  /** By what to multiply a sample: 1 if it is within the limit. */
+  def scale(c: Rgb): Float =
+    var brightest = 0f
+    var i = 0
+    while i < weights.length do
+      val value = weights(i) * c.r + weights(i + 1) * c.g + weights(i + 2) * c.b
+      if value > brightest then brightest = value
+      i += 3
+    if brightest > most then most / brightest else 1f
+
+object SampleLimit:
+
+  /** Of the luminance, as in pbrt-v3; none if it is no limit. */
+  def luminance(most: Float): Option[SampleLimit] =
+    limit(most, Colorimetry.XyzOfRgb.slice(3, 6))
+
+  /** Of the largest of X, Y and Z, the components that pbrt-v4's standard sensor has. */
+  def sensor(most: Float): Option[SampleLimit] = limit(most, Colorimetry.XyzOfRgb)
+
+  private def limit(most: Float, weights: Array[Float]): Option[SampleLimit] =
+    Option.when(most < Float.PositiveInfinity)(SampleLimit(most, weights))

@@ -1,0 +1,91 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.film.Layer
+import candela.image.Image
+import candela.render.Renderer
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+/** Layers of whole scenes. */
+final class FilmLayersSuite extends AnyFunSuite:
+  private val view = """LookAt 0 0 -4  0 0 0  0 1 0
+    Camera "perspective" "float fov" 40
+    Sampler "independent" "integer pixelsamples" 4"""
+  private def film(kind: String) =
+    s"""Film "$kind" "integer xresolution" 20 "integer yresolution" 20"""
+  private val world = """WorldBegin
+    LightSource "infinite" "rgb L" [.5 .5 .5]
+    Material "diffuse" "rgb reflectance" [.2 .4 .6]
+    Shape "disk" "float radius" 1 """
+
+  private def render(text: String, options: BuildOptions = BuildOptions()): Image =
+    val plan = SceneTexts.plan(text, Dialect.V4, options)
+    Renderer.render(plan, threads = 2).image(plan.development)
+
+  private def pixel(image: Image, x: Int, y: Int)(names: String*): Seq[Float] =
+    names.map(n => image(x, y, image.channelNames.indexOf(n)))
+
+  private def assertClose(found: Seq[Float], expected: Float*): Unit =
+    assert(found.lazyZip(expected).forall((a, b) => Math.abs(a - b) < 2e-3f), s"$found"): Unit
+
+  test("the film gbuffer has the disk's place, normal, albedo and parameters"):
+    val image = render(s"$view\n${film("gbuffer")}\n$world")
+    assertClose(pixel(image, 10, 10)("P.Z", "N.X", "N.Y", "N.Z", "Ns.Z"), 4, 0, 0, -1, -1)
+    assertClose(pixel(image, 10, 10)("Albedo.R", "Albedo.G", "Albedo.B"), .2f, .4f, .6f)
+    assertClose(pixel(image, 0, 0)("P.Z", "N.Z", "Albedo.R", "Variance.R"), 0, 0, 0, 0)
+    // v of a disk falls from 1 in its middle to 0 at its rim
+    val Seq(v) = pixel(image, 10, 4)("v"): @unchecked
+    assert(v > 0.1f && v < 0.3f)
+    // Flat, and seen from straight ahead
+    assertClose(pixel(image, 10, 10)("dzdx", "dzdy"), 0, 0)
+
+  test("in world space the same disk is at z = 0"):
+    val space = "\"string coordinatesystem\" \"world\""
+    val image = render(s"$view\n${film("gbuffer")} $space\n$world")
+    assertClose(pixel(image, 10, 10)("P.Z", "N.Z"), 0, -1)
+
+  test("a tilted disk changes its z from pixel to pixel"):
+    val tilted = world.replace("Shape", "Rotate 45 0 1 0\nShape")
+    val image = render(s"$view\n${film("gbuffer")}\n$tilted")
+    // As wide as a pixel is (4·tan 20°/10) at the mean distance, at the scale of 4 samples
+    val wide = 4 * Math.tan(Math.toRadians(20)) / 10 / 2
+    val Seq(dx, dy) = pixel(image, 10, 10)("dzdx", "dzdy"): @unchecked
+    assert(Math.abs(dx - wide) < 0.1 * wide && dy < 0.02 * wide, s"$dx, $dy, $wide")
+
+  test("a moving camera's layers are in its space at the time of each ray"):
+    val moving = view.replace(
+      "LookAt",
+      "ActiveTransform EndTime\nTranslate 0 0 2\nActiveTransform All\nLookAt"
+    )
+    val image = render(s"$moving\n${film("gbuffer")}\n$world")
+    // The world moves away from the camera, from 4 to 6
+    val Seq(z) = pixel(image, 10, 10)("P.Z"): @unchecked
+    assert(z > 4.2f && z < 5.8f)
+
+  test("any scene can be asked for layers, which cost nothing where they are not"):
+    val text = s"$view\n${film("rgb")}\n$world"
+    val asked = BuildOptions(layers = Vector(Layer.Depth, Layer.Samples))
+    val image = render(text, asked)
+    assert(image.channelNames == Image.RgbNames ++ Vector("Z", "samples"))
+    val Seq(depth, samples) = pixel(image, 10, 10)("Z", "samples"): @unchecked
+    assert(depth > 4f && depth < 4.02f && samples == 4f)
+    val plain = render(text)
+    assert(plain.channelNames == Image.RgbNames)
+    val colors = (0 until 400).flatMap(i => pixel(image, i % 20, i / 20)("R", "G", "B"))
+    assert(colors == plain.data.toSeq)
+    val plan = SceneTexts.plan(text, Dialect.V4)
+    assert(plan.layers.isEmpty && plan.differentialScale == 0f)
+
+  test("the sensors of cameras are known by name, and what they see is said"):
+    def said(name: String) =
+      val sensor = s"\"string sensor\" \"$name\""
+      SceneTexts.problems(s"$view\n${film("rgb")} $sensor\n$world", Dialect.V4).map(_.message)
+    assert(said("cie1931").isEmpty)
+    assert(said("nikon_d850").exists(_.contains("as the CIE 1931 observer does")))
+    assert(said("nikon").exists(_.contains("no sensor is named `nikon`")))
+
+  test("spectral images say what they lack"):
+    val said = SceneTexts.problems(s"$view\n${film("spectral")}\n$world", Dialect.V4)
+    assert(said.exists(_.message.contains("no wavelengths")))

@@ -1,0 +1,68 @@
+package candela.film
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.color.Rgb
+import candela.image.Image
+import candela.integrators.VisibleSurface
+import candela.math.Vec3
+
+final class LayerFilmSuite extends AnyFunSuite:
+
+  private def surface(p: Vec3, n: Vec3, albedo: Float): VisibleSurface =
+    val seen = VisibleSurface()
+    seen.isThere = true
+    seen.p = p
+    seen.n = n
+    seen.shadingNormal = n
+    seen.albedo = Rgb(albedo, 0f, 1f)
+    seen.dzdx = -2f
+    seen.u = 0.25f
+    seen.depth = p.length
+    seen
+
+  private val nothing = VisibleSurface()
+
+  private def value(image: Image, name: String, x: Int = 0): Float =
+    image(x, 0, image.channelNames.indexOf(name))
+
+  private def filled(layers: Vector[Layer], scale: Float = 1f): Image =
+    val film = LayerFilm(3, 5, 5, 6, layers)
+    film.add(3, 5, Rgb(1f, 2f, 3f), 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
+    film.add(3, 5, Rgb(3f, 2f, 7f), 3f, surface(Vec3(3, 4, 0), Vec3(0, 1, 0), 0.9f))
+    film.add(3, 5, Rgb(9f, 9f, 9f), 1f, nothing)
+    film.miss(3, 5, 1f)
+    film.behind(Image.rgb(2, 1), scale)
+
+  test("channels have pbrt-v4's names, behind the image's own"):
+    val names = filled(Layer.gbuffer).channelNames
+    assert(names.mkString(" ") == "R G B Albedo.R Albedo.G Albedo.B P.X P.Y P.Z dzdx dzdy " +
+      "N.X N.Y N.Z Ns.X Ns.Y Ns.Z u v Variance.R Variance.G Variance.B " +
+      "RelativeVariance.R RelativeVariance.G RelativeVariance.B")
+
+  test("means are weighted: of places over what was met, of albedos over all samples"):
+    val image = filled(Layer.values.toVector)
+    assert(Math.abs(value(image, "P.X") - 2.5f) < 1e-6f)
+    assert(Math.abs(value(image, "P.Y") - 3f) < 1e-6f)
+    assert(Math.abs(value(image, "Albedo.R") - (0.5f + 2.7f) / 6) < 1e-6f)
+    assert(Math.abs(value(image, "Z") - (1f + 15f) / 4) < 1e-6f)
+    assert(value(image, "u") == 0.25f && value(image, "dzdx") == 2f)
+    assert(value(image, "samples") == 4f)
+
+  test("normals are unit vectors again"):
+    val image = filled(Vector(Layer.Normal))
+    assert(Math.abs(value(image, "N.X") - 1 / Math.sqrt(10)) < 1e-6)
+    assert(Math.abs(value(image, "N.Y") - 3 / Math.sqrt(10)) < 1e-6)
+
+  test("the variance is that of the samples that met something, scaled as the image is"):
+    for layers <- Seq(Vector(Layer.Variance), Vector(Layer.RelativeVariance, Layer.Variance)) do
+      val image = filled(layers, scale = 10f)
+      assert(Math.abs(value(image, "Variance.R") - 200f) < 1e-4f)
+      assert(value(image, "Variance.G") == 0f)
+      assert(Math.abs(value(image, "Variance.B") - 800f) < 1e-3f)
+    val relative = filled(Vector(Layer.RelativeVariance), scale = 10f)
+    assert(Math.abs(value(relative, "RelativeVariance.B") - 10 * 8f / 5) < 1e-4f)
+
+  test("a pixel without samples is 0 in every layer"):
+    val image = filled(Layer.values.toVector)
+    assert(image.channelNames.forall(value(image, _, x = 1) == 0f))
