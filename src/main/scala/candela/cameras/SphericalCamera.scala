@@ -10,6 +10,8 @@ import candela.math.*
   * @param map   how the image covers the sphere, around the camera's y axis
   * @param folds do images end at their border, as octahedral ones do, so that a place beyond is one
   *              on the same border? Else longitude and latitude just go on
+  * @param step  to the neighbours of differentials, in pixels; these lie far apart where the map
+  *              bends
   *
   * Source: PBRT 4th ed., §5.3; for the border Clarberg 2008, as [[candela.lights.EqualAreaMap]].
   */
@@ -17,12 +19,10 @@ final class SphericalCamera(
     cameraToWorld: Transform,
     frame: FilmFrame,
     map: SphereMap,
-    folds: Boolean
+    folds: Boolean,
+    override val step: Float = 0.05f
 ) extends Camera:
   private val eye = cameraToWorld.point(Vec3.Zero)
-
-  // Neighbouring pixels lie far apart where the map bends
-  override protected[cameras] def step: Float = 0.05f
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
     val (u, v) = (x / frame.width, y / frame.height)

@@ -37,7 +37,14 @@ object ToV4View:
       keep("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       planes,
-      lose("simpleweighting", "the exposure is v4's")
+      Step("`simpleweighting`", "what the film gathers, with a warning")(s =>
+        val p = s.take("simpleweighting")
+        if !p.exists(_.bools == Vector(false)) then
+          s.warn(
+            p.fold(s.declaration.at)(_.at),
+            "v4's images are as bright as the film gathers light"
+          )
+      )
     )
   )
 

@@ -1,11 +1,13 @@
 package candela.build
 
+import java.nio.file.Path
+
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.film.Layer
-import candela.image.Image
+import candela.image.{Image, ImageFiles}
 import candela.render.Renderer
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, Parser}
 import candela.testing.SceneTexts
 
 /** Layers of whole scenes. */
@@ -89,3 +91,25 @@ final class FilmLayersSuite extends AnyFunSuite:
   test("spectral images say what they lack"):
     val said = SceneTexts.problems(s"$view\n${film("spectral")}\n$world", Dialect.V4)
     assert(said.exists(_.message.contains("no wavelengths")))
+
+  test("the layers are pbrt-v4's"):
+    val reference = ImageFiles.read(Path.of("reference-images", "v4-gbuffer.exr"))
+    val description = Parser.parse(Path.of("scenes", "v4-gbuffer.pbrt"))
+    val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(16)))
+    val image = Renderer.render(plan, threads = 2).image(plan.development)
+    assert(image.channelNames.toSet == reference.channelNames.toSet)
+    // pbrt's variances hold the noise of colour that wavelengths have; dzdx shrinks with the samples
+    val others = Layer.gbuffer.filterNot(
+      Set(Layer.Variance, Layer.RelativeVariance, Layer.Gradient)
+    )
+    for layer <- others; channel <- layer.channels do
+      val (ours, theirs) = (values(image, channel), values(reference, channel))
+      val apart = ours.lazyZip(theirs).map((a, b) => Math.abs(a - b)).sorted
+      val size = theirs.map(Math.abs(_)).sum / theirs.size
+      // Edges have noise
+      assert(Math.abs(ours.sum - theirs.sum) / theirs.size < 0.005 * size, channel)
+      assert(apart(apart.size / 2) < 0.005f, channel)
+
+  private def values(image: Image, channel: String): Vector[Float] =
+    val c = image.channelNames.indexOf(channel)
+    Vector.tabulate(image.width * image.height)(i => image.data(i * image.channels + c))

@@ -29,8 +29,9 @@ object Environment
       "looks to all sides, as an equirectangular map",
       untilV3
     ):
-  protected def make()(using Site): CameraPlan =
-    CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false), exposure())
+  protected def make()(using site: Site): CameraPlan =
+    val step = if site.dialect == Dialect.V2 then 1f else 0.05f
+    CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false, step), exposure())
 
 object Spherical extends PanoramaRecipe("spherical", "looks to all sides", onlyV4):
   private val mapping =
