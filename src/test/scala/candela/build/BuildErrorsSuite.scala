@@ -164,11 +164,11 @@ final class BuildErrorsSuite extends AnyFunSuite:
       assert(error.problems.flatMap(_.excerpt) == Vector("Shape \"shpere\""))
     finally Files.delete(file)
 
-  test("an unknown camera, film or integrator falls back with a message"):
-    val text = "Camera \"environment\"\nIntegrator \"bdpt\"\nWorldBegin\nLightSource \"point\"\n"
+  test("an unknown film or integrator falls back with a message"):
+    val text = "Film \"spectral\"\nIntegrator \"bdpt\"\nWorldBegin\nLightSource \"point\"\n"
     val found = SceneTexts.problems(text)
     assert(found.map(_.severity).toSet == Set(Severity.Warning))
-    assert(found.exists(_.message.contains("\"environment\"")))
+    assert(found.exists(_.message.contains("\"spectral\"")))
     assert(found.exists(_.message.contains("\"bdpt\"")))
 
   test("gamma as a number in v3 is passed over with a warning, as it is in pbrt-v3"):

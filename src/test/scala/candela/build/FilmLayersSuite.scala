@@ -98,7 +98,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(16)))
     val image = Renderer.render(plan, threads = 2).image(plan.development)
     assert(image.channelNames.toSet == reference.channelNames.toSet)
-    // pbrt's variances hold the noise of colour that wavelengths have; dzdx shrinks with the samples
+    // pbrt's variances hold the noise of wavelengths; dzdx shrinks with the samples
     val others = Layer.gbuffer.filterNot(
       Set(Layer.Variance, Layer.RelativeVariance, Layer.Gradient)
     )

@@ -46,9 +46,9 @@ object Realistic extends CameraRecipe("realistic", "lenses of glass, from a tabl
     LensFile.read(path) match
       case Left(why) => refuse(why)
       case Right(surfaces) =>
-        val widest = surfaces.find(_.radius == 0.0).map(_.aperture * 2000)
+        val widest = surfaces.find(_.radius == 0.0).map(s => (s.aperture * 2000).toFloat)
         for most <- widest if diameter() > most do
-          val least = DefaultText.number(most.toFloat)
+          val least = DefaultText.number(most)
           site.warn(s"`aperturediameter` is more than the $least mm of the lens, which are used")
         val stopped = surfaces.map: s =>
           if s.radius == 0.0 then s.copy(aperture = Math.min(s.aperture, diameter() / 2000.0))
