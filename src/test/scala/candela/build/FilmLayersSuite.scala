@@ -106,8 +106,8 @@ final class FilmLayersSuite extends AnyFunSuite:
       val (ours, theirs) = (values(image, channel), values(reference, channel))
       val apart = ours.lazyZip(theirs).map((a, b) => Math.abs(a - b)).sorted
       val size = theirs.map(Math.abs(_)).sum / theirs.size
-      // Edges have noise
-      assert(Math.abs(ours.sum - theirs.sum) / theirs.size < 0.005 * size, channel)
+      // Of pixels at an edge some are met only with more samples
+      assert(Math.abs(ours.sum - theirs.sum) / theirs.size < 0.02 * size, channel)
       assert(apart(apart.size / 2) < 0.005f, channel)
 
   private def values(image: Image, channel: String): Vector[Float] =
