@@ -1,44 +1,58 @@
 package candela.build
 
-import candela.bsdf.{ConstantMaterial, FourierBsdf, Material}
+import java.nio.file.Path
 
-/** pbrt-v2's measured reflectance. */
-object MeasuredTable extends MaterialRecipe("measured", "a measured BRDF, as a table", onlyV2):
-  private val filename = string("filename", "a .brdf or .merl file", shown = "none")("")
+import candela.bsdf.{Bsdf, ConstantMaterial, FourierBsdf, Material}
+import candela.color.{Rgb, Spectrum}
+import candela.scenefile.Dialect
+
+/** Reflectance that was measured, and is in a file. */
+abstract class MeasuredRecipe(meaning: String, ending: String, dialects: Set[Dialect])
+    extends MaterialRecipe("measured", meaning, dialects):
+  private val filename = string("filename", s"a $ending file", shown = "none")("")
+
+  /** The reflection, or what is wrong with the file. */
+  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf]
+
+  /** Is it the same all around the normal? */
+  protected def isIsotropic: Boolean
 
   protected def make()(using site: Site): Material =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
-      case None => MeasuredTable.unnamed
+      case None =>
+        site.error("\"measured\" needs a `filename`")
+        Materials.default
       case Some(p) =>
+        val basis = site.resources.basis
         val made =
           for
             path <-
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
-            bsdf <- BrdfFile.read(
+            bsdf <- read(
               path,
-              s =>
-                site.resources.basis.fromSrgb(
-                  Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
-                )
+              s => basis.fromSrgb(Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect))
             ) match
               case Right(b) => Some(b)
               case Left(why) =>
                 val message = s"`${filename()}`: $why"
                 site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
                 None
-          yield ConstantMaterial(bsdf)
-        made.getOrElse(StandIns.material(site.resources.basis))
+          yield ConstantMaterial(bsdf, isAnisotropic = !isIsotropic)
+        made.getOrElse(StandIns.material(basis))
 
-  private[build] def unnamed(using site: Site): Material =
-    site.error("\"measured\" needs a `filename`")
-    Materials.default
+/** pbrt-v2's measured reflectance. */
+object MeasuredTable
+    extends MeasuredRecipe("a measured BRDF, as a table", ".brdf or .merl", onlyV2):
+  protected def isIsotropic: Boolean = true
+  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+    BrdfFile.read(path, toRgb)
 
+/** That of pbrt-v4. */
 object MeasuredBsdf
-    extends MaterialRecipe("measured", "a measured BRDF, by Dupuy and Jakob", onlyV4):
-  private val filename = string("filename", "a .bsdf file", shown = "none")("")
-  override def pending: Option[String] = Some(Materials.instead)
-  protected def make()(using Site): Material =
-    if filename().isEmpty then MeasuredTable.unnamed else Materials.default
+    extends MeasuredRecipe("a measured BRDF, by Dupuy and Jakob", ".bsdf", onlyV4):
+  protected def isIsotropic: Boolean = false
+  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+    AdaptiveFile.read(path, toRgb)
 
 object Fourier
     extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3):

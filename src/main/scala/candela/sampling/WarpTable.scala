@@ -1,0 +1,163 @@
+package candela.sampling
+
+import candela.math.*
+
+/** Functions on the unit square, bilinear between the points of a grid, one for each pair of two
+  * parameters and linear between those; and, by way of their integrals, the map that spreads even
+  * points like them, with its inverse.
+  *
+  * Where it stands for densities, each function is scaled to integrate to 1 before any are blended.
+  *
+  * @param data     values, x fastest, then y, the second parameter and the first
+  * @param first    values of the first parameter, ascending; those beyond are held to the ends
+  * @param second   likewise
+  * @param channels how many functions share the grid, stored one after the other at each pair of
+  *                 parameters
+  * @param isDensity whether it is to be drawn from; then there is one channel
+  *
+  * Source: Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
+  * Rendering", SIGGRAPH Asia 2018, §4.
+  */
+final class WarpTable(
+    width: Int,
+    height: Int,
+    data: Array[Float],
+    first: Array[Float],
+    second: Array[Float],
+    channels: Int = 1,
+    isDensity: Boolean = false
+):
+  private val size = width * height
+  private val slices = first.length * second.length
+  require(width > 1 && height > 1 && data.length == size * slices * channels)
+  require(channels == 1 || !isDensity)
+
+  // The values; sums along each row up to a column, and of rows up to a row
+  private val values = data.clone
+  private val along = if isDensity then new Array[Float](size * slices) else Array.emptyFloatArray
+  private val down =
+    if isDensity then new Array[Float](height * slices) else Array.emptyFloatArray
+
+  if isDensity then for slice <- 0 until slices do integrate(slice)
+
+  private def integrate(slice: Int): Unit =
+    val total = new Array[Double](height)
+    for y <- 0 until height do
+      var sum = 0.0
+      val row = slice * size + y * width
+      for x <- 1 until width do
+        sum += 0.5 * (data(row + x - 1).toDouble + data(row + x))
+        along(row + x) = sum.toFloat
+      total(y) = sum
+    var sum = 0.0
+    for y <- 1 until height do
+      sum += 0.5 * (total(y - 1) + total(y))
+      down(slice * height + y) = sum.toFloat
+    val scale = if sum > 0.0 then 1.0 / sum else 0.0
+    for i <- slice * size until (slice + 1) * size do
+      values(i) = (values(i) * scale * (width - 1) * (height - 1)).toFloat
+      along(i) = (along(i) * scale).toFloat
+    for i <- slice * height until (slice + 1) * height do down(i) = (down(i) * scale).toFloat
+
+  /** A place for answers, and which functions are blended; one for each question. */
+  final class Blend(a: Float, b: Float):
+    var x, y = 0f
+
+    // The four functions around the parameters, and how much each counts
+    private val i = WarpTable.cell(first, a)
+    private val j = WarpTable.cell(second, b)
+    private val s = WarpTable.part(first, i, a)
+    private val t = WarpTable.part(second, j, b)
+    private val i1 = Math.min(i + 1, first.length - 1)
+    private val j1 = Math.min(j + 1, second.length - 1)
+    private val s00 = i * second.length + j
+    private val s01 = i * second.length + j1
+    private val s10 = i1 * second.length + j
+    private val s11 = i1 * second.length + j1
+    private val w00 = (1f - s) * (1f - t)
+    private val w01 = (1f - s) * t
+    private val w10 = s * (1f - t)
+    private val w11 = s * t
+
+    private def blended(of: Array[Float], stride: Int, at: Int): Float =
+      w00 * of(s00 * stride + at) + w01 * of(s01 * stride + at) +
+        w10 * of(s10 * stride + at) + w11 * of(s11 * stride + at)
+
+    private def value(channel: Int, index: Int): Float =
+      blended(values, size * channels, channel * size + index)
+
+    /** The function, or density, at a point of the square. */
+    def apply(px: Float, py: Float, channel: Int = 0): Float =
+      val (gx, gy) = (px * (width - 1).toFloat, py * (height - 1).toFloat)
+      val (cx, cy) = (clamp(gx.toInt, 0, width - 2), clamp(gy.toInt, 0, height - 2))
+      val (fx, fy) = (gx - cx.toFloat, gy - cy.toFloat)
+      val at = cx + cy * width
+      lerp(
+        fy,
+        lerp(fx, value(channel, at), value(channel, at + 1)),
+        lerp(fx, value(channel, at + width), value(channel, at + width + 1))
+      )
+
+    private def rowSum(row: Int): Float = blended(along, size, row * width + width - 1)
+
+    /** Sets x and y to where an even point goes. */
+    def sample(u1: Float, u2: Float): Unit =
+      val row = WarpTable.find(height)(r => blended(down, height, r) < u2)
+      val (r0, r1) = (rowSum(row), rowSum(row + 1))
+      val fy = WarpTable.invert(r0, r1, u2 - blended(down, height, row))
+      val target = u1 * lerp(fy, r0, r1)
+      def sum(column: Int) = lerp(
+        fy,
+        blended(along, size, row * width + column),
+        blended(along, size, (row + 1) * width + column)
+      )
+      val column = WarpTable.find(width)(c => sum(c) < target)
+      val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
+      def edge(c: Int) = scale *
+        lerp(fy, value(0, row * width + c), value(0, (row + 1) * width + c))
+      val fx = WarpTable.invert(edge(column), edge(column + 1), target - sum(column))
+      x = (column.toFloat + fx) / (width - 1).toFloat
+      y = (row.toFloat + fy) / (height - 1).toFloat
+
+    /** Sets x and y to the even point that goes to this one. */
+    def invert(px: Float, py: Float): Unit =
+      val (gx, gy) = (px * (width - 1).toFloat, py * (height - 1).toFloat)
+      val (column, row) = (clamp(gx.toInt, 0, width - 2), clamp(gy.toInt, 0, height - 2))
+      val (fx, fy) = (gx - column.toFloat, gy - row.toFloat)
+      val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
+      def edge(c: Int) = scale *
+        lerp(fy, value(0, row * width + c), value(0, (row + 1) * width + c))
+      val (c0, c1) = (edge(column), edge(column + 1))
+      val before = lerp(
+        fy,
+        blended(along, size, row * width + column),
+        blended(along, size, (row + 1) * width + column)
+      )
+      val (r0, r1) = (rowSum(row), rowSum(row + 1))
+      val whole = lerp(fy, r0, r1)
+      x = if whole > 0f then (before + fx * (c0 + 0.5f * fx * (c1 - c0))) / whole else fx
+      y = blended(down, height, row) + fy * (r0 + 0.5f * fy * (r1 - r0))
+
+object WarpTable:
+
+  /** The last index below `count` − 1 for which `isBelow` holds; 0 if for none. */
+  private inline def find(count: Int)(inline isBelow: Int => Boolean): Int =
+    var low = 0
+    var high = count - 1
+    while high - low > 1 do
+      val middle = (low + high) >>> 1
+      if isBelow(middle) then low = middle else high = middle
+    low
+
+  private def cell(of: Array[Float], v: Float): Int =
+    if of.length < 2 then 0 else find(of.length)(of(_) <= v)
+
+  private def part(of: Array[Float], i: Int, v: Float): Float =
+    if of.length < 2 then 0f else clamp((v - of(i)) / (of(i + 1) - of(i)), 0f, 1f)
+
+  /** Where the integral of a line from `a` at 0 to `b` at 1 reaches `area`, in [0, 1]. */
+  private def invert(a: Float, b: Float, area: Float): Float =
+    val found =
+      if Math.abs(a - b) < 1e-4f * (a + b) then 2f * area / (a + b)
+      else (a - safeSqrt(a * a - 2f * area * (a - b))) / (a - b)
+    if found >= 0f && found <= 1f then found else if found > 1f then 1f else 0f
