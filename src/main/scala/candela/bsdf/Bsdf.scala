@@ -54,6 +54,9 @@ object BsdfSample:
 abstract class Material:
   def bsdf(at: ShadingPoint): Bsdf
 
+  /** Does it scatter wavelengths differently? Then its BSDFs are [[Dispersive]]. */
+  def isDispersive: Boolean = false
+
   /** Is it the same everywhere? */
   def isConstant: Boolean = false
 
@@ -77,3 +80,4 @@ final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = 
     extends Material:
   def bsdf(at: ShadingPoint): Bsdf = value
   override def isConstant: Boolean = true
+  override def isDispersive: Boolean = value.isInstanceOf[Dispersive]

@@ -14,6 +14,7 @@ import candela.textures.{FloatTexture, MipLevel}
   */
 final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDispersive: Boolean = inner.isDispersive
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
@@ -49,6 +50,7 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
   */
 final class NormalMapMaterial(inner: Material, picture: MipLevel) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDispersive: Boolean = inner.isDispersive
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 

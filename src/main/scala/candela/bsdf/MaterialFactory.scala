@@ -134,6 +134,13 @@ object MaterialFactory:
   def dielectric(eta: Float, roughness: Roughness): Material =
     dielectric(White, White, ConstantFloat(eta), roughness)
 
+  /** Glass whose index depends on the wavelength (in nm).
+    *
+    * @param usual the index where no wavelength is asked for
+    */
+  def dispersive(eta: Float => Float, usual: Float, roughness: Roughness): Material =
+    fold(DispersiveMaterial(eta, usual, roughness), roughness.isConstant)
+
   /** PBRT 2's glass: always smooth, and refraction doesn't change radiance. */
   def oldGlass(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): Material =
     fold(

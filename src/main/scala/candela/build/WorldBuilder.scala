@@ -102,6 +102,7 @@ final class WorldBuilder(
         "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
         "subsurface" -> beneath,
+        "dispersion" -> Dispersions.describe(scene, integrator, description, problems),
         "ray differentials" ->
           (if resources.footprintUses.isEmpty then "none: no texture asks for them"
            else resources.footprintUses.mkString("for ", ", ", "")),

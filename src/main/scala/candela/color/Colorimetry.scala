@@ -31,6 +31,12 @@ object Colorimetry:
       sum += light * cy
     fromXyz(x / sum, y / sum, z / sum)
 
+  /** Wavelengths in nm, 5 apart, and the colour that each adds to white under D65. */
+  lazy val responses: Array[(Float, Rgb)] =
+    for Array(nm, x, y, z) <- observer yield
+      val light = D65(nm).toDouble
+      (nm, fromXyz(light * x, light * y, light * z))
+
   /** The colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's habit for emission. */
   def unitLuminance(spectrum: Float => Float): Rgb =
     val c = rgb(spectrum, White.EqualEnergy)

@@ -11,5 +11,8 @@ abstract class Integrator:
   def radiance(ray: Ray, sampler: Sampler): Rgb
   def copy(): Integrator
 
+  /** Do its paths take a wavelength where light is split? */
+  def splitsLight: Boolean = false
+
   /** Rays traced so far by this worker, for the statistics. */
   def raysTraced: Long

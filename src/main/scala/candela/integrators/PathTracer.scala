@@ -3,7 +3,7 @@ package candela.integrators
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
-import candela.sampling.Sampler
+import candela.sampling.{Sampler, Wavelengths}
 import candela.scene.Scene
 
 /** Unidirectional path tracing with next-event estimation, multiple importance sampling and Russian
@@ -12,6 +12,7 @@ import candela.scene.Scene
   * @param maxDepth most scattering events of a path
   * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
+  * @param wavelengths if a surface splits light: a path takes one of them at the first such surface
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
   * §13.4.
@@ -20,13 +21,20 @@ final class PathTracer(
     scene: Scene,
     maxDepth: Int,
     rouletteAfter: Int,
-    rouletteThreshold: Float
+    rouletteThreshold: Float,
+    wavelengths: Option[Wavelengths] = None
 ) extends LightTransport(scene):
 
-  def copy(): PathTracer = PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold)
+  private val dispersion: Dispersion | Null = wavelengths.map(Dispersion(_)).orNull
+
+  override def splitsLight: Boolean = wavelengths.isDefined
+
+  def copy(): PathTracer =
+    PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, wavelengths)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
+    if dispersion != null then dispersion.begin()
     var light = Rgb.Black
     var throughput = Rgb.White
     var depth = 0
@@ -65,7 +73,9 @@ final class PathTracer(
           scene.passed(ray)
         else
           depth += 1
-          val bsdf = scene.bsdf(at)
+          val met = scene.bsdf(at)
+          val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
+          if dispersion != null then throughput = throughput * dispersion.weight
           val n = at.frame.n
           if !bsdf.isSpecular && scene.lights.length > 0 then
             val choice = sampler.next1D()
@@ -89,7 +99,8 @@ final class PathTracer(
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            val q = throughput.max * etaScale
+            // The colour of a single wavelength may be negative
+            val q = throughput.map(Math.abs(_)).max * etaScale
             if q < rouletteThreshold then
               if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
     light

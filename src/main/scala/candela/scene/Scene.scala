@@ -83,6 +83,9 @@ final class Scene(
 
   def bsdf(at: ShadingPoint): Bsdf = materials(at.material).bsdf(at)
 
+  /** Does any surface split light by wavelength? */
+  val isDispersive: Boolean = materials.exists(_.isDispersive)
+
   /** Does light travel beneath any surface? */
   val hasSubsurface: Boolean = materials.exists(_.isSubsurface)
 

@@ -37,11 +37,11 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assert(p.at.map(_.column).contains(16))
 
   test("a misspelt parameter of a type that is not supported yet is found, too"):
-    val fourier = s"Material \"fourier\" \"string bsdffil\" \"x\" $sphere"
-    val found = SceneTexts.problems(s"WorldBegin\n$fourier\nLightSource \"point\"\n")
-    assert(found.size == 2 && found.exists(_.message.contains("\"fourier\" is not supported yet")))
-    val slip = found.find(_.message.contains("bsdffil`")).get
-    assertWarning(slip, "`bsdffil` is not a parameter of \"fourier\"", "`bsdffile`")
+    val ptex = s"Texture \"t\" \"float\" \"ptex\" \"string filenam\" \"x\" $sphere"
+    val found = SceneTexts.problems(s"WorldBegin\n$ptex\nLightSource \"point\"\n")
+    assert(found.size == 2 && found.exists(_.message.contains("\"ptex\" is not supported yet")))
+    val slip = found.find(_.message.contains("filenam`")).get
+    assertWarning(slip, "`filenam` is not a parameter of \"ptex\"", "`filename`")
 
   test("what scatters below a surface of \"disney\" says what is done instead"):
     val p = only(s"Material \"disney\" \"rgb scatterdistance\" [1 .5 .2] $sphere")
@@ -81,7 +81,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertError(only(texture), "no float texture is named `constnat`", "`constant`")
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
-    assertWarning(only(s"Material \"fourier\" $sphere"), "grey diffuse")
+    assertWarning(only(s"Texture \"t\" \"float\" \"ptex\" $sphere"), "0.5 is used")
 
   test("lights that can't shine are left out, with a warning"):
     def light(rest: String) = only(s"LightSource $rest")

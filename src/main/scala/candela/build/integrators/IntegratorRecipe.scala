@@ -49,7 +49,7 @@ trait PathInstead extends Recipe[IntegratorPlan]:
   protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
     IntegratorPlan(
-      (scene, _) => PathTracer(scene, most, 1, 1f),
+      (scene, _) => PathTracer(scene, most, 1, 1f, Dispersions.wavelengths(scene)),
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,

@@ -29,7 +29,9 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
         if goesBeneath && scene.hasSubsurface then
           val seesThrough = site.dialect == Dialect.V3
           SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough)
-        else PathTracer(scene, depth, patience, threshold()),
+        else
+          PathTracer(scene, depth, patience, threshold(), Dispersions.wavelengths(scene))
+      ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events",
       followsSpecular = site.dialect == Dialect.V4,

@@ -23,7 +23,9 @@ object Dielectric
     extends RoughRecipe("dielectric", "glass and the like, smooth or rough", onlyV4, 0f):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
-    Make.dielectric(Indices.one(eta()), roughness())
+    Indices.dispersive(eta()) match
+      case Some((byWavelength, usual)) => Make.dispersive(byWavelength, usual, roughness())
+      case None => Make.dielectric(Indices.one(eta()), roughness())
 
 object ThinDielectric extends MaterialRecipe("thindielectric", "a thin pane of glass", onlyV4):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)

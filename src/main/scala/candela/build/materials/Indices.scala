@@ -15,8 +15,19 @@ private[build] object Indices:
     val isGrey = (c - Rgb.gray(c.g)).map(Math.abs(_)).max <= 1e-5f * c.g
     if isGrey then _ => c.g else Upsampling.spectrum(c)
 
-  /** The index at the sodium line (589.3 nm), by which glass is named; dispersion is not
-    * modelled. 0 stands for 1, as in pbrt-v4.
+  /** The index by wavelength, if it depends on that, and [[Usual]]. */
+  def dispersive(v: SpectralValue): Option[(Float => Float, Float)] = v match
+    case SpectralValue.Wavelengths(s) if s.values.distinct.length > 1 =>
+      Some((nm => positive(s(nm)), positive(s(Usual))))
+    case _ => None
+
+  private def positive(index: Float): Float = if index > 0f then index else 1f
+
+  /** The sodium line, by which glass is named, in nm. */
+  private inline val Usual = 589.3f
+
+  /** One index for all wavelengths: that at the sodium line, where dispersion is not modelled. 0
+    * stands for 1, as in pbrt-v4.
     */
   def one(v: SpectralValue)(using Site): Float =
     val index = named(v)
@@ -26,5 +37,8 @@ private[build] object Indices:
     case SpectralValue.Color(c) => c.average
     case SpectralValue.Wavelengths(s) =>
       if s.values.distinct.length > 1 then
-        site.warn("dispersion is not supported yet: the index of refraction at 589 nm is used")
-      s(589.3f)
+        val name = site.declaration.name
+        site.warn(
+          s"dispersion of \"$name\" is not supported: the index of refraction at 589 nm is used"
+        )
+      s(Usual)

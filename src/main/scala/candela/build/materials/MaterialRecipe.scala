@@ -48,11 +48,6 @@ abstract class MaterialRecipe(
       stored <- site.resources.image(p, site.declaration, site.problems)
     yield MipLevel(Texels.color(stored, identity), Wrap.Repeat)
 
-/** Of materials that are not rendered yet. */
-trait GreyInstead extends Recipe[Material]:
-  override def pending: Option[String] = Some(Materials.instead)
-  protected def make()(using Site): Material = Materials.default
-
 /** The parameters of roughness that many materials share.
   *
   * @param across the dialects in which u and v can have roughnesses of their own

@@ -5,8 +5,6 @@ import candela.color.Rgb
 
 /** Recipes of materials. */
 object Materials:
-  private[build] val instead = "a grey diffuse surface is used"
-
   val all: Recipes[Material] = Recipes(
     "material",
     Vector(

@@ -1,0 +1,50 @@
+package candela.integrators
+
+import candela.bsdf.{BsdfLaws, Dielectric, Dispersive, TrowbridgeReitz}
+import candela.color.{ColorBasis, Rgb}
+import candela.sampling.Wavelengths
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+class DispersionSuite extends BsdfLaws:
+  private def glass(alpha: Float)(nm: Float) =
+    Dielectric(TrowbridgeReitz(alpha, alpha), 1.6f - 2e-4f * (nm - 589f))
+  private def splitting(alpha: Float) = Dispersive(glass(alpha)(589f), glass(alpha))
+
+  obeysLaws("smooth, unasked", splitting(0f), isLossless = true)
+  obeysLaws("rough, unasked", splitting(0.3f))
+  obeysLaws("rough, of one wavelength", splitting(0.3f).at(450f))
+
+  for (name, basis) <- Seq("sRGB" -> ColorBasis.Srgb, "the sharp basis" -> ColorBasis.Sharp) do
+    test(s"the colours of wavelengths are white on average, in $name"):
+      val wavelengths = Wavelengths(basis)
+      val n = 100000
+      val mean = (0 until n).map(k => wavelengths.weight((k + 0.5f) / n)).reduce(_ + _) * (1f / n)
+      // Sums of Floats
+      assert((mean - Rgb.White).map(Math.abs(_)).max < 2e-3f, mean)
+      val reds = (0 until n).map(k => (k + 0.5f) / n).filter(wavelengths.sample(_) > 600f)
+      val red = reds.map(wavelengths.weight).reduce(_ + _)
+      assert(red.r > 3 * Math.abs(red.g) && red.r > 3 * Math.abs(red.b), red)
+
+  private def scene(eta: String): String =
+    "LookAt 0 -4 1  0 0 0  0 0 1\nCamera \"perspective\" \"float fov\" 40\n" +
+      "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n" +
+      "Sampler \"zsobol\" \"integer pixelsamples\" 256\nIntegrator \"path\"\nWorldBegin\n" +
+      "LightSource \"infinite\" \"rgb L\" [.4 .5 .6]\n" +
+      "Material \"diffuse\" \"rgb reflectance\" [.6 .4 .3]\n" +
+      "Shape \"disk\" \"float radius\" 3 \"float height\" -1\n" +
+      s"Material \"dielectric\" $eta\nShape \"sphere\"\n"
+
+  test("glass whose index hardly depends on the wavelength looks like glass of one index"):
+    val one = SceneTexts.mean(scene("\"float eta\" 1.5"), Dialect.V4)
+    val many = SceneTexts.mean(scene("\"spectrum eta\" [360 1.5 830 1.50001]"), Dialect.V4)
+    // Chance: 65,000 paths, of which a part takes one wavelength
+    assert((one - many).map(Math.abs(_)).max < 6e-3f * one.max, s"$many, not $one")
+
+  test("the plan names it, and an integrator that can't says so"):
+    val text = scene("\"spectrum eta\" \"glass-BK7\"")
+    val features = SceneTexts.plan(text, Dialect.V4).features.toMap
+    assert(features("dispersion").contains("one wavelength"))
+    val plain = SceneTexts.plan(scene("\"float eta\" 1.5"), Dialect.V4).features.toMap
+    assert(plain("dispersion") == "none")
+    assert(SceneTexts.problems(text, Dialect.V4).isEmpty)
