@@ -30,6 +30,10 @@ final class Resources(val basis: ColorBasis):
   /** What asks for the footprint of a sample on a surface, in words; at first nothing. */
   def footprintUses: Vector[String] = footprints
 
+  def footprintsInWords: String =
+    if footprints.isEmpty then "none: no texture asks for them"
+    else footprints.mkString("for ", ", ", "")
+
   /** Something of this kind asks for it, or for partial derivatives. */
   def askForFootprints(what: String): Unit =
     if !footprints.contains(what) then footprints :+= what

@@ -103,9 +103,7 @@ final class WorldBuilder(
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
         "subsurface" -> beneath,
         "dispersion" -> Dispersions.describe(scene, integrator, description, problems),
-        "ray differentials" ->
-          (if resources.footprintUses.isEmpty then "none: no texture asks for them"
-           else resources.footprintUses.mkString("for ", ", ", "")),
+        "ray differentials" -> resources.footprintsInWords,
         "media" -> inMedia,
         "lights" -> (if sources.isEmpty then "none" else selection.describe)
       ),
