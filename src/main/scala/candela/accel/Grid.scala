@@ -11,9 +11,8 @@ import candela.math.*
   * `grid`.
   *
   * All places are relative to the lower corner, so that a grid far from the origin loses no digits.
-  * A primitive is listed in every voxel that its box overlaps, padded against the rounding of the
-  * walk: 64 steps of half an ulp make 2.5e-4 voxels, and a ray from D sides away adds 1.2e-5·D. A
-  * hundredth of a voxel is enough for D up to 800.
+  * A primitive is listed in every voxel that its box overlaps, padded by a hundredth of a voxel
+  * against the rounding of Floats; the walk itself is in Double (stability suite: rays from afar).
   */
 final class Grid(primitives: Primitives) extends Accelerator:
   private val boxes = primitives.bounds
@@ -82,11 +81,11 @@ final class Grid(primitives: Primitives) extends Accelerator:
   private inline def walk(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     var found = false
     val entry = enter(ray)
-    if entry >= 0f then
-      // From the grid's corner
-      val ox = ray.ox - bounds.min.x
-      val oy = ray.oy - bounds.min.y
-      val oz = ray.oz - bounds.min.z
+    if entry >= 0.0 then
+      // From the grid's corner; in Double, as rays may come from a million sides away
+      val ox = ray.ox.toDouble - bounds.min.x
+      val oy = ray.oy.toDouble - bounds.min.y
+      val oz = ray.oz.toDouble - bounds.min.z
       var x = start(ox + entry * ray.dx, 0)
       var y = start(oy + entry * ray.dy, 1)
       var z = start(oz + entry * ray.dz, 2)
@@ -94,12 +93,12 @@ final class Grid(primitives: Primitives) extends Accelerator:
       val stepY = if ray.dy < 0f then -1 else 1
       val stepZ = if ray.dz < 0f then -1 else 1
       // Distance of the next voxel wall on each axis, and between two walls
-      var nextX = wall(x, stepX, 0, ox, ray.dx, ray.invX)
-      var nextY = wall(y, stepY, 1, oy, ray.dy, ray.invY)
-      var nextZ = wall(z, stepZ, 2, oz, ray.dz, ray.invZ)
-      val deltaX = Math.abs(width(0) * ray.invX)
-      val deltaY = Math.abs(width(1) * ray.invY)
-      val deltaZ = Math.abs(width(2) * ray.invZ)
+      var nextX = wall(x, stepX, 0, ox, ray.dx)
+      var nextY = wall(y, stepY, 1, oy, ray.dy)
+      var nextZ = wall(z, stepZ, 2, oz, ray.dz)
+      val deltaX = Math.abs(width(0) / ray.dx.toDouble)
+      val deltaY = Math.abs(width(1) / ray.dy.toDouble)
+      val deltaZ = Math.abs(width(2) / ray.dz.toDouble)
       var going = true
       while going do
         val voxel = (z * resolution(1) + y) * resolution(0) + x
@@ -130,24 +129,28 @@ final class Grid(primitives: Primitives) extends Accelerator:
     found
 
   /** Distance at which the ray enters the grid, 0 if it starts inside; −1: it misses. */
-  private def enter(ray: Ray): Float =
-    var near = 0f
-    var far = ray.tMax
+  private def enter(ray: Ray): Double =
+    var near = 0.0
+    var far = ray.tMax.toDouble
     loop(3): k =>
       val o = if k == 0 then ray.ox else if k == 1 then ray.oy else ray.oz
-      val i = if k == 0 then ray.invX else if k == 1 then ray.invY else ray.invZ
-      val a = (bounds.min(k) - o) * i
-      val b = (bounds.max(k) - o) * i
-      val (t0, t1) = if i < 0f then (b, a) else (a, b)
+      val d = if k == 0 then ray.dx else if k == 1 then ray.dy else ray.dz
+      val i = 1.0 / d
+      val a = (bounds.min(k).toDouble - o) * i
+      val b = (bounds.max(k).toDouble - o) * i
+      val (t0, t1) = if i < 0.0 then (b, a) else (a, b)
       if t0 > near then near = t0
-      if t1 * 1.0000004f < far then far = t1 * 1.0000004f
-    if near <= far && primitives.count > 0 then near else -1f
+      if t1 * Slack < far then far = t1 * Slack
+    if near <= far && primitives.count > 0 then near else -1.0
 
-  private def start(p: Float, axis: Int): Int =
+  /** As if the box were a little larger, for rays that graze it. */
+  private inline val Slack = 1.0000004
+
+  private def start(p: Double, axis: Int): Int =
     if width(axis) > 0f then
       clamp(Math.floor(p / width(axis)).toInt, 0, resolution(axis) - 1)
     else 0
 
-  private def wall(i: Int, step: Int, axis: Int, o: Float, d: Float, inv: Float): Float =
-    if d == 0f || width(axis) <= 0f then Float.PositiveInfinity
-    else ((if step > 0 then i + 1 else i) * width(axis) - o) * inv
+  private def wall(i: Int, step: Int, axis: Int, o: Double, d: Float): Double =
+    if d == 0f || width(axis) <= 0f then Double.PositiveInfinity
+    else ((if step > 0 then i + 1 else i) * width(axis).toDouble - o) / d

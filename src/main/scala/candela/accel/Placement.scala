@@ -83,9 +83,13 @@ object Placement:
     * mirrors; the shading normal follows it (so in pbrt-v2, v3 and v4).
     */
   def locate(m: Array[Double], at: Int, s: ShadingPoint): Unit =
-    val error = s.pError + absolute(s.p) * gamma(1)
+    val rounding = s.pError + absolute(s.p) * gamma(1)
     s.p = point(m, at, s.p)
-    s.pError = stretched(m, at, error) + absolute(s.p) * gamma(2)
+    // Far from the world's origin, or close to it inside a large object, that of Doubles counts too
+    val inverse = at + Inverse
+    val error = rounding +
+      (stretched(m, inverse, absolute(s.p)) + shift(m, inverse)) * DoubleError
+    s.pError = stretched(m, at, error) + absolute(s.p) * gamma(2) + shift(m, at) * DoubleError
     s.geometricNormal = normal(m, at, s.geometricNormal).normalized
     val across = normal(m, at, s.frame.n)
     val n = across.normalized.facing(s.geometricNormal)
@@ -129,6 +133,13 @@ object Placement:
       (m(i + 1) * n.x + m(i + 5) * n.y + m(i + 9) * n.z).toFloat,
       (m(i + 2) * n.x + m(i + 6) * n.y + m(i + 10) * n.z).toFloat
     )
+
+  /** By how far the map moves the origin. */
+  private def shift(m: Array[Double], at: Int): Vec3 =
+    absolute(Vec3(m(at + 3).toFloat, m(at + 7).toFloat, m(at + 11).toFloat))
+
+  /** Some round-offs of Doubles. */
+  private inline val DoubleError = 4e-15f
 
   /** What a box of this half extent around the origin spans. */
   private def stretched(m: Array[Double], at: Int, e: Vec3): Vec3 =

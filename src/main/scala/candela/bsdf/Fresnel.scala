@@ -52,7 +52,9 @@ object Fresnel:
   def refracted(w: Vec3, m: Vec3, cosI: Float, cosT: Float, eta: Float): Vec3 =
     val along = cosI / eta - cosT
     val across = -1f / eta
+    // Where the index falls by a factor, the rounding of both cosines grows by it
     Vec3(w.x * across + m.x * along, w.y * across + m.y * along, w.z * across + m.z * along)
+      .normalized
 
   /** The fraction of the power that a metal reflects.
     *
@@ -82,7 +84,8 @@ object Fresnel:
       val parallel =
         if sum2 + difference2 == 0.0 then perpendicular
         else perpendicular * (sum2 - difference2) / (sum2 + difference2)
-      (0.5 * (perpendicular + parallel)).toFloat
+      // At an index of 1 rounding leaves −1e-16
+      Math.max(0.0, 0.5 * (perpendicular + parallel)).toFloat
 
   /** `conductor` for each channel. */
   def conductor(cosThetaI: Float, eta: Rgb, k: Rgb): Rgb = Rgb(

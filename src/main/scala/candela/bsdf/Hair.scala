@@ -40,12 +40,14 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
   /** The angle around the axis at which the refracted ray goes on. */
   private def gammaT(sinO: Float, cosO: Float): Float =
     val etaP = safeSqrt(eta * eta - sinO * sinO) / Math.max(cosO, 1e-7f)
-    Math.asin(clamp(h / etaP, -1f, 1f).toDouble).toFloat
+    // Along a hair of index 1 nothing is bent, and both may be 0
+    val sine = if Math.abs(h) < etaP then h / etaP else Math.signum(h)
+    Math.asin(sine.toDouble).toFloat
 
   /** What a way once through the hair leaves of the light. */
   private def transmitted(sinO: Float, gammaT: Float): Rgb =
     val cosT = safeSqrt(1f - square(sinO / eta))
-    val way = 2f * cos(gammaT) / Math.max(cosT, 1e-7f)
+    val way = 2f * Math.max(0f, cos(gammaT)) / Math.max(cosT, 1e-7f)
     sigmaA.map(s => exp(-s * way))
 
   /** The share of the light that takes part `p`; `fresnel` is reflected at the outside. */
@@ -81,7 +83,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
         longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
       sum += share(p, r, t) * (along * around(p, phi, inside))
       p += 1
-    if cosine > 0f then sum * (1f / cosine) else Rgb.Black
+    if cosine > Hemisphere.Horizon then sum * (1f / cosine) else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     val (sinO, sinI) = (wo.x, wi.x)
@@ -137,7 +139,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     val phi = azimuth(wo) + turn
     val wi = Vec3(sinI, cosI * cos(phi), cosI * sin(phi))
     val density = pdf(wo, wi)
-    if !(density > 0f) || wi.z == 0f then BsdfSample.Absorbed
+    if !(density > 0f) || Math.abs(wi.z) < Hemisphere.Horizon then BsdfSample.Absorbed
     else
       val weight = f(wo, wi) * (Math.abs(wi.z) / density)
       if weight.isFinite then BsdfSample(wi, weight, density, isSpecular = false)

@@ -6,8 +6,16 @@ import candela.sampling.Warp
 /** The few questions that every lobe asks about directions of the local frame. */
 private[bsdf] object Hemisphere:
 
-  /** Do both lie strictly on the same side of the surface? */
-  inline def same(a: Vec3, b: Vec3): Boolean = a.z * b.z > 0f
+  /** A cosine below this is no more than the rounding of a unit vector, and what divides by it may
+    * overflow: the direction lies in the surface, and takes and brings no light.
+    */
+  inline val Horizon = 1e-10f
+
+  /** Do both lie on the same side of the surface, and not in it? */
+  inline def same(a: Vec3, b: Vec3): Boolean = a.z * b.z > Horizon * Horizon
+
+  /** Does one of the two lie in the surface? */
+  inline def isLevel(a: Vec3, b: Vec3): Boolean = Math.abs(a.z * b.z) <= Horizon * Horizon
 
   inline def absCos(w: Vec3): Float = Math.abs(w.z)
 

@@ -36,7 +36,7 @@ final class MicrofacetReflection(
     val m = distribution.sample(o, u1, u2)
     val cosM = o dot m
     val i = Hemisphere.reflected(o, m, cosM)
-    if o.z == 0f || cosM <= 0f || i.z <= 0f then BsdfSample.Absorbed
+    if o.z < Hemisphere.Horizon || cosM <= 0f || i.z < Hemisphere.Horizon then BsdfSample.Absorbed
     else
       val weight = scale * curve(oriented(cosM, wo)) * distribution.sampleWeight(o, i, m)
       val density = MicrofacetReflection.pdf(distribution, o, m)

@@ -34,7 +34,7 @@ final class RoughDielectric(
     r / (r + (1f - fresnel) * maxTransmittance)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if wo.z == 0f || wi.z == 0f then Rgb.Black
+    if Hemisphere.isLevel(wo, wi) then Rgb.Black
     else
       val relative = relativeEta(wo)
       val o = Hemisphere.above(wo)
@@ -50,7 +50,7 @@ final class RoughDielectric(
           transmittance * ((1f - fresnel) * density * spread)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if wo.z == 0f || wi.z == 0f then 0f
+    if Hemisphere.isLevel(wo, wi) then 0f
     else
       val relative = relativeEta(wo)
       val o = Hemisphere.above(wo)
@@ -69,14 +69,14 @@ final class RoughDielectric(
     val o = Hemisphere.above(wo)
     val m = distribution.sample(o, u1, u2)
     val cosM = o dot m
-    if o.z == 0f || cosM <= 0f then BsdfSample.Absorbed
+    if o.z < Hemisphere.Horizon || cosM <= 0f then BsdfSample.Absorbed
     else
       val fresnel = Fresnel.dielectric(cosM, relative)
       val p = reflects(fresnel)
       if p.isNaN then BsdfSample.Absorbed
       else if choice < p then
         val i = Hemisphere.reflected(o, m, cosM)
-        if i.z <= 0f then BsdfSample.Absorbed
+        if i.z < Hemisphere.Horizon then BsdfSample.Absorbed
         else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f)
       else
         val cosT = Fresnel.cosRefracted(cosM, relative)
@@ -84,7 +84,8 @@ final class RoughDielectric(
         else
           val i = Fresnel.refracted(o, m, cosM, cosT, relative)
           val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
-          if i.z >= 0f then BsdfSample.Absorbed else leave(wo, o, i, m, passed, relative, relative)
+          if i.z > -Hemisphere.Horizon then BsdfSample.Absorbed
+          else leave(wo, o, i, m, passed, relative, relative)
 
   private def leave(
       wo: Vec3,
@@ -131,6 +132,11 @@ object Dielectric:
       reflectance: Rgb = Rgb.White,
       transmittance: Rgb = Rgb.White
   ): Bsdf =
-    // Without a change of index nothing is bent, however rough the interface.
-    if distribution.isSmooth || eta == 1f then SmoothDielectric(eta, reflectance, transmittance)
+    // With next to no change of index nothing is bent, however rough the interface: by 1e-4 at
+    // most, and Float directions could not tell which facet did it.
+    val isMatched = Math.abs(eta - 1f) < Matched
+    if distribution.isSmooth || isMatched then SmoothDielectric(eta, reflectance, transmittance)
     else RoughDielectric(distribution, eta, reflectance, transmittance)
+
+  /** Of the index: media that differ by less are as good as the same. */
+  private inline val Matched = 1e-4f

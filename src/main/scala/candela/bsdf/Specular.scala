@@ -54,7 +54,11 @@ final class SmoothDielectric(
     // Rounding in Double and Float may put the critical angle one ulp apart.
     if cosT <= 0f then BsdfSample.Absorbed
     else
-      val wi = Vec3(-wo.x / relative, -wo.y / relative, if wo.z < 0f then cosT else -cosT)
+      // From a cosine near 1 the sine, and what becomes of it, has half the digits
+      val (x, y) = (-wo.x.toDouble / relative, -wo.y.toDouble / relative)
+      val sin2 = x * x + y * y
+      val depth = if sin2 < 0.5 then Math.sqrt(1.0 - sin2).toFloat else cosT
+      val wi = Vec3(x.toFloat, y.toFloat, if wo.z < 0f then depth else -depth).normalized
       val scale = if compresses then weight / (relative * relative) else weight
       BsdfSample(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 

@@ -8,10 +8,10 @@ final class Hit:
   /** If that is an instance: which primitive of its object. */
   var inner: Int = -1
 
-  /** For a triangle the barycentric weights of its second and third vertex; shapes use them
-    * freely.
+  /** For a triangle the barycentric weights of its second and third vertex; shapes use them freely.
+    * Double, because Float weights of a plane 1e6 wide are no finer than 0.06.
     */
-  var u, v: Float = 0f
+  var u, v: Double = 0.0
 
   private var point: Option[ShadingPoint] = None
 

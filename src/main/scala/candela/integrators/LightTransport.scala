@@ -104,14 +104,21 @@ abstract class LightTransport(
 
 object LightTransport:
   /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of
-    * its two ends must not reach the light's own surface.
+    * its two ends, 2⁻²³ of its length at most, must not reach the light's own surface. The more
+    * slanted that is, the sooner it does. What covers a light as closely is lost.
+    *
+    * @param cosine of the angle to the light's normal; 0 if it has none
     */
+  def shadowEnd(cosine: Float): Float = 1f - Math.min(1f - ShadowEnd, 5e-6f / cosine)
+
+  /** The soonest of these: it serves lights at any slant. */
   inline val ShadowEnd = 0.9999f
 
   /** Sets a ray from `origin` to the point that was sampled on a light. */
   def towards(origin: Vec3, sample: LightSample, ray: Ray): Unit =
     if sample.isInfinite then ray.set(origin, sample.wi, Float.PositiveInfinity)
-    else ray.set(origin, end(sample) - origin, ShadowEnd)
+    else
+      ray.set(origin, end(sample) - origin, shadowEnd(sample.target.n absDot sample.wi))
 
   /** Of a shadow ray: beside the point on the light, so that it does not meet the light itself. */
   def end(sample: LightSample): Vec3 =

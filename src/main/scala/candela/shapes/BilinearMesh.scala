@@ -120,4 +120,4 @@ object BilinearMesh:
     */
   private[shapes] inline val Rounding = 1e-10
 
-  private[shapes] def unit(x: Double): Float = Math.max(0.0, Math.min(1.0, x)).toFloat
+  private[shapes] def unit(x: Double): Double = Math.max(0.0, Math.min(1.0, x))

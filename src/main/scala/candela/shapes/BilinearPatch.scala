@@ -13,11 +13,11 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
   def isHit(ray: Ray): Boolean = mesh.test(patch, ray, BilinearPatch.NoHit, write = false)
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    val u = hit.u
-    val v = hit.v
+    val u = hit.u.toFloat
+    val v = hit.v.toFloat
     val p = BilinearPatch.Corners(mesh, patch)
-    at.p = p.point(u, v)
-    at.pError = TriangleSoup.roundingError(at.p)
+    at.p = p.point(hit.u, hit.v)
+    at.pError = p.error(at.p)
     val pu = p.alongU(v)
     val pv = p.alongV(u)
     val facet = unitNormal(pu, pv)
@@ -163,8 +163,8 @@ object BilinearPatch:
       val p11: Vec3
   ):
     /** In Double up to the rounding of the result. */
-    def point(u: Float, v: Float): Vec3 =
-      val w11 = u.toDouble * v
+    def point(u: Double, v: Double): Vec3 =
+      val w11 = u * v
       val w10 = u - w11
       val w01 = v - w11
       val w00 = 1.0 - u - v + w11
@@ -173,6 +173,11 @@ object BilinearPatch:
         (w00 * p00.y + w10 * p10.y + w01 * p01.y + w11 * p11.y).toFloat,
         (w00 * p00.z + w10 * p10.z + w01 * p01.z + w11 * p11.z).toFloat
       )
+
+    /** Bound of the error of a point on the patch. */
+    def error(p: Vec3): Vec3 =
+      val (a, b) = (TriangleSoup.error(p, p00, p10, p01), TriangleSoup.error(p, p01, p10, p11))
+      Vec3(Math.max(a.x, b.x), Math.max(a.y, b.y), Math.max(a.z, b.z))
 
     /** ∂²p/∂u∂v */
     def twist: Vec3 = (p11 - p01) - (p10 - p00)

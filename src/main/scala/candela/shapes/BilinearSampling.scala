@@ -32,7 +32,7 @@ private[shapes] final class BilinearSampling(corners: BilinearPatch.Corners):
     val v = BilinearSampling.linear(u2, w00 + w10, w01 + w11)
     val u = BilinearSampling.linear(u1, lerp(v, w00, w01), lerp(v, w10, w11))
     out.p = point(u, v)
-    out.pError = TriangleSoup.roundingError(out.p)
+    out.pError = error(out.p)
     val cross = alongU(v) cross alongV(u)
     val length = cross.length
     out.n = orient(u, v, if length > 0f then cross * (1f / length) else Vec3.Z).normalized

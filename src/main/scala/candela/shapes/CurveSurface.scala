@@ -23,9 +23,10 @@ private[shapes] final class CurveSurface(
   def fill(segment: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val direction =
       (if space.isEmpty then ray.direction else toObject.vector(ray.direction)).normalized
+    val u = hit.u.toFloat
     val u0 = params(2 * segment)
     val part = params(2 * segment + 1) - u0
-    val s = (hit.u - u0) / part
+    val s = (u - u0) / part
     val dpdu = tangent(segment, s) * (1f / part)
     val w = lerp(s, widths(2 * segment), widths(2 * segment + 1))
     val width =
@@ -33,9 +34,15 @@ private[shapes] final class CurveSurface(
       else w * walk.facing(segment, hit.u, direction.x, direction.y, direction.z).toFloat
     val dpdv = across(segment, hit, direction, dpdu) * width
     at.p = ray.at(ray.tMax)
-    at.pError = error(errorWidths * width)
-    at.u = hit.u
-    at.v = hit.v
+    val way = at.p - ray.origin
+    // A ribbon that is seen edge-on may be met face on by the ray that leaves it
+    at.pError = error(Math.max(errorWidths * width, 0.5f * w)) + Vec3(
+      (Math.abs(ray.ox) + Math.abs(way.x)) * gamma(3),
+      (Math.abs(ray.oy) + Math.abs(way.y)) * gamma(3),
+      (Math.abs(ray.oz) + Math.abs(way.z)) * gamma(3)
+    )
+    at.u = u
+    at.v = hit.v.toFloat
     val n = toWorld.normal(dpdu cross dpdv).normalized
     at.geometricNormal = if flipped then -n else n
     at.frame = Frame.along(at.geometricNormal, toWorld.vector(dpdu))
@@ -62,7 +69,7 @@ private[shapes] final class CurveSurface(
     case CurveKind.Cylinder =>
       // Turned about the curve by −90° to 90° from edge to edge
       val flat = CurveSurface.sideways(direction, dpdu)
-      val angle = (0.5f - hit.v) * Pi
+      val angle = (0.5f - hit.v.toFloat) * Pi
       flat * cos(angle) + (dpdu.normalized cross flat) * sin(angle)
 
   private def error(e: Float): Vec3 =

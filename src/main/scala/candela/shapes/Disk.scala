@@ -18,7 +18,10 @@ final class Disk(
     phiMax: Float,
     reversed: Boolean
 ) extends Shape:
+  private val toWorld = objectToWorld.m
   private val toObject = objectToWorld.inverseM
+  private val doubleError =
+    Quadric.doubleError(objectToWorld, radius.toDouble, radius.toDouble, Math.abs(height.toDouble))
   private val normal =
     val n = objectToWorld.normal(Vec3.Z).normalized
     if reversed then -n else n
@@ -31,11 +34,7 @@ final class Disk(
 
   def normals: (Vec3, Float) = (normal, 1f)
 
-  def bounds: Bounds3 =
-    Bounds3.of(
-      for x <- Seq(-radius, radius); y <- Seq(-radius, radius)
-      yield objectToWorld.point(Vec3(x, y, height))
-    )
+  def bounds: Bounds3 = Quadric.worldBounds(objectToWorld, radius, height, height)
 
   def intersect(ray: Ray, hit: Hit): Boolean =
     val t = distance(ray)
@@ -48,11 +47,16 @@ final class Disk(
     val t = distance(ray)
     t > 0.0 && t < ray.tMax
 
-  private def distance(ray: Ray): Double =
+  /** How far it is along the ray to the disk's plane. */
+  private def plane(ray: Ray): Double =
     val m = toObject
     val oz = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
     val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
-    val t = (height - oz) / dz
+    (height - oz) / dz
+
+  private def distance(ray: Ray): Double =
+    val m = toObject
+    val t = plane(ray)
     if !(t > 0.0 && t < ray.tMax) then -1.0
     else
       val x = m(0) * (ray.ox + t * ray.dx) + m(1) * (ray.oy + t * ray.dy) +
@@ -69,10 +73,15 @@ final class Disk(
     if a < 0 then a + 2 * Math.PI else a
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    val local = objectToWorld.inverse.point(ray.at(ray.tMax))
+    val m = toObject
+    val t = Quadric.refined(plane(ray), ray.tMax)
+    val (wx, wy, wz) = (ray.ox + t * ray.dx, ray.oy + t * ray.dy, ray.oz + t * ray.dz)
+    val x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
+    val y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
     // Put back into the plane: the point is exact but for the rounding of the way to world space
-    at.p = objectToWorld.point(Vec3(local.x, local.y, height))
-    at.pError = TriangleSoup.roundingError(at.p)
+    at.p = Quadric.place(toWorld, x, y, height.toDouble)
+    at.pError = TriangleSoup.roundingError(at.p) + doubleError
+    val local = Vec3(x.toFloat, y.toFloat, height)
     at.geometricNormal = normal
     val phi = angle(local.x.toDouble, local.y.toDouble).toFloat
     at.u = phi / phiMax
@@ -92,7 +101,7 @@ final class Disk(
     val r = sqrt(lerp(u1, square(innerRadius), square(radius)))
     val phi = u2 * phiMax
     out.p = objectToWorld.point(Vec3(r * cos(phi), r * sin(phi), height))
-    out.pError = TriangleSoup.roundingError(out.p)
+    out.pError = TriangleSoup.roundingError(out.p) + doubleError
     out.n = normal
     out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
 

@@ -29,6 +29,9 @@ final class Quadric(
   private val full = phiMax >= TwoPi
   private val outside = if reversed != profile.vSpan < 0 then -1f else 1f
   private lazy val sampling = RevolutionSampling(objectToWorld, profile, phiMax)
+  private val reach = Math.max(Math.abs(zMin), Math.abs(zMax))
+  private val doubleError =
+    Quadric.doubleError(objectToWorld, profile.radius, profile.radius, reach)
 
   def bounds: Bounds3 = Quadric.worldBounds(
     objectToWorld,
@@ -86,15 +89,15 @@ final class Quadric(
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val m = toObject
-    val t = ray.tMax.toDouble
+    val t = Quadric.refined(nearest(ray), ray.tMax)
     val wx = ray.ox + t * ray.dx
     val wy = ray.oy + t * ray.dy
     val wz = ray.oz + t * ray.dz
     var x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
     var y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
     var z = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
-    // The Float t is a millionth off; two of Newton's steps along the gradient bring the point
-    // onto the surface
+    // Behind a hole the t is a Float, a millionth off; two of Newton's steps along the gradient
+    // bring the point onto the surface
     var steps = 2
     while steps > 0 do
       val s = profile.slope(z)
@@ -106,11 +109,12 @@ final class Quadric(
         z += k * s
       steps -= 1
     at.p = Quadric.place(toWorld, x, y, z)
-    at.pError = TriangleSoup.roundingError(at.p)
+    at.pError = TriangleSoup.roundingError(at.p) + doubleError
     val slope = profile.slope(z)
-    val gradient =
-      objectToWorld.normal(Vec3(x.toFloat, y.toFloat, -slope.toFloat)).normalized
-    at.geometricNormal = gradient * outside
+    val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
+    // A tip points up, as far as it has a direction at all
+    val up = if gradient.isZero then Vec3.Z else gradient
+    at.geometricNormal = objectToWorld.normal(up).normalized * outside
     at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
     at.v = Math.max(0.0, Math.min(1.0, profile.v(z))).toFloat
     at.frame = Frame.along(at.geometricNormal, objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0)))
@@ -129,12 +133,10 @@ final class Quadric(
     val alongV = Vec3(vx.toFloat, vy.toFloat, profile.vSpan.toFloat)
     val bend = Vec3(vx.toFloat, vy.toFloat, (-g2 * profile.vSpan).toFloat)
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, -slope.toFloat)) * outside
-    at.setPartials(
-      objectToWorld.vector(alongU),
-      objectToWorld.vector(alongV),
-      ShadingPoint.turn(n, objectToWorld.normal(alongU) * outside),
-      ShadingPoint.turn(n, objectToWorld.normal(bend) * outside)
-    )
+    def turned(along: Vec3) =
+      if n.isZero then Vec3.Zero else ShadingPoint.turn(n, objectToWorld.normal(along) * outside)
+    val (dpdu, dpdv) = (objectToWorld.vector(alongU), objectToWorld.vector(alongV))
+    at.setPartials(dpdu, dpdv, turned(alongU), turned(bend))
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 
@@ -142,6 +144,7 @@ final class Quadric(
 
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     sampling.sample(u1, u2, out)
+    out.pError = out.pError + doubleError
     out.n = out.n * outside
     out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
 
@@ -149,6 +152,22 @@ final class Quadric(
     SurfaceSampler.perSolidAngle(sampling.perArea(p), from, p, n)
 
 object Quadric:
+  /** The largest error, per component, that Double arithmetic makes of a point in a box of this
+    * half extent around the origin of object space, on its way to the world and back: some 2⁶
+    * round-offs of the largest number on the way. It counts where such a point is close to the
+    * world's origin, as on a ground that is a sphere of radius 1e6.
+    */
+  private[shapes] def doubleError(toWorld: Transform, x: Double, y: Double, z: Double): Vec3 =
+    val m = toWorld.m
+    def row(r: Int) = (1.4e-14 * (Math.abs(m(r)) * x + Math.abs(m(r + 1)) * y +
+      Math.abs(m(r + 2)) * z + Math.abs(m(r + 3)))).toFloat
+    Vec3(row(0), row(4), row(8))
+
+  /** The distance of a hit that shortened a ray to `t`, as found again in Double; `t` itself if
+    * what was found is another one, as behind a hole.
+    */
+  private[shapes] def refined(found: Double, t: Float): Double =
+    if Math.abs(found - t) <= 1e-6 * t then found else t.toDouble
 
   /** The box around the placed cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
   private[shapes] def worldBounds(

@@ -31,6 +31,8 @@ final class Sphere(
 
   private val uniformScale: Option[Float] = objectToWorld.uniformScale.map(_.toFloat)
   private val worldRadius = radius * uniformScale.getOrElse(1f)
+  private val doubleError =
+    Quadric.doubleError(objectToWorld, radius.toDouble, radius.toDouble, radius.toDouble)
   private val conical = full && uniformScale.isDefined
 
   def bounds: Bounds3 = Quadric.worldBounds(objectToWorld, radius, zMin, zMax)
@@ -77,9 +79,9 @@ final class Sphere(
     full || (z >= zMin && z <= zMax && Sphere.phi(x, y) <= phiMax)
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    // Repeated in Double from the Float t: the point is pulled onto the sphere afterwards anyway
+    // Once more in Double: from a million radii away the Float t is a twentieth of one off
     val m = toObject
-    val t = ray.tMax.toDouble
+    val t = Quadric.refined(nearest(ray), ray.tMax)
     val (wx, wy, wz) = (ray.ox + t * ray.dx, ray.oy + t * ray.dy, ray.oz + t * ray.dz)
     val px = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
     val py = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
@@ -87,7 +89,7 @@ final class Sphere(
     val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
     val (x, y, z) = (px * scale, py * scale, pz * scale)
     at.p = Quadric.place(toWorld, x, y, z)
-    at.pError = TriangleSoup.roundingError(at.p)
+    at.pError = TriangleSoup.roundingError(at.p) + doubleError
     val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
     val phi = Sphere.phi(x, y)
@@ -141,7 +143,7 @@ final class Sphere(
     val phi = u2.toDouble * phiMax
     val (x, y) = (r * Math.cos(phi), r * Math.sin(phi))
     out.p = Quadric.place(toWorld, x, y, z)
-    out.pError = TriangleSoup.roundingError(out.p)
+    out.pError = TriangleSoup.roundingError(out.p) + doubleError
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
     val stretch = Math.abs(objectToWorld.determinant).toFloat * n.length / radius

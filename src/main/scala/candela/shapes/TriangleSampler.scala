@@ -24,8 +24,8 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
   val normal: Vec3 =
     val at = candela.geometry.ShadingPoint()
     val hit = candela.geometry.Hit()
-    hit.u = 1f / 3f
-    hit.v = 1f / 3f
+    hit.u = 1.0 / 3
+    hit.v = 1.0 / 3
     soup.surface(triangle, hit, at)
     at.geometricNormal
 
@@ -41,7 +41,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     else
       placeByArea(u1, u2, out)
       out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
-    out.pError = TriangleSoup.roundingError(out.p)
+    out.pError = TriangleSoup.error(out.p, p0, p1, p2)
 
   def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
     val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)

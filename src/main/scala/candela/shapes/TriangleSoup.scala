@@ -59,17 +59,16 @@ final class TriangleSoup(
     val i0 = indices(3 * triangle)
     val i1 = indices(3 * triangle + 1)
     val i2 = indices(3 * triangle + 2)
-    val b1 = hit.u
-    val b2 = hit.v
+    val b1 = hit.u.toFloat
+    val b2 = hit.v.toFloat
     val p0 = vertex(triangle, 0)
     val p1 = vertex(triangle, 1)
     val p2 = vertex(triangle, 2)
-    val p = mix(p0, p1, p2, b1.toDouble, b2.toDouble)
-    at.p = p
-    at.pError = TriangleSoup.roundingError(p)
+    at.p = mix(p0, p1, p2, hit.u, hit.v)
+    at.pError = TriangleSoup.error(at.p, p0, p1, p2)
     val e1 = p1 - p0
     val e2 = p2 - p0
-    val facet = (e1 cross e2).normalized
+    val facet = TriangleSoup.facet(p0, p1, p2)
     val outside = if mesh.flipped then -facet else facet
     val n =
       if mesh.normals.length == 0 then outside
@@ -156,3 +155,30 @@ object TriangleSoup:
   /** Rounding a Double point to Float is off by half an ulp; one more for what uses it. */
   def roundingError(p: Vec3): Vec3 =
     Vec3(Math.abs(p.x) * gamma(2), Math.abs(p.y) * gamma(2), Math.abs(p.z) * gamma(2))
+
+  /** What the rounding of Double coordinates leaves: it counts where a point of a large triangle is
+    * close to the origin.
+    */
+  private inline val DoubleError = 2e-15f
+
+  /** Bound of the error of a point that is a mean of the corners. */
+  private[shapes] def error(p: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Vec3 = Vec3(
+    error(p.x, p0.x, p1.x, p2.x),
+    error(p.y, p0.y, p1.y, p2.y),
+    error(p.z, p0.z, p1.z, p2.z)
+  )
+
+  private def error(x: Float, a: Float, b: Float, c: Float): Float =
+    val largest = Math.max(Math.abs(a), Math.max(Math.abs(b), Math.abs(c)))
+    Math.abs(x) * gamma(2) + largest * DoubleError
+
+  /** The unit normal; any across the longer side if the triangle has no area. */
+  private def facet(p0: Vec3, p1: Vec3, p2: Vec3): Vec3 =
+    val (ax, ay, az) = (p1.x.toDouble - p0.x, p1.y.toDouble - p0.y, p1.z.toDouble - p0.z)
+    val (bx, by, bz) = (p2.x.toDouble - p0.x, p2.y.toDouble - p0.y, p2.z.toDouble - p0.z)
+    val (x, y, z) = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+    val length = Math.sqrt(x * x + y * y + z * z)
+    if length > 0.0 then Vec3((x / length).toFloat, (y / length).toFloat, (z / length).toFloat)
+    else
+      val side = if p1 == p0 then p2 - p0 else p1 - p0
+      if side.isZero then Vec3.Z else Frame.around(side.normalized).s

@@ -7,7 +7,8 @@ import candela.math.*
   * meets one of the triangles that share it.
   *
   * Sources: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013; the bound
-  * on the error of t from Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.6.
+  * on the error of t, where there is one, from Pharr, Jakob, Humphreys, "Physically Based
+  * Rendering", 3rd ed., §3.9.6.
   */
 object TriangleTest:
 
@@ -55,29 +56,79 @@ object TriangleTest:
       e0 = (x1.toDouble * y2.toDouble - y1.toDouble * x2.toDouble).toFloat
       e1 = (x2.toDouble * y0.toDouble - y2.toDouble * x0.toDouble).toFloat
       e2 = (x0.toDouble * y1.toDouble - y0.toDouble * x1.toDouble).toFloat
-    if (e0 < 0f || e1 < 0f || e2 < 0f) && (e0 > 0f || e1 > 0f || e2 > 0f) then false
+    val det = e0 + e1 + e2
+    if ((e0 < 0f || e1 < 0f || e2 < 0f) && (e0 > 0f || e1 > 0f || e2 > 0f)) || det == 0f then false
     else
-      val det = e0 + e1 + e2
-      val s0 = z0 * ray.shearZ
-      val s1 = z1 * ray.shearZ
-      val s2 = z2 * ray.shearZ
-      val scaled = e0 * s0 + e1 * s1 + e2 * s2
-      val limit = ray.tMax * det
-      val outside =
-        if det < 0f then scaled >= 0f || scaled < limit
-        else if det > 0f then scaled <= 0f || scaled > limit
-        else true
-      if outside then false
-      else
+      // The ray goes through. Where, is found anew in Double from the corners as they are (Möller
+      // and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats
+      // are
+      // off by 1e-7 of the way to the farthest corner, which is too much close to a large triangle
+      // and for a small one far away
+      val px = v(at).toDouble
+      val py = v(at + 1).toDouble
+      val pz = v(at + 2).toDouble
+      val ax = v(at + 3) - px
+      val ay = v(at + 4) - py
+      val az = v(at + 5) - pz
+      val bx = v(at + 6) - px
+      val by = v(at + 7) - py
+      val bz = v(at + 8) - pz
+      val dx = ray.dx.toDouble
+      val dy = ray.dy.toDouble
+      val dz = ray.dz.toDouble
+      val qx = dy * bz - dz * by
+      val qy = dz * bx - dx * bz
+      val qz = dx * by - dy * bx
+      val volume = ax * qx + ay * qy + az * qz
+      val inverse = 1.0 / volume
+      val sx = ray.ox - px
+      val sy = ray.oy - py
+      val sz = ray.oz - pz
+      val rx = sy * az - sz * ay
+      val ry = sz * ax - sx * az
+      val rz = sx * ay - sy * ax
+      val b1 = (sx * qx + sy * qy + sz * qz) * inverse
+      val b2 = (dx * rx + dy * ry + dz * rz) * inverse
+      val thin = volume * volume <= Thin * ((ax * ax + ay * ay + az * az) *
+        (bx * bx + by * by + bz * bz) * (dx * dx + dy * dy + dz * dz))
+      if thin || b1 < -Apart || b2 < -Apart || b1 + b2 > 1.0 + Apart then
+        // Seen edge-on or without an area, or so small and far that Floats can't tell the ray from
+        // its neighbours: a mean of the corners' distances is at least one of the triangle
+        val s0 = z0 * ray.shearZ
+        val s1 = z1 * ray.shearZ
+        val s2 = z2 * ray.shearZ
         val inv = 1f / det
-        val t = scaled * inv
-        if t <= minT(x0, y0, s0, x1, y1, s1, x2, y2, s2, e0, e1, e2, inv) then false
+        val t = (e0 * s0 + e1 * s1 + e2 * s2) * inv
+        val isAhead = s0 > Ahead * t && s1 > Ahead * t && s2 > Ahead * t
+        if !(t > 0f && t < ray.tMax) then false
+        else if !isAhead && t <= minT(x0, y0, s0, x1, y1, s1, x2, y2, s2, e0, e1, e2, inv) then
+          false
         else
           if write then
             ray.tMax = t
             hit.u = e1 * inv
             hit.v = e2 * inv
           true
+      else
+        val t = (bx * rx + by * ry + bz * rz) * inverse
+        if !(t > 0.0 && t < ray.tMax) then false
+        else
+          if write then
+            ray.tMax = t.toFloat
+            hit.u = Math.max(0.0, Math.min(1.0, b1))
+            hit.v = Math.max(0.0, Math.min(1.0 - hit.u, b2))
+          true
+
+  /** The square of the sine under which a triangle is seen, or of that between its sides, below
+    * which nothing is divided by it.
+    */
+  private inline val Thin = 1e-24
+
+  /** By how much barycentric weights may be outside for reasons of rounding alone. */
+  private inline val Apart = 1e-3
+
+  /** A corner that is at least so much of the distance ahead is ahead, whatever was rounded. */
+  private inline val Ahead = 1e-5f
 
   /** What t must exceed to be surely positive: the rounding error of the test itself. */
   private inline def minT(

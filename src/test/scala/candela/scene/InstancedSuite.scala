@@ -54,7 +54,8 @@ class InstancedSuite extends AnyFunSuite:
           instanced.fill(0, ray, hit, at)
           assert(hit.primitive == before, "an instance's hit leaves the world's alone")
           copy.surface(otherHit.primitive, otherHit, there)
-          assert(apart(at.p, there.p) <= 1e-5f * size)
+          // The rounding of a ray's origin, 1e-7 of the size, grows with the slant of a facet
+          assert(apart(at.p, there.p) <= 3e-5f * size)
           assert(apart(at.geometricNormal, there.geometricNormal) < 1e-2f)
           assert(apart(at.frame.n, there.frame.n) < 1e-2f)
           assert(apart(at.frame.s, there.frame.s) < 3e-2f)

@@ -185,7 +185,7 @@ class BilinearPatchSuite extends AnyFunSuite:
           assert((axis dot out.n) >= cosine - 1e-4f)
           // Where it is on the patch, by a ray along the normal
           ray.set(out.p + out.n * 0.1f, -out.n, Float.PositiveInfinity)
-          Option.when(patch.intersect(ray, hit))(Vec3(hit.u, hit.v, 0))
+          Option.when(patch.intersect(ray, hit))(Vec3(hit.u.toFloat, hit.v.toFloat, 0))
         ,
         (u, v) =>
           val q = p.point(u.toFloat, v.toFloat)

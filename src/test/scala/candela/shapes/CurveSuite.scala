@@ -178,8 +178,8 @@ class CurveSuite extends AnyFunSuite:
         val found = moved.intersect(k, ray, hit)
         if found && inSpace.intersect(k, other, otherHit) then
           hits += 1
-          assert(abs(ray.tMax - other.tMax) < 1e-4f && abs(hit.u - otherHit.u) < 1e-3f)
-          assert(abs(hit.v - otherHit.v) < 0.02f)
+          assert(abs(ray.tMax - other.tMax) < 1e-4f && Math.abs(hit.u - otherHit.u) < 1e-3)
+          assert(Math.abs(hit.v - otherHit.v) < 0.02)
           moved.surface(k, ray, hit, at)
           val (n, e) = (at.geometricNormal, at.pError)
           inSpace.surface(k, other, otherHit, at)
