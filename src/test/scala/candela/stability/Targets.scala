@@ -1,0 +1,106 @@
+package candela.stability
+
+import candela.accel.{Accelerator, BruteForce, Instances, Primitives}
+import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.scene.{Instanced, ShapeInstance, Surfaces}
+import candela.shapes.*
+import candela.testing.{Draws, Soups}
+
+/** Something that rays land on and leave: a surface alone in the world. */
+final class Target(surfaces: Surfaces, motion: Motion):
+  private val primitives = surfaces.primitives()
+  private val isPlain = !motion.moves && motion.transform(0f).isIdentity
+  private val instances =
+    if isPlain then Instances.None
+    else Instances.of(Array(BruteForce(primitives)), Vector((0, motion)), 0f, 1f)
+  private val instanced = Instanced(Array(surfaces), instances)
+  private val accelerator: Accelerator =
+    if isPlain then BruteForce(primitives)
+    else BruteForce(Primitives(TriangleSoup.Empty, Array.empty, instances))
+
+  def bounds: Bounds3 = accelerator.bounds
+  def isHit(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
+  def closest(ray: Ray, hit: Hit): Boolean = accelerator.closest(ray, hit)
+
+  def fill(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
+    if isPlain then surfaces.fill(hit.primitive, ray, hit, at)
+    else instanced.fill(hit.primitive, ray, hit, at)
+
+object Target:
+  private val AtRest = Still(Transform.Identity)
+
+  def apply(shapes: Seq[Shape], motion: Motion = AtRest): Target =
+    val solids = shapes.map(s => ShapeInstance(s, material = 0, light = -1))
+    new Target(Surfaces(TriangleSoup.Empty, solids.toArray), motion)
+
+  def mesh(soup: TriangleSoup, motion: Motion = AtRest): Target =
+    new Target(Surfaces(soup, Array.empty), motion)
+
+/** Where rays that leave a surface go: to any side, to the outside, or to the outside and not along
+  * the surface, which bends up to them.
+  */
+enum Leaving:
+  case Anywhere, Outwards, Steeply
+
+/** One kind of shape.
+  *
+  * @param make a shape of about the given size, placed; moved about by `motion` if there is one
+  */
+final case class Kind(name: String, leaving: Leaving, quick: Int = 2500)(
+    val make: (Draws, Transform, Float, Option[Motion]) => Target
+)
+
+object Kind:
+  private def still(motion: Option[Motion]) = motion.getOrElse(Still(Transform.Identity))
+
+  private def of(name: String, leaving: Leaving, quick: Int = 2500)(
+      shapes: (Draws, Transform, Float) => Seq[Shape]
+  ): Kind = Kind(name, leaving, quick)((draws, toWorld, size, motion) =>
+    Target(shapes(draws, toWorld, size), still(motion))
+  )
+
+  private def quadric(name: String, kind: Int, leaving: Leaving) =
+    of(name, leaving)((draws, toWorld, size) =>
+      Seq(Quadrics.random(draws, kind, size).placed(toWorld))
+    )
+
+  private def curves(name: String, kind: CurveKind) =
+    of(name, Leaving.Steeply, quick = 300): (draws, toWorld, size) =>
+      val p = Seq.tabulate(4)(i => Vec3(i - 1.5f, 0f, 0f) + draws.vec(-0.4f, 0.4f)).map(_ * size)
+      val points = p.flatMap(q => Seq(q.x.toDouble, q.y.toDouble, q.z.toDouble)).toArray
+      val normals = Option.when(kind == CurveKind.Ribbon)((draws.direction(), draws.direction()))
+      val width = size * draws.magnitude(1e-2, 0.2)
+      val curve = BezierCurve(points, width, width * draws.between(0.3f, 1f), normals)
+      val segments = CurveBuilder.segments(Seq(curve), kind, 2, toWorld, false, 1f)
+      Seq.tabulate(segments.count)(CurveSegment(segments, _))
+
+  private def triangles(draws: Draws, toWorld: Transform, size: Float) =
+    Soups.of(Soups.around(draws, 1, size)(Vec3.Zero).map: (a, b, c) =>
+      (toWorld.point(a), toWorld.point(b), toWorld.point(c)))
+
+  val all: Seq[Kind] = Seq(
+    Kind("triangle", Leaving.Anywhere)((draws, toWorld, size, motion) =>
+      Target.mesh(triangles(draws, toWorld, size), still(motion))
+    ),
+    of("disk", Leaving.Anywhere)((draws, toWorld, size) =>
+      Seq(Disk(toWorld, size * draws.between(-1, 1), size, 0f, TwoPi, draws.coin()))
+    ),
+    of("sphere", Leaving.Outwards)((_, toWorld, size) => Seq(Soups.sphere(toWorld, size))),
+    of("part of a sphere", Leaving.Outwards)((draws, toWorld, size) =>
+      Seq(Sphere(toWorld, size, -0.5f * size, 0.7f * size, draws.between(1, 6), false))
+    ),
+    quadric("cylinder", 0, Leaving.Outwards),
+    quadric("cone", 1, Leaving.Outwards),
+    quadric("paraboloid", 2, Leaving.Outwards),
+    quadric("hyperboloid", 3, Leaving.Steeply),
+    of("bilinear patch", Leaving.Steeply): (draws, toWorld, size) =>
+      val corners = BilinearPatches.corners(draws).map(p => toWorld.point((p - Half) * size))
+      Seq(BilinearPatches.of(corners))
+    ,
+    curves("flat curve", CurveKind.Flat),
+    curves("round curve", CurveKind.Cylinder),
+    curves("ribbon", CurveKind.Ribbon)
+  )
+
+  private val Half = Vec3(0.5f, 0.5f, 0f)
