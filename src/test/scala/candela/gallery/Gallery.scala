@@ -1,0 +1,64 @@
+package candela.gallery
+
+import java.nio.file.{Files, Path}
+
+import candela.base.Problem
+import candela.build.{BuildOptions, Category, Recipe, SceneBuilder}
+import candela.image.{Image, ImageFiles}
+import candela.render.{ReferenceScenes, Renderer, RenderPlan}
+import candela.scenefile.{Dialect, Parser}
+
+/** One type of the gallery.
+  *
+  * @param example empty: nobody has written one yet
+  */
+final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[Example]):
+  def dialect: Dialect = Examples.dialect(recipe)
+
+  /** Why there is no picture. */
+  def reason: Option[String] = recipe.pending.map(p => s"not yet: $p").orElse:
+    example.collect { case Example.Unseen(why) => why }
+
+  /** The scene that shows it. */
+  def scene: Option[String] = example.collect:
+    case Example.Lines(text) if reason.isEmpty => Template.scene(category.name, dialect, text)
+
+  /** Name of its picture, without ending. */
+  def file: String =
+    def slug(words: String) = words.toLowerCase.replaceAll("[^a-z0-9]+", "-").stripSuffix("-")
+    val same = category.recipes.all.count(_.name == recipe.name)
+    val suffix = if same > 1 then s"-${dialect.toString.toLowerCase}" else ""
+    s"${slug(category.name)}-${slug(recipe.name)}$suffix"
+
+  def plan(options: BuildOptions): (RenderPlan, Vector[Problem]) =
+    val description =
+      Parser.parseText(s"$file.pbrt", scene.get, ReferenceScenes.Scenes, Some(dialect))
+    SceneBuilder.build(description, options)
+
+/** Renders a small picture of each type that scene files can name, and writes the page that shows
+  * them.
+  *
+  * Usage: `./sbt "Test/runMain candela.gallery.Gallery"` makes all of it anew; with words behind it
+  * only those pictures whose names contain one of them, and the page.
+  */
+object Gallery:
+  val Page: Path = Path.of("docs", "GALLERY.md")
+  val Pictures: Path = Path.of("docs", "gallery")
+  private val SamplesPerPixel = 64
+
+  val exhibits: Vector[Exhibit] =
+    for category <- Examples.categories; recipe <- category.recipes.all
+    yield Exhibit(category, recipe, Examples.of(category, recipe))
+
+  def main(words: Array[String]): Unit =
+    val _ = Files.createDirectories(Pictures)
+    for e <- exhibits if e.scene.nonEmpty && (words.isEmpty || words.exists(e.file.contains)) do
+      val (plan, problems) = e.plan(BuildOptions(spp = Some(SamplesPerPixel)))
+      problems.foreach(p => println(s"${e.file}: ${p.message}"))
+      ImageFiles.write(Pictures.resolve(s"${e.file}.png"), render(plan))
+      println(e.file)
+    val _ = Files.writeString(Page, GalleryPage(exhibits).text)
+    println(s"wrote $Page")
+
+  def render(plan: RenderPlan): Image =
+    Renderer.render(plan, Runtime.getRuntime.availableProcessors).image(plan.development)

@@ -1,0 +1,49 @@
+package candela.gallery
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.SceneError
+import candela.build.BuildOptions
+import candela.render.{ReferenceScenes, Renderer}
+
+/** The gallery shows every type that there is. */
+final class GallerySuite extends AnyFunSuite:
+
+  for e <- Gallery.exhibits do
+    test(s"${e.category.name} \"${e.recipe.name}\" of ${e.dialect} has an example or a reason"):
+      assert(e.reason.nonEmpty || e.scene.nonEmpty, "write one in src/test/scala/candela/gallery")
+
+  for e <- Gallery.exhibits if e.scene.nonEmpty do
+    test(s"the example of ${e.file} is built without complaint, and something is seen"):
+      val (plan, problems) =
+        try e.plan(BuildOptions(spp = Some(2), quick = true))
+        catch case error: SceneError => fail(error.problems.map(_.message).mkString("\n"))
+      assert(problems.isEmpty, problems.map(_.message))
+      val rendering = Renderer.render(plan, threads = 1)
+      assert(rendering.refused.isEmpty && rendering.image(plan.development).data.exists(_ > 0f))
+
+  test("no example is of a type that is not there"):
+    assert(Examples.strays.isEmpty)
+
+  test("the page shows what the tables say"):
+    val found = Files.readString(Gallery.Page)
+    val help = "make it anew: ./sbt \"Test/runMain candela.gallery.Gallery\""
+    assert(found == GalleryPage(Gallery.exhibits).text, help)
+
+  test("every picture is there, no other, and all together are small"):
+    val wanted = Gallery.exhibits.filter(_.scene.nonEmpty).map(_.file).sorted
+    assert(wanted.distinct == wanted)
+    assert(ReferenceScenes.names(Gallery.Pictures, ".png") == wanted)
+    val sizes = wanted.map(name => Files.size(Gallery.Pictures.resolve(s"$name.png")))
+    assert(sizes.sum < 1_500_000)
+
+  test("every link leads to a heading of the reference"):
+    val reference = Files.readString(java.nio.file.Path.of("docs", "REFERENCE.md"))
+    val headings =
+      reference.linesIterator.filter(_.startsWith("##")).map(_.dropWhile(_ == '#').trim)
+    val anchors = headings.map(h => s"REFERENCE.md#${GalleryPage.anchor(h)}").toSet
+    val page = GalleryPage(Gallery.exhibits)
+    val broken = Gallery.exhibits.map(page.link).filterNot(anchors)
+    assert(broken.isEmpty)

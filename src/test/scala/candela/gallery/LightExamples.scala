@@ -1,0 +1,42 @@
+package candela.gallery
+
+import candela.gallery.Example.Unseen
+
+/** Lights in a dark room, and cameras among balls. */
+private object LightExamples:
+  val lights: Vector[(String, String)] = Vector(
+    "point" -> "LightSource \"point\" \"rgb I\" [9 8 7] \"point3 from\" [1.2 -1 2.4]",
+    "spot" ->
+      """LightSource "spot" "rgb I" [30 27 24] "point3 from" [1.5 -2 3.5] "point3 to" [0 0 0]""",
+    "goniometric" ->
+      """Translate .8 -.6 1.8
+        |LightSource "goniometric" "string filename" "textures/dusk-equalarea.exr" "float scale" 12
+        |""".stripMargin,
+    "projection" ->
+      """Translate .5 -4 2
+        |Rotate -105 1 0 0
+        |LightSource "projection" "string filename" "textures/chart.png" "float fov" 30
+        |  "float scale" 14""".stripMargin,
+    "distant" ->
+      "LightSource \"distant\" \"rgb L\" [2.5 2.4 2.2] \"point3 from\" [2 -2 3]",
+    "infinite" -> "LightSource \"infinite\" \"rgb L\" [.8 .9 1]",
+    "exinfinite" -> "LightSource \"exinfinite\" \"string mapname\" \"textures/sky-latlong.exr\""
+  )
+
+  val areaLights: Vector[(String, String)] = Vector(
+    "diffuse" -> "AreaLightSource \"diffuse\" \"rgb L\" [9 8 6]",
+    "area" -> "AreaLightSource \"area\" \"rgb L\" [9 8 6]"
+  )
+
+  val cameras: Vector[(String, String)] = Vector(
+    "perspective" -> "Camera \"perspective\"",
+    "orthographic" -> "Camera \"orthographic\"",
+    "environment" -> "Camera \"environment\"",
+    "spherical" -> "Camera \"spherical\"",
+    "realistic/v4" ->
+      """Camera "realistic" "string lensfile" "lenses/double-gauss-50mm.dat"
+        |  "float aperturediameter" 17.1 "float focusdistance" 1.5""".stripMargin
+  )
+
+  val unseenCameras: Map[String, Example] =
+    Map("realistic/v2" -> Unseen("only forks of pbrt-v2 have it"))
