@@ -18,6 +18,11 @@ private[cli] object OptionTable:
       .find(_.toString.equalsIgnoreCase(text))
       .getOrElse(throw IllegalArgumentException("expected v2, v3 or v4"))
 
+  private given Read[(Int, Int)] = Read.reads: text =>
+    text.split(",", -1).map(_.trim.toIntOption) match
+      case Array(Some(x), Some(y)) if x >= 0 && y >= 0 => (x, y)
+      case _ => throw IllegalArgumentException("expected x,y in pixels, e.g. 12,40")
+
   private given Read[CropWindow] = Read.reads: text =>
     text.split(",", -1).map(_.trim.toFloatOption) match
       case Array(Some(x0), Some(x1), Some(y0), Some(y1))
@@ -83,6 +88,16 @@ private[cli] object OptionTable:
     opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
       .text("render only this part of the image, in fractions of its size")
       .action((w, o) => o.copy(cropWindow = Some(w))),
+    opt[(Int, Int)]("pixel").valueName("x,y")
+      .text("with --debug: which pixel, from 0,0 at the top left")
+      .action((p, o) => o.copy(pixel = Some(p))),
+    opt[Int]("sample").valueName("N")
+      .text("with --debug: which of its samples, from 0 (default 0)")
+      .validate(atLeast("sample", 0))
+      .action((n, o) => o.copy(sample = n)),
+    opt[Unit]("debug")
+      .text("write no image, but say what happens along the path of one sample")
+      .action((_, o) => o.copy(debug = true)),
     opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
       .text(s"write these into the .exr, too: ${Layer.values.map(_.word).mkString(", ")}")
       .action((l, o) => o.copy(layers = o.layers ++ l)),
@@ -173,5 +188,7 @@ private[cli] object OptionTable:
     checkConfig: o =>
       if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
         failure("--outfile names one image, but there are several scenes")
+      else if o.debug != o.pixel.isDefined then
+        failure("--debug and --pixel x,y go together")
       else success
   )

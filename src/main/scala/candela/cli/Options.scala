@@ -18,6 +18,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param files     the scenes; for `compare`, the image and its reference; for `describe`, what to
   *                  describe
   * @param outfiles  where to write the image, instead of the scene's file name
+  * @param pixel     with `sample`, what `debug` looks at instead of rendering an image
   * @param markdown  whether `describe` writes the whole reference
   * @param to        the dialect that `convert` writes
   * @param out       where it writes the scene
@@ -37,6 +38,9 @@ final case class Options(
     verbose: Boolean = false,
     explain: Boolean = false,
     cropWindow: Option[CropWindow] = None,
+    pixel: Option[(Int, Int)] = None,
+    sample: Int = 0,
+    debug: Boolean = false,
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,

@@ -25,12 +25,14 @@ final class RenderCommand(
       code = code.worseOf:
         report.guarded:
           val loaded = load(scene)
-          val files = outputs(loaded.plan.filename)
-          if loaded.plan.layers.nonEmpty then files.checkLayers()
-          for path <- files.paths.map(_.toAbsolutePath.normalize) do
-            taken.get(path).foreach(other => throw overwrite(path, scene, other))
-            taken += path -> scene
-          render(scene, loaded, files.paths)
+          if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
+          else
+            val files = outputs(loaded.plan.filename)
+            if loaded.plan.layers.nonEmpty then files.checkLayers()
+            for path <- files.paths.map(_.toAbsolutePath.normalize) do
+              taken.get(path).foreach(other => throw overwrite(path, scene, other))
+              taken += path -> scene
+            render(scene, loaded, files.paths)
     code
 
   private def load(scene: String): LoadedScene =

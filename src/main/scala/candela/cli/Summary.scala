@@ -32,8 +32,10 @@ object Summary:
     ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
 
   def refused(r: Refused): String =
+    val material = if r.material < 0 then "" else s", material ${r.material}"
     s"warning: ${Figures.count(r.count, "sample")} left out for being infinite or no number, " +
-      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}"
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; to see its path, add " +
+      s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
 
   private def rate(count: Long, r: Rendering): String =
     Figures.metric(count / Math.max(r.seconds, 1e-9))

@@ -26,7 +26,7 @@ final class DipoleLighting(
   private val probe = SubsurfaceProbe(scene, acrossMaterials = true)
   private val entry = scene.newPoint()
 
-  override def copy(): DipoleLighting =
+  override protected def over(scene: Scene): DipoleLighting =
     DipoleLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
   override def raysTraced: Long = super.raysTraced + probe.raysTraced

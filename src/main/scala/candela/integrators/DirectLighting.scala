@@ -27,7 +27,7 @@ class DirectLighting(
   private val bsdfHit = Hit()
   private val met = ShadingPoint()
 
-  def copy(): DirectLighting =
+  protected def over(scene: Scene): DirectLighting =
     DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
   override protected def begin(ray: Ray): Unit =

@@ -3,6 +3,7 @@ package candela.integrators
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.Sampler
+import candela.scene.PathReport
 
 /** Estimates the radiance that arrives along a ray. One object for each worker (it owns mutable
   * work space); `copy` makes the next worker's.
@@ -16,3 +17,9 @@ abstract class Integrator:
 
   /** Rays traced so far by this worker, for the statistics. */
   def raysTraced: Long
+
+  /** The number of the material that was met last, −1: unknown. Says where a bad sample is from. */
+  def lastMaterial: Int = -1
+
+  /** A copy that tells `report` what it does. */
+  def reported(report: PathReport): Integrator

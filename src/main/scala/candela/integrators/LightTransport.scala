@@ -6,7 +6,7 @@ import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, LightSample}
 import candela.math.*
 import candela.sampling.Sampler
-import candela.scene.Scene
+import candela.scene.{PathReport, Scene}
 
 /** What the integrators that walk from the camera share: work space, and light sampling.
   *
@@ -28,6 +28,13 @@ abstract class LightTransport(
   def raysTraced: Long =
     val march = volumes
     if march == null then rays else rays + march.raysTraced
+
+  /** The next worker's, for a scene that is this one but for what it tells. */
+  protected def over(scene: Scene): LightTransport
+  final def copy(): Integrator = over(scene)
+  final def reported(report: PathReport): Integrator = over(scene.reported(report))
+
+  override def lastMaterial: Int = at.material
 
   /** Size of steps through volumes towards lights, in that of the steps towards the camera. */
   protected def stepsToLights: Float = VolumeMarch.StepsToLights

@@ -19,7 +19,7 @@ final class PathThroughVolumes(
     rouletteThreshold: Float
 ) extends LightTransport(scene, march):
 
-  def copy(): PathThroughVolumes =
+  protected def over(scene: Scene): PathThroughVolumes =
     PathThroughVolumes(scene, march.copy(), maxDepth, rouletteAfter, rouletteThreshold)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =

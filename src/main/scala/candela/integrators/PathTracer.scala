@@ -29,7 +29,7 @@ final class PathTracer(
 
   override def splitsLight: Boolean = wavelengths.isDefined
 
-  def copy(): PathTracer =
+  protected def over(scene: Scene): PathTracer =
     PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, wavelengths)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =

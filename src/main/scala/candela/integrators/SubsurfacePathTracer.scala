@@ -27,7 +27,7 @@ final class SubsurfacePathTracer(
   /** Is the point that is being lit the boundary of a medium? */
   private var atBoundary = false
 
-  def copy(): SubsurfacePathTracer =
+  protected def over(scene: Scene): SubsurfacePathTracer =
     SubsurfacePathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, seesThrough)
 
   override def raysTraced: Long = rays + probe.raysTraced

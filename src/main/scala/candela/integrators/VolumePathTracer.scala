@@ -41,7 +41,7 @@ final class VolumePathTracer(
   private var lastP = Vec3.Zero
   private var lastN = Vec3.Zero
 
-  def copy(): VolumePathTracer =
+  protected def over(scene: Scene): VolumePathTracer =
     VolumePathTracer(scene, media, maxDepth, rouletteAfter, rouletteThreshold, seesThrough)
 
   override def raysTraced: Long = rays + visibility.raysTraced + probe.raysTraced

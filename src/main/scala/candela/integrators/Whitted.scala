@@ -17,7 +17,7 @@ import candela.scene.Scene
 final class Whitted(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null = null)
     extends SpecularWalk(scene, maxDepth, volumes):
 
-  def copy(): Whitted = Whitted(scene, maxDepth, VolumeMarch.copy(volumes))
+  protected def over(scene: Scene): Whitted = Whitted(scene, maxDepth, VolumeMarch.copy(volumes))
 
   override protected def stepsToLights: Float = 1f
 

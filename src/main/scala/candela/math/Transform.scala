@@ -103,9 +103,10 @@ object Transform:
       IArray[Double](1, 0, 0, -x, 0, 1, 0, -y, 0, 0, 1, -z, 0, 0, 0, 1)
     )
 
-  /** None if a factor is zero. */
+  /** None if a factor is zero, or so small or large that there is no inverse. */
   def scale(x: Double, y: Double, z: Double): Option[Transform] =
-    Option.when(x != 0 && y != 0 && z != 0)(
+    def isUsable(s: Double) = java.lang.Double.isFinite(1 / s) && java.lang.Double.isFinite(s)
+    Option.when(isUsable(x) && isUsable(y) && isUsable(z))(
       Transform(
         IArray[Double](x, 0, 0, 0, 0, y, 0, 0, 0, 0, z, 0, 0, 0, 0, 1),
         IArray[Double](1 / x, 0, 0, 0, 0, 1 / y, 0, 0, 0, 0, 1 / z, 0, 0, 0, 0, 1)

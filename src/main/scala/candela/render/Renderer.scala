@@ -1,6 +1,8 @@
 package candela.render
 
+import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm}
+import candela.scene.PathReport
 
 /** Turns a plan into an image. */
 object Renderer:
@@ -46,6 +48,29 @@ object Renderer:
       firstOf(workers.flatMap(_.refused)),
       layers
     )
+
+  /** Takes one sample by itself, the very one that [[render]] takes, and tells `report` what
+    * happens to it.
+    *
+    * @return how the film has it: its light, or none if it was refused
+    */
+  def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
+    val bounds = PixelBounds(x, y, x + 1, y + 1)
+    val schedule = Schedule(bounds, plan.sampler.samplesPerPixel)
+    val film = Film(x, y, x + 1, y + 1)
+    val layers = None
+    val worker = TileWorker(
+      plan,
+      schedule,
+      Board(schedule, Cancellation()),
+      film,
+      layers,
+      new FilterSampler(plan.filter),
+      Some(report)
+    )
+    worker.take(x, y, sample)
+    val data = film.toImage(1f).data
+    Option.when(worker.refused.isEmpty)(Rgb(data(0), data(1), data(2)))
 
   private def firstOf(refused: Vector[Refused]): Option[Refused] =
     refused

@@ -6,8 +6,9 @@ import candela.image.Image
 /** Camera samples that were no light (NaN or infinite), and so were left out of the image.
   *
   * @param x the pixel of the first one, with `y`: first by sample number, then by row
+  * @param material the number of the material that its path met last, −1: unknown
   */
-final case class Refused(count: Long, x: Int, y: Int, sample: Int)
+final case class Refused(count: Long, x: Int, y: Int, sample: Int, material: Int = -1)
 
 /** What came out of a rendering.
   *

@@ -5,6 +5,7 @@ import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
 import candela.geometry.Ray
 import candela.integrators.SurfaceProbe
+import candela.scene.PathReport
 
 /** One of several that render the same image: takes tiles from the board, and owns all that it
   * scribbles on.
@@ -15,11 +16,13 @@ private[render] final class TileWorker(
     board: Board,
     film: Film,
     layers: Option[LayerFilm],
-    filterSampler: FilterSampler
+    filterSampler: FilterSampler,
+    report: Option[PathReport] = None
 ) extends Runnable:
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
-  private val integrator = plan.integrator.copy()
+  private val integrator =
+    report.fold(plan.integrator.copy())(plan.integrator.reported)
   private val ray = Ray()
   private val scratch = Ray()
   private val hasDifferentials = plan.differentialScale > 0f
@@ -35,12 +38,20 @@ private[render] final class TileWorker(
   private var x, y, sample = 0
 
   private var refusedCount = 0L
-  private var refusedX, refusedY, refusedSample = 0
+  private var refusedX, refusedY, refusedSample, refusedMaterial = 0
 
   def raysTraced: Long = integrator.raysTraced
 
   def refused: Option[Refused] =
-    Option.when(refusedCount > 0)(Refused(refusedCount, refusedX, refusedY, refusedSample))
+    Option.when(refusedCount > 0):
+      Refused(refusedCount, refusedX, refusedY, refusedSample, refusedMaterial)
+
+  /** Takes one sample, whatever the schedule says. */
+  def take(x: Int, y: Int, sample: Int): Unit =
+    this.x = x
+    this.y = y
+    this.sample = sample
+    takeSample()
 
   def run(): Unit =
     try
@@ -111,4 +122,5 @@ private[render] final class TileWorker(
       refusedX = x
       refusedY = y
       refusedSample = sample
+      refusedMaterial = integrator.lastMaterial
     refusedCount += 1

@@ -29,6 +29,7 @@ final case class ShapeInstance(
   *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
   *                        goes by the shading normal alone
   * @param footprints      if textures ask for them, or displacements for partial derivatives
+  * @param report          is told of every surface that scatters; see [[reported]]
   */
 final class Scene(
     surfaces: Surfaces,
@@ -38,8 +39,11 @@ final class Scene(
     val lights: Array[Light],
     val selection: LightSelection,
     val sidesByGeometry: Boolean,
-    footprints: Option[Footprints] = None
+    footprints: Option[Footprints] = None,
+    report: Option[PathReport] = None
 ):
+  private val told: PathReport | Null = report.orNull
+
   private val firstInstance = surfaces.count
   private val footprintRule: Footprints | Null = footprints.orNull
   private val hasFootprints = footprints.isDefined
@@ -81,7 +85,25 @@ final class Scene(
   /** Does light pass here as if nothing were there? */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 
-  def bsdf(at: ShadingPoint): Bsdf = materials(at.material).bsdf(at)
+  def bsdf(at: ShadingPoint): Bsdf =
+    val made = materials(at.material).bsdf(at)
+    val report = told
+    if report == null then made else report.scatters(at, made)
+
+  /** The same scene, of which one path is told. */
+  def reported(report: PathReport): Scene =
+    val telling = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))
+    Scene(
+      surfaces,
+      instanced,
+      accelerator,
+      materials,
+      telling,
+      selection,
+      sidesByGeometry,
+      footprints,
+      Some(report)
+    )
 
   /** Does any surface split light by wavelength? */
   val isDispersive: Boolean = materials.exists(_.isDispersive)

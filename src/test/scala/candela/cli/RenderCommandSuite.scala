@@ -136,8 +136,27 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(run(captured, Known("s.pbrt" -> sick), "s.pbrt") == 0)
       assert(captured.err.contains(
         "warning: 27 samples left out for being infinite or no number, " +
-          "the first at pixel (3, 0), sample 2"
+          "the first at pixel (3, 0), sample 2; " +
+          "to see its path, add --pixel 3,0 --sample 2 --debug"
       ))
+
+  test("--debug tells the path of one sample and writes nothing"):
+    TempFolder.use: folder =>
+      val sick = TinyPlan(filename = folder.resolve("a.exr").toString): (where, _) =>
+        if where.x == 3 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else gray
+      def told(words: String*) =
+        val captured = Captured()
+        val code = run(captured, Known("s.pbrt" -> sick), ("--debug" +: words :+ "s.pbrt")*)
+        (code, captured.out + captured.err)
+      val (_, bad) = told("--pixel", "3,0", "--sample", "2")
+      assert(bad.contains("pixel (3, 0), sample 2") && bad.contains("is left out"))
+      assert(told("--pixel", "4,0")._2.contains("adds rgb("))
+      assert(told("--pixel", "400,0") match
+        case (1, words) => words.contains("no pixel 400,0")
+        case _ => false
+      )
+      assert(told()._1 == 2 && told("--pixel", "a,b")._1 == 2)
+      assert(TempFolder.names(folder).isEmpty)
 
   /** Ctrl-C that comes when a certain sample is taken. */
   private final class AtSample extends Interrupts:

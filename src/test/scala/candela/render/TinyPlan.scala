@@ -7,6 +7,7 @@ import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.math.Vec3
 import candela.sampling.Sampler
+import candela.scene.PathReport
 
 /** Where an integrator of [[TinyPlan]] is asked for radiance. */
 final case class Where(x: Int, y: Int, sample: Int)
@@ -47,6 +48,7 @@ object TinyPlan:
     private var rays = 0L
     def raysTraced: Long = rays
     def copy(): Formula = Formula(radiance)
+    def reported(report: PathReport): Formula = copy()
     def radiance(ray: Ray, sampler: Sampler): Rgb =
       rays += 1
       // A box filter of radius one half leaves samples in their pixel.

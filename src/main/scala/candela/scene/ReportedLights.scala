@@ -1,0 +1,46 @@
+package candela.scene
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.lights.*
+import candela.math.Vec3
+
+/** Lights that tell a [[PathReport]] what is asked of them, and are else the same. */
+private[scene] object ReportedLights:
+  def of(light: Light, index: Int, report: PathReport): Light = light match
+    case l: SurfaceLight => OnSurface(l, index, report)
+    case l: EnvironmentLight => Around(l, index, report)
+    case l => Other(l, index, report)
+
+  private final class Other(light: Light, index: Int, report: PathReport) extends Light:
+    def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
+      light.sample(from, u1, u2, out)
+      report.chosen(index, out)
+    override def isSampled: Boolean = light.isSampled
+    def isDelta: Boolean = light.isDelta
+    def bounds: Option[LightBounds] = light.bounds
+
+  private final class OnSurface(light: SurfaceLight, index: Int, report: PathReport)
+      extends SurfaceLight:
+    def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
+      light.sample(from, u1, u2, out)
+      report.chosen(index, out)
+    override def isSampled: Boolean = light.isSampled
+    def bounds: Option[LightBounds] = light.bounds
+    def radiance(at: ShadingPoint, w: Vec3): Rgb =
+      val emitted = light.radiance(at, w)
+      report.found(index, emitted)
+      emitted
+    def pdf(from: Vec3, at: ShadingPoint): Float = light.pdf(from, at)
+
+  private final class Around(light: EnvironmentLight, index: Int, report: PathReport)
+      extends EnvironmentLight:
+    def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
+      light.sample(from, u1, u2, out)
+      report.chosen(index, out)
+    override def isSampled: Boolean = light.isSampled
+    def radiance(from: Vec3, d: Vec3): Rgb =
+      val emitted = light.radiance(from, d)
+      report.found(index, emitted)
+      emitted
+    def pdf(from: Vec3, d: Vec3): Float = light.pdf(from, d)

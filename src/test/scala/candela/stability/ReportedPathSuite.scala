@@ -1,0 +1,38 @@
+package candela.stability
+
+import scala.collection.mutable.ArrayBuffer
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.color.Rgb
+import candela.integrators.LitPlane
+import candela.render.{Renderer, TinyPlan}
+import candela.scene.PathReport
+import candela.testing.SceneTexts
+
+/** What is no number never reaches the film, and one can see where it is from. */
+class ReportedPathSuite extends AnyFunSuite:
+  private val lamp = """LightSource "point" "point from" [0 0 2] "rgb I" [8 8 8]"""
+
+  test("the path of one sample is told, and is the one that is rendered"):
+    for integrator <- Seq("\"path\"", "\"whitted\"", "\"directlighting\"", "\"volpath\"") do
+      val plan = SceneTexts.plan(LitPlane.scene(integrator, spp = 1, lamp))
+      val lines = ArrayBuffer.empty[String]
+      val light = Renderer.trace(plan, 2, 1, 0, PathReport(line => lines += line))
+      val image = Renderer.render(plan, threads = 1).film.toImage(1f)
+      val at = 3 * (1 * plan.width + 2)
+      assert(light.contains(Rgb(image.data(at), image.data(at + 1), image.data(at + 2))))
+      val told = lines.mkString("\n")
+      for words <- Seq("1: point (", "Lambert", "light 0 is sampled", "f rgb(", "pdf") do
+        assert(told.contains(words), s"$integrator: $told"): Unit
+
+  test("a sample that is no number is none, and the first one is named with its material"):
+    val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)
+    for value <- bad do
+      val plan = TinyPlan(width = 8, height = 8, spp = 4): (where, _) =>
+        if where.x == 5 && where.y == 2 && where.sample == 3 then Rgb(1f, value, 1f) else Rgb.White
+      assert(Renderer.trace(plan, 5, 2, 3, PathReport(_ => ())).isEmpty)
+      assert(Renderer.trace(plan, 5, 2, 2, PathReport(_ => ())).contains(Rgb.White))
+      val rendering = Renderer.render(plan, threads = 2)
+      assert(rendering.refused.exists(r => (r.count, r.x, r.y, r.sample) == (1L, 5, 2, 3)))
+      assert(rendering.film.toImage(1f).data.forall(_ == 1f))
