@@ -41,10 +41,33 @@ class DispersionSuite extends BsdfLaws:
     // Chance: 65,000 paths, of which a part takes one wavelength
     assert((one - many).map(Math.abs(_)).max < 6e-3f * one.max, s"$many, not $one")
 
-  test("the plan names it, and an integrator that can't says so"):
+  test("the plan names it"):
     val text = scene("\"spectrum eta\" \"glass-BK7\"")
     val features = SceneTexts.plan(text, Dialect.V4).features.toMap
     assert(features("dispersion").contains("one wavelength"))
     val plain = SceneTexts.plan(scene("\"float eta\" 1.5"), Dialect.V4).features.toMap
     assert(plain("dispersion") == "none")
     assert(SceneTexts.problems(text, Dialect.V4).isEmpty)
+
+  test("where light is not split, a warning says so"):
+    val glass = "\"spectrum eta\" \"glass-BK7\""
+    def warning(text: String): String =
+      val found = SceneTexts.problems(text, Dialect.V4)
+      assert(found.size == 1, found)
+      found.head.message
+    val fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\"\n"
+    val foggy = scene(glass)
+      .replace("\"path\"", "\"volpath\"")
+      .replace(
+        "Material \"dielectric\"",
+        s"${fog}MediumInterface \"fog\" \"\"\nMaterial \"dielectric\""
+      )
+    assert(warning(foggy).startsWith("glass that splits light is not supported here yet"))
+    val coated = scene(glass).replace("\"dielectric\"", "\"coateddiffuse\"")
+    assert(warning(coated).startsWith("dispersion of \"coateddiffuse\" is not supported"))
+    val named = s"MakeNamedMaterial \"a\" \"string type\" \"dielectric\" $glass\n"
+    val mixed = scene("").replace(
+      "Material \"dielectric\"",
+      named + "Material \"mix\" \"string materials\" [\"a\" \"a\"]"
+    )
+    assert(warning(mixed).startsWith("a mixed surface doesn't split light"))
