@@ -73,5 +73,7 @@ final class TabulatedBssrdf(
     !(extinction > 0f) || extinction == Float.PositiveInfinity
 
 object TabulatedBssrdf:
-  /** A thousandth is left out, as in PBRT 3rd ed., §15.4.1. */
+  /** A thousandth is left out, and more where other channels reach farther around a body: so in
+    * PBRT 3rd ed., §15.4.1, and in pbrt.
+    */
   private inline val Reached = 0.999f

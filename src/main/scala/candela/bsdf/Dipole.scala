@@ -88,9 +88,8 @@ final class DipoleBssrdf(
     counted: Float
 ) extends Bssrdf:
   private val profiles = Array(r, g, b)
-  private val reaches = profiles.map(p =>
-    if p.reflectance > 0f then p.sample(DipoleBssrdf.Reached) else -1f
-  )
+  private val farthest =
+    profiles.filter(_.reflectance > 0f).map(_.sample(DipoleBssrdf.Reached)).maxOption.getOrElse(-1f)
   private val scale = (1f - FresnelMoments.diffuse(eta)) * counted
 
   def apply(distance: Float): Rgb =
@@ -105,12 +104,14 @@ final class DipoleBssrdf(
   def sample(channel: Int, u: Float): Float =
     if profiles(channel).reflectance > 0f then profiles(channel).sample(u) else -1f
 
-  def reach(channel: Int): Float = reaches(channel)
+  /** The same for all: places that one channel lights from far are near the axis for others, too. */
+  def reach(channel: Int): Float = farthest
 
   /** What gets out through the surface at this angle. */
   def leaving(cosine: Float): Float = 1f - Fresnel.dielectric(Math.abs(cosine), eta)
 
-  val entry: Bsdf = Lambert(Rgb.White)
+  /** From either side: of a closed body no light reaches the inner one. */
+  val entry: Bsdf = DiffuseTransmission(Rgb.White, Rgb.White)
 
 object DipoleBssrdf:
   /** The dipole falls off slowly where little is absorbed. */

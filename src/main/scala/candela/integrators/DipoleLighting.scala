@@ -44,11 +44,9 @@ final class DipoleLighting(
     if weight.isBlack then Rgb.Black
     else
       val leaving = dipole.leaving(wo dot at.frame.n)
-      // Outside is the side that the camera sees; light arrives at the true surface
-      val side = if (wo dot at.geometricNormal) < 0f then -1f else 1f
       val exit = at
       at = entry
-      at.frame = Frame.around(at.geometricNormal * side)
+      at.frame = Frame.around(at.geometricNormal) // light arrives at the true surface
       val arrived = irradiance(dipole, choice, sampler)
       at = exit
       weight * arrived * leaving
