@@ -104,13 +104,15 @@ final class DipoleBssrdf(
   def sample(channel: Int, u: Float): Float =
     if profiles(channel).reflectance > 0f then profiles(channel).sample(u) else -1f
 
-  /** The same for all: places that one channel lights from far are near the axis for others, too. */
+  /** The same for all: what one channel lights from afar is near the axis for others, too. */
   def reach(channel: Int): Float = farthest
 
   /** What gets out through the surface at this angle. */
   def leaving(cosine: Float): Float = 1f - Fresnel.dielectric(Math.abs(cosine), eta)
 
-  /** From either side: of a closed body no light reaches the inner one. */
+  /** From either side: of a closed body, no light reaches the inner one. PBRT 2 puts a point on
+    * the one or the other side by chance.
+    */
   val entry: Bsdf = DiffuseTransmission(Rgb.White, Rgb.White)
 
 object DipoleBssrdf:
