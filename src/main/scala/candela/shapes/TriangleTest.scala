@@ -115,14 +115,22 @@ object TriangleTest:
         else
           if write then
             ray.tMax = t.toFloat
-            hit.u = Math.max(0.0, Math.min(1.0, b1))
-            hit.v = Math.max(0.0, Math.min(1.0 - hit.u, b2))
+            if Math.min(Math.min(b1, b2), 1.0 - b1 - b2) > -Rounded then
+              // Held to the edge, a point on a plane 1e6 wide would move by hundredths
+              hit.u = b1
+              hit.v = b2
+            else
+              hit.u = Math.max(0.0, Math.min(1.0, b1))
+              hit.v = Math.max(0.0, Math.min(1.0 - hit.u, b2))
           true
 
   /** The square of the sine under which a triangle is seen, or of that between its sides, below
     * which nothing is divided by it.
     */
   private inline val Thin = 1e-24
+
+  /** By how much barycentric weights may be outside and the point stay where it is. */
+  private inline val Rounded = 1e-6
 
   /** By how much barycentric weights may be outside for reasons of rounding alone. */
   private inline val Apart = 1e-3

@@ -1,7 +1,6 @@
 package candela.build
 
 import candela.cameras.{OrthographicCamera, PerspectiveCamera}
-import candela.math.clamp
 
 object Perspective extends ProjectiveRecipe("perspective", "things far away look smaller"):
   private val fov = float("fov", "angle of the shorter side of the view", unit = "degrees")(90f)
@@ -10,10 +9,10 @@ object Perspective extends ProjectiveRecipe("perspective", "things far away look
 
   protected def make()(using site: Site): CameraPlan =
     val angle = if half() > 0f then 2f * half() else fov()
-    if !(angle > 0f && angle < 180f) then
-      site.error(s"`fov` lies between 0 and 180 degrees; found $angle")
+    val isAngle = angle > 0f && angle < 180f
+    if !isAngle then site.error(s"`fov` lies between 0 and 180 degrees; found $angle")
     CameraPlan(
-      (toWorld, frame) => PerspectiveCamera(setup(toWorld, frame), clamp(angle, 1e-3f, 179.9f)),
+      (toWorld, frame) => PerspectiveCamera(setup(toWorld, frame), if isAngle then angle else 90f),
       exposure()
     )
 
