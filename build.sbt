@@ -35,6 +35,9 @@ lazy val root = (project in file("."))
     scalacOptions += "-java-output-version:17",
     libraryDependencies ++= Seq(
       "com.github.scopt" %% "scopt" % "4.1.0",
+      "com.lihaoyi" %% "scalatags" % "0.13.1",
+      "com.lihaoyi" %% "ujson" % "4.1.0",
+      "com.typesafe" % "config" % "1.4.3",
       "org.lwjgl" % "lwjgl" % lwjgl,
       "org.lwjgl" % "lwjgl-tinyexr" % lwjgl,
       "org.lwjgl" % "lwjgl-stb" % lwjgl,

@@ -54,6 +54,7 @@ object Architecture:
   val file: Vector[String] = floors("base math scenefile")
 
   private val measure = Set("base", "math", "color", "image")
+  private val report = measure + "measure"
   private val convert = measure ++ Set("bsdf", "lights", "scenefile")
   private val bridge = (runtime ++ file).toSet
 
@@ -64,11 +65,20 @@ object Architecture:
       "measure" -> measure,
       "convert" -> convert,
       "build" -> bridge,
-      "cli" -> (bridge + "measure" + "convert" + "build")
+      "report" -> report,
+      "suite" -> (report + "report"),
+      "cli" -> (bridge ++ Set("measure", "convert", "build", "report", "suite"))
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
-  private val libraries = Map("org" -> Set("image"), "scopt" -> Set("cli"), "sun" -> Set("cli"))
+  private val libraries = Map(
+    "org" -> Set("image"),
+    "scopt" -> Set("cli"),
+    "sun" -> Set("cli"),
+    "scalatags" -> Set("report"),
+    "ujson" -> Set("report"),
+    "com" -> Set("suite")
+  )
   private val language = Set("candela", "java", "javax", "scala")
 
   private val use = raw"\bcandela\s*\.\s*(\w+)".r

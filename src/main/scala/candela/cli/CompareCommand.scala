@@ -1,42 +1,69 @@
 package candela.cli
 
-import candela.image.ImageFiles
-import candela.measure.Metrics
+import candela.image.{ImageError, ImageFiles}
+import candela.measure.{ErrorMap, HeatMap, ImagePair}
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
-/** `candela compare`: how an image differs from its reference. */
+/** `candela compare`: how an image differs from its reference, or a folder of them from theirs. */
 final class CompareCommand(options: Options, terminal: Terminal, report: Report):
+  private val asked = options.compare
 
   def run(): ExitCode = report.guarded:
-    val Vector(image, reference) = options.files.map(f => ImageFiles.read(Path.of(f))): @unchecked
-    val metrics = Metrics.compare(image, reference)
-    lines(metrics).foreach(terminal.out.println)
+    val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
+    for name <- asked.difference ++ asked.heatMap do
+      OutputFiles.asked(Vector(name)).check()
+    val code = if Files.isDirectory(image) then compareSet(image, reference)
+    else compareTwo(image, reference)
     terminal.out.flush()
-    options.maxRelMse.fold(ExitCode.Done)(judge(metrics, _))
+    code
 
-  /** Pixels that can't be compared are a failure too: NaN must not pass for equal. */
-  private def judge(m: Metrics, limit: Double): ExitCode =
-    if m.skipped > 0 then
-      terminal.err.println(s"${Figures.count(m.skipped, "pixel")} can't be compared")
-      ExitCode.BadInput
-    else if m.relativeMse <= limit then ExitCode.Done
-    else
-      terminal.err.println(
-        s"relative MSE ${Figures.scientific(m.relativeMse)} is above --max-relmse $limit"
-      )
-      ExitCode.BadInput
+  private def compareTwo(image: Path, reference: Path): ExitCode =
+    val comparison = Comparison(pairOf(image, reference))
+    comparison.lines.foreach(terminal.out.println)
+    if asked.perChannel then comparison.perChannel.foreach(terminal.out.println)
+    write(comparison)
+    judge(comparison, "")
 
-  private def lines(m: Metrics): Vector[String] =
-    val ratios = m.channels.zip(m.meanRatio).map((c, r) => s"$c ${Figures.fixed(r, 4)}")
-    val psnr = if m.psnr.isInfinite then "infinite" else s"${Figures.fixed(m.psnr, 2)} dB"
-    val difference = Figures.scientific(m.largest.value)
-    val most = m.largest
-    Vector(
-      s"MSE           ${Figures.scientific(m.mse)}",
-      s"relative MSE  ${Figures.scientific(m.relativeMse)}",
-      s"PSNR          $psnr",
-      s"mean ratio    ${ratios.mkString("  ")}",
-      s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
-    ) ++ Option.when(m.skipped > 0):
-      s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
+  private def pairOf(image: Path, reference: Path): ImagePair =
+    val (a, b) = (ImageFiles.read(image), ImageFiles.read(reference))
+    val pair = asked.channels.fold(ImagePair(a, b))(ImagePair.of(a, b, _))
+    asked.crop.fold(pair)(pair.cropped)
+
+  private def write(comparison: Comparison): Unit =
+    for name <- asked.difference do
+      ImageFiles.write(Path.of(name), comparison.pair.difference)
+    for name <- asked.heatMap do
+      val metric = asked.heatMapMetric
+      val map = ErrorMap(metric, comparison.pair)
+      if name.toLowerCase.endsWith(".exr") then ImageFiles.write(Path.of(name), map)
+      else
+        val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
+        val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
+        ImageFiles.write(Path.of(name), HeatMap.of(map, most), about)
+        terminal.out.println(
+          s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $name"
+        )
+
+  /** Every image of the folder, against the one of the same name, or all against one. */
+  private def compareSet(images: Path, references: Path): ExitCode =
+    if asked.writesPictures then
+      throw ImageError("--difference and --heatmap are of two images, not of folders")
+    val set = ReferenceSet.of(images, references)
+    for file <- set.missing do terminal.err.println(s"$file has no reference in $references")
+    val comparisons =
+      set.pairs.map((image, reference) => image -> Comparison(pairOf(image, reference)))
+    terminal.out.print(ReferenceSet.table(comparisons).map(_ + "\n").mkString)
+    val codes = comparisons.map((image, c) => judge(c, s"${image.getFileName}: "))
+    val unknown = if set.missing.isEmpty then ExitCode.Done else ExitCode.BadInput
+    codes.foldLeft(unknown)(_ worseOf _)
+
+  /** With limits, pixels that can't be compared are a failure too: NaN must not pass for equal. */
+  private def judge(comparison: Comparison, name: String): ExitCode =
+    val skipped = comparison.metrics.skipped
+    val wrong =
+      if asked.limits.isEmpty then Vector.empty
+      else if skipped > 0 then Vector(s"${Figures.count(skipped, "pixel")} can't be compared")
+      else asked.limits.flatMap(_.broken(comparison))
+    wrong.foreach(text => terminal.err.println(name + text))
+    if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput

@@ -31,6 +31,7 @@ object Main:
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Check => CheckCommand(options, terminal, report, loader).run()
           case Command.Compare => CompareCommand(options, terminal, report).run()
+          case Command.Bench => BenchCommand(options, terminal, report).run()
           case Command.Describe => DescribeCommand(options, terminal, report).run()
           case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number

@@ -104,17 +104,16 @@ private[cli] object OptionTable:
     opt[String]("film").valueName("gbuffer")
       .text("write all layers that pbrt-v4's film of this name has")
       .validate(f => if f == "gbuffer" then success else failure(s"--film: only gbuffer, not `$f`"))
-      .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer))
+      .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer)),
+    opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
+      .text("write the error over time, .html, .json or .csv; the image stays the same")
+      .action((f, o) => o.copy(reports = o.reports ++ f)),
+    opt[String]("reference").valueName("FILE")
+      .text("the image that --report compares with, instead of estimating errors from the noise")
+      .action((f, o) => o.copy(reference = Some(f)))
   ) ++ shared
 
   private val checkOptions: Vector[Row] = shared
-
-  private val compareOptions: Vector[Row] = Vector(
-    opt[Double]("max-relmse").valueName("X")
-      .text("exit with 1 if the relative mean squared error is above")
-      .validate(atLeast("max-relmse", 0))
-      .action((x, o) => o.copy(maxRelMse = Some(x)))
-  )
 
   private val describeOptions: Vector[Row] = Vector(
     opt[Dialect]("dialect").valueName("v2|v3|v4")
@@ -146,7 +145,8 @@ private[cli] object OptionTable:
     val rows = Command.values.find(_.word == command) match
       case Some(Command.Render) => renderOptions
       case Some(Command.Check) => checkOptions
-      case Some(Command.Compare) => compareOptions
+      case Some(Command.Compare) => CompareTable.options
+      case Some(Command.Bench) => BenchTable.options
       case Some(Command.Describe) => describeOptions
       case Some(Command.Convert) => convertOptions
       case None => Vector.empty
@@ -168,8 +168,14 @@ private[cli] object OptionTable:
     command(Command.Check, "parse and build scenes, without rendering")(scenes +: checkOptions),
     note(""),
     command(Command.Compare, "print how an image differs from its reference")(
-      Vector(file("image", "what to judge"), file("reference", "what to judge it by")) ++
-        compareOptions
+      Vector(
+        file("image", "what to judge; or a folder of images"),
+        file("reference", "what to judge it by; or a folder of references, by the same names")
+      ) ++ CompareTable.options
+    ),
+    note(""),
+    command(Command.Bench, "measure how fast programs come to which error")(
+      file("suite.conf", "the suite; or a folder of scenes with references") +: BenchTable.options
     ),
     note(""),
     command(Command.Describe, "say what scene files can say: all categories, types, parameters")(
@@ -190,5 +196,9 @@ private[cli] object OptionTable:
         failure("--outfile names one image, but there are several scenes")
       else if o.debug != o.pixel.isDefined then
         failure("--debug and --pixel x,y go together")
+      else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then
+        failure("--report is about one scene, but there are several")
+      else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty then
+        failure("--reference is what --report compares with: say where to write the report")
       else success
   )

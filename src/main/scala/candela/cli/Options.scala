@@ -7,6 +7,7 @@ enum Command(val word: String):
   case Render extends Command("render")
   case Check extends Command("check")
   case Compare extends Command("compare")
+  case Bench extends Command("bench")
   case Describe extends Command("describe")
   case Convert extends Command("convert")
 
@@ -24,7 +25,10 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param out       where it writes the scene
   * @param toPly     meshes of at least as many triangles go into PLY files
   * @param layers    what images hold beside colours and what the scene asks for
-  * @param maxRelMse the relative mean squared error above which `compare` fails
+  * @param reference what reports judge the image by
+  * @param reports   where to write them
+  * @param bench     what `bench` is asked for
+  * @param compare   what `compare` is asked for
   */
 final case class Options(
     command: Command = Command.Render,
@@ -44,7 +48,10 @@ final case class Options(
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
-    maxRelMse: Option[Double] = None,
+    reference: Option[String] = None,
+    reports: Vector[String] = Vector.empty,
+    compare: CompareOptions = CompareOptions(),
+    bench: BenchOptions = BenchOptions(),
     markdown: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None

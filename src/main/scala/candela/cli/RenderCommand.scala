@@ -56,16 +56,20 @@ final class RenderCommand(
     SceneError(Problem.general(message, Some("render one at a time, with --outfile")))
 
   private def render(scene: String, loaded: LoadedScene, paths: Vector[Path]): ExitCode =
+    val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
       val show: Progress => Unit = if options.quiet then _ => () else progress.update
       val rendering =
-        try Renderer.render(loaded.plan, threads, cancellation, show)
+        try Renderer.render(loaded.plan, threads, cancellation, show, reporting.map(_.recorder))
         finally progress.finish()
       val started = System.nanoTime
       val written = write(paths, scene, loaded, rendering)
       val writeSeconds = (System.nanoTime - started) * 1e-9
       summarise(written, loaded, rendering, writeSeconds)
+      for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
+        if !options.quiet then terminal.out.println(s"wrote $path")
+      terminal.out.flush()
       if written.size < paths.size then ExitCode.BadInput
       else if cancellation.isRequested then ExitCode.Interrupted
       else ExitCode.Done

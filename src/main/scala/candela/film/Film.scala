@@ -50,6 +50,18 @@ final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
     Option.when(pixel != Long.MaxValue):
       ((pixel % width).toInt + x0, (pixel / width).toInt + y0)
 
+  /** A copy of what there is, to see later what was added. */
+  def copy(): Film =
+    val film = Film(x0, y0, x1, y1)
+    System.arraycopy(sums, 0, film.sums, 0, sums.length)
+    film
+
+  /** The samples alone that were added since `earlier` was copied. */
+  def since(earlier: Film): Film =
+    val added = copy()
+    loop(sums.length)(i => added.sums(i) -= earlier.sums(i))
+    added
+
   /** The weighted means, times `scale`; pixels without samples are black. May be called while
     * others add: it then holds what is there.
     */

@@ -11,17 +11,20 @@ object Renderer:
     * in one tile, whose samples are added in the order of their numbers, whoever does it.
     *
     * @param onProgress called about ten times a second, and at the end, in the caller's thread
+    * @param witness    who sees the image grow; the image is the same with and without
     * @throws RenderFailure if a sample fails; all workers then stop
     */
   def render(
       plan: RenderPlan,
       threads: Int,
       cancellation: Cancellation = Cancellation(),
-      onProgress: Progress => Unit = _ => ()
+      onProgress: Progress => Unit = _ => (),
+      witness: Option[Witness] = None
   ): Rendering =
     require(threads >= 1, s"$threads threads")
     val started = System.nanoTime
-    def seconds = (System.nanoTime - started) * 1e-9
+    var paused = 0L
+    def seconds = (System.nanoTime - started - paused) * 1e-9
 
     val samplesPerPixel = plan.sampler.samplesPerPixel
     val schedule = Schedule(plan.crop, samplesPerPixel)
@@ -35,7 +38,15 @@ object Renderer:
 
     val total = plan.crop.pixels * samplesPerPixel
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
-    Workers.run(workers, board)(() => progress())
+    for end <- witness.fold(Vector(schedule.waves))(_ => schedule.passes) if !board.isStopped do
+      board.openUntil(end)
+      val begin = seconds
+      Workers.run(workers, board)(() => progress())
+      for w <- witness if !board.isStopped do
+        val stopped = System.nanoTime
+        val times = workers.map(_.seconds)
+        w.passed(Pass(schedule.firstSample(end), begin, seconds, times), film)
+        paused += System.nanoTime - stopped
     progress()
 
     Rendering(

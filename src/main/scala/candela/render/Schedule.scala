@@ -29,6 +29,10 @@ private[render] final class Schedule(crop: PixelBounds, samplesPerPixel: Int):
   /** One more than the last sample of the wave. */
   def endSample(wave: Int): Int = waveStarts(wave + 1)
 
+  /** After which waves every pixel has 1, 2, 4, 8, … samples, and after which it has all. */
+  def passes: Vector[Int] = (1 to waves).toVector.filter: end =>
+    end == waves || Integer.bitCount(waveStarts(end)) == 1
+
   def tile(index: Int): PixelBounds =
     val x = crop.x0 + index % columns * TileSize
     val y = crop.y0 + index / columns * TileSize

@@ -53,7 +53,13 @@ private[render] final class TileWorker(
     this.sample = sample
     takeSample()
 
+  private var runNanos = 0L
+
+  /** How long the last run took: from when its thread began until it found no more to do. */
+  def seconds: Double = runNanos * 1e-9
+
   def run(): Unit =
+    val started = System.nanoTime
     try
       var step = board.takeStep()
       while step >= 0 do
@@ -62,6 +68,7 @@ private[render] final class TileWorker(
         if board.awaitTurn(tile, wave) && renderTile(schedule.tile(tile), wave) then
           board.finish(tile, wave)
         step = board.takeStep()
+      runNanos = System.nanoTime - started
     catch case e: Throwable => throw RenderFailure(x, y, sample, e)
 
   /** False if it was told to stop on the way. */

@@ -6,9 +6,16 @@ import java.util.concurrent.locks.LockSupport
 /** What the workers of one rendering share: who does what, what is done, and whether to stop. */
 private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
+  private var endStep = 0L // changed only while there are no workers
   private val finishedWaves = AtomicIntegerArray(schedule.tiles)
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
+
+  /** Allows the steps of all waves before `wave`. */
+  def openUntil(wave: Int): Unit =
+    // Workers that found nothing to do have counted on.
+    nextStep.set(endStep)
+    endStep = wave.toLong * schedule.tiles
 
   def isStopped: Boolean = cancellation.isRequested || firstFailure.get.isDefined
 
@@ -20,7 +27,7 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
   /** The next step that nobody has taken, or -1 if there is no more to do. */
   def takeStep(): Long =
     val step = nextStep.getAndIncrement()
-    if step < schedule.steps && !isStopped then step else -1L
+    if step < endStep && !isStopped then step else -1L
 
   /** Waits until the earlier waves of a tile are finished; false if they won't be.
     *

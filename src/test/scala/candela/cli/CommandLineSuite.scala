@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.Version
 import candela.film.Layer
+import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -11,6 +12,9 @@ class CommandLineSuite extends AnyFunSuite:
   private def parse(line: String) = CommandLine.parse(line.split(' ').toVector.filter(_.nonEmpty))
 
   private val one = Options(files = Vector("a.pbrt"))
+
+  private def compare(o: CompareOptions) =
+    Options(command = Command.Compare, files = Vector("a.exr", "b.exr"), compare = o)
 
   private val understood = Vector(
     "a.pbrt" -> one,
@@ -35,10 +39,40 @@ class CommandLineSuite extends AnyFunSuite:
     "check a.pbrt --dialect V4 --explain" ->
       one.copy(command = Command.Check, dialect = Some(Dialect.V4), explain = true),
     "render check" -> one.copy(files = Vector("check")),
+    "a.pbrt --report r.html,r.csv --reference b.exr" ->
+      one.copy(reports = Vector("r.html", "r.csv"), reference = Some("b.exr")),
+    "bench s.conf --samples 4,1 --seeds 5 --programs a,b --scenes c --report x.html" ->
+      Options(
+        command = Command.Bench,
+        files = Vector("s.conf"),
+        reports = Vector("x.html"),
+        bench = BenchOptions(
+          samples = Some(Vector(1, 4)),
+          seeds = Some(5),
+          programs = Vector("a", "b"),
+          scenes = Vector("c")
+        )
+      ),
     "compare a.exr b.exr" ->
       Options(command = Command.Compare, files = Vector("a.exr", "b.exr")),
     "compare --max-relmse 0.01 a.exr b.exr" ->
-      Options(command = Command.Compare, files = Vector("a.exr", "b.exr"), maxRelMse = Some(0.01))
+      compare(CompareOptions(limits = Vector(Limit("max-relmse", "relative MSE", 0.01)))),
+    "compare a.exr b.exr --crop 8,-16,4,12 --per-channel --channels R,Z" ->
+      compare(
+        CompareOptions(
+          crop = Some(PixelWindow(8, 24, 4, 12)),
+          channels = Some(Vector("R", "Z")),
+          perChannel = true
+        )
+      ),
+    "compare a.exr b.exr --difference d.exr --heatmap h.png --heatmap-metric mae" ->
+      compare(
+        CompareOptions(
+          difference = Some("d.exr"),
+          heatMap = Some("h.png"),
+          heatMapMetric = Metric.Mae
+        )
+      )
   )
 
   for (line, options) <- understood do
@@ -62,9 +96,14 @@ class CommandLineSuite extends AnyFunSuite:
     "--xyzzy a.pbrt" -> "`candela render` has no option `--xyzzy`",
     "check --spp 4 a.pbrt" -> "`candela check` has no option `--spp`",
     "--outfile x.exr a.pbrt b.pbrt" -> "--outfile names one image",
+    "--report x.html a.pbrt b.pbrt" -> "--report is about one scene",
+    "--reference x.exr a.pbrt" -> "--reference is what --report compares with",
+    "bench s.conf --seeds 0" -> "--seeds: expected a number from 1, found `0`",
     "compare a.exr" -> "reference",
     "compare a.exr b.exr c.exr" -> "c.exr",
-    "compare --max-relmse -1 a.exr b.exr" -> "--max-relmse: expected a number from 0, found `-1.0`"
+    "compare --max-relmse -1 a.exr b.exr" -> "--max-relmse: expected a number from 0, found `-1.0`",
+    "compare --crop 1,2,3 a.exr b.exr" -> "expected x0,x1,y0,y1 in pixels",
+    "compare --heatmap-metric psnr a.exr b.exr" -> "expected one of mse, rmse, mae, relmse, flip"
   )
 
   for (line, message) <- refused do
@@ -79,7 +118,7 @@ class CommandLineSuite extends AnyFunSuite:
     assert(!parse("--xyzzy a.pbrt").left.toOption.get.err.contains("did you mean"))
 
   test("--help lists every command and option, wherever it stands"):
-    val words = Vector("render", "check", "compare", "--outfile", "--nthreads", "--spp") ++
+    val words = Vector("render", "check", "compare", "bench", "--outfile", "--nthreads", "--spp") ++
       Vector("--seed", "--quick", "--quiet", "--verbose", "--cropwindow", "--explain") ++
       Vector("--dialect", "--max-relmse", "--help", "--version", "Exit codes")
     for line <- Vector("--help", "render --help", "check --help", "a.pbrt --help") do

@@ -45,3 +45,12 @@ class FilmSuite extends AnyFunSuite:
     film.add(0, 0, Float.MaxValue, Float.MaxValue, 1f, 2f)
     assert(film.refused == 0)
     assert(film.toImage(1f).data.toVector == Vector(Float.MaxValue, Float.MaxValue, 1f))
+
+  test("what was added since a copy is seen alone"):
+    val film = Film(0, 0, 2, 1)
+    film.add(0, 0, 4f, 4f, 4f, 1f)
+    val before = film.copy()
+    film.add(0, 0, 1f, 2f, 3f, 0.5f)
+    film.add(1, 0, 8f, 8f, 8f, 1f)
+    assert(before.toImage(1f).data.toVector == Vector(4f, 4f, 4f, 0f, 0f, 0f))
+    assert(film.since(before).toImage(1f).data.toVector == Vector(1f, 2f, 3f, 8f, 8f, 8f))

@@ -1,0 +1,88 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError, Version}
+import candela.report.{SuiteData, SuitePage, SuiteReport}
+import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
+
+import java.lang.management.ManagementFactory
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** `candela bench`: how fast programs come to which error. */
+final class BenchCommand(options: Options, terminal: Terminal, report: Report):
+  private val asked = options.bench
+
+  def run(): ExitCode = report.guarded:
+    val source = OutputFiles.path(options.files.head)
+    val paths = reports(source)
+    paths.foreach(checkFolder)
+    val suite = read(source).only(asked.programs, asked.scenes)
+    val shown = asked.samples.fold(suite)(counts => suite.copy(work = Work.Samples(counts)))
+    val results = inScratch: scratch =>
+      val say: String => Unit = if options.quiet then _ => () else terminal.err.println
+      SuiteResults.of(seeded(withoutOwnWork(shown)), self, scratch, Version.current, say)
+    if results.scenes.isEmpty then
+      throw SceneError(Problem.general("nothing could be run"))
+    for path <- paths do
+      val _ = Files.write(path, text(path, results).getBytes(UTF_8))
+      terminal.out.println(s"wrote $path")
+    terminal.out.flush()
+    ExitCode.Done
+
+  private def read(source: Path): Suite =
+    if Files.isDirectory(source) then
+      SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
+    else if Files.isRegularFile(source) then SuiteFile.read(source)
+    else throw SceneError(Problem.general(s"there is no suite `$source`"))
+
+  private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
+
+  /** Sample counts of the command line are for all scenes. */
+  private def withoutOwnWork(suite: Suite): Suite =
+    if asked.samples.isEmpty then suite
+    else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
+
+  /** Without `--report` a page beside the current folder's other files, by the suite's name. */
+  private def reports(source: Path): Vector[Path] =
+    val name = source.toAbsolutePath.getFileName.toString.stripSuffix(".conf")
+    val names = if options.reports.isEmpty then Vector(s"$name.html") else options.reports
+    names.map(OutputFiles.path).distinct
+
+  private def checkFolder(path: Path): Unit =
+    val known = Vector("html", "json", "csv", "svg")
+    if !known.contains(ReportFiles.ending(path)) then
+      val help = Some("results are written as .html, .json, .csv, or .svg (a scene's main chart)")
+      throw SceneError(Problem.general(s"can't write `$path`", help))
+    val folder = path.toAbsolutePath.getParent
+    if !Files.isDirectory(folder) then
+      throw SceneError(Problem.general(s"can't write `$path`: there is no folder `$folder`"))
+
+  private def text(path: Path, results: SuiteReport): String = ReportFiles.ending(path) match
+    case "html" => SuitePage.html(results, asked.pictures)
+    case "json" => SuiteData.json(results)
+    case "csv" => SuiteData.csv(results)
+    case _ => SuitePage.svg(results.scenes.head)
+
+  /** This very program: the same Java, with the same options and classes. */
+  private def self: Vector[String] =
+    val java = Path.of(System.getProperty("java.home"), "bin", "java").toString
+    val runtime = ManagementFactory.getRuntimeMXBean
+    val flags = runtime.getInputArguments.asScala.toVector
+      .filterNot(f => f.startsWith("-agentlib") || f.startsWith("-javaagent"))
+    (java +: flags) ++ Vector("-cp", classPath(runtime.getClassPath), "candela.cli.Main")
+
+  /** The programs run in another folder. */
+  private def classPath(path: String): String =
+    val separator = java.io.File.pathSeparator
+    path.split(separator).map(p => Path.of(p).toAbsolutePath.toString).mkString(separator)
+
+  private def inScratch[A](body: Path => A): A =
+    val scratch = Files.createTempDirectory("candela-bench")
+    try body(scratch)
+    finally
+      // Links are deleted, not followed.
+      Using.resource(Files.walk(scratch)): files =>
+        files.iterator.asScala.toVector.reverse.foreach(Files.deleteIfExists(_))

@@ -1,0 +1,68 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError}
+import candela.film.{Development, Film}
+import candela.image.{Image, ImageFiles}
+import candela.measure.{CurvePoint, Errors, PixelWindow}
+import candela.render.{Pass, RenderPlan, Witness}
+import candela.report.{PassSpan, Picture}
+
+/** Looks at an image after each pass and measures how wrong it still is.
+  *
+  * @param reference of the same size as the image; without one, errors are estimated from the noise
+  */
+final class RenderRecorder(development: Development, reference: Option[Image]) extends Witness:
+  private val foundPoints = Vector.newBuilder[CurvePoint]
+  private val foundPasses = Vector.newBuilder[PassSpan]
+  private var first, last: Option[(Image, Int)] = None
+  private var earlier: Option[(Film, Int)] = None
+  private var spent = 0.0
+
+  def points: Vector[CurvePoint] = foundPoints.result()
+  def passes: Vector[PassSpan] = foundPasses.result()
+
+  /** Seconds that measuring took. */
+  def seconds: Double = spent
+
+  /** The image as it became, its first pass, and the reference. */
+  def pictures: Vector[Picture] =
+    def named(i: (Image, Int)) = Picture(Figures.count(i._2, "sample"), i._1)
+    val begin = first.filter(f => last.exists(_._2 != f._2))
+    last.map(named).toVector ++ begin.map(named) ++
+      reference.map(Picture("reference", _, isReference = true))
+
+  def passed(pass: Pass, film: Film): Unit =
+    val started = System.nanoTime
+    val image = development(film)
+    val errors = reference match
+      case Some(r) => Some(Errors.against(r)(image))
+      case None => earlier.map: (before, samples) =>
+          val added = development(film.since(before))
+          Errors.ofParts(development(before), samples, added, pass.samples - samples)
+    errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
+    foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
+    if reference.isEmpty then earlier = Some((film.copy(), pass.samples))
+    if first.isEmpty then first = Some((image, pass.samples))
+    last = Some((image, pass.samples))
+    spent += (System.nanoTime - started) * 1e-9
+
+object RenderRecorder:
+
+  /** Reads the reference, of which a cropped plan gets its part.
+    *
+    * @throws SceneError if it has not the size of the image
+    */
+  def of(plan: RenderPlan, reference: Option[String]): RenderRecorder =
+    RenderRecorder(plan.development, reference.map(fitting(plan, _)))
+
+  private def fitting(plan: RenderPlan, name: String): Image =
+    val image = ImageFiles.read(OutputFiles.path(name)).toRgb
+    val crop = plan.crop
+    def has(width: Int, height: Int) = image.width == width && image.height == height
+    if has(crop.width, crop.height) then image
+    else if has(plan.width, plan.height) then
+      PixelWindow(crop.x0, crop.x1, crop.y0, crop.y1).of(image)
+    else
+      val found = s"${image.width}×${image.height}"
+      val wanted = s"${plan.width}×${plan.height}"
+      throw SceneError(Problem.general(s"the reference `$name` has $found pixels, not $wanted"))

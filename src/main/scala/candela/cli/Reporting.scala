@@ -1,0 +1,61 @@
+package candela.cli
+
+import candela.base.Version
+import candela.render.Rendering
+import candela.report.{Machine, RenderReport, Span}
+
+import java.nio.file.Path
+
+/** The report about one rendering: asked for before it begins, written when it is done. */
+final class Reporting(options: Options, scene: String, loaded: LoadedScene):
+  private val paths: Vector[Path] = ReportFiles.checked(options.reports)
+  private val machine = Machine.here()
+
+  val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
+
+  /** Writes it, and returns where to; nothing if no pass was finished. */
+  def write(rendering: Rendering, threads: Int, writeSeconds: Double): Vector[Path] =
+    if recorder.pictures.forall(_.isReference) then Vector.empty
+    else
+      ReportFiles.write(paths, report(rendering, threads, writeSeconds))
+      paths
+
+  private def report(rendering: Rendering, threads: Int, writeSeconds: Double): RenderReport =
+    RenderReport(
+      scene,
+      Version.current,
+      machine,
+      rows(rendering, threads),
+      loaded.plan.features,
+      options.reference,
+      recorder.points,
+      phases(rendering, writeSeconds),
+      recorder.passes,
+      recorder.pictures,
+      rendering.rays
+    )
+
+  private def phases(rendering: Rendering, writeSeconds: Double): Vector[Span] =
+    val phases = Vector(
+      "parse" -> loaded.parseSeconds,
+      "build" -> loaded.buildSeconds,
+      "render" -> rendering.seconds,
+      "measure errors" -> recorder.seconds,
+      "write" -> writeSeconds
+    )
+    val begins = phases.map(_._2).scanLeft(0.0)(_ + _)
+    phases.zip(begins).map:
+      case ((name, seconds), begin) => Span(name, begin, begin + seconds)
+
+  private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
+    Vector(
+      "samples per pixel" -> s"${rendering.samplesDone} of ${rendering.samplesPerPixel}",
+      "threads" -> threads.toString,
+      "seed" -> options.seed.toString,
+      "image" -> s"${rendering.film.width}×${rendering.film.height}",
+      "rays" -> Figures.metric(rendering.rays.toDouble)
+    ) ++
+      options.reference.map("reference" -> _) ++
+      Option.when(options.quick)("quick" -> "a quarter of width and height, one sample") ++
+      options.cropWindow.map(w => "crop window" -> s"${w.x0},${w.x1},${w.y0},${w.y1}") ++
+      Option.when(options.keepGoing)("stand-ins" -> loaded.standIns.toString)

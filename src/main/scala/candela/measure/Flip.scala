@@ -1,0 +1,85 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.Image
+
+/** FLIP: how much two pictures differ for someone who flips between them, 0 to 1 for each pixel.
+  *
+  * Of the pictures as a screen shows them: linear light clamped to [0, 1], which is the tone map of
+  * Candela's PNG files, too.
+  *
+  * Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference
+  * Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020.
+  */
+object Flip:
+
+  /** Of a screen 0.7 m wide with 3840 pixels, seen from 0.7 m: the paper's usual observer. */
+  val PixelsPerDegree: Double = 0.7 * 3840 / 0.7 * Math.PI / 180
+
+  // §4.1.3: the exponent of colour differences, and which part of the range small ones get.
+  private val ColorExponent = 0.7
+  private val SmallPart = 0.4
+  private val SmallRange = 0.95
+
+  // §4.2: the exponent of feature differences.
+  private val FeatureExponent = 0.5
+
+  /** The error of each pixel. Pixels that are NaN or infinite count as black. */
+  def map(pair: ImagePair, pixelsPerDegree: Double = PixelsPerDegree): Image =
+    val image = Opponent.of(pair.image)
+    val reference = Opponent.of(pair.reference)
+    val colors = colorDifference(image, reference, pixelsPerDegree)
+    val features = featureDifference(image, reference, pixelsPerDegree)
+    val data = new Array[Float](pair.width * pair.height)
+    loop(data.length): i =>
+      data(i) = Math.pow(colors(i), 1 - features(i)).toFloat
+    Image(pair.width, pair.height, Vector("Y"), data)
+
+  private def colorDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
+    val labA = a.filtered(ppd).lab
+    val labB = b.filtered(ppd).lab
+    val most = Math.pow(Lab.distance(Lab.Green, Lab.Blue), ColorExponent)
+    val small = SmallPart * most
+    Array.tabulate(labA.size): i =>
+      val d = Math.pow(Lab.distance(labA(i), labB(i)), ColorExponent)
+      if d < small then SmallRange / small * d
+      else SmallRange + (d - small) / (most - small) * (1 - SmallRange)
+
+  private def featureDifference(a: Opponent, b: Opponent, ppd: Double): Array[Double] =
+    val kernels = FeatureKernels(ppd)
+    def magnitude(o: Opponent, kernel: Array[Double]): Array[Double] =
+      val luminance = o.luminance
+      val x = luminance.convolved(kernel, kernels.smooth).data
+      val y = luminance.convolved(kernels.smooth, kernel).data
+      Array.tabulate(x.length)(i => Math.hypot(x(i), y(i)))
+    def difference(kernel: Array[Double]): Array[Double] =
+      magnitude(a, kernel).zip(magnitude(b, kernel)).map((p, q) => Math.abs(p - q))
+    val edges = difference(kernels.edge)
+    val points = difference(kernels.point)
+    Array.tabulate(edges.length): i =>
+      Math.pow(Math.max(edges(i), points(i)) / Math.sqrt(2), FeatureExponent)
+
+/** Detectors of edges and points: first and second derivatives of a Gaussian, §4.2. */
+private final class FeatureKernels(pixelsPerDegree: Double):
+  /** Degrees: how wide an edge is that the eye sees best. */
+  private val width = 0.082
+  private val deviation = 0.5 * width * pixelsPerDegree
+  private val radius = Math.ceil(3 * deviation).toInt
+
+  val smooth: Array[Double] =
+    val values = sampled(gaussian)
+    values.map(_ / values.sum)
+  val edge: Array[Double] = balanced(sampled(x => -x * gaussian(x)))
+  val point: Array[Double] =
+    balanced(sampled(x => (x * x / (deviation * deviation) - 1) * gaussian(x)))
+
+  private def gaussian(x: Double): Double = Math.exp(-x * x / (2 * deviation * deviation))
+
+  private def sampled(f: Double => Double): Array[Double] =
+    Array.tabulate(2 * radius + 1)(i => f((i - radius).toDouble))
+
+  /** Its positive numbers add up to 1, the negative ones to −1. */
+  private def balanced(values: Array[Double]): Array[Double] =
+    val positive = values.filter(_ > 0).sum
+    val negative = -values.filter(_ < 0).sum
+    values.map(v => if v > 0 then v / positive else v / negative)

@@ -1,0 +1,89 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.{Image, ImageError}
+
+/** Half-open ranges of pixels: x0 ≤ x < x1, y0 ≤ y < y1. */
+final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
+
+  /** That part of a picture.
+    *
+    * @throws ImageError if the picture doesn't hold it
+    */
+  def of(image: Image): Image =
+    if x0 < 0 || y0 < 0 || x1 > image.width || y1 > image.height || x0 >= x1 || y0 >= y1 then
+      val size = s"${image.width}×${image.height}"
+      throw ImageError(s"no part of $size pixels: x $x0 until $x1, y $y0 until $y1")
+    val row = (x1 - x0) * image.channels
+    val data = new Array[Float](row * (y1 - y0))
+    loop(y1 - y0): y =>
+      val from = ((y + y0) * image.width + x0) * image.channels
+      System.arraycopy(image.data, from, data, y * row, row)
+    Image(x1 - x0, y1 - y0, image.channelNames, data, image.encoding)
+
+/** Two pictures of the same size and channels, in linear light: the one to judge, and what it is
+  * judged by. Both have just `channels`, in this order.
+  */
+final class ImagePair private (val image: Image, val reference: Image):
+  def width: Int = image.width
+  def height: Int = image.height
+  def channels: Vector[String] = image.channelNames
+  def isColor: Boolean = channels == Image.RgbNames
+
+  /** True if the pixel is neither NaN nor infinite in both pictures. */
+  def isFinite(x: Int, y: Int): Boolean =
+    var finite = true
+    loop(channels.size): c =>
+      if !java.lang.Float.isFinite(image(x, y, c)) || !java.lang.Float.isFinite(reference(x, y, c))
+      then finite = false
+    finite
+
+  def cropped(window: PixelWindow): ImagePair =
+    new ImagePair(window.of(image), window.of(reference))
+
+  /** |a − b| of each channel. */
+  def difference: Image =
+    val data = new Array[Float](image.data.length)
+    loop(data.length)(i => data(i) = Math.abs(image.data(i) - reference.data(i)))
+    Image(width, height, channels, data)
+
+object ImagePair:
+
+  /** R, G and B if both have them, else all channels, of which both must have the same.
+    *
+    * @throws ImageError if sizes or channels differ
+    */
+  def apply(image: Image, reference: Image): ImagePair =
+    this.of(image, reference, commonChannels(image, reference))
+
+  /** The named channels alone. */
+  def of(image: Image, reference: Image, channels: Vector[String]): ImagePair =
+    if image.width != reference.width || image.height != reference.height then
+      def size(i: Image) = s"${i.width}×${i.height}"
+      throw ImageError(s"pictures of different size: ${size(image)} and ${size(reference)} pixels")
+    new ImagePair(picked(image, channels), picked(reference, channels))
+
+  private def commonChannels(image: Image, reference: Image): Vector[String] =
+    val isColor = image.indicesOf(Image.RgbNames).isDefined &&
+      reference.indicesOf(Image.RgbNames).isDefined
+    if isColor then Image.RgbNames
+    else if image.channelNames.toSet == reference.channelNames.toSet then reference.channelNames
+    else
+      def list(i: Image) = i.channelNames.mkString(", ")
+      throw ImageError(s"pictures of different channels: ${list(image)} and ${list(reference)}")
+
+  private def picked(image: Image, names: Vector[String]): Image =
+    val linear = image.linear
+    if linear.channelNames == names then linear
+    else
+      val missing = names.filterNot(linear.channelNames.contains)
+      if missing.nonEmpty then
+        val has = linear.channelNames.mkString(", ")
+        throw ImageError(s"no channel ${missing.mkString(", ")}, only $has")
+      val sources = names.map(linear.channelNames.indexOf).toArray
+      val count = names.size
+      val data = new Array[Float](linear.width * linear.height * count)
+      loop(linear.width * linear.height): pixel =>
+        loop(count): c =>
+          data(pixel * count + c) = linear.data(pixel * linear.channels + sources(c))
+      Image(linear.width, linear.height, names, data)

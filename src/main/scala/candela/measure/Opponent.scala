@@ -1,0 +1,119 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.Image
+
+/** A picture as [[Flip]] filters it: luminance, red against green, blue against yellow (the linear
+  * YCxCz of the paper's §4.1.1), one plane each.
+  */
+private[measure] final class Opponent(val y: Plane, val cx: Plane, val cz: Plane):
+
+  /** From 0 to 1. */
+  def luminance: Plane = Plane(y.width, y.height, y.data.map(v => (v + 16) / 116))
+
+  /** Without what the eye doesn't resolve, by the contrast sensitivities of its channels. */
+  def filtered(pixelsPerDegree: Double): Opponent =
+    val kernels = ContrastSensitivity(pixelsPerDegree)
+    Opponent(kernels.luminance(y), kernels.redGreen(cx), kernels.blueYellow(cz))
+
+  /** L*a*b* of each pixel, clamped to the colours of the screen. */
+  def lab: Vector[Lab] = Vector.tabulate(y.data.length): i =>
+    val ratioY = (y.data(i) + 16) / 116.0
+    val ratioX = ratioY + cx.data(i) / 500.0
+    val ratioZ = ratioY - cz.data(i) / 200.0
+    Lab.ofScreen(Xyz(ratioX, ratioY, ratioZ))
+
+private[measure] object Opponent:
+
+  /** Linear R, G and B, which are clamped to [0, 1]. */
+  def of(image: Image): Opponent =
+    val size = image.width * image.height
+    val y, cx, cz = new Array[Float](size)
+    loop(size): i =>
+      def shown(c: Int) =
+        val value = image.data(3 * i + c)
+        if java.lang.Float.isFinite(value) then Math.min(1.0, Math.max(0.0, value.toDouble)) else 0
+      val ratio = Xyz.ofRgb(shown(0), shown(1), shown(2))
+      y(i) = (116 * ratio.y - 16).toFloat
+      cx(i) = (500 * (ratio.x - ratio.y)).toFloat
+      cz(i) = (200 * (ratio.y - ratio.z)).toFloat
+    def plane(data: Array[Float]) = Plane(image.width, image.height, data)
+    Opponent(plane(y), plane(cx), plane(cz))
+
+/** CIE XYZ, each divided by that of white. */
+private[measure] final case class Xyz(x: Double, y: Double, z: Double):
+
+  def clampedToScreen: Xyz =
+    // X and Z of white are 0.950456 and 1.089058.
+    val (a, b, c) = (x * Xyz.WhiteX, y, z * Xyz.WhiteZ)
+    def inside(v: Double) = Math.min(1.0, Math.max(0.0, v))
+    Xyz.ofRgb(
+      inside(3.240479 * a - 1.537150 * b - 0.498535 * c),
+      inside(-0.969256 * a + 1.875991 * b + 0.041556 * c),
+      inside(0.055648 * a - 0.204043 * b + 1.057311 * c)
+    )
+
+private[measure] object Xyz:
+  val WhiteX = 0.950456
+  val WhiteZ = 1.089058
+
+  /** Of linear sRGB; ITU-R BT.709-6. */
+  def ofRgb(r: Double, g: Double, b: Double): Xyz = Xyz(
+    (0.412453 * r + 0.357580 * g + 0.180423 * b) / WhiteX,
+    0.212671 * r + 0.715160 * g + 0.072169 * b,
+    (0.019334 * r + 0.119193 * g + 0.950227 * b) / WhiteZ
+  )
+
+/** L*a*b* (CIE 15:2004), a and b scaled by lightness after Hunt, as the paper's §4.1.2 does. */
+private[measure] final case class Lab(l: Double, a: Double, b: Double)
+
+private[measure] object Lab:
+  val Green: Lab = ofScreen(Xyz.ofRgb(0, 1, 0))
+  val Blue: Lab = ofScreen(Xyz.ofRgb(0, 0, 1))
+
+  /** Clamps to the colours of the screen first. */
+  def ofScreen(xyz: Xyz): Lab =
+    val shown = xyz.clampedToScreen
+    val l = 116 * curve(shown.y) - 16
+    val hunt = 0.01 * l
+    Lab(
+      l,
+      hunt * 500 * (curve(shown.x) - curve(shown.y)),
+      hunt * 200 * (curve(shown.y) - curve(shown.z))
+    )
+
+  /** HyAB: Abasi, Tehran, Fairchild, "Distance metrics for very large color differences", 2020. */
+  def distance(p: Lab, q: Lab): Double =
+    Math.abs(p.l - q.l) + Math.hypot(p.a - q.a, p.b - q.b)
+
+  private val Knee = 6.0 / 29
+
+  private def curve(t: Double): Double =
+    if t > Knee * Knee * Knee then Math.cbrt(t) else t / (3 * Knee * Knee) + 4.0 / 29
+
+/** The filters of the three channels: sums of Gaussians exp(−π² d² / b) for d degrees, with weights
+  * a √(π / b), normalised to 1. The numbers are those of the paper's table 1, after Johnson and
+  * Fairchild, "A top down description of S-CIELAB and CIEDE2000", 2003.
+  */
+private[measure] final class ContrastSensitivity(pixelsPerDegree: Double):
+
+  def luminance(plane: Plane): Plane = filtered(plane, Vector((1.0, 0.0047)))
+  def redGreen(plane: Plane): Plane = filtered(plane, Vector((1.0, 0.0053)))
+  def blueYellow(plane: Plane): Plane = filtered(plane, Vector((34.1, 0.04), (13.5, 0.025)))
+
+  /** Three deviations of the widest Gaussian. */
+  private val radius =
+    Math.ceil(3 * Math.sqrt(0.04 / (2 * Math.PI * Math.PI)) * pixelsPerDegree).toInt
+
+  private def filtered(plane: Plane, gaussians: Vector[(Double, Double)]): Plane =
+    val kernels = gaussians.map((_, b) => kernel(b))
+    val weights = gaussians.zip(kernels).map:
+      case ((a, b), k) => a * Math.sqrt(Math.PI / b) * k.sum * k.sum
+    val parts = kernels.zip(weights).map: (k, weight) =>
+      val share = weight / weights.sum
+      plane.convolved(k.map(_ / k.sum * share), k.map(_ / k.sum))
+    parts.reduce(_ + _)
+
+  private def kernel(b: Double): Array[Double] = Array.tabulate(2 * radius + 1): i =>
+    val degrees = (i - radius) / pixelsPerDegree
+    Math.exp(-Math.PI * Math.PI * degrees * degrees / b)

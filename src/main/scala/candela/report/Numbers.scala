@@ -1,0 +1,34 @@
+package candela.report
+
+import java.util.Locale
+
+/** Numbers in pages and charts; the same in every locale. */
+private[report] object Numbers:
+
+  /** Four digits, of very small and large ones with a power of ten: `0.01234`, `1.234·10⁻⁵`. */
+  def short(value: Double): String =
+    if value == 0 then "0"
+    else if value.isInfinite || value.isNaN then "–"
+    else
+      val exponent = Math.floor(Math.log10(Math.abs(value))).toInt
+      if exponent >= -4 && exponent < 5 then
+        val digits = Math.max(0, 3 - exponent)
+        s"%.${digits}f".formatLocal(Locale.ROOT, value)
+      else s"${fixed(value / Math.pow(10, exponent), 3)}·10${raised(exponent)}"
+
+  def fixed(value: Double, digits: Int): String = s"%.${digits}f".formatLocal(Locale.ROOT, value)
+
+  /** A tick of a logarithmic axis: `0.01`, `10`, `10⁻⁵`. */
+  def tick(value: Double): String =
+    val exponent = Math.floor(Math.log10(value) + 1e-9).toInt
+    if exponent >= -3 && exponent <= 4 then
+      val isRound = Math.abs(value / Math.pow(10, exponent) % 1) < 1e-6
+      s"%.${Math.max(0, if isRound then -exponent else 1 - exponent)}f"
+        .formatLocal(Locale.ROOT, value)
+    else
+      val digits = fixed(value / Math.pow(10, exponent), 1).stripSuffix(".0")
+      if digits == "1" then s"10${raised(exponent)}" else s"${digits}·10${raised(exponent)}"
+
+  private def raised(n: Int): String = n.toString.map:
+    case '-' => '⁻'
+    case digit => "⁰¹²³⁴⁵⁶⁷⁸⁹" (digit - '0')

@@ -1,0 +1,60 @@
+package candela.report
+
+import candela.base.loop
+import candela.image.Image
+
+import java.io.ByteArrayOutputStream
+import java.util.Base64
+import java.util.zip.{Deflater, DeflaterOutputStream}
+
+/** Pictures as a page carries them: numbers, not colours, so that exposure and errors are worked
+  * out where they are looked at.
+  *
+  * Of each Float the three higher bytes are kept, which is 2⁻¹⁶ of its value and far below any
+  * noise; all first bytes come first, then all second and all third ones, compressed with zlib, in
+  * base 64.
+  */
+private[report] object PackedPicture:
+
+  def floats(image: Image): String =
+    val count = image.data.length
+    val bytes = new Array[Byte](3 * count)
+    loop(count): i =>
+      // Rounds the byte that is dropped.
+      val bits = java.lang.Float.floatToRawIntBits(image.data(i))
+      val kept = if java.lang.Float.isFinite(image.data(i)) then bits + 0x80 else bits
+      loop(3)(plane => bytes(plane * count + i) = (kept >>> (24 - 8 * plane)).toByte)
+    packed(bytes)
+
+  /** One channel from 0 to 1 in 8 bits. */
+  def bytes(map: Image): String =
+    packed(map.data.map(v => Math.round(Math.min(1f, Math.max(0f, v)) * 255).toByte))
+
+  /** Halved until it has at most `limit` pixels; the mean of each four. */
+  def reduced(image: Image, limit: Int = MostPixels): Image =
+    if image.width.toLong * image.height <= limit || image.width < 2 || image.height < 2 then image
+    else reduced(halved(image), limit)
+
+  /** Some 20 MB of page for two pictures. */
+  val MostPixels = 2_000_000
+
+  private def halved(image: Image): Image =
+    val (width, height, n) = (image.width / 2, image.height / 2, image.channels)
+    val data = new Array[Float](width * height * n)
+    loop(height): y =>
+      loop(width): x =>
+        loop(n): c =>
+          val top = image(2 * x, 2 * y, c) + image(2 * x + 1, 2 * y, c)
+          val bottom = image(2 * x, 2 * y + 1, c) + image(2 * x + 1, 2 * y + 1, c)
+          data((y * width + x) * n + c) = (top + bottom) / 4
+    Image(width, height, image.channelNames, data)
+
+  private def packed(bytes: Array[Byte]): String =
+    val out = ByteArrayOutputStream()
+    val deflater = Deflater(Deflater.BEST_COMPRESSION)
+    val zip = DeflaterOutputStream(out, deflater)
+    try
+      zip.write(bytes)
+      zip.close()
+    finally deflater.end()
+    Base64.getEncoder.encodeToString(out.toByteArray)

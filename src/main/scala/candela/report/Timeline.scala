@@ -1,0 +1,72 @@
+package candela.report
+
+import scalatags.Text.all.Frag
+
+/** What the program did when: its phases in one row, the passes of each worker in others. */
+private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSpan]):
+  import Svg.*
+
+  private val workers = passes.headOption.fold(0)(_.workers.size)
+  private val rows = 1 + workers
+  private val height = 34 + rows * Timeline.Row + 26.0
+  private val most = Math.max(1e-9, phases.map(_.end).maxOption.getOrElse(1.0))
+  private val renderBegin = phases.find(_.name == "render").fold(0.0)(_.begin)
+
+  private def at(seconds: Double): Double =
+    Timeline.Left + seconds / most * (Timeline.Width - Timeline.Left - 20)
+
+  def svg: Node =
+    picture(Timeline.Width, height, "phases and threads")(
+      (labels ++ phases.zipWithIndex.map(phase) ++ passes.zipWithIndex.flatMap(pass) ++ axis)*
+    )
+
+  private def top(row: Int): Double = 8.0 + row * Timeline.Row
+
+  private def labels: Vector[Frag] =
+    text(Timeline.Left - 8, top(0) + 17, "tick", "end")("phases") +:
+      Vector.tabulate(workers): i =>
+        text(Timeline.Left - 8, top(i + 1) + 17, "tick", "end")(s"thread ${i + 1}")
+
+  private def box(row: Int, begin: Double, end: Double, css: String, words: String): Frag =
+    val width = Math.max(0.8, at(end) - at(begin))
+    val rect = element(
+      "rect",
+      "x" -> px(at(begin)),
+      "y" -> px(top(row)),
+      "width" -> px(width),
+      "height" -> px(Timeline.Row - 6),
+      "rx" -> "2",
+      "class" -> css
+    )(tip(words))
+    val name = words.takeWhile(_ != ':')
+    if width < 8 * name.length then rect
+    else
+      val label = text(at(begin) + width / 2, top(row) + 16, "boxtext", "middle")(name)
+      element("g")(rect, label)
+
+  private def phase(span: Span, i: Int): Frag =
+    val words = s"${span.name}: ${Numbers.fixed(span.seconds, 3)} s"
+    box(0, span.begin, span.end, s"box c${i % LogLogChart.Colors}", words)
+
+  /** A worker that ran out of work early leaves a gap before the next pass. */
+  private def pass(p: PassSpan, i: Int): Vector[Frag] =
+    p.workers.zipWithIndex.map: (busy, worker) =>
+      val begin = renderBegin + p.begin
+      val words = s"${p.samples}: until ${p.samples} samples a pixel, " +
+        s"busy for ${Numbers.fixed(busy, 3)} s of ${Numbers.fixed(p.end - p.begin, 3)} s"
+      box(worker + 1, begin, Math.min(begin + busy, renderBegin + p.end), s"box s${i % 2}", words)
+
+  private def axis: Vector[Frag] =
+    val step = Math.pow(10, Math.floor(Math.log10(most)))
+    val fine = Vector(step / 5, step / 2, step).find(s => most / s <= 8).getOrElse(step * 2)
+    val bottom = top(rows) + 4
+    Iterator.iterate(0.0)(_ + fine).takeWhile(_ <= most * 1.0001).toVector.flatMap: t =>
+      Vector(
+        line(at(t), top(0), at(t), bottom, "grid"),
+        text(at(t), bottom + 16, "tick", "middle")(s"${if t == 0 then "0" else Numbers.tick(t)} s")
+      )
+
+private object Timeline:
+  val Width = 760.0
+  val Left = 76.0
+  val Row = 30.0

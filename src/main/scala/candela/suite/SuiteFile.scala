@@ -1,0 +1,169 @@
+package candela.suite
+
+import candela.base.{Problem, SceneError}
+
+import com.typesafe.config.{Config, ConfigException, ConfigFactory, ConfigParseOptions}
+
+import java.nio.file.{Files, Path}
+import java.util.regex.PatternSyntaxException
+
+import scala.jdk.CollectionConverters.*
+
+/** Suites as files in HOCON (JSON with comments, and less of it); docs/BENCH.md says what is in
+  * them. Names of files are relative to the suite's own folder.
+  */
+object SuiteFile:
+
+  /** @throws SceneError if it is not as it should be */
+  def read(path: Path): Suite =
+    try
+      val options = ConfigParseOptions.defaults.setAllowMissing(false)
+      suite(ConfigFactory.parseFile(path.toFile, options).resolve(), path.toAbsolutePath.getParent)
+    catch
+      case e: ConfigException => throw wrong(s"$path: ${e.getMessage.linesIterator.next()}")
+      case e: PatternSyntaxException =>
+        throw wrong(s"$path: no regular expression: ${e.getMessage.linesIterator.next()}")
+
+  private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
+    Set("programs", "scenes")
+  private val programKeys = Set("title", "command", "reads", "threads", "edits", "seeded") ++
+    Set("color", "thin", "needs")
+  private val sceneKeys = Set("title", "note", "files", "reference", "samples", "seconds") ++
+    Set("target", "programs", "needs")
+
+  private def suite(c: Config, folder: Path): Suite =
+    // What others refer to begins with a dash of its own: `_flags`.
+    known(c, suiteKeys, "the suite")
+    Suite(
+      c.getString("title"),
+      named(c, "programs").zipWithIndex.map((n, i) => program(n, c.getConfig(s"programs.$n"), i)),
+      named(c, "scenes").map(n => scene(n, c.getConfig(s"scenes.$n"), folder)),
+      work(c).getOrElse(Work.Samples(Vector(1, 4, 16, 64))),
+      positive(c, "seeds", 3),
+      if c.hasPath("timeout") then c.getDouble("timeout") else DefaultTimeout
+    )
+
+  /** Seconds. */
+  val DefaultTimeout = 600.0
+
+  /** In the order of the file, those of included files last. */
+  private def named(c: Config, key: String): Vector[String] =
+    val entries = c.getObject(key)
+    val own = Option(c.getValue("title").origin.filename)
+    entries.keySet.asScala.toVector.sortBy: k =>
+      val origin = entries.get(k).origin
+      (Option(origin.filename) != own, origin.lineNumber)
+
+  private def program(name: String, c: Config, index: Int): Program =
+    known(c, programKeys, s"program $name")
+    val command = if c.hasPath("command") then c.getString("command") else ""
+    Program(
+      name,
+      text(c, "title", name),
+      command.split(' ').toVector.filter(_.nonEmpty),
+      texts(c, "reads"),
+      positive(c, "threads", Runtime.getRuntime.availableProcessors),
+      if c.hasPath("edits") then c.getConfigList("edits").asScala.toVector.map(edit)
+      else Vector.empty,
+      !c.hasPath("seeded") || c.getBoolean("seeded"),
+      if c.hasPath("color") then c.getInt("color") else index,
+      c.hasPath("thin") && c.getBoolean("thin"),
+      if c.hasPath("needs") then texts(c, "needs") else Vector.empty
+    )
+
+  private def edit(c: Config): Edit = Edit(c.getString("find").r, c.getString("replace"))
+
+  private def scene(name: String, c: Config, folder: Path): SuiteScene =
+    known(c, sceneKeys, s"scene $name")
+    val files = c.getConfig("files")
+    SuiteScene(
+      name,
+      text(c, "title", name),
+      text(c, "note", ""),
+      files.root.keySet.asScala.map(k => k -> folder.resolve(files.getString(k))).toMap,
+      folder.resolve(c.getString("reference")),
+      work(c),
+      Option.when(c.hasPath("target"))(c.getDouble("target")),
+      Option.when(c.hasPath("programs"))(texts(c, "programs")),
+      if c.hasPath("needs") then texts(c, "needs") else Vector.empty
+    )
+
+  private def work(c: Config): Option[Work] =
+    if c.hasPath("samples") then
+      val counts = c.getIntList("samples").asScala.toVector.map(_.intValue).distinct.sorted
+      if counts.isEmpty || counts.head < 1 then throw wrong("samples: expected numbers from 1")
+      Some(Work.Samples(counts))
+    else if c.hasPath("seconds") then
+      val budgets = c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue).distinct.sorted
+      if budgets.isEmpty || budgets.head <= 0 then throw wrong("seconds: expected more than 0")
+      Some(Work.Seconds(budgets))
+    else None
+
+  /** What is misspelt must not be ignored. */
+  private def known(c: Config, keys: Set[String], where: String): Unit =
+    for key <- c.root.keySet.asScala.toVector.sorted if !keys(key) && !key.startsWith("_") do
+      throw wrong(s"$where has an entry `$key`; known are ${keys.toVector.sorted.mkString(", ")}")
+
+  private def text(c: Config, key: String, other: String): String =
+    if c.hasPath(key) then c.getString(key) else other
+
+  private def texts(c: Config, key: String): Vector[String] = c.getStringList(key).asScala.toVector
+
+  private def positive(c: Config, key: String, other: Int): Int =
+    val value = if c.hasPath(key) then c.getInt(key) else other
+    if value < 1 then throw wrong(s"$key: expected a number from 1, found `$value`")
+    value
+
+  private def wrong(message: String): SceneError = SceneError(Problem.general(message))
+
+/** A folder of scenes as a suite: each `NAME.pbrt` that has a reference `NAME.exr`. */
+object SuiteFolder:
+
+  /** @throws SceneError if there is no such scene */
+  def read(folder: Path, references: Path): Suite =
+    val scenes = scala.util.Using.resource(Files.list(folder)): files =>
+      files.iterator.asScala.toVector.filter(_.toString.endsWith(".pbrt")).sorted
+    val pairs = scenes
+      .map(s => s -> references.resolve(s.getFileName.toString.stripSuffix(".pbrt") + ".exr"))
+      .filter((_, reference) => Files.isRegularFile(reference))
+    if pairs.isEmpty then
+      val message = s"no scene of $folder has a reference of its name (.exr) in $references"
+      throw SceneError(Problem.general(message))
+    Suite(
+      folder.toAbsolutePath.getFileName.toString,
+      Vector(candela),
+      pairs.map(scene),
+      Work.Samples(Vector(1, 4, 16)),
+      3,
+      SuiteFile.DefaultTimeout
+    )
+
+  private val candela: Program =
+    val command = "{candela} {scene} --quiet --spp {spp} --seed {seed} --nthreads {threads} " +
+      "--outfile {out}"
+    val threads = Runtime.getRuntime.availableProcessors
+    Program(
+      "candela",
+      "Candela",
+      command.split(' ').toVector,
+      Vector("scene"),
+      threads,
+      Vector.empty,
+      isSeeded = true,
+      color = 0,
+      isThin = false
+    )
+
+  private def scene(file: Path, reference: Path): SuiteScene =
+    val name = file.getFileName.toString.stripSuffix(".pbrt")
+    SuiteScene(
+      name,
+      name,
+      "",
+      Map("scene" -> file),
+      reference,
+      None,
+      None,
+      None,
+      Vector.empty
+    )

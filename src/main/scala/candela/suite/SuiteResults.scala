@@ -1,0 +1,89 @@
+package candela.suite
+
+import candela.image.ImageFiles
+import candela.measure.MeasuredCurve
+import candela.report.{Machine, ProgramResult, SceneResult, SuiteReport}
+
+import java.nio.file.Path
+import java.time.LocalDateTime
+import java.time.format.DateTimeFormatter
+
+/** Runs a suite and puts together what came of it. */
+object SuiteResults:
+
+  /** @param scratch a folder for images on their way, which somebody else removes
+    */
+  def of(
+      suite: Suite,
+      self: Vector[String],
+      scratch: Path,
+      version: String,
+      say: String => Unit
+  ): SuiteReport =
+    val machine = Machine.here()
+    val begun = LocalDateTime.now.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm"))
+    val started = System.nanoTime
+    val runner = SuiteRunner(suite, Commands(self, scratch), scratch, say)
+    val results = runner.run()
+    val seconds = (System.nanoTime - started) * 1e-9
+    val scenes = suite.scenes.flatMap: scene =>
+      val ofScene = results.filter(_.job.entry.scene == scene)
+      Option.when(ofScene.nonEmpty)(sceneResult(scene, suite, ofScene, runner))
+    SuiteReport(
+      suite.title,
+      version,
+      machine,
+      begun,
+      seconds,
+      suite.seeds,
+      scenes,
+      runner.omissions
+    )
+
+  private def sceneResult(
+      scene: SuiteScene,
+      suite: Suite,
+      results: Vector[Result],
+      runner: SuiteRunner
+  ): SceneResult =
+    val byEntry = results.groupBy(_.job.entry)
+    val programs = suite.programs.flatMap: program =>
+      byEntry.collectFirst { case (entry, all) if entry.program == program => entry -> all }
+        .map((entry, all) => programResult(entry, all, runner))
+    SceneResult(
+      scene.name,
+      scene.title,
+      scene.note,
+      ImageFiles.read(scene.reference).toRgb,
+      scene.reference.getFileName.toString,
+      scene.target.getOrElse(reachable(programs.map(_.curve.least))),
+      programs
+    )
+
+  /** What at least half of the programs reach. */
+  private[suite] def reachable(least: Vector[Double]): Double =
+    val target = least.sorted.apply(least.size / 2)
+    // Two digits, rounded up, are easier to remember.
+    val digit = Math.pow(10, Math.floor(Math.log10(Math.max(target, 1e-12))) - 1)
+    Math.ceil(target / digit - 1e-9) * digit
+
+  private def programResult(
+      entry: Entry,
+      results: Vector[Result],
+      runner: SuiteRunner
+  ): ProgramResult =
+    val program = entry.program
+    val measurements = results.map(_.measurement)
+    val times = measurements.groupMap(_.samples)(_.seconds)
+    // The same image again says nothing new about the error.
+    val kept = if program.isSeeded then measurements else measurements.distinctBy(_.samples)
+    ProgramResult(
+      program.name,
+      program.title,
+      program.color,
+      program.isThin,
+      program.command.mkString(" ").replace("{candela}", "candela") +
+        program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
+      MeasuredCurve(kept, times),
+      runner.picture(entry)
+    )

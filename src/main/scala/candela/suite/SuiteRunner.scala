@@ -1,0 +1,141 @@
+package candela.suite
+
+import candela.image.{Image, ImageError, ImageFiles}
+import candela.measure.{Errors, Measurement}
+
+import java.nio.file.{Files, Path}
+
+/** One image to make.
+  *
+  * @param step which sample count it is of, from 0
+  */
+private[suite] final case class Job(entry: Entry, step: Int, samples: Int, seed: Int)
+
+/** A program on a scene, and what it needs for that. */
+private[suite] final case class Entry(program: Program, scene: SuiteScene, file: Path)
+
+/** What came of a job. */
+private[suite] final case class Result(job: Job, measurement: Measurement)
+
+/** Runs the programs of a suite on its scenes, in turn.
+  *
+  * @param say told what happens, a line each
+  */
+final class SuiteRunner(suite: Suite, commands: Commands, scratch: Path, say: String => Unit):
+  private val copies = SceneCopy(scratch)
+  private val leftOut = Vector.newBuilder[(String, String)]
+  private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
+
+  /** What could not be run, and why. */
+  def omissions: Vector[(String, String)] = leftOut.result()
+
+  /** The image of the longest rendering with the first seed. */
+  private[suite] def picture(entry: Entry): Image = pictures(entry)._2
+
+  private[suite] def run(): Vector[Result] =
+    val scenes = suite.scenes.filter(isThere)
+    val programs = suite.programs.filter: program =>
+      commands.missing(program).forall: why =>
+        leaveOut(program.title, why)
+        false
+    val plans = scenes.map: scene =>
+      val reference = ImageFiles.read(scene.reference).toRgb
+      val entries = programs.flatMap(entryOf(_, scene)).flatMap: entry =>
+        planned(entry, reference).map(entry -> _)
+      (reference, entries)
+    for
+      (reference, entries) <- plans
+      seed <- (1 to suite.seeds).toVector
+      step <- entries.flatMap(_._2.indices).distinct.sorted
+      // Another one begins each time: what wears on the machine wears on all.
+      (entry, samples) <- rotated(entries, seed + step)
+      if step < samples.size
+      result <- measured(Job(entry, step, samples(step), seed), reference)
+    yield result
+
+  private def leaveOut(what: String, why: String): Unit =
+    say(s"left out: $what: $why")
+    leftOut += what -> why
+
+  private def isThere(scene: SuiteScene): Boolean =
+    val unset = scene.needs.filterNot(sys.env.contains)
+    val why =
+      if unset.nonEmpty then Some(Commands.notSet(unset))
+      else if !Files.isRegularFile(scene.reference) then
+        Some(s"there is no reference ${scene.reference}")
+      else scene.files.values.find(!Files.isRegularFile(_)).map(f => s"there is no file $f")
+    why.foreach(leaveOut(scene.title, _))
+    why.isEmpty
+
+  private def entryOf(program: Program, scene: SuiteScene): Option[Entry] =
+    val wanted = scene.programs.forall(_.contains(program.name))
+    val file = program.kinds.flatMap(scene.files.get).headOption
+    for
+      f <- file if wanted
+      useless = SceneCopy.useless(f, program.edits)
+      _ = useless.foreach: edit =>
+        leaveOut(s"${program.title} on ${scene.title}", s"nothing to edit: `${edit.find}`")
+      if useless.isEmpty
+    yield Entry(program, scene, f)
+
+  /** The sample counts to render; from a first run that is not counted. */
+  private def planned(entry: Entry, reference: Image): Option[Vector[Int]] =
+    def seconds(samples: Int): Option[Double] =
+      measured(Job(entry, -1, samples, 1), reference).map(_.measurement.seconds)
+    entry.scene.work.getOrElse(suite.work) match
+      case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
+      case Work.Seconds(budgets) =>
+        for
+          one <- seconds(1)
+          many <- seconds(SuiteRunner.Pilot)
+        yield budgets.map(SuiteRunner.samplesFor(_, one, many)).distinct
+
+  private def rotated[A](items: Vector[A], by: Int): Vector[A] =
+    if items.isEmpty then items
+    else items.drop(by % items.size) ++ items.take(by % items.size)
+
+  private def measured(job: Job, reference: Image): Option[Result] =
+    val Entry(program, scene, _) = job.entry
+    val out = scratch.resolve("out.exr")
+    val name = s"${scene.title}, ${program.title}, ${job.samples} spp"
+    commands.run(words(job, out), out, suite.timeout) match
+      case Outcome.Failed(why) =>
+        leaveOut(name, why)
+        None
+      case Outcome.Done(seconds) =>
+        try
+          val image = ImageFiles.read(out).toRgb
+          val errors = Errors.against(reference)(image)
+          val counted = if job.step < 0 then "warm-up" else s"seed ${job.seed}"
+          say(f"$name%-48s $counted%-8s $seconds%8.2f s  relative MSE ${errors.relativeMse}%.3g")
+          keep(job, image)
+          Some(Result(job, Measurement(job.samples, job.seed, seconds, errors)))
+        catch
+          case e: ImageError =>
+            leaveOut(name, e.getMessage)
+            None
+
+  private def keep(job: Job, image: Image): Unit =
+    val longer = pictures.get(job.entry).forall((kept, _) => job.samples > kept.samples)
+    if job.step >= 0 && longer then pictures(job.entry) = (job, image)
+
+  private[suite] def words(job: Job, out: Path): Vector[String] =
+    val program = job.entry.program
+    val values = Map(
+      "spp" -> job.samples.toString,
+      "seed" -> job.seed.toString,
+      "threads" -> program.threads.toString
+    )
+    val scene = copies.of(job.entry.file, program.edits, Commands.filled(_, values))
+    val files = Map("scene" -> scene.toAbsolutePath.toString, "out" -> out.toString)
+    commands.words(program, values ++ files)
+
+private[suite] object SuiteRunner:
+  /** Samples of the second run that tells how much each sample takes. */
+  val Pilot = 8
+
+  /** How many samples fill some seconds, if one takes `one` and [[Pilot]] take `many`. */
+  def samplesFor(seconds: Double, one: Double, many: Double): Int =
+    // As long as the clock can tell: nobody renders ten thousand samples in a second.
+    val each = Math.max(1e-4, (many - one) / (Pilot - 1))
+    Math.max(1, ((seconds - one) / each).toInt + 1)

@@ -1,0 +1,72 @@
+package candela.cli
+
+import candela.image.{Image, ImageFiles}
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** `candela bench`, with a program that copies a picture for a renderer. */
+class BenchCommandSuite extends AnyFunSuite:
+
+  private def run(args: String*): (Int, Captured) =
+    val captured = Captured()
+    (Main.run("bench" +: args, captured.terminal), captured)
+
+  private def flat(path: Path, value: Float): Unit =
+    val image = Image.rgb(4, 3)
+    java.util.Arrays.fill(image.data, value)
+    ImageFiles.write(path, image)
+
+  private def inSuite[A](body: (Path, String) => A): A =
+    TempFolder.use: folder =>
+      flat(folder.resolve("scene.exr"), 0.75f)
+      flat(folder.resolve("truth.exr"), 0.5f)
+      val text =
+        """title = "Copies"
+          |programs {
+          |  copy { command = "cp {scene} {out}", reads = [exr] }
+          |  gone { command = "no-such-renderer-of-candela", reads = [exr] }
+          |}
+          |scenes { flat { files { exr = "scene.exr" }, reference = "truth.exr" } }
+          |""".stripMargin
+      body(folder, Files.writeString(folder.resolve("copies.conf"), text).toString)
+
+  test("a suite becomes a page, figures for machines and a chart"):
+    inSuite: (folder, suite) =>
+      val files = Vector("html", "json", "csv", "svg").map(e => folder.resolve(s"out.$e"))
+      val words = Vector("--samples", "1,2", "--seeds", "2", "--report", files.mkString(","))
+      val (code, captured) = run(suite +: words*)
+      assert(code == 0, captured.err)
+      assert(captured.out.linesIterator.toVector == files.map(f => s"wrote $f"))
+      assert(captured.err.contains("gone: `no-such-renderer-of-candela` is not installed"))
+      val rows = Files.readAllLines(files(2))
+      // (0.25 / 0.51)²
+      assert(rows.size == 5 && rows.get(1).startsWith("flat,copy,1,1,"))
+      assert(rows.get(1).contains(",0.2402"))
+      assert(Files.readString(files(0)).contains("is not installed"))
+      assert(Files.readString(files(0)).contains("class=\"viewer card\""))
+      assert(Files.readString(files(1)).contains("\"seeds\": 2"))
+      assert(Files.readString(files(3)).startsWith("<svg"))
+
+  test("--no-pictures leaves the images out, --programs all other programs"):
+    inSuite: (folder, suite) =>
+      val page = folder.resolve("out.html")
+      val words = Vector("--no-pictures", "--programs", "copy", "--report", page.toString)
+      val (code, captured) = run(Vector(suite, "--samples", "1") ++ words*)
+      assert(code == 0, captured.err)
+      assert(!captured.err.contains("left out"))
+      assert(!Files.readString(page).contains("class=\"viewer card\""))
+
+  test("what can't be is said before anything runs"):
+    inSuite: (folder, suite) =>
+      def error(args: String*) =
+        val (code, captured) = run(args*)
+        assert(code == 1)
+        captured.err
+      assert(error(s"$folder/none.conf").contains("there is no suite"))
+      assert(error(suite, "--report", s"$folder/x.pdf").contains(".html, .json, .csv, or .svg"))
+      assert(error(suite, "--report", s"$folder/none/x.html").contains("there is no folder"))
+      assert(error(suite, "--scenes", "flut").contains("no scene `flut`; it has flat"))
+      assert(error(folder.toString, "--report", s"$folder/x.csv").contains("no scene of"))
+      assert(!Files.exists(folder.resolve("x.csv")))

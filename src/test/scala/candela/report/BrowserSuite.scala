@@ -1,0 +1,77 @@
+package candela.report
+
+import candela.measure.{ErrorMap, ImagePair, Metric, Metrics}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.io.File
+import java.nio.file.{Files, Path}
+import java.util.concurrent.TimeUnit
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** What a page's script does, in a real browser: a headless Chromium, if there is one. */
+class BrowserSuite extends AnyFunSuite:
+  import BrowserSuite.*
+
+  private val pair = ImagePair(Reports.image, Reports.reference)
+
+  private def viewer(dom: String, attribute: String): String =
+    s"""class="viewer card"[^>]*data-$attribute="([^"]*)"""".r
+      .findFirstMatchIn(dom).fold("")(_.group(1))
+
+  test("the script works out the same errors as the program"):
+    val relative = opened(RenderPage.html(Reports.report), "mode=heat&metric=relmse")
+    assert(viewer(relative, "ready") == "heat relmse", viewer(relative, "failed"))
+    val wanted = Metrics.compare(Reports.image, Reports.reference).relativeMse
+    // Numbers have 16 bits in the page.
+    assert(Math.abs(viewer(relative, "mean").toDouble / wanted - 1) < 1e-3)
+    val flip = opened(RenderPage.html(Reports.report), "mode=heat&metric=flip")
+    val mean = ErrorMap.mean(ErrorMap(Metric.Flip, pair))
+    assert(Math.abs(viewer(flip, "mean").toDouble - mean) < 0.5 / 255)
+
+  test("a pixel can be read, a chart chosen and the dark page asked for by the address"):
+    val fragment = "x=3&y=2&chart=flip&axis=samples&theme=dark&ev=1"
+    val dom = opened(RenderPage.html(Reports.report), fragment)
+    assert(viewer(dom, "ready") == "slider relmse", viewer(dom, "failed"))
+    val red = Reports.image(3, 2, 0)
+    val readOut = raw"""class="readout">([^<]*)""".r.findFirstMatchIn(dom).get.group(1)
+    assert(readOut.startsWith("pixel (3, 2)\n64 samples"))
+    assert(readOut.contains("%.4f".formatLocal(java.util.Locale.ROOT, red)), readOut)
+    assert(dom.contains("""data-theme="dark""""))
+    val seen = raw"""<div class="chart" data-chart="(\w+)" data-axis="(\w+)">""".r
+    assert(seen.findAllMatchIn(dom).map(m => (m.group(1), m.group(2))).toVector ==
+      Vector(("flip", "samples")))
+
+  test("the page of a suite shows its pictures"):
+    val dom = opened(SuitePage.html(Reports.suite), "mode=flip")
+    assert(viewer(dom, "ready") == "flip relmse", viewer(dom, "failed"))
+
+  /** The page as it is after its script ran, without a network. */
+  private def opened(page: String, fragment: String): String =
+    val browser = installed.getOrElse(cancel(s"none of ${names.mkString(", ")} is on the PATH"))
+    val folder = Files.createTempDirectory("candela-browser")
+    try
+      val file = Files.writeString(folder.resolve("page.html"), page)
+      val out = folder.resolve("dom.html").toFile
+      val command = Vector(browser.toString, "--headless", "--no-sandbox", "--disable-gpu") ++
+        Vector(s"--user-data-dir=$folder/profile", "--host-resolver-rules=MAP * ~NOTFOUND") ++
+        Vector("--virtual-time-budget=20000", "--dump-dom", s"${file.toUri}#$fragment")
+      val process = ProcessBuilder(command.asJava).redirectOutput(out)
+        .redirectError(folder.resolve("err.txt").toFile).start()
+      if !process.waitFor(120, TimeUnit.SECONDS) then
+        val _ = process.destroyForcibly().waitFor()
+        cancel(s"$browser didn't end within two minutes")
+      Files.readString(out.toPath)
+    finally
+      Using.resource(Files.walk(folder)): files =>
+        files.iterator.asScala.toVector.reverse.foreach(f => f.toFile.delete())
+
+object BrowserSuite:
+  private val names = Vector("chromium", "chromium-browser", "chromium-headless-shell") ++
+    Vector("google-chrome", "google-chrome-stable", "chrome")
+
+  private def installed: Option[Path] =
+    val folders = sys.env.getOrElse("PATH", "").split(File.pathSeparatorChar).toVector
+    (for name <- names; folder <- folders yield Path.of(folder, name)).find(Files.isExecutable(_))

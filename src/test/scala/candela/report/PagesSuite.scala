@@ -1,0 +1,47 @@
+package candela.report
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class PagesSuite extends AnyFunSuite:
+  private lazy val pages =
+    Vector("rendering" -> RenderPage.html(Reports.report), "suite" -> SuitePage.html(Reports.suite))
+
+  test("pages need nothing but themselves"):
+    for (name, page) <- pages do
+      // The name of the language of vector graphics is no address that is fetched.
+      val addresses = """https?://[^\s"'<]+""".r.findAllIn(page).toSet
+      assert(addresses == Set("http://www.w3.org/2000/svg"), name)
+      for word <- Vector("src=", "<link", "@import", "url(") do assert(!page.contains(word), name)
+
+  test("names can't break a page"):
+    val page = pages.head._2
+    assert(page.contains("a &lt;/script&gt; scene.pbrt"))
+    assert(!page.contains("a </script> scene"))
+    assert(page.contains("A &lt;Processor&gt; &amp; Co") && page.contains("path &amp; more"))
+
+  test("a page about a rendering has its figures, timeline, plan and machine"):
+    val page = pages.head._2
+    for word <- Vector("64 samples", "thread 2", "parse", "truth.exr", "integrator", "Java") do
+      assert(page.contains(word), word)
+    // The chart of each metric, against both axes.
+    for metric <- Vector("relmse", "mse", "mae", "flip"); axis <- Vector("seconds", "samples") do
+      assert(page.contains(s"""data-chart="$metric" data-axis="$axis""""), s"$metric $axis")
+
+  test("a page about a suite names who is first, and what was left out"):
+    val page = pages(1)._2
+    assert(page.contains("pbrt-v9") && page.contains("is not installed"))
+    // Error 0.2 on the mean curve 1.2 / samples at 6 samples, half a second each.
+    assert(page.contains("""<td class="best">3.000 s</td>"""))
+
+  test("JSON and CSV have the same figures"):
+    val json = ujson.read(RenderData.json(Reports.report))
+    assert(json("points").arr.map(_("samples").num.toInt).toVector == Vector(1, 4, 16, 64))
+    assert(json("points")(0)("mse").num == 0.3 && json("estimated").bool == false)
+    val csv = RenderData.csv(Reports.report).linesIterator.toVector
+    assert(csv.size == 5 && csv.forall(_.count(_ == ',') == 9))
+    assert(csv(1).startsWith("1,0.5,0.3,0.3,"))
+    val suite = ujson.read(SuiteData.json(Reports.suite))
+    val fast = suite("scenes")(0)("programs")(0)
+    assert(fast("points")(2)("runs").arr.size == 3)
+    assert(Math.abs(fast("slope")("estimate").num + 1) < 1e-9)
+    assert(SuiteData.csv(Reports.suite).linesIterator.size == 1 + 2 * 9)

@@ -1,0 +1,82 @@
+package candela.suite
+
+import candela.base.SceneError
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class SuiteFileSuite extends AnyFunSuite:
+
+  private def read(text: String): Suite =
+    val file = Files.createTempFile("candela", ".conf")
+    try SuiteFile.read(Files.writeString(file, text))
+    finally Files.delete(file)
+
+  private val good =
+    """title = "Race"
+      |samples = [4, 1]
+      |seeds = 2
+      |_flags = "--quiet"
+      |programs {
+      |  b { title = "B", command = "b "${_flags}" {scene}", reads = [v4, v3], threads = 1
+      |      color = 3
+      |      edits = [{ find = "spp (\\d+)", replace = "spp {spp}" }], seeded = false, thin = true }
+      |  a { command = ${?NO_SUCH_VARIABLE}, reads = [v3], needs = [X] }
+      |}
+      |scenes {
+      |  z { files { v3 = "z.pbrt" }, reference = "z.exr", target = 0.01, needs = [SOMETHING] }
+      |  y { files { v4 = "/tmp/y.pbrt" }, reference = "y.exr", seconds = [1, 2], programs = [b] }
+      |}
+      |""".stripMargin
+
+  test("a suite says what it says, in the order of its file"):
+    val suite = read(good)
+    assert((suite.title, suite.seeds, suite.work) == ("Race", 2, Work.Samples(Vector(1, 4))))
+    val Vector(b, a) = suite.programs: @unchecked
+    assert(b.command == Vector("b", "--quiet", "{scene}") && b.kinds == Vector("v4", "v3"))
+    assert((b.threads, b.color, b.isThin, b.isSeeded) == (1, 3, true, false))
+    assert(b.edits.head.find.replaceAllIn("spp 8", b.edits.head.replacement) == "spp {spp}")
+    assert(a.command.isEmpty && a.needs == Vector("X"))
+    assert(a.title == "a" && a.color == 1 && a.isSeeded)
+    val Vector(z, y) = suite.scenes: @unchecked
+    assert(z.target.contains(0.01) && z.needs == Vector("SOMETHING") && z.work.isEmpty)
+    assert(z.files("v3").isAbsolute && z.reference.endsWith("z.exr"))
+    assert(y.files("v4") == Path.of("/tmp/y.pbrt") && y.programs.contains(Vector("b")))
+    assert(y.work.contains(Work.Seconds(Vector(1, 2))))
+
+  private val wrong = Vector(
+    ("seeds = 2", "seeds = 0", "seeds: expected a number from 1"),
+    ("seeds = 2", "seedz = 2", "the suite has an entry `seedz`"),
+    ("threads = 1", "treads = 1", "program b has an entry `treads`"),
+    ("target = 0.01", "tarket = 0.01", "scene z has an entry `tarket`"),
+    ("samples = [4, 1]", "samples = [0]", "samples: expected numbers from 1"),
+    ("seconds = [1, 2]", "seconds = [-1]", "seconds: expected more than 0"),
+    ("spp (", "spp ((", "no regular expression"),
+    ("reads = [v3], ", "", "reads"),
+    ("scenes {", "scenes [", "suite")
+  )
+
+  for (written, instead, message) <- wrong do
+    test(s"`$instead` for `$written` is refused: $message"):
+      assert(good.contains(written))
+      val error = intercept[SceneError](read(good.replace(written, instead)))
+      val said = error.problems.map(_.message).mkString
+      if message == "suite" then assert(said.nonEmpty) else assert(said.contains(message))
+
+  test("programs and scenes can be chosen, by names that there are"):
+    val suite = read(good).only(Vector("b"), Vector("y"))
+    assert(suite.programs.map(_.name) == Vector("b") && suite.scenes.map(_.name) == Vector("y"))
+    val error = intercept[SceneError](read(good).only(Vector("c"), Vector.empty))
+    assert(error.problems.head.message == "the suite has no program `c`; it has b, a")
+
+  test("the suites of the repository can be read"):
+    for name <- Vector("own", "peers") do
+      val suite = SuiteFile.read(Path.of("bench", "suites", s"$name.conf"))
+      assert(suite.programs.nonEmpty && suite.scenes.nonEmpty)
+      for scene <- suite.scenes; kinds <- scene.programs.toVector.flatten do
+        assert(suite.programs.exists(_.name == kinds), s"$name: ${scene.name} names $kinds")
+      // What lies in the repository must be there.
+      for scene <- suite.scenes if scene.needs.isEmpty; file <- scene.files.values do
+        assert(Files.isRegularFile(file), file)
+        assert(Files.isRegularFile(scene.reference), scene.reference)
