@@ -76,6 +76,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     var rest = length
     var choice = u
     var found = 0
+    var crossings = 0
     var goesOn = true
     while goesOn do
       ray.set(from, direction, rest)
@@ -95,9 +96,10 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
             chosenAt = ray.tMax
           else choice = (choice * found - 1f) / (found - 1)
         from = point.offsetOrigin(direction)
-        val left = length - ((from - start) dot direction)
-        goesOn = left > 0f && left < rest
-        rest = left
+        rest = length - ((from - start) dot direction)
+        // Where surfaces touch, several are crossed at one distance
+        crossings += 1
+        goesOn = rest > 0f && crossings < SubsurfaceProbe.MostCrossings
     found
 
   private def isEntry(there: Int, here: Int): Boolean =
@@ -110,3 +112,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     0.25f * Math.abs(n.x) * inside.density(sqrt(d.y * d.y + d.z * d.z)) +
       0.25f * Math.abs(n.y) * inside.density(sqrt(d.z * d.z + d.x * d.x)) +
       0.5f * Math.abs(n.z) * inside.density(sqrt(d.x * d.x + d.y * d.y))
+
+object SubsurfaceProbe:
+  /** More than any body has; no ray goes on for ever. */
+  private inline val MostCrossings = 10000

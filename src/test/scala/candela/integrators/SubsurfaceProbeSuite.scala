@@ -39,6 +39,11 @@ final class SubsurfaceProbeSuite extends AnyFunSuite:
     val other = "Material \"matte\" Translate 0 0 -.02 Shape \"disk\" \"float radius\" 1000"
     shows(s"$medium $disk AttributeBegin $other AttributeEnd")
 
+  test("a plane above two others that touch all over"):
+    val square = "Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] " +
+      "\"point P\" [-99 -99 0 99 -99 0 99 99 0 -99 99 0]"
+    shows(s"Material \"matte\" $square $square Translate 0 0 .01 $medium $disk")
+
   test("a plane that an instance brings, turned and stretched"):
     shows(
       s"""ObjectBegin "it" $medium Shape "disk" ObjectEnd
