@@ -43,9 +43,9 @@ object Renderer:
       val begin = seconds
       Workers.run(workers, board)(() => progress())
       for w <- witness if !board.isStopped do
+        val pass = Pass(schedule.firstSample(end), begin, seconds, workers.map(_.seconds))
         val stopped = System.nanoTime
-        val times = workers.map(_.seconds)
-        w.passed(Pass(schedule.firstSample(end), begin, seconds, times), film)
+        w.passed(pass, film)
         paused += System.nanoTime - stopped
     progress()
 
