@@ -40,8 +40,9 @@ object Interrupts:
       val onInterrupt: SignalHandler = _ =>
         if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
         else
-          cancellation.request()
+          // said first: a rendering may end as soon as it is asked to, and its result is said next
           err.println(s"${lineEnd}stopping; Ctrl-C again quits without an image")
+          cancellation.request()
       Runtime.getRuntime.addShutdownHook(onShutdown)
       // Refused if Java was told (-Xrs) to leave signals alone.
       val previous = Try(Signal.handle(interrupt, onInterrupt)).toOption
