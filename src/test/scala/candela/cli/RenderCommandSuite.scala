@@ -153,8 +153,7 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(told("--pixel", "4,0")._2.contains("adds rgb("))
       assert(told("--pixel", "400,0") match
         case (1, words) => words.contains("no pixel 400,0")
-        case _ => false
-      )
+        case _ => false)
       assert(told()._1 == 2 && told("--pixel", "a,b")._1 == 2)
       assert(TempFolder.names(folder).isEmpty)
 

@@ -41,7 +41,8 @@ class TransformsSuite extends AnyFunSuite:
         else draws.between(-1, 1).toDouble
       // The third row is nearly the sum of the first two
       val nearly = (0 until 3).foldLeft(rows)((r, c) =>
-        r.updated(8 + c, r(c) + r(4 + c) + e * draws.between(-1, 1)))
+        r.updated(8 + c, r(c) + r(4 + c) + e * draws.between(-1, 1))
+      )
       for t <- Transform.fromRows(nearly) do
         assert(t.inverseM.forall(java.lang.Double.isFinite))
         val p = draws.vec(-1, 1)

@@ -41,6 +41,9 @@ object WhittedRecipe
 object AmbientOcclusion
     extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees")
     with PathInstead:
+  override def pending: Option[String] =
+    Some("the path integrator is used, whose picture is another: lamps and materials count")
+
   declare(
     bool("cossample", "more rays along the normal?", sinceV3)(true),
     integer("nsamples", "rays from each point", untilV3)(if v2 then 2048 else 64),
