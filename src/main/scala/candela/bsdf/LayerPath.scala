@@ -71,7 +71,7 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
 
   def scatterInMedium(): Unit =
     isSpecular = false
-    w = layers.phase.sample(w, next(), next())
+    w = layers.phase.sample(-w, next(), next()).normalized
 
   /** The outer side sends some of it back. */
   def reflectAtTop(): Unit =

@@ -2,7 +2,7 @@ package candela.bsdf
 
 import candela.color.Rgb
 import candela.math.*
-import candela.sampling.SampleHash
+import candela.sampling.{HenyeyGreenstein, SampleHash}
 
 /** What a layered surface consists of: a base under an interface, and what is between them.
   *
@@ -24,7 +24,7 @@ final class Layers(
     val walks: Int
 ):
   private[bsdf] val top = Boundary(topDistribution, eta)
-  private[bsdf] val phase = HenyeyGreenstein(asymmetry)
+  private[bsdf] val phase = HenyeyGreenstein(clamp(asymmetry, -0.99f, 0.99f))
   val isClear: Boolean = albedo.isBlack || thickness <= 0f
 
   /** What is left of light after this distance across, in mean free paths. */
@@ -100,7 +100,7 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
               pdf = path.basePdf
             else
               path.throughput = path.throughput * layers.albedo
-              val turned = layers.phase(path.w dot exit)
+              val turned = layers.phase.value(-path.w, exit)
               val w = heuristic(exitPdf, turned)
               val kept = w * turned * passed * layers.attenuation(distance, exit) / exit.z
               sum += path.throughput * kept
@@ -108,7 +108,7 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
                 sum += path.throughput * mirrored(path, exit) * (passed / exit.z)
               val before = path.w
               path.scatterInMedium()
-              pdf = layers.phase(before dot path.w)
+              pdf = layers.phase.value(-before, path.w)
             if !top.isSmooth && path.w.z > 0f then
               val crossing = top.crossing(i, -path.w)
               if crossing > 0f then
@@ -122,9 +122,9 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
   private def mirrored(path: LayerPath, exit: Vec3): Rgb =
     val across = layers.attenuation(layers.thickness, exit)
     val base = layers.base.sample(exit, 0.5f, 0.5f, 0.5f).weight
-    val up = layers.phase(path.w dot exit) *
+    val up = layers.phase.value(-path.w, exit) *
       layers.attenuation(layers.thickness - path.height, exit)
-    val down = layers.phase(path.w dot Hemisphere.flipped(exit)) *
+    val down = layers.phase.value(-path.w, Hemisphere.flipped(exit)) *
       layers.attenuation(path.height, exit)
     val reflected = Fresnel.dielectric(exit.z, 1f / top.eta)
     val trip = base * (reflected * across * across)

@@ -14,6 +14,12 @@ final class Rgb(val r: Float, val g: Float, val b: Float):
   def isFinite: Boolean =
     java.lang.Float.isFinite(r) && java.lang.Float.isFinite(g) && java.lang.Float.isFinite(b)
   def max: Float = if r > g then (if r > b then r else b) else if g > b then g else b
+
+  /** The largest magnitude: the colour of a single wavelength may be negative. */
+  def largest: Float =
+    val (x, y, z) = (Math.abs(r), Math.abs(g), Math.abs(b))
+    if x > y then (if x > z then x else z) else if y > z then y else z
+
   def average: Float = (r + g + b) * (1f / 3f)
 
   /** CIE Y of these primaries (ITU-R BT.709-6, table 3). */

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.Bsdf
+import candela.bsdf.{Bsdf, BsdfSample}
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, LightSample}
@@ -89,6 +89,28 @@ abstract class LightTransport(
           else lightSample.radiance * march.dimming(shadowRay, stepsToLights)
         f * arriving * (Math.abs(wi.z) * weight / pdf)
 
+  /** Light of one of the sources, chosen by `choice`; the point on it is the sampler's last. */
+  protected final def oneLight(choice: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    val chosen = scene.selection.choose(at.p, at.frame.n, choice)
+    if chosen < 0 then Rgb.Black
+    else
+      val selected = scene.selection.probability(at.p, at.frame.n, chosen)
+      sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+
+  /** The same, unless a BSDF or a scene leaves nothing to sample: that takes no numbers. */
+  protected final def anyLight(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+    if bsdf.isSpecular || scene.lights.length == 0 then Rgb.Black
+    else
+      val choice = sampler.next1D()
+      sampler.next2D()
+      oneLight(choice, bsdf, wo, sampler)
+
+  /** A direction drawn from a BSDF. */
+  protected final def drawn(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    bsdf.sample(wo, choice, sampler.x, sampler.y)
+
   /** Weight of a light sample of density `pdf` where BSDF sampling finds this light, too. */
   protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =
     LightTransport.powerHeuristic(pdf, bsdf.pdf(wo, wi))
@@ -142,3 +164,20 @@ object LightTransport:
     else
       val r = b / a
       1f / (1f + r * r)
+
+  /** Weight of light that a sampled direction met, which light sampling finds with density `pdf`.
+    *
+    * @param sampled density of the direction; 0: light sampling was no choice
+    */
+  def metWeight(sampled: Float, pdf: Float): Float =
+    if sampled > 0f then powerHeuristic(sampled, pdf) else 1f
+
+  /** Russian roulette: the throughput of a path that goes on, black if it ends.
+    *
+    * @param etaScale what refraction has made of radiance, which is no reason to end
+    */
+  def roulette(throughput: Rgb, etaScale: Float, threshold: Float, sampler: Sampler): Rgb =
+    val q = throughput.largest * etaScale
+    if q >= threshold then throughput
+    else if sampler.next1D() < q then throughput * (1f / q)
+    else Rgb.Black

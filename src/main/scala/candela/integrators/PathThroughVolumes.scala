@@ -42,7 +42,7 @@ final class PathThroughVolumes(
           ray,
           (i, source) =>
             val pdf = source.pdf(lastP, ray.direction)
-            misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
+            LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
         )
         alive = false
       else
@@ -51,45 +51,32 @@ final class PathThroughVolumes(
         if at.areaLight >= 0 then
           val source = scene.surfaceLight(at)
           val selected = scene.selection.probability(lastP, lastN, at.areaLight)
-          val weight = misWeight(lastPdf, selected * source.pdf(lastP, at))
+          val weight = LightTransport.metWeight(lastPdf, selected * source.pdf(lastP, at))
           light += throughput * source.radiance(at, wo) * weight
         if depth == maxDepth then alive = false
         else
           depth += 1
           val bsdf = scene.bsdf(at)
-          val n = at.frame.n
           val choice = sampler.next1D()
           sampler.next2D()
           if !bsdf.isSpecular && scene.lights.length > 0 then
-            val chosen = scene.selection.choose(at.p, n, choice)
-            if chosen >= 0 then
-              val selected = scene.selection.probability(at.p, n, chosen)
-              val sampled = sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
-              light += throughput * sampled
-          val lobe = sampler.next1D()
-          sampler.next2D()
-          val bounce = bsdf.sample(at.frame.toLocal(wo), lobe, sampler.x, sampler.y)
+            light += throughput * oneLight(choice, bsdf, wo, sampler)
+          val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           lastP = at.p
-          lastN = n
+          lastN = at.frame.n
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            val q = throughput.max * etaScale
-            if q < rouletteThreshold then
-              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+            throughput =
+              LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
+            alive = !throughput.isBlack
           if alive then
             met = scene.closest(ray, hit)
             rays += 1
             throughput = throughput * march.dimming(ray, stepsToLights)
     light
-
-  /** Weight of light that a sampled direction met, which light sampling finds with density
-    * `pdf`.
-    */
-  private def misWeight(sampled: Float, pdf: Float): Float =
-    if sampled > 0f then LightTransport.powerHeuristic(sampled, pdf) else 1f

@@ -51,7 +51,7 @@ final class PathTracer(
           (i, source) =>
             if lastPdf > 0f then
               val pdf = source.pdf(lastP, ray.direction)
-              misWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
+              LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
             else 1f
         )
         alive = false
@@ -66,7 +66,7 @@ final class PathTracer(
               if lastPdf > 0f then
                 scene.selection.probability(lastP, lastN, at.areaLight) * source.pdf(lastP, at)
               else 0f
-            light += throughput * emitted * misWeight(lastPdf, pdf)
+            light += throughput * emitted * LightTransport.metWeight(lastPdf, pdf)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
@@ -76,37 +76,19 @@ final class PathTracer(
           val met = scene.bsdf(at)
           val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
           if dispersion != null then throughput = throughput * dispersion.weight
-          val n = at.frame.n
-          if !bsdf.isSpecular && scene.lights.length > 0 then
-            val choice = sampler.next1D()
-            sampler.next2D()
-            val chosen = scene.selection.choose(at.p, n, choice)
-            if chosen >= 0 then
-              val selected = scene.selection.probability(at.p, n, chosen)
-              light += throughput * sampleLight(
-                chosen, selected, bsdf, wo, sampler, combined = true
-              )
-          val choice = sampler.next1D()
-          sampler.next2D()
-          val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
+          light += throughput * anyLight(bsdf, wo, sampler)
+          val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           lastP = at.p
-          lastN = n
+          lastN = at.frame.n
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            // The colour of a single wavelength may be negative
-            val q = throughput.map(Math.abs(_)).max * etaScale
-            if q < rouletteThreshold then
-              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+            throughput =
+              LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
+            alive = !throughput.isBlack
     light
-
-  /** Weight of light that a sampled direction met, which light sampling finds with density
-    * `pdf`.
-    */
-  private def misWeight(sampled: Float, pdf: Float): Float =
-    if sampled > 0f then LightTransport.powerHeuristic(sampled, pdf) else 1f

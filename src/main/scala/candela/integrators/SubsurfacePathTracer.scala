@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.{Bsdf, BsdfSample}
+import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
@@ -49,9 +49,8 @@ final class SubsurfacePathTracer(
           ray,
           (i, source) =>
             if lastPdf > 0f then
-              val pdf = scene.selection.probability(lastP, lastN, i) *
-                source.pdf(lastP, ray.direction)
-              LightTransport.powerHeuristic(lastPdf, pdf)
+              val pdf = source.pdf(lastP, ray.direction)
+              LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
             else 1f
         )
         alive = false
@@ -76,9 +75,9 @@ final class SubsurfacePathTracer(
           depth += 1
           var bsdf = scene.bsdf(at)
           atBoundary = scene.isSubsurface(at.material)
-          light += throughput * direct(bsdf, wo, sampler)
+          light += throughput * anyLight(bsdf, wo, sampler)
           var local = at.frame.toLocal(wo)
-          var bounce = sample(bsdf, local, sampler)
+          var bounce = drawn(bsdf, local, sampler)
           throughput = throughput * bounce.weight
           val inside = if local.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
           if inside == null then etaScale *= square(bounce.eta)
@@ -89,8 +88,8 @@ final class SubsurfacePathTracer(
               bsdf = inside.entry
               wo = at.frame.n
               local = Vec3.Z
-              light += throughput * direct(bsdf, wo, sampler)
-              bounce = sample(bsdf, local, sampler)
+              light += throughput * anyLight(bsdf, wo, sampler)
+              bounce = drawn(bsdf, local, sampler)
               throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           lastP = at.p
@@ -100,27 +99,10 @@ final class SubsurfacePathTracer(
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            val q = throughput.max * etaScale
-            if q < rouletteThreshold then
-              if sampler.next1D() < q then throughput = throughput * (1f / q) else alive = false
+            throughput =
+              LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
+            alive = !throughput.isBlack
     light
-
-  private def sample(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
-    val choice = sampler.next1D()
-    sampler.next2D()
-    bsdf.sample(wo, choice, sampler.x, sampler.y)
-
-  /** Light of one of the sources, chosen at random. */
-  private def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
-    if bsdf.isSpecular || scene.lights.length == 0 then Rgb.Black
-    else
-      val choice = sampler.next1D()
-      sampler.next2D()
-      val chosen = scene.selection.choose(at.p, at.frame.n, choice)
-      if chosen < 0 then Rgb.Black
-      else
-        val selected = scene.selection.probability(at.p, at.frame.n, chosen)
-        sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
 
   /** What BSDF sampling sends through the boundary doesn't meet the light. */
   override protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.{Bsdf, BsdfSample}
+import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
@@ -93,7 +93,7 @@ final class VolumePathTracer(
           atBoundary = scene.isSubsurface(at.material)
           light += lightOnSurface(bsdf, towards, medium, sampler)
           var local = at.frame.toLocal(towards)
-          var bounce = sample(bsdf, local, sampler)
+          var bounce = drawn(bsdf, local, sampler)
           weights.scale(bounce.weight)
           val inside = if local.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
           if inside == null then etaScale *= square(bounce.eta)
@@ -105,7 +105,7 @@ final class VolumePathTracer(
               towards = at.frame.n
               local = Vec3.Z
               light += lightOnSurface(bsdf, towards, medium, sampler)
-              bounce = sample(bsdf, local, sampler)
+              bounce = drawn(bsdf, local, sampler)
               weights.scale(bounce.weight)
           weights.turn(if bounce.isSpecular then 0f else bounce.pdf)
           lastP = at.p
@@ -139,11 +139,6 @@ final class VolumePathTracer(
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     light
-
-  private def sample(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
-    val choice = sampler.next1D()
-    sampler.next2D()
-    bsdf.sample(wo, choice, sampler.x, sampler.y)
 
   /** One sample of the light that a surface in `medium` scatters to `wo`. */
   private def lightOnSurface(bsdf: Bsdf, wo: Vec3, medium: Int, sampler: Sampler): Rgb =

@@ -2,6 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.math.*
+import candela.sampling.HenyeyGreenstein
 import candela.textures.PerlinNoise
 
 /** A cloud of noise, denser below.

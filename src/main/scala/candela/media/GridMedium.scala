@@ -2,6 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.math.Transform
+import candela.sampling.HenyeyGreenstein
 
 /** A grid of densities, which multiply the coefficients.
   *

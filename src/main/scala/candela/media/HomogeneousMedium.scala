@@ -3,6 +3,7 @@ package candela.media
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
+import candela.sampling.HenyeyGreenstein
 
 /** The same everywhere, without end. Distances and transmittances are exact.
   *

@@ -1,7 +1,7 @@
 package candela.media
 
 import candela.geometry.Ray
-import candela.sampling.RandomStream
+import candela.sampling.{HenyeyGreenstein, RandomStream}
 
 /** What fills space between surfaces, and scatters, absorbs or emits light there. Immutable.
   *

@@ -3,6 +3,7 @@ package candela.media
 import candela.color.Rgb
 import candela.geometry.{Bounds3, Ray}
 import candela.math.*
+import candela.sampling.HenyeyGreenstein
 
 /** A box that is filled with a medium whose density varies: pbrt-v2's volumes. Unlike a [[Medium]]
   * it needs no surface around it, and several may overlap. Immutable.

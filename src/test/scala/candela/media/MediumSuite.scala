@@ -5,6 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.color.Rgb
 import candela.math.*
+import candela.sampling.HenyeyGreenstein
 
 /** Estimates against integrals that are known. */
 final class MediumSuite extends AnyFunSuite:

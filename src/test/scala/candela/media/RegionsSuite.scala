@@ -5,6 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.color.Rgb
 import candela.geometry.{Bounds3, Ray}
 import candela.math.*
+import candela.sampling.HenyeyGreenstein
 
 final class RegionsSuite extends AnyFunSuite:
   private val phase = HenyeyGreenstein(0f)

@@ -4,7 +4,8 @@ import candela.base.Suggest
 import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.math.*
-import candela.media.{GridEdge, HenyeyGreenstein, Medium, SampledGrid}
+import candela.media.{GridEdge, Medium, SampledGrid}
+import candela.sampling.HenyeyGreenstein
 import candela.scenefile.Dialect
 
 private[build] val PerUnit = "1/scene unit"

@@ -1,4 +1,4 @@
-package candela.media
+package candela.sampling
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -1,4 +1,4 @@
-package candela.media
+package candela.sampling
 
 import candela.geometry.Frame
 import candela.math.*
