@@ -83,7 +83,7 @@ final class WorldBuilder(
       sidesByGeometry = description.dialect != Dialect.V4,
       Option.when(resources.footprintUses.nonEmpty)(footprints)
     )
-    if sources.isEmpty && !problems.hasErrors then warnOfDarkness()
+    if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then warnOfDarkness()
     val (integrator, inMedia) = media.integrator(
       scene,
       lightSamples.toArray,

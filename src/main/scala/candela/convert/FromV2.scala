@@ -89,7 +89,10 @@ object FromV2:
     Rule("path" -> "path")(oneMore),
     Rule("directlighting" -> "directlighting")(keep("maxdepth", "strategy")),
     Rule("whitted" -> "whitted")(keep("maxdepth")),
-    Rule("ambientocclusion" -> "ao")(
+    Rule.near(
+      "ambientocclusion" -> "ambientocclusion",
+      "its rays count by the cosine of their angle, and all of them make π"
+    )(
       keep("nsamples"),
       lose("maxdist", "it looks at all distances")
     ),

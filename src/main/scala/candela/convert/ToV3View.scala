@@ -138,7 +138,7 @@ object ToV3View:
           s.addInteger("iterations", p.ints*)
       )
     ),
-    Rule("ambientocclusion" -> "ao")(
+    Rule.near("ambientocclusion" -> "ambientocclusion", "its picture is brighter by π")(
       keep("cossample"),
       lose("maxdistance", "it looks at all distances")
     )

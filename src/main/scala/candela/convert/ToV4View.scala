@@ -166,7 +166,7 @@ object ToV4View:
         "sigma")
     ),
     Rule("sppm" -> "sppm")(sppm*),
-    Rule("ao|ambientocclusion" -> "ambientocclusion")(
+    Rule.near("ambientocclusion" -> "ambientocclusion", "its picture is darker by π")(
       keep("cossample"),
       drop("nsamples", "pixelbounds")
     )

@@ -37,21 +37,3 @@ object WhittedRecipe
       "whitted",
       throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
     )
-
-object AmbientOcclusion
-    extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees")
-    with PathInstead:
-  override def pending: Option[String] =
-    Some("the path integrator is used, whose picture is another: lamps and materials count")
-
-  declare(
-    bool("cossample", "more rays along the normal?", sinceV3)(true),
-    integer("nsamples", "rays from each point", untilV3)(if v2 then 2048 else 64),
-    float("maxdist", "what is farther hides nothing", onlyV2, "scene units")(
-      Float.PositiveInfinity
-    ),
-    float("maxdistance", "what is farther hides nothing", onlyV4, "scene units")(
-      Float.PositiveInfinity
-    ),
-    integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
-  )

@@ -10,6 +10,7 @@ import candela.scenefile.Dialect
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
+  * @param isLit        do lights matter? Else a scene without them is no mistake
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
   * @param throughMedia   makes the integrator where there are media, if it sees them
   * @param throughVolumes likewise for v2's volumes
@@ -20,6 +21,7 @@ final case class IntegratorPlan(
     describe: String,
     followsSpecular: Boolean = true,
     goesBeneath: Boolean = false,
+    isLit: Boolean = true,
     throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )

@@ -9,7 +9,7 @@ object Integrators:
       Path("volpath", "path tracing, through media", sinceV3),
       Direct,
       WhittedRecipe,
-      AmbientOcclusion,
+      AmbientOcclusionRecipe,
       Bdpt,
       Mlt,
       Sppm,
