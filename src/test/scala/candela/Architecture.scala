@@ -49,7 +49,7 @@ object Architecture:
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf lights media cameras accel " +
-      "scene integrators film render"
+      "scene integrators bidirectional film render"
   )
   val file: Vector[String] = floors("base math scenefile")
 

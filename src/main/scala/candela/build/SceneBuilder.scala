@@ -4,7 +4,7 @@ import candela.base.{Problem, SceneError, Severity}
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.film.Layer
-import candela.integrators.SurfaceProbe
+import candela.integrators.{Splatting, SurfaceProbe}
 import candela.math.*
 import candela.render.{LayerPlan, PixelBounds, RenderPlan}
 import candela.scene.Footprints
@@ -84,6 +84,15 @@ object SceneBuilder:
       Footprints(integrator.followsSpecular, cone)
     val world =
       WorldBuilder(description, integrator, shutter, resources, problems).build(footprints)
+    world.integrator match
+      case _: Splatting if !camera.isTraceable =>
+        for at <- description.camera.map(_.at) do
+          problems.warn(
+            at,
+            "paths from the lights are not joined with this camera yet: light that they alone " +
+              "find there, like that of a point by way of glass, is left out"
+          )
+      case _ => ()
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,

@@ -1,6 +1,7 @@
 package candela.cameras
 
 import candela.geometry.Ray
+import candela.math.Vec3
 
 /** How large the film is.
   *
@@ -8,6 +9,24 @@ import candela.geometry.Ray
   * @param diagonal of the film in metres; only cameras with lenses of glass ask for it
   */
 final case class FilmFrame(width: Int, height: Int, diagonal: Float = 0.035f)
+
+/** Where on the film a point of the scene is seen, through one point of the aperture. Mutable, one
+  * per worker.
+  */
+final class FilmPlace:
+  /** As [[Camera.generate]] takes them; perhaps beside the film. */
+  var x, y: Float = 0f
+
+  /** The point of the aperture, in the world. */
+  var eye: Vec3 = Vec3.Zero
+
+  /** From the seen point to the eye. */
+  var direction: Vec3 = Vec3.Z
+
+  /** If places are chosen all over the film: the density with which a ray from `eye` arrives, per
+    * area across the ray.
+    */
+  var density: Float = 0f
 
 /** Turns a place on the film into a ray into the world. */
 abstract class Camera:
@@ -24,6 +43,17 @@ abstract class Camera:
     * alone, and nobody looks at it.
     */
   def weighs: Boolean = false
+
+  /** Does it know where a point is seen? Then [[see]] and [[density]] have answers. */
+  def isTraceable: Boolean = false
+
+  /** Finds the place on the film from which a ray through (`lensU`, `lensV`) comes to `p`; false if
+    * there is none.
+    */
+  def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean = false
+
+  /** [[FilmPlace.density]] of a ray that started at `eye`, at `p`. */
+  def density(eye: Vec3, p: Vec3): Float = 0f
 
   /** How far away the neighbours lie that `differential` takes, in pixels. */
   protected[cameras] def step: Float = 1f

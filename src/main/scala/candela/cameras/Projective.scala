@@ -30,6 +30,53 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   protected val axisZ: Vec3 = setup.cameraToWorld.vector(Vec3.Z)
   protected val hasLens: Boolean = setup.lensRadius > 0f
 
+  private val toCamera = setup.cameraToWorld.inverse
+  private val unit = setup.cameraToWorld.uniformScale.fold(0f)(_.toFloat)
+
+  /** Area of the screen. */
+  protected val screenArea: Float = Math.abs((right - left) * (bottom - top))
+
+  // Where the camera's space is stretched, areas across its rays depend on their directions
+  override def isTraceable: Boolean = unit > 0f && screenArea > 0f
+
+  protected final def filmX(onScreen: Float): Float = (onScreen - left) / stepX
+  protected final def filmY(onScreen: Float): Float = (onScreen - top) / stepY
+
+  /** For `c`, a point in camera space before the camera, seen from (`lx`, `ly`, 0). */
+  protected def locate(c: Vec3, lx: Float, ly: Float, out: FilmPlace): Unit
+
+  /** Density at `c` of rays from `eye`, per area across the ray; both in camera space. */
+  protected def densityInside(eye: Vec3, c: Vec3): Float
+
+  final override def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
+    val c = toCamera.point(p)
+    if !(c.z > 0f) then false
+    else
+      val disk =
+        if hasLens then candela.sampling.Warp.concentricDisk(lensU, lensV) else Vec3.Zero
+      val (lx, ly) = (disk.x * setup.lensRadius, disk.y * setup.lensRadius)
+      locate(c, lx, ly, out)
+      val d = out.eye - p
+      out.direction = d * (1f / d.length)
+      out.density = density(out.eye, p)
+      true
+
+  final override def density(eye: Vec3, p: Vec3): Float =
+    densityInside(toCamera.point(eye), toCamera.point(p)) / (unit * unit)
+
+  /** Of rays from one point through all of the screen, which has this area at z = 1. */
+  protected final def fanDensity(eye: Vec3, c: Vec3, area: Float): Float =
+    val d = c - eye
+    val distance2 = d.lengthSquared
+    val cosine = d.z / sqrt(distance2)
+    if cosine > 0f then 1f / (area * cosine * cosine * cosine * distance2) else 0f
+
+  /** Where the plane of focus is met on the way from the lens to `c`. */
+  protected final def focusX(c: Vec3, lx: Float): Float =
+    lx + (c.x - lx) * (setup.focalDistance / c.z)
+  protected final def focusY(c: Vec3, ly: Float): Float =
+    ly + (c.y - ly) * (setup.focalDistance / c.z)
+
   /** Camera-space coordinates of the film point, on the unit screen. */
   protected final def screenX(x: Float): Float = left + x * stepX
   protected final def screenY(y: Float): Float = top + y * stepY
@@ -77,6 +124,15 @@ final class PerspectiveCamera(setup: ProjectiveSetup, fov: Float) extends Projec
     if hasLens then throughLens(0f, 0f, dx, dy, lensU, lensV, ray)
     else ray.set(eye, world(dx, dy, 1f).normalized, Float.PositiveInfinity)
 
+  protected def locate(c: Vec3, lx: Float, ly: Float, out: FilmPlace): Unit =
+    val f = setup.focalDistance
+    out.eye = if hasLens then eye + world(lx, ly, 0f) else eye
+    out.x = filmX((if hasLens then focusX(c, lx) / f else c.x / c.z) / spread)
+    out.y = filmY((if hasLens then focusY(c, ly) / f else c.y / c.z) / spread)
+
+  protected def densityInside(eye: Vec3, c: Vec3): Float =
+    fanDensity(eye, c, screenArea * spread * spread)
+
 /** Parallel projection along +z of camera space; the screen is in units of camera space.
   *
   * With a lens all rays start on it, as in every pbrt: what lies before or behind the plane of
@@ -89,3 +145,12 @@ final class OrthographicCamera(setup: ProjectiveSetup) extends ProjectiveCamera(
     val sy = screenY(y)
     if hasLens then throughLens(sx, sy, 0f, 0f, lensU, lensV, ray)
     else ray.set(eye + world(sx, sy, 0f), axisZ.normalized, Float.PositiveInfinity)
+
+  protected def locate(c: Vec3, lx: Float, ly: Float, out: FilmPlace): Unit =
+    out.eye = eye + (if hasLens then world(lx, ly, 0f) else world(c.x, c.y, 0f))
+    out.x = filmX(if hasLens then focusX(c, lx) else c.x)
+    out.y = filmY(if hasLens then focusY(c, ly) else c.y)
+
+  protected def densityInside(eye: Vec3, c: Vec3): Float =
+    if hasLens then fanDensity(eye, c, screenArea / (setup.focalDistance * setup.focalDistance))
+    else 1f / screenArea

@@ -9,8 +9,16 @@ import java.util.concurrent.atomic.AtomicLong
   *
   * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a
   * pixel's value does not drift however many samples it gets.
+  *
+  * @param splats what paths from the lights add, if there are such
   */
-final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
+final class Film(
+    val x0: Int,
+    val y0: Int,
+    val x1: Int,
+    val y1: Int,
+    val splats: Option[SplatFilm] = None
+):
   require(x1 > x0 && y1 > y0, s"empty film [$x0, $x1) × [$y0, $y1)")
 
   val width: Int = x1 - x0
@@ -52,13 +60,14 @@ final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
 
   /** A copy of what there is, to see later what was added. */
   def copy(): Film =
-    val film = Film(x0, y0, x1, y1)
+    val film = Film(x0, y0, x1, y1, splats.map(_.copy()))
     System.arraycopy(sums, 0, film.sums, 0, sums.length)
     film
 
   /** The samples alone that were added since `earlier` was copied. */
   def since(earlier: Film): Film =
-    val added = copy()
+    val added = Film(x0, y0, x1, y1, splats.zip(earlier.splats).map(_.since(_)))
+    System.arraycopy(sums, 0, added.sums, 0, sums.length)
     loop(sums.length)(i => added.sums(i) -= earlier.sums(i))
     added
 
@@ -72,4 +81,5 @@ final class Film(val x0: Int, val y0: Int, val x1: Int, val y1: Int):
       if weight != 0 then
         loop(3): c =>
           image.data(3 * pixel + c) = (sums(4 * pixel + c) / weight * scale).toFloat
+    splats.foreach(_.addTo(image.data, scale))
     image

@@ -126,7 +126,7 @@ abstract class LightTransport(
     else Vec3(wi.x, wi.y, -wi.z)
 
   /** Is something between the shading point and the chosen point on the light? */
-  private def isBlocked(): Boolean =
+  protected final def isBlocked(): Boolean =
     LightTransport.towards(at.offsetOrigin(lightSample.wi), lightSample, shadowRay)
     rays += 1
     scene.isOccluded(shadowRay, shadowHit)

@@ -1,8 +1,9 @@
 package candela.lights
 
 import candela.color.Rgb
-import candela.geometry.{Bounds3, ShadingPoint}
+import candela.geometry.{Ball, Bounds3, Frame, ShadingPoint}
 import candela.math.*
+import candela.sampling.Warp
 import candela.shapes.SurfaceSampler
 
 /** A surface that emits the same `emitted` radiance from each point in all directions of its
@@ -39,6 +40,35 @@ final class AreaLight(
 
   def pdf(from: Vec3, at: ShadingPoint): Float = surface.pdf(from, at.p, at.geometricNormal)
 
+  private val watts: Float = emitted.max * surface.area * Pi * (if twoSided then 2f else 1f)
+
   def bounds: Option[LightBounds] =
-    val power = emitted.max * surface.area * Pi * (if twoSided then 2f else 1f)
-    Some(LightBounds(box, axis, cosSpread, 0f, power, twoSided))
+    Some(LightBounds(box, axis, cosSpread, 0f, watts, twoSided))
+
+  def power(scene: Ball): Float = watts
+
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    val place = out.surface
+    surface.sampleArea(u1, u2, place)
+    out.p = place.p
+    out.pError = place.pError
+    out.n = place.n
+    // Either side takes one half of the numbers
+    val isInside = twoSided && v1 < 0.5f
+    val first = if !twoSided then v1 else if isInside then 2f * v1 else 2f * v1 - 1f
+    val up = if isInside then -place.n else place.n
+    out.direction = Frame.around(up).toWorld(Warp.cosineHemisphere(first, v2))
+    out.radiance = emitted
+    out.isInfinite = false
+    out.pdf = place.pdf * sided(out.direction dot up)
+
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    val cosine = w dot n
+    surface.areaPdf(p) * sided(if twoSided then Math.abs(cosine) else cosine)
+
+  /** Density of a direction. */
+  private def sided(cosine: Float): Float =
+    Warp.cosineHemispherePdf(cosine) * (if twoSided then 0.5f else 1f)
+
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float =
+    surface.pdf(from, ray.p, ray.n) * ray.cosine

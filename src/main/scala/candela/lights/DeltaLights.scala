@@ -1,7 +1,9 @@
 package candela.lights
 
 import candela.color.Rgb
+import candela.geometry.{Ball, Frame}
 import candela.math.*
+import candela.sampling.Warp
 
 /** A point that shines, perhaps more into some directions than into others. */
 abstract class PositionedLight(position: Vec3) extends Light:
@@ -21,12 +23,59 @@ abstract class PositionedLight(position: Vec3) extends Light:
     out.target.pError = Vec3.Zero
     out.target.n = Vec3.Zero
 
+  final def power(scene: Ball): Float = bounds.fold(0f)(_.power)
+
+  /** Directions among which are all that the light shines in; of density [[directionPdf]]. */
+  protected def direction(u1: Float, u2: Float): Vec3
+  protected def directionPdf(w: Vec3): Float
+
+  final def emit(
+      scene: Ball,
+      u1: Float,
+      u2: Float,
+      v1: Float,
+      v2: Float,
+      out: EmittedRay
+  ): Unit =
+    out.fromPoint(position)
+    out.direction = direction(v1, v2)
+    out.radiance = intensity(out.direction)
+    out.pdf = directionPdf(out.direction)
+
+  final def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = directionPdf(w)
+
+  final def meetingPdf(from: Vec3, ray: EmittedRay): Float = (position - from).lengthSquared
+
 object PositionedLight:
   /** What the cosine of a cone's edge may be off by rounding: light there must not be missed. */
   private[lights] inline val Slack = 1e-4f
 
+/** One that may shine in any direction. */
+abstract class RoundLight(position: Vec3) extends PositionedLight(position):
+  protected def direction(u1: Float, u2: Float): Vec3 = Warp.uniformSphere(u1, u2)
+  protected def directionPdf(w: Vec3): Float = Warp.UniformSpherePdf
+
+/** One that shines within a cone.
+  *
+  * @param axis   in light space
+  * @param spread 1 − cos of the angle between axis and edge
+  */
+abstract class ConeLight(frame: LightFrame, axis: Vec3, spread: Float)
+    extends PositionedLight(frame.position):
+  // Where the light's space is stretched its cone is none in the world
+  private val isCone = frame.keepsAngles
+  private val around = Frame.around(frame.toWorld(axis))
+
+  protected def direction(u1: Float, u2: Float): Vec3 =
+    if isCone then around.toWorld(Warp.uniformCone(u1, u2, spread)) else Warp.uniformSphere(u1, u2)
+
+  protected def directionPdf(w: Vec3): Float =
+    if !isCone then Warp.UniformSpherePdf
+    else if (w dot around.n) >= 1f - spread - PositionedLight.Slack then Warp.uniformConePdf(spread)
+    else 0f
+
 /** A point that sends `all` (W·sr⁻¹) in all directions. */
-final class PointLight(position: Vec3, all: Rgb) extends PositionedLight(position):
+final class PointLight(position: Vec3, all: Rgb) extends RoundLight(position):
   def intensity(w: Vec3): Rgb = all
   def bounds: Option[LightBounds] =
     Some(LightBounds.everywhere(position, 4f * Pi * all.max))
@@ -42,3 +91,15 @@ final class DistantLight(toLight: Vec3, irradiance: Rgb) extends Light:
     out.isInfinite = true
 
   def bounds: Option[LightBounds] = None
+
+  def power(scene: Ball): Float = irradiance.max * scene.area
+
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    out.fromAfar(-toLight, scene, u1, u2)
+    out.radiance = irradiance
+    out.pdf = emissionPdf(scene, out.p, out.n, out.direction)
+
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    if scene.area > 0f then 1f / scene.area else 0f
+
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float = 1f

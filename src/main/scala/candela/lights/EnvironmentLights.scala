@@ -13,6 +13,7 @@ final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends Environ
   override def isSampled: Boolean = complete && !emitted.isBlack
   def radiance(from: Vec3, d: Vec3): Rgb = emitted
   def pdf(from: Vec3, d: Vec3): Float = if isSampled then 1f / (4f * Pi) else 0f
+  protected def total: Float = if isSampled then 4f * Pi * emitted.max else 0f
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     out.wi = Warp.uniformSphere(u1, u2)
@@ -43,6 +44,7 @@ final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Bo
     Distribution2D(if above.exists(_ > 0f) then above else all, width, height)
 
   override def isSampled: Boolean = distribution.integral > 0.0
+  protected def total: Float = distribution.integral.toFloat
 
   def radiance(from: Vec3, d: Vec3): Rgb = image(frame.toLight(d))
 

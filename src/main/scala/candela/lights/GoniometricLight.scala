@@ -8,7 +8,7 @@ import candela.math.*
   * The image's pole (+z of its map) is the light's +y, as in all of pbrt.
   */
 final class GoniometricLight(frame: LightFrame, image: SphereImage)
-    extends PositionedLight(frame.position):
+    extends RoundLight(frame.position):
 
   def intensity(w: Vec3): Rgb =
     val d = frame.toLight(w)

@@ -1,7 +1,7 @@
 package candela.lights
 
 import candela.color.Rgb
-import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.math.*
 
 /** A source of light. Immutable. */
@@ -23,6 +23,25 @@ abstract class Light:
     * infinity).
     */
   def bounds: Option[LightBounds]
+
+  /** How much light it sends into the scene, on any scale common to all; 0: [[emit]] chooses
+    * nothing, and the light is found from the other end alone.
+    */
+  def power(scene: Ball): Float
+
+  /** Chooses place and direction of light that sets out into the scene. */
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit
+
+  /** The density with which [[emit]] chooses the point `p` of the light, with normal `n`, and the
+    * direction `w` from there, in the measure of [[EmittedRay.pdf]].
+    */
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float
+
+  /** The density with which `sample` at `from` chooses where `ray` started, in the measure that
+    * makes it comparable to its own: of a surface per solid angle, times the cosine there; of a
+    * point the square of the distance; of a direction 1; of surroundings per solid angle.
+    */
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float
 
 /** What [[Light.sample]] chose; mutable, one per worker. */
 final class LightSample:
@@ -62,6 +81,22 @@ abstract class SurfaceLight extends Light:
 abstract class EnvironmentLight extends Light:
   final def isDelta: Boolean = false
   final def bounds: Option[LightBounds] = None
+
+  /** ∫ of the radiance over all directions, of the brightest colour or of the mean one. */
+  protected def total: Float
+
+  def power(scene: Ball): Float = scene.area * total
+
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    sample(scene.center, v1, v2, out.sample)
+    out.fromAfar(-out.sample.wi, scene, u1, u2)
+    out.radiance = out.sample.radiance
+    out.pdf = if scene.area > 0f then out.sample.pdf / scene.area else 0f
+
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    if scene.area > 0f then pdf(scene.center, -w) / scene.area else 0f
+
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float = pdf(from, -ray.direction)
 
   /** Radiance at `from` from direction `d` (unit, away from the scene). */
   def radiance(from: Vec3, d: Vec3): Rgb

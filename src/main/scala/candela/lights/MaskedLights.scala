@@ -1,6 +1,6 @@
 package candela.lights
 
-import candela.geometry.ShadingPoint
+import candela.geometry.{Ball, ShadingPoint}
 import candela.math.*
 
 /** A surface that lights the scene and is nowhere to be seen: pbrt-v4's emitters whose `alpha` is
@@ -11,6 +11,12 @@ final class HiddenLight(light: SurfaceLight) extends Light:
   def bounds: Option[LightBounds] = light.bounds
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     light.sample(from, u1, u2, out)
+  def power(scene: Ball): Float = light.power(scene)
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    light.emit(scene, u1, u2, v1, v2, out)
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    light.emissionPdf(scene, p, n, w)
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float = light.meetingPdf(from, ray)
 
 /** A surface with holes that emits where it has none. Points are not chosen on it, for they might
   * lie in holes: it shines on what meets it by chance.
@@ -21,3 +27,8 @@ final class PerforatedLight(light: SurfaceLight) extends SurfaceLight:
   def radiance(at: ShadingPoint, w: Vec3): candela.color.Rgb = light.radiance(at, w)
   def pdf(from: Vec3, at: ShadingPoint): Float = 0f
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit = out.pdf = 0f
+  def power(scene: Ball): Float = 0f
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    out.pdf = 0f
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float = 0f

@@ -1,7 +1,7 @@
 package candela.lights
 
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
+import candela.geometry.{Ball, ShadingPoint}
 import candela.math.*
 import candela.shapes.SurfaceSampler
 
@@ -28,6 +28,29 @@ final class PictureLight(plain: AreaLight, surface: SurfaceSampler, picture: Pic
 
   def pdf(from: Vec3, at: ShadingPoint): Float = plain.pdf(from, at)
 
+  private lazy val mean: Float = picture.mean((c, _, _) => c.max)
+
+  def power(scene: Ball): Float = plain.power(scene) * mean
+
+  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+    plain.emit(scene, u1, u2, v1, v2, out)
+    if out.pdf > 0f then
+      // A look back at the point, from so close that nothing of a smooth surface is between
+      val work = out.sample
+      val start = out.p + out.direction * (PictureLight.Near * sqrt(surface.area))
+      work.ray.set(start, -out.direction, Float.PositiveInfinity)
+      if surface.meets(work.ray, work.hit, work.at) then
+        out.radiance = out.radiance * shown(work.at)
+      else out.pdf = 0f
+
+  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    plain.emissionPdf(scene, p, n, w)
+
+  def meetingPdf(from: Vec3, ray: EmittedRay): Float = plain.meetingPdf(from, ray)
+
   def bounds: Option[LightBounds] =
-    val mean = picture.mean((c, _, _) => c.max)
     plain.bounds.map(b => b.copy(power = b.power * mean))
+
+object PictureLight:
+  /** Part of the surface's extent. */
+  private val Near = 1e-2f

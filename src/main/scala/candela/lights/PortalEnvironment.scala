@@ -2,7 +2,7 @@ package candela.lights
 
 import candela.base.loop
 import candela.color.Rgb
-import candela.geometry.Frame
+import candela.geometry.{Ball, Frame}
 import candela.image.Image
 import candela.math.*
 import candela.sampling.WindowedDistribution2D
@@ -47,6 +47,10 @@ final class PortalEnvironment(
     WindowedDistribution2D(weights, width, height)
 
   override def isSampled: Boolean = distribution.integral(0f, 0f, 1f, 1f) > 0
+
+  /** What comes in is known only from where it arrives. */
+  protected def total: Float = 0f
+  override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
 
   /** World direction of the place of the rectified image. */
   private def direction(x: Float, y: Float): Vec3 =

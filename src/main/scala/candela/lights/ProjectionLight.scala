@@ -16,7 +16,7 @@ final class ProjectionLight(
     tanHalf: Float,
     slide: Option[Picture],
     upright: Boolean
-) extends PositionedLight(frame.position):
+) extends ConeLight(frame, Vec3.Z, ProjectionLight.spread(slide, tanHalf)):
   private val picture = slide.orNull
   private val screen = ProjectionLight.Screen(slide.fold(1f)(_.aspect), tanHalf)
 
@@ -50,6 +50,10 @@ final class ProjectionLight(
 object ProjectionLight:
   /** Cosine between axis and direction below which nothing is projected, as in all of pbrt. */
   private inline val Near = 1e-3f
+
+  /** 1 − cos of a cone that holds the image. */
+  private def spread(slide: Option[Picture], tanHalf: Float): Float =
+    1f - Screen(slide.fold(1f)(_.aspect), tanHalf).cosCorner + PositionedLight.Slack
 
   /** The image at distance 1 from the projector. */
   final class Screen(aspect: Float, tanHalf: Float):

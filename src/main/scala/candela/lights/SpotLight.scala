@@ -30,7 +30,7 @@ final class SpotLight(
     cosEdge: Float,
     cosFull: Float,
     fade: Fade
-) extends PositionedLight(frame.position):
+) extends ConeLight(frame, axis, 1f - cosEdge):
 
   def intensity(w: Vec3): Rgb =
     val cosine = frame.toLight(w) dot axis

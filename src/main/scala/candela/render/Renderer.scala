@@ -1,7 +1,8 @@
 package candela.render
 
 import candela.color.Rgb
-import candela.film.{Film, FilterSampler, LayerFilm}
+import candela.film.{Film, FilterSampler, LayerFilm, SplatFilm}
+import candela.integrators.Splatting
 import candela.scene.PathReport
 
 /** Turns a plan into an image. */
@@ -30,7 +31,22 @@ object Renderer:
     val schedule = Schedule(plan.crop, samplesPerPixel)
     val board = Board(schedule, cancellation)
     val PixelBounds(x0, y0, x1, y1) = plan.crop
-    val film = Film(x0, y0, x1, y1)
+    val splats = plan.integrator match
+      case _: Splatting =>
+        Some(
+          SplatFilm(
+            x0,
+            y0,
+            x1,
+            y1,
+            plan.filter,
+            plan.width.toDouble * plan.height,
+            plan.basis,
+            plan.limit
+          )
+        )
+      case _ => None
+    val film = Film(x0, y0, x1, y1, splats)
     val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     val filterSampler = new FilterSampler(plan.filter)
     val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt):

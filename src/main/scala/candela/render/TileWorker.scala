@@ -4,7 +4,7 @@ import candela.cameras.Shutter
 import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
 import candela.geometry.Ray
-import candela.integrators.SurfaceProbe
+import candela.integrators.{Splatting, SurfaceProbe}
 import candela.scene.PathReport
 
 /** One of several that render the same image: takes tiles from the board, and owns all that it
@@ -23,6 +23,9 @@ private[render] final class TileWorker(
   private val sampler = plan.sampler.copy()
   private val integrator =
     report.fold(plan.integrator.copy())(plan.integrator.reported)
+  integrator match
+    case i: Splatting => i.aim(camera, film.splats.orNull)
+    case _ => ()
   private val ray = Ray()
   private val scratch = Ray()
   private val hasDifferentials = plan.differentialScale > 0f

@@ -1,7 +1,7 @@
 package candela.scene
 
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
+import candela.geometry.{Ball, ShadingPoint}
 import candela.lights.*
 import candela.math.Vec3
 
@@ -12,7 +12,24 @@ private[scene] object ReportedLights:
     case l: EnvironmentLight => Around(l, index, report)
     case l => Other(l, index, report)
 
-  private final class Other(light: Light, index: Int, report: PathReport) extends Light:
+  /** Light paths are not told. */
+  private sealed trait Emitting(source: Light) extends Light:
+    override def power(scene: Ball): Float = source.power(scene)
+    override def emit(
+        scene: Ball,
+        u1: Float,
+        u2: Float,
+        v1: Float,
+        v2: Float,
+        out: EmittedRay
+    ): Unit = source.emit(scene, u1, u2, v1, v2, out)
+    override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+      source.emissionPdf(scene, p, n, w)
+    override def meetingPdf(from: Vec3, ray: EmittedRay): Float = source.meetingPdf(from, ray)
+
+  private final class Other(light: Light, index: Int, report: PathReport)
+      extends Light
+      with Emitting(light):
     def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
       light.sample(from, u1, u2, out)
       report.chosen(index, out)
@@ -21,7 +38,8 @@ private[scene] object ReportedLights:
     def bounds: Option[LightBounds] = light.bounds
 
   private final class OnSurface(light: SurfaceLight, index: Int, report: PathReport)
-      extends SurfaceLight:
+      extends SurfaceLight
+      with Emitting(light):
     def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
       light.sample(from, u1, u2, out)
       report.chosen(index, out)
@@ -34,7 +52,9 @@ private[scene] object ReportedLights:
     def pdf(from: Vec3, at: ShadingPoint): Float = light.pdf(from, at)
 
   private final class Around(light: EnvironmentLight, index: Int, report: PathReport)
-      extends EnvironmentLight:
+      extends EnvironmentLight
+      with Emitting(light):
+    protected def total: Float = 0f // `power` is not asked for it here
     def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
       light.sample(from, u1, u2, out)
       report.chosen(index, out)

@@ -2,7 +2,7 @@ package candela.scene
 
 import candela.accel.Accelerator
 import candela.bsdf.{Bsdf, BsdfSample, Bssrdf, InterfaceMaterial, Material}
-import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
 import candela.math.Vec3
 import candela.shapes.Shape
@@ -56,6 +56,9 @@ final class Scene(
   private val surfaceLights: Array[SurfaceLight] = lights.map:
     case s: SurfaceLight => s
     case _ => null
+
+  /** Holds all surfaces. */
+  lazy val ball: Ball = Ball.around(accelerator.bounds)
 
   def closest(ray: Ray, hit: Hit): Boolean = accelerator.closest(ray, hit)
 

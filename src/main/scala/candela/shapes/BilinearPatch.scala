@@ -137,14 +137,12 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
 
   def area: Float = sampling.area
 
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     sampling.sample(u1, u2)(orient = (u, v, facet) =>
       val n = if mesh.flipped then -facet else facet
       if mesh.normals.length == 0 then n else n.facing(shadingNormal(u, v, n)))(out)
-    out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
 
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
-    SurfaceSampler.perSolidAngle(sampling.perArea(p), from, p, n)
+  def areaPdf(p: Vec3): Float = sampling.perArea(p)
 
 object BilinearPatch:
   /** Never written to. */

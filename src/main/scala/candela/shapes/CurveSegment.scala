@@ -13,5 +13,5 @@ final class CurveSegment(segments: CurveSegments, index: Int) extends Shape:
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit = segments.surface(index, ray, hit, at)
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
   def area: Float = 0f
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit = out.pdf = 0f
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float = 0f
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit = out.pdf = 0f
+  def areaPdf(p: Vec3): Float = 0f

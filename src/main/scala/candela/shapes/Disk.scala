@@ -97,13 +97,12 @@ final class Disk(
         Vec3.Zero
       )
 
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     val r = sqrt(lerp(u1, square(innerRadius), square(radius)))
     val phi = u2 * phiMax
     out.p = objectToWorld.point(Vec3(r * cos(phi), r * sin(phi), height))
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
     out.n = normal
-    out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
+    out.pdf = 1f / area
 
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
-    SurfaceSampler.perSolidAngle(1f / area, from, p, n)
+  def areaPdf(p: Vec3): Float = 1f / area

@@ -142,14 +142,12 @@ final class Quadric(
 
   def area: Float = sampling.area.toFloat
 
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     sampling.sample(u1, u2, out)
     out.pError = out.pError + doubleError
     out.n = out.n * outside
-    out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
 
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
-    SurfaceSampler.perSolidAngle(sampling.perArea(p), from, p, n)
+  def areaPdf(p: Vec3): Float = sampling.perArea(p)
 
 object Quadric:
   /** The largest error, per component, that Double arithmetic makes of a point in a box of this

@@ -35,12 +35,21 @@ abstract class SurfaceSampler:
   def area: Float
 
   /** Chooses a point that may be visible from `from`; `out.pdf` is 0 if there is none. */
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit
+  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+    sampleArea(u1, u2, out)
+    out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
 
   /** The density per solid angle at `from` with which `sample` returns the point `p` of this
     * surface, whose unit normal is `n`.
     */
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float
+  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+    SurfaceSampler.perSolidAngle(areaPdf(p), from, p, n)
+
+  /** Chooses a point anywhere, wherever it is seen from; `out.pdf` is per area. */
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit
+
+  /** The density per area with which `sampleArea` returns the point `p` of this surface. */
+  def areaPdf(p: Vec3): Float
 
   /** Is there a hit in (0, `ray.tMax`)? Then `at` gets its geometry. */
   def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
@@ -55,7 +64,7 @@ final class SurfaceSample:
   /** Unit normal on the outside. */
   var n: Vec3 = Vec3.Z
 
-  /** Per solid angle at the point that asked. */
+  /** Per solid angle at the point that asked, or per area. */
   var pdf: Float = 0f
 
   /** Work space of [[TriangleSampler]]. */

@@ -125,18 +125,16 @@ final class Sphere(
     case None =>
       RevolutionSampling(objectToWorld, Profile.sphere(radius, zMin, zMax), phiMax).area.toFloat
 
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
       SphereSampling.cone(center, worldRadius, from, u1, u2, out)
-    else
-      sampleArea(u1, u2, out)
-      out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
-    if reversed then out.n = -out.n
+      if reversed then out.n = -out.n
+    else super.sample(from, u1, u2, out)
 
   /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world
     * area.
     */
-  private def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     // In Double up to the world point, for whose rounding alone `pError` stands (SpawnedRaySuite)
     val z = zMin + u1.toDouble * (zMax.toDouble - zMin)
     val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
@@ -147,17 +145,19 @@ final class Sphere(
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
     val stretch = Math.abs(objectToWorld.determinant).toFloat * n.length / radius
-    out.n = n.normalized
+    out.n = if reversed then -n.normalized else n.normalized
     out.pdf = 1f / (phiMax * radius * (zMax - zMin) * stretch)
 
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+  override def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
     if conical && (from - center).lengthSquared > square(worldRadius) * 1.0001f then
       SphereSampling.conePdf(center, worldRadius, from)
-    else
-      val q = objectToWorld.inverse.point(p)
-      val stretch =
-        Math.abs(objectToWorld.determinant).toFloat * objectToWorld.normal(q).length / radius
-      SurfaceSampler.perSolidAngle(1f / (phiMax * radius * (zMax - zMin) * stretch), from, p, n)
+    else super.pdf(from, p, n)
+
+  def areaPdf(p: Vec3): Float =
+    val q = objectToWorld.inverse.point(p)
+    val stretch =
+      Math.abs(objectToWorld.determinant).toFloat * objectToWorld.normal(q).length / radius
+    1f / (phiMax * radius * (zMax - zMin) * stretch)
 
 object Sphere:
   private def phi(x: Double, y: Double): Double =

@@ -31,7 +31,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
 
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
 
-  def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
+  override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
     out.n = normal
     if isByAngle(angle) then
@@ -43,10 +43,18 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
       out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
     out.pError = TriangleSoup.error(out.p, p0, p1, p2)
 
-  def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
+  override def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
     val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
     if isByAngle(angle) then (1 / angle).toFloat
     else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
+
+  def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
+    placeByArea(u1, u2, out)
+    out.n = normal
+    out.pError = TriangleSoup.error(out.p, p0, p1, p2)
+    out.pdf = 1f / area
+
+  def areaPdf(p: Vec3): Float = 1f / area
 
   private lazy val corners = Array(p0.x, p0.y, p0.z, p1.x, p1.y, p1.z, p2.x, p2.y, p2.z)
 

@@ -1,21 +1,44 @@
 package candela.build
 
-/** Integrators whose paths start at lights, too, and are not there yet. */
-object Bdpt
-    extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
-    with PathInstead:
-  override protected def seesMedia: Boolean = true
-  declare(
+import candela.bidirectional.BidirectionalPathTracer
+import candela.integrators.VolumePathTracer
+import candela.scenefile.Dialect
+
+object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3):
+  notYet("the picture alone is written")(
     bool("visualizestrategies", "write an image for each way to join")(false),
-    bool("visualizeweights", "write their weights")(false),
+    bool("visualizeweights", "write their weights")(false)
+  )
+  noMeaning("all of them have the same mean; light paths start by power")(
     string("lightsamplestrategy", "how lights are chosen: uniform, power, spatial", onlyV3)(
       "power"
-    ),
+    )
+  )
+  notYet("BSDFs stay as they are")(
     bool("regularize", "roughen what a path meets late", onlyV4)(false)
   )
   windowed()
-  override protected def depth()(using Site): Int = maxDepth()
 
+  /** Scattering events before a path may end by chance. */
+  private val Patience = 4
+
+  protected def make()(using site: Site): IntegratorPlan =
+    val depth = Math.max(0, maxDepth())
+    val isV4 = site.dialect == Dialect.V4
+    IntegratorPlan(
+      (scene, _) => BidirectionalPathTracer(scene, depth, Patience),
+      samplesBsdf = false,
+      s"bdpt, up to $depth scattering events",
+      followsSpecular = isV4,
+      throughMedia = Some: (scene, media) =>
+        site.warn(
+          "\"bdpt\" sees no media and no borders of media yet: \"volpath\" is used, the same " +
+            "light but for lamps that are points and seen by way of mirrors or glass"
+        )
+        VolumePathTracer(scene, media, depth, if isV4 then 1 else 4, 1f, !isV4)
+    )
+
+/** Integrators whose paths start at lights, too, and are not there yet. */
 object Mlt
     extends IntegratorRecipe("mlt", "Metropolis light transport", sinceV3)
     with PathInstead:

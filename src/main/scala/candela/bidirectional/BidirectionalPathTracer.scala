@@ -1,0 +1,219 @@
+package candela.bidirectional
+
+import candela.cameras.{Camera, FilmPlace}
+import candela.color.Rgb
+import candela.geometry.{Ray, ShadingPoint}
+import candela.integrators.{LightTransport, Splats, Splatting}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Bidirectional path tracing: each sample follows a path from the camera and one from a light, and
+  * joins every point of the one with every point of the other, with the camera, and with another
+  * point of a light. All ways to find the same path are combined by their densities.
+  *
+  * It finds what paths from the camera can't: light of a point that comes by way of mirrors or
+  * glass.
+  *
+  * @param maxDepth most scattering events of a whole path
+  *
+  * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
+  * ed., §16.3; weights as in [[PartialWeights]].
+  */
+final class BidirectionalPathTracer(scene: Scene, maxDepth: Int, rouletteAfter: Int)
+    extends LightTransport(scene)
+    with Splatting:
+  import PartialWeights.mis
+
+  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter)
+  private val path = Subpath(scene, carriesLight = false, rouletteAfter)
+  private val vertex = PathVertex(scene)
+  at = vertex.at
+
+  private var camera: Camera | Null = null
+  private var splats: Splats | Null = null
+  private val place = FilmPlace()
+
+  def aim(camera: Camera, splats: Splats | Null): Unit =
+    this.camera = if camera.isTraceable then camera else null
+    this.splats = splats
+
+  protected def over(scene: Scene): BidirectionalPathTracer =
+    BidirectionalPathTracer(scene, maxDepth, rouletteAfter)
+
+  override def raysTraced: Long = rays + lightPaths.raysTraced
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    shadowRay.time = ray.time
+    lightPaths.trace(ray.time, sampler)
+    if splats != null then
+      splats.begin()
+      showLight(sampler)
+    fromCamera(ray, sampler)
+
+  /** Joins the points of the light's path with the camera. */
+  private def showLight(sampler: Sampler): Unit =
+    val seenBy = camera
+    val film = splats
+    if seenBy != null && film != null && lightPaths.count > 0 then
+      sampler.next2D()
+      val (lensU, lensV) = (sampler.x, sampler.y)
+      var i = 0
+      while i < lightPaths.count do
+        val lit = lightPaths(i)
+        if seenBy.see(lit.at.p, lensU, lensV, place) then
+          val f = lit.sent(place.direction)
+          if !f.isBlack then
+            val toCamera = place.direction
+            val arriving = place.density * lit.cosine(toCamera)
+            val others =
+              lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
+            val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
+            val light = lit.throughput * f * weight
+            if !light.isBlack && isClear(lit.at, toCamera, place.eye) then
+              film.add(place.x, place.y, light)
+        i += 1
+
+  private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
+    val origin = from.offsetOrigin(towards)
+    shadowRay.set(origin, end - origin, LightTransport.ShadowEnd)
+    rays += 1
+    !scene.isOccluded(shadowRay, shadowHit)
+
+  private def fromCamera(ray: Ray, sampler: Sampler): Rgb =
+    val eye = ray.origin
+    var light = Rgb.Black
+    path.throughput = Rgb.White
+    path.weights.near = 0.0
+    path.weights.far = 0.0
+    var edges = 0
+    var lastP = Vec3.Zero
+    var lastN = Vec3.Zero
+    var alive = true
+    while alive do
+      rays += 1
+      edges += 1
+      if !scene.closest(ray, hit) then
+        light += path.throughput * escaped(
+          ray,
+          (i, source) =>
+            if edges == 1 then 1f
+            else
+              val w = ray.direction
+              val sampled = scene.selection.probability(lastP, lastN, i) * source.pdf(lastP, w)
+              val emitted = source.emissionPdf(scene.ball, lastP, Vec3.Zero, -w)
+              metWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
+        )
+        alive = false
+      else
+        scene.surface(ray, hit, at)
+        val wo = -ray.direction
+        val cosine = vertex.cosine(wo)
+        val distance = ray.tMax.toDouble
+        if edges > 1 then path.weights.arrive(distance, cosine)
+        else
+          val seenBy = camera
+          val density = if seenBy == null then 0f else seenBy.density(eye, at.p)
+          path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
+        if at.areaLight >= 0 && cosine > 0f then
+          light += path.throughput * emitted(edges, wo, distance, lastP, lastN)
+        alive = edges <= maxDepth && cosine > 0f
+        if alive then
+          vertex.edges = edges
+          vertex.look(ray.direction)
+          if !vertex.bsdf.isSpecular then
+            light += path.throughput * (direct(sampler) + joined())
+          alive = edges <= maxDepth && path.scatter(vertex, ray, sampler)
+          lastP = at.p
+          lastN = at.frame.n
+    light
+
+  /** Weight of light that the path has met, for the densities with which it is sampled and with
+    * which light sets out from there.
+    */
+  private def metWeight(sampled: Double, emitted: Double): Float =
+    val w = path.weights
+    (1 / (1 + mis(sampled) * w.near + mis(emitted) * w.far)).toFloat
+
+  /** Light of the surface that the path has met. */
+  private def emitted(edges: Int, wo: Vec3, distance: Double, lastP: Vec3, lastN: Vec3): Rgb =
+    val source = scene.surfaceLight(at)
+    val radiance = source.radiance(at, wo)
+    if radiance.isBlack || edges == 1 then radiance
+    else
+      val index = at.areaLight
+      val perArea = vertex.cosine(wo) / (distance * distance)
+      val chosen = scene.selection.probability(lastP, lastN, index)
+      val sampled = chosen.toDouble * source.pdf(lastP, at) * perArea
+      val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
+      radiance * metWeight(sampled, lightPaths.chance(index).toDouble * emitted)
+
+  /** Joins the path's end with a point of a light. */
+  private def direct(sampler: Sampler): Rgb =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    val chosen = scene.selection.choose(at.p, at.frame.n, choice)
+    if chosen < 0 then Rgb.Black
+    else
+      val source = scene.lights(chosen)
+      val sample = lightSample
+      source.sample(at.p, sampler.x, sampler.y, sample)
+      if !(sample.pdf > 0f) || sample.radiance.isBlack then Rgb.Black
+      else
+        val wi = sample.wi
+        val f = vertex.received(wi)
+        if f.isBlack || isBlocked() then Rgb.Black
+        else
+          val pick = scene.selection.probability(at.p, at.frame.n, chosen)
+          val pdf = pick * sample.pdf
+          val target = sample.target
+          val meeting =
+            if sample.isInfinite then sample.pdf
+            else if target.n.isZero then (target.p - at.p).lengthSquared
+            else sample.pdf * (target.n absDot wi)
+          val emission = lightPaths.chance(chosen) *
+            source.emissionPdf(scene.ball, target.p, target.n, -wi)
+          val byLight = emission.toDouble * vertex.cosine(wi) / (pick.toDouble * meeting)
+          val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / pdf)
+          val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
+          val weight = (at.frame.n absDot wi) / (pdf * (1 + others))
+          f * sample.radiance * weight.toFloat
+
+  /** Joins the path's end with all points of the light's path. */
+  private def joined(): Rgb =
+    var sum = Rgb.Black
+    var i = 0
+    while i < lightPaths.count do
+      val lit = lightPaths(i)
+      if lit.edges + vertex.edges <= maxDepth then sum += joined(lit)
+      i += 1
+    sum
+
+  private def joined(lit: PathVertex): Rgb =
+    val d = lit.at.p - at.p
+    val distance2 = d.lengthSquared
+    val wi = d * (1f / sqrt(distance2))
+    val back = -wi
+    if !(distance2 > 0f) then Rgb.Black
+    else
+      val f = vertex.received(wi)
+      val g = if f.isBlack then Rgb.Black else lit.sent(back)
+      if g.isBlack then Rgb.Black
+      else
+        val (here, there) = (vertex.cosine(wi), lit.cosine(back))
+        val toLit = vertex.pdf(wi).toDouble * there / distance2
+        val toHere = lit.pdf(back).toDouble * here / distance2
+        val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
+          lit.weights.sum(toLit, lit.reversePdf(back).toDouble)
+        val cosines = (at.frame.n absDot wi) * lit.sentCosine(back)
+        val weight = (cosines / (distance2 * (1 + others))).toFloat
+        val light = f * g * lit.throughput * weight
+        if light.isBlack || isHidden(lit.at, wi, there) then Rgb.Black else light
+
+  /** Is something between the path's end and `other`, which lies towards `wi`? */
+  private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =
+    val origin = at.offsetOrigin(wi)
+    val end = other.offsetOrigin(-wi)
+    shadowRay.set(origin, end - origin, LightTransport.shadowEnd(cosine))
+    rays += 1
+    scene.isOccluded(shadowRay, shadowHit)

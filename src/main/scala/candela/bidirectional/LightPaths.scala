@@ -1,0 +1,98 @@
+package candela.bidirectional
+
+import candela.geometry.{Hit, Ray}
+import candela.lights.EmittedRay
+import candela.sampling.{Discrete, Sampler}
+import candela.scene.Scene
+
+/** Follows light from its sources, and keeps the points where a path from the camera can be joined
+  * to it. Mutable, one per worker.
+  *
+  * @param maxEdges most edges of such a path
+  */
+private[bidirectional] final class LightPaths(scene: Scene, maxEdges: Int, rouletteAfter: Int):
+  private val powers = scene.lights.map(light => Math.max(0f, light.power(scene.ball)))
+  private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
+  private val start = EmittedRay()
+  private val ray = Ray()
+  private val hit = Hit()
+  private val path = Subpath(scene, carriesLight = true, rouletteAfter)
+  private var kept = Array.fill(LightPaths.Some)(PathVertex(scene))
+  private var used = 0
+
+  var raysTraced: Long = 0L
+
+  /** How many points there are. */
+  def count: Int = used
+
+  /** Point `i`. Its throughput is light, not yet divided over directions. */
+  def apply(i: Int): PathVertex = kept(i)
+
+  /** The probability with which a path starts at the light. */
+  def chance(light: Int): Float =
+    val picks = choice
+    if picks == null then 0f else picks.probability(light)
+
+  /** Follows one more path, and forgets the last. */
+  def trace(time: Float, sampler: Sampler): Unit =
+    used = 0
+    val picks = choice
+    if picks != null && maxEdges > 0 then
+      val light = picks.sample(sampler.next1D())
+      sampler.next2D()
+      val (u1, u2) = (sampler.x, sampler.y)
+      sampler.next2D()
+      scene.lights(light).emit(scene.ball, u1, u2, sampler.x, sampler.y, start)
+      path.throughput = start.power * (1f / picks.probability(light))
+      if !path.throughput.isBlack && path.throughput.isFinite then
+        ray.time = time
+        ray.differential.isKnown = false
+        ray.set(start.origin, start.direction, Float.PositiveInfinity)
+        walk(light, sampler)
+
+  private def walk(light: Int, sampler: Sampler): Unit =
+    var edges = 0
+    var alive = true
+    while alive do
+      raysTraced += 1
+      alive = scene.closest(ray, hit)
+      if alive then
+        edges += 1
+        val vertex = next()
+        scene.surface(ray, hit, vertex.at)
+        alive = !scene.isInterface(vertex.at)
+        if alive then
+          vertex.look(ray.direction)
+          vertex.edges = edges
+          val cosine = vertex.cosine(vertex.wo)
+          if edges == 1 then begin(light, vertex, cosine)
+          else path.weights.arrive(ray.tMax.toDouble, cosine)
+          alive = cosine > 0f
+          if alive then
+            if !vertex.bsdf.isSpecular then
+              vertex.throughput = path.throughput
+              vertex.weights.set(path.weights)
+              used += 1
+            alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
+
+  /** The weights at the first surface: light sampling finds the light from there, too, with a
+    * density that depends on the place.
+    */
+  private def begin(light: Int, vertex: PathVertex, cosine: Float): Unit =
+    val source = scene.lights(light)
+    val at = vertex.at
+    val sampled = scene.selection.probability(at.p, at.frame.n, light).toDouble *
+      source.meetingPdf(at.p, start)
+    val emitted = chance(light).toDouble * start.pdf * cosine
+    path.weights.near = PartialWeights.mis(sampled / emitted)
+    path.weights.far =
+      if source.isDelta then 0.0
+      else PartialWeights.mis((if start.isInfinite then 1f else start.cosine) / emitted)
+
+  private def next(): PathVertex =
+    if used == kept.length then kept = kept ++ Array.fill(kept.length)(PathVertex(scene))
+    kept(used)
+
+private object LightPaths:
+  /** Points to begin with; there will be more if a path has more. */
+  private val Some = 8
