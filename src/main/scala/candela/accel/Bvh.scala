@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.base.Parallel
 import candela.geometry.{Bounds3, Hit, Ray}
 
 /** A bounding volume hierarchy of two children a node.
@@ -12,15 +13,17 @@ import candela.geometry.{Bounds3, Hit, Ray}
   * Source of the walk: Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG
   * 2009.
   */
-final class Bvh(primitives: Primitives, maxLeaf: Int = 4) extends Accelerator:
-  private val boxes = primitives.bounds
-  private val builder = BvhBuilder(boxes, maxLeaf)
-  private val packed = primitives.packed(builder.order)
-  private val nodes =
-    java.util.Arrays.copyOf(builder.nodes, builder.nodeCount * BvhBuilder.NodeFloats)
-  private val root = builder.root
-  private val rootCount = builder.rootCount
-  val bounds: Bounds3 = Accelerator.union(boxes)
+final class Bvh(
+    primitives: Primitives,
+    maxLeaf: Int = 4,
+    parallel: Parallel = Parallel.Alone
+) extends Accelerator:
+  private val tree = BvhBuilder.of(primitives, maxLeaf, parallel)
+  private val packed = primitives.packed(tree.order, parallel)
+  private val nodes = tree.nodes
+  private val root = tree.root
+  private val rootCount = tree.rootCount
+  val bounds: Bounds3 = tree.bounds
 
   def describe: String =
     s"bvh: ${primitives.count} primitives, ${nodes.length / BvhBuilder.NodeFloats} nodes"

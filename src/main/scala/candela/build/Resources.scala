@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.Suggest
+import candela.base.{Parallel, Suggest}
 import candela.bsdf.{Coats, ProfileTables}
 import candela.color.ColorBasis
 import candela.image.{ImageError, ImageFiles, StoredImage}
@@ -15,8 +15,9 @@ import candela.textures.{FloatTexture, RgbTexture}
 /** What statements of a scene file can refer to by name: textures, materials, and files.
   *
   * @param basis in which all colours of the scene are given to the runtime
+  * @param crew  does what can be divided
   */
-final class Resources(val basis: ColorBasis):
+final class Resources(val basis: ColorBasis, val crew: Parallel = Parallel.Alone):
   val materials = NamedMaterials()
 
   /** Tables of coated materials, shared by all of them that are alike. */

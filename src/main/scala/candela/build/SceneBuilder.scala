@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.base.{Problem, SceneError, Severity}
+import candela.base.{Parallel, Problem, SceneError, Severity}
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.film.Layer
@@ -17,6 +17,7 @@ import candela.scenefile.{Declaration, Dialect, SceneDescription}
   * @param cropWindow x0, x1, y0, y1 as parts of the image, instead of the scene's
   * @param keepGoing  use stand-ins for what is missing
   * @param layers     what the image is to hold beside the scene's own
+  * @param crew       does what can be divided
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -24,7 +25,8 @@ final case class BuildOptions(
     quick: Boolean = false,
     cropWindow: Option[(Float, Float, Float, Float)] = None,
     keepGoing: Boolean = false,
-    layers: Vector[Layer] = Vector.empty
+    layers: Vector[Layer] = Vector.empty,
+    crew: Parallel = Parallel.Alone
 )
 
 /** Makes a render plan of a description: the bridge between the two towers.
@@ -40,7 +42,7 @@ object SceneBuilder:
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
-    val resources = Resources(basis)
+    val resources = Resources(basis, options.crew)
     def site(d: Declaration) = Site(d, description.dialect, resources, problems)
     def view[A](given_ : Option[Declaration], recipes: Recipes[A], default: String): A =
       val fallback = Declaration(recipes.category, default, Vector.empty, NoPlace, NoFolder)

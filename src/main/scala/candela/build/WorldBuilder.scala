@@ -3,7 +3,7 @@ package candela.build
 import scala.collection.mutable
 import scala.collection.mutable.ArrayBuffer
 
-import candela.accel.{Accelerator, Bvh, Instances, Primitives}
+import candela.accel.{Accelerator, Instances, Primitives}
 import candela.bsdf.{InterfaceMaterial, Material}
 import candela.cameras.Shutter
 import candela.integrators.Integrator
@@ -134,7 +134,8 @@ final class WorldBuilder(
     structure(surfaces.primitives(instances))
 
   private lazy val structure: Primitives => Accelerator =
-    description.accelerator.flatMap(d => Accelerators.all.build(site(d))).getOrElse(Bvh(_))
+    val asked = description.accelerator.flatMap(d => Accelerators.all.build(site(d)))
+    asked.getOrElse(BvhRecipe.accelerator(resources))
 
   private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
     val toWorld = s.objectToWorld.start

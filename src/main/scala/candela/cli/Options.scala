@@ -55,4 +55,6 @@ final case class Options(
     markdown: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None
-)
+):
+  /** As many threads as were asked for, or else as there are processors. */
+  def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

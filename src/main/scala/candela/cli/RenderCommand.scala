@@ -16,7 +16,7 @@ final class RenderCommand(
     loader: SceneLoader
 ):
   private val cancellation = Cancellation()
-  private val threads = options.threads.getOrElse(Runtime.getRuntime.availableProcessors)
+  private val threads = options.threadCount
 
   def run(): ExitCode =
     var code = ExitCode.Done

@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.base.{Problem, SceneError, Suggest}
 import candela.build.{BuildOptions, SceneBuilder}
-import candela.render.RenderPlan
+import candela.render.{Crew, RenderPlan}
 import candela.scenefile.{Parser, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -45,7 +45,7 @@ object SceneLoader:
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
-    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing, o.layers)
+    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing, o.layers, Crew(o.threadCount))
 
   /** The file, if there is one. */
   def existing(scene: String): Path =

@@ -13,7 +13,12 @@ object BvhRecipe
     string("splitmethod", "how it is split: sah, hlbvh, middle, equal")("sah"),
     integer("maxnodeprims", "most primitives in a leaf")(4)
   )
-  protected def make()(using Site): Primitives => Accelerator = Bvh(_)
+  protected def make()(using site: Site): Primitives => Accelerator =
+    accelerator(site.resources)
+
+  /** What every scene gets that doesn't ask for another. */
+  def accelerator(resources: Resources): Primitives => Accelerator =
+    Bvh(_, parallel = resources.crew)
 
 object GridRecipe
     extends Recipe[Primitives => Accelerator]("grid", "cells of equal size", onlyV2):
@@ -32,4 +37,5 @@ object KdTreeRecipe
     integer("maxprims", "most primitives in a leaf")(1),
     integer("maxdepth", "deepest leaf", shown = "by the count")(-1)
   )
-  protected def make()(using Site): Primitives => Accelerator = Bvh(_)
+  protected def make()(using site: Site): Primitives => Accelerator =
+    BvhRecipe.accelerator(site.resources)

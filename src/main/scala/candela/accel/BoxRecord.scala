@@ -1,0 +1,117 @@
+package candela.accel
+
+/** A primitive's box as the builder of hierarchies sorts it: eight Ints, of which 0 to 2 are −min
+  * x, y, z, 4 to 6 are max x, y, z, and 3 is the primitive's number.
+  *
+  * Coordinates are Ints of the same order as the Floats they stand for, and minima are negated: so
+  * a
+  * union is six maxima of Ints, which the compiler makes without branches. A comparison of Floats
+  * is a branch that the processor can't foresee while a box still grows, and `math.max` of Floats
+  * minds NaN and −0 (docs/decisions/0012).
+  */
+private[accel] object BoxRecord:
+  inline val Ints = 8
+
+  /** Where the primitive's number is. */
+  inline val Number = 3
+
+  /** From −min to max of the same axis. */
+  inline val High = 4
+
+  /** −∞, encoded: in each place of a box that holds nothing. */
+  inline val Least = -2139095041
+
+  inline def encode(x: Float): Int =
+    val bits = java.lang.Float.floatToRawIntBits(x)
+    bits ^ ((bits >> 31) & 0x7fffffff)
+
+  inline def decode(i: Int): Float =
+    java.lang.Float.intBitsToFloat(i ^ ((i >> 31) & 0x7fffffff))
+
+  /** Twice the centre along an axis. */
+  inline def middle(records: Array[Int], at: Int, axis: Int): Float =
+    decode(records(at + High + axis)) - decode(records(at + axis))
+
+  inline def side(box: Array[Int], at: Int, axis: Int): Float =
+    decode(box(at + High + axis)) + decode(box(at + axis))
+
+  def halfArea(box: Array[Int], at: Int): Float =
+    halfArea(box(at), box(at + 1), box(at + 2), box(at + 4), box(at + 5), box(at + 6))
+
+  inline def halfArea(
+      lowX: Int,
+      lowY: Int,
+      lowZ: Int,
+      highX: Int,
+      highY: Int,
+      highZ: Int
+  ): Float =
+    val x = decode(highX) + decode(lowX)
+    val y = decode(highY) + decode(lowY)
+    val z = decode(highZ) + decode(lowZ)
+    x * y + y * z + z * x
+
+  inline def set(
+      box: Array[Int],
+      at: Int,
+      lowX: Int,
+      lowY: Int,
+      lowZ: Int,
+      highX: Int,
+      highY: Int,
+      highZ: Int
+  ): Unit =
+    box(at) = lowX
+    box(at + 1) = lowY
+    box(at + 2) = lowZ
+    box(at + 4) = highX
+    box(at + 5) = highY
+    box(at + 6) = highZ
+
+  def clear(box: Array[Int], at: Int): Unit =
+    java.util.Arrays.fill(box, at, at + Ints, Least)
+
+  inline def grow(box: Array[Int], at: Int, by: Array[Int], from: Int): Unit =
+    box(at) = Math.max(box(at), by(from))
+    box(at + 1) = Math.max(box(at + 1), by(from + 1))
+    box(at + 2) = Math.max(box(at + 2), by(from + 2))
+    box(at + 4) = Math.max(box(at + 4), by(from + 4))
+    box(at + 5) = Math.max(box(at + 5), by(from + 5))
+    box(at + 6) = Math.max(box(at + 6), by(from + 6))
+
+  inline def copy(from: Array[Int], at: Int, to: Array[Int], toAt: Int): Unit =
+    to(toAt) = from(at)
+    to(toAt + 1) = from(at + 1)
+    to(toAt + 2) = from(at + 2)
+    to(toAt + 3) = from(at + 3)
+    to(toAt + 4) = from(at + 4)
+    to(toAt + 5) = from(at + 5)
+    to(toAt + 6) = from(at + 6)
+
+  def write(
+      to: Array[Int],
+      at: Int,
+      number: Int,
+      minX: Float,
+      minY: Float,
+      minZ: Float,
+      maxX: Float,
+      maxY: Float,
+      maxZ: Float
+  ): Unit =
+    to(at) = encode(-minX)
+    to(at + 1) = encode(-minY)
+    to(at + 2) = encode(-minZ)
+    to(at + Number) = number
+    to(at + 4) = encode(maxX)
+    to(at + 5) = encode(maxY)
+    to(at + 6) = encode(maxZ)
+
+  /** As six Floats: min x, y, z, max x, y, z. */
+  def read(box: Array[Int], at: Int, to: Array[Float], toAt: Int): Unit =
+    to(toAt) = -decode(box(at))
+    to(toAt + 1) = -decode(box(at + 1))
+    to(toAt + 2) = -decode(box(at + 2))
+    to(toAt + 3) = decode(box(at + 4))
+    to(toAt + 4) = decode(box(at + 5))
+    to(toAt + 5) = decode(box(at + 6))

@@ -1,0 +1,38 @@
+package candela.render
+
+import candela.base.Parallel
+
+import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
+
+/** Does pieces of work with several threads, the caller's among them.
+  *
+  * The threads last as long as a call: to start one takes some 50 µs, which is little beside what
+  * is
+  * worth being divided, and so there is nothing to shut down.
+  */
+final class Crew(val threads: Int) extends Parallel:
+  require(threads >= 1, s"$threads threads")
+
+  def each(count: Int)(task: Int => Unit): Unit =
+    if threads == 1 || count <= 1 then Parallel.Alone.each(count)(task)
+    else
+      val next = AtomicInteger()
+      val failure = AtomicReference[Throwable | Null](null)
+      val work: Runnable = () =>
+        try
+          var i = next.getAndIncrement()
+          while i < count && failure.get == null do
+            task(i)
+            i = next.getAndIncrement()
+        catch
+          case e: Throwable =>
+            val _ = failure.compareAndSet(null, e)
+      val others = Vector.tabulate(Math.min(threads, count) - 1): i =>
+        val thread = Thread(work, s"candela-helper-${i + 1}")
+        thread.setDaemon(true)
+        thread.start()
+        thread
+      work.run()
+      others.foreach(_.join())
+      val thrown = failure.get
+      if thrown != null then throw thrown

@@ -1,0 +1,37 @@
+package candela.render
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.Parallel
+
+import java.util.concurrent.atomic.AtomicIntegerArray
+
+class CrewSuite extends AnyFunSuite:
+
+  private val crews: Seq[Parallel] = Seq(Parallel.Alone, Crew(1), Crew(2), Crew(5))
+
+  test("each piece of work is done once, before the call returns"):
+    for crew <- crews; count <- Seq(0, 1, 2, 3, 1000) do
+      val done = AtomicIntegerArray(count)
+      crew.each(count)(i => done.incrementAndGet(i): Unit)
+      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${crew.threads}")
+
+  test("ranges make up the whole"):
+    for crew <- crews; count <- Seq(0, 1, 5000, 100_003) do
+      val done = AtomicIntegerArray(count)
+      crew.ranges(count)((from, until) =>
+        (from until until).foreach(i => done.addAndGet(i, 1): Unit)
+      )
+      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${crew.threads}")
+
+  test("what a piece of work throws is thrown to the caller"):
+    for crew <- crews do
+      val error = intercept[IllegalStateException]:
+        crew.each(100)(i => if i == 57 then throw IllegalStateException("57"))
+      assert(error.getMessage == "57")
+
+  test("several threads work at the same time"):
+    val both = java.util.concurrent.CountDownLatch(2)
+    Crew(2).each(2): _ =>
+      both.countDown()
+      if !both.await(10, java.util.concurrent.TimeUnit.SECONDS) then fail("one waits for the other")
