@@ -26,7 +26,7 @@ val jvmOptions = Seq(
 )
 
 lazy val root = (project in file("."))
-  .enablePlugins(JavaAppPackaging)
+  .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela",
     description := "A physically based renderer for pbrt scenes",
@@ -55,9 +55,9 @@ lazy val root = (project in file("."))
     Compile / run / javaOptions ++= jvmOptions :+ "-XX:MaxRAMPercentage=70",
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
-    // `sbt stage`: the same JVM options, in the script it writes; nobody there reads an API
-    Compile / packageDoc / mappings := Nil,
-    Universal / javaOptions ++= (jvmOptions :+ "-XX:MaxRAMPercentage=70").map("-J" + _),
+    // `sbt stage`: src/universal, the program's jar, natives, and the same JVM options
+    Universal / mappings ++= program.value,
+    stage := withArchive(stage.value, streams.value.log),
 
     // `sbt test`: a JVM of its own too, suites side by side
     Test / fork := true,
@@ -73,6 +73,32 @@ lazy val bench = (project in file("bench"))
   .dependsOn(root)
   .enablePlugins(JmhPlugin)
   .settings(scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"))
+
+/** What the launcher in src/universal/bin starts: one jar, the native libraries, and options. */
+def program = Def.task {
+  val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
+  val folder = target.value / "program"
+  val options = jvmOptions :+ "-XX:MaxRAMPercentage=70"
+  val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
+    IO.delete(folder)
+    val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
+    ProgramJar.write(classes, folder / "candela.jar")
+    ProgramJar.unpackNatives(natives, folder / "natives").toSet + (folder / "candela.jar")
+  }
+  val files = make(jars.toSet)
+  IO.write(folder / "options", options.mkString("", "\n", "\n"))
+  (files + (folder / "options")).toSeq.pair(Path.rebase(folder, "lib"))
+}
+
+/** Makes the archive of classes now, for the JDK that the launcher chooses here: otherwise that
+  * happens behind the first start.
+  */
+def withArchive(folder: File, log: Logger): File = {
+  val launcher = (folder / "bin" / "candela").getPath
+  val made = scala.util.Try(sys.process.Process(Seq(launcher), None, "CANDELA_ARCHIVE" -> "make").!)
+  if (!made.toOption.contains(0)) log.info("no archive of classes yet: a later start will try")
+  folder
+}
 
 /** `candela.base.Version`, so that the program and the files it writes can name their version. */
 def versionSource = Def.task {

@@ -1,0 +1,121 @@
+import java.io.{BufferedOutputStream, File, FileOutputStream}
+import java.util.jar.{JarFile, JarOutputStream}
+import java.util.zip.{CRC32, ZipEntry}
+
+import scala.collection.JavaConverters._
+import scala.collection.mutable
+
+import org.objectweb.asm._
+import sbt.io.IO
+
+/** All classes and resources of the program in one jar that is made to start fast: not compressed,
+  * and with lambdas that class-data sharing can keep. docs/decisions/0014-start-up.md has figures.
+  */
+object ProgramJar {
+
+  /** @param jars of equal names, the first jar's entry counts; legal texts of all are kept */
+  def write(jars: Seq[File], to: File): Unit = {
+    IO.createDirectory(to.getParentFile)
+    val out = new JarOutputStream(new BufferedOutputStream(new FileOutputStream(to)))
+    out.setMethod(ZipEntry.STORED)
+    val taken = mutable.Set.empty[String]
+    def put(name: String, bytes: Array[Byte]): Unit = if (taken.add(name)) {
+      val sum = new CRC32
+      sum.update(bytes)
+      val entry = new ZipEntry(name)
+      entry.setTime(SameForAll)
+      entry.setSize(bytes.length.toLong)
+      entry.setCrc(sum.getValue)
+      out.putNextEntry(entry)
+      out.write(bytes)
+      out.closeEntry()
+    }
+    try {
+      put(JarFile.MANIFEST_NAME, "Manifest-Version: 1.0\nMulti-Release: true\n\n".getBytes("UTF-8"))
+      for (jar <- jars; (name, bytes) <- entries(jar)) name match {
+        case Useless() =>
+        case Legal(text) => put(s"META-INF/legal/${jar.getName.stripSuffix(".jar")}/$text", bytes)
+        case n if n.endsWith(".class") && !n.startsWith("META-INF/") => put(n, plainLambdas(bytes))
+        case n => put(n, bytes)
+      }
+    } finally out.close()
+  }
+
+  /** The libraries of all platforms in jars of natives, into folders such as `linux-x64`. */
+  def unpackNatives(jars: Seq[File], to: File): Seq[File] =
+    for (jar <- jars; (Native(system, processor, file), bytes) <- entries(jar)) yield {
+      val target = new File(new File(to, s"$system-$processor"), file)
+      IO.write(target, bytes)
+      target
+    }
+
+  /** So that the same classes are the same jar: 1980, where the format's time begins. */
+  private val SameForAll = 315619200000L
+
+  private val Native = "(linux|macos|windows)/(x64|arm64)/(?:.*/)?([^/]+\\.(?:so|dylib|dll))".r
+  private val Legal = "(?:META-INF/)?((?i:license|notice|copyright)[^/]*)".r
+  private val Useless = "META-INF/(?:MANIFEST.MF|INDEX.LIST)|.*module-info.class|.*\\.tasty".r
+
+  private def entries(jar: File): Seq[(String, Array[Byte])] = {
+    val file = new JarFile(jar)
+    try
+      for (e <- file.entries.asScala.toVector if !e.isDirectory)
+        yield e.getName -> IO.readBytes(file.getInputStream(e))
+    finally file.close()
+  }
+
+  /** Scala makes every lambda serialisable, and class-data sharing keeps no such lambda: some
+    * hundred classes would be made anew at every start. Nothing here is ever serialised.
+    *
+    * Nor are the bridges needed that Scala asks for: the interfaces below declare the erased method
+    * alone.
+    */
+  private def plainLambdas(bytes: Array[Byte]): Array[Byte] = {
+    val reader = new ClassReader(bytes)
+    val writer = new ClassWriter(reader, 0)
+    reader.accept(new PlainLambdas(writer), 0)
+    writer.toByteArray
+  }
+
+  private final class PlainLambdas(to: ClassVisitor) extends ClassVisitor(Opcodes.ASM9, to) {
+    override def visitMethod(
+        access: Int,
+        name: String,
+        descriptor: String,
+        signature: String,
+        exceptions: Array[String]
+    ): MethodVisitor = {
+      val inner = super.visitMethod(access, name, descriptor, signature, exceptions)
+      new MethodVisitor(Opcodes.ASM9, inner) {
+        override def visitInvokeDynamicInsn(
+            name: String,
+            descriptor: String,
+            bootstrap: Handle,
+            arguments: AnyRef*
+        ): Unit =
+          if (isPlain(bootstrap, descriptor, arguments))
+            super.visitInvokeDynamicInsn(name, descriptor, Metafactory, arguments.take(3): _*)
+          else super.visitInvokeDynamicInsn(name, descriptor, bootstrap, arguments: _*)
+      }
+    }
+  }
+
+  private def isPlain(bootstrap: Handle, descriptor: String, arguments: Seq[AnyRef]): Boolean =
+    bootstrap.getOwner == Factory && bootstrap.getName == "altMetafactory" && {
+      val interface = Type.getReturnType(descriptor).getInternalName
+      val flags = arguments(3).asInstanceOf[Integer].intValue
+      (flags & LambdaMarkers) == 0 && Interfaces.exists(interface.startsWith(_))
+    }
+
+  private val Interfaces = Seq("scala/Function", "scala/runtime/", "java/util/function/")
+
+  /** `LambdaMetafactory.FLAG_MARKERS`: further interfaces, which must stay. */
+  private val LambdaMarkers = 2
+  private val Factory = "java/lang/invoke/LambdaMetafactory"
+  private val Metafactory = {
+    val (types, handles) = ("Ljava/lang/invoke/MethodType;", "Ljava/lang/invoke/MethodHandle")
+    val caller = s"$handles" + "s$Lookup;Ljava/lang/String;"
+    val descriptor = s"($caller$types$types$handles;$types)Ljava/lang/invoke/CallSite;"
+    new Handle(Opcodes.H_INVOKESTATIC, Factory, "metafactory", descriptor, false)
+  }
+}

@@ -1,0 +1,158 @@
+package candela.cli
+
+import java.nio.file.attribute.FileTime
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** What `src/universal/bin/candela` does before Java runs. */
+class LauncherSuite extends AnyFunSuite:
+  private val None_ = "CANDELA_ARCHIVE" -> "none"
+  private val Make = Map("CANDELA_ARCHIVE" -> "make")
+
+  private def staged[A](body: StagedProgram => A): A =
+    assume(Files.isExecutable(Path.of("/bin/sh")))
+    TempFolder.use(folder => body(StagedProgram(folder)))
+
+  private def javaOf(jdk: Path) = jdk.resolve("bin/java").toString
+
+  test("the newest JDK is chosen, wherever it is, by number and not by alphabet"):
+    staged: p =>
+      val _ = p.jdk("91.0.2")
+      val newest = p.jdk("101-ea")
+      val atHome = p.jdk("99.1", in = "elsewhere")
+      assert(p.run(env = Map(None_, "JAVA_HOME" -> atHome.toString)).code == 0)
+      assert(p.starts.map(_.head) == Vector(javaOf(newest)))
+
+  test("CANDELA_JAVA is used instead, be it a folder or its java"):
+    staged: p =>
+      val _ = p.jdk("101")
+      val asked = p.jdk("17.0.1", in = "elsewhere")
+      for given_ <- Seq(asked.toString, javaOf(asked)) do
+        assert(p.run(env = Map(None_, "CANDELA_JAVA" -> given_)).code == 0)
+      assert(p.starts.map(_.head) == Vector.fill(2)(javaOf(asked)))
+
+  test("a JDK that is too old or not there is a message and exit code 2, and nothing starts"):
+    staged: p =>
+      val old = p.jdk("11.0.9", in = "elsewhere")
+      val tooOld = p.run(env = Map("CANDELA_JAVA" -> old.toString))
+      assert(tooOld.code == 2)
+      assert(
+        tooOld.err ==
+          "candela: a JDK 17 or newer is needed, but CANDELA_JAVA is version 11.0.9\n"
+      )
+      val missing = p.run(env = Map("CANDELA_JAVA" -> "/no/jdk"))
+      assert(missing.code == 2)
+      assert(missing.err.startsWith("candela: CANDELA_JAVA is /no/jdk, which is no JDK"))
+      assert(p.starts.isEmpty)
+
+  test("words reach the program as they are, behind JAVA_OPTS, and its exit code comes back"):
+    staged: p =>
+      val _ = p.jdk("99", java = "echo out; echo err >&2; exit 3")
+      val ended = p.run(Seq("a b", "*", "$HOME", ""), Map(None_, "JAVA_OPTS" -> "-Xmx1g  -Da=*"))
+      assert((ended.code, ended.out, ended.err) == (3, "out\n", "err\n"))
+      val words = p.starts.head
+      assert(words.drop(3).take(2) == Vector("-Xmx1g", "-Da=*"))
+      val jar = p.lib.toRealPath().resolve("candela.jar").toString
+      val rest = Vector("-cp", jar, "candela.cli.Main", "a b", "*", "$HOME", "")
+      assert(words.drop(5).dropRight(1) == rest)
+
+  test("Java takes the launcher's place, so that signals reach it"):
+    staged: p =>
+      val _ = p.jdk("99")
+      val ended = p.run()
+      assert(p.starts.head.last == s"pid ${ended.pid}")
+
+  test("it may be called through links, from a folder with spaces"):
+    TempFolder.use: folder =>
+      val p = StagedProgram(folder, "my stage")
+      val _ = p.jdk("99")
+      val link = Files.createSymbolicLink(folder.resolve("first link"), p.launcher)
+      val relative = Files.createSymbolicLink(folder.resolve("second"), link.getFileName)
+      assert(p.run(as = relative).code == 0)
+      assert(p.starts.head.contains(p.lib.toRealPath().resolve("candela.jar").toString))
+
+  test("an archive of classes is made when asked for, then used, and made anew with the jar"):
+    staged: p =>
+      val jdk = p.jdk("99")
+      assert(p.run(env = Make).code == 0)
+      val archive = p.lib.toRealPath().resolve(s"archives$jdk/99.aot")
+      assert(p.archives(p.lib).map(_.toRealPath()) == Vector(archive))
+      assert(p.starts.head.contains("--quiet"))
+      assert(p.run(Seq("x"), Map.empty).code == 0)
+      assert(p.starts(1).contains(s"-XX:AOTCache=$archive"))
+      assert(p.run(env = Make).code == 0 && p.starts.size == 2)
+      val later = FileTime.fromMillis(Files.getLastModifiedTime(archive).toMillis + 5000)
+      val _ = Files.setLastModifiedTime(p.lib.resolve("candela.jar"), later)
+      assert(p.run(env = Make).code == 0 && p.starts.size == 3)
+
+  test("each JDK has its archive, of the kind that it knows"):
+    staged: p =>
+      val older = p.jdk("17.0.1", in = "elsewhere")
+      val _ = p.jdk("99")
+      assert(p.run(env = Make).code == 0)
+      assert(p.run(env = Make + ("CANDELA_JAVA" -> older.toString)).code == 0)
+      assert(p.archives(p.lib).map(_.getFileName.toString).toSet == Set("99.aot", "17.0.1.jsa"))
+      assert(p.run(env = Map("CANDELA_JAVA" -> older.toString)).code == 0)
+      assert(p.starts.last.exists(_.startsWith("-XX:SharedArchiveFile=")))
+
+  test("where the program's folder is read-only, the archive is in the user's cache"):
+    staged: p =>
+      val _ = p.jdk("99")
+      val _ = Files.writeString(p.lib.resolve("archives"), "a file: nothing can be made in it")
+      assert(p.run(env = Make).code == 0)
+      val cached = p.archives(p.home.resolve(".cache/candela"))
+      assert(cached.size == 1)
+      assert(p.run(env = Map.empty).code == 0)
+      assert(p.starts.last.contains(s"-XX:AOTCache=${cached.head}"))
+      val other = Files.createDirectory(p.home.resolve("other"))
+      assert(p.run(env = Make + ("XDG_CACHE_HOME" -> other.toString)).code == 0)
+      assert(p.archives(other).size == 1)
+
+  test("without any place for it the program runs all the same, and nothing is said"):
+    staged: p =>
+      val jdk = p.jdk("99")
+      val _ = Files.writeString(p.lib.resolve("archives"), "")
+      val ended = p.run(Seq("x"), Map("CANDELA_JAVA" -> jdk.toString), without = Set("HOME"))
+      assert((ended.code, ended.out, ended.err) == (0, "", ""))
+      assert(p.starts.map(_.contains("x")) == Vector(true))
+
+  test("a Java that can't make an archive is asked once, not at every start"):
+    staged: p =>
+      val _ = p.jdk("99", java = "case $* in *--quiet*) rm -f archive; exit 1 ;; esac")
+      val _ = p.run(env = Make)
+      val _ = p.run(env = Make)
+      val ended = p.run(env = Map.empty)
+      assert((ended.code, ended.err) == (0, ""))
+      assert(p.starts.size == 2)
+      assert(!p.starts.last.exists(_.startsWith("-XX:")))
+
+  test("of several first starts at once one makes the archive, the others don't wait for it"):
+    staged: p =>
+      val _ = p.jdk("99", java = "case $* in *--quiet*) sleep 1 ;; esac")
+      val processes = Vector.fill(4)(p.start(env = Make))
+      assert(processes.map(p.ended(_).code) == Vector.fill(4)(0))
+      assert(p.starts.size == 1)
+      assert(p.archives(p.lib).size == 1)
+      assert(TempFolder.names(p.archives(p.lib).head.getParent) == Set("99.aot"))
+
+  test("what a start left behind that was ended on its way is no hindrance"):
+    staged: p =>
+      val jdk = p.jdk("99")
+      val folder = Files.createDirectories(Path.of(s"${p.lib.toRealPath()}/archives$jdk"))
+      val dead = ProcessBuilder("/bin/sh", "-c", ":").start()
+      val _ = dead.waitFor()
+      val _ = Files.writeString(folder.resolve("99.aot.lock"), s"${dead.pid}\n")
+      assert(p.run(env = Make).code == 0)
+      assert(p.archives(p.lib).size == 1)
+
+  test("after a first start the archive is made behind it, without a word"):
+    staged: p =>
+      val _ = p.jdk("99")
+      val ended = p.run(Seq("x"), Map.empty)
+      assert((ended.code, ended.out, ended.err) == (0, "", ""))
+      val deadline = System.nanoTime + 30_000_000_000L
+      while p.archives(p.lib).isEmpty && System.nanoTime < deadline do Thread.sleep(100)
+      assert(p.starts.map(_.contains("--quiet")) == Vector(false, true))
+      assert(p.archives(p.lib).size == 1)
+      Thread.sleep(200) // until what it worked in is gone, and the folder can go
