@@ -15,18 +15,24 @@ import candela.scene.Scene
   * It finds what paths from the camera can't: light of a point that comes by way of mirrors or
   * glass.
   *
-  * @param maxDepth most scattering events of a whole path
+  * @param maxDepth      most scattering events of a whole path
+  * @param rouletteAfter of these, before which neither part of a path ends by chance
+  * @param compresses    as in [[Subpath]]
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
   */
-final class BidirectionalPathTracer(scene: Scene, maxDepth: Int, rouletteAfter: Int)
-    extends LightTransport(scene)
+final class BidirectionalPathTracer(
+    scene: Scene,
+    maxDepth: Int,
+    rouletteAfter: Int,
+    compresses: Boolean
+) extends LightTransport(scene)
     with Splatting:
   import PartialWeights.mis
 
-  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter)
-  private val path = Subpath(scene, carriesLight = false, rouletteAfter)
+  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter, compresses)
+  private val path = Subpath(scene, carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
   at = vertex.at
 
@@ -39,7 +45,7 @@ final class BidirectionalPathTracer(scene: Scene, maxDepth: Int, rouletteAfter: 
     this.splats = splats
 
   protected def over(scene: Scene): BidirectionalPathTracer =
-    BidirectionalPathTracer(scene, maxDepth, rouletteAfter)
+    BidirectionalPathTracer(scene, maxDepth, rouletteAfter, compresses)
 
   override def raysTraced: Long = rays + lightPaths.raysTraced
 

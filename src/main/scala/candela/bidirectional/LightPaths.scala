@@ -10,13 +10,18 @@ import candela.scene.Scene
   *
   * @param maxEdges most edges of such a path
   */
-private[bidirectional] final class LightPaths(scene: Scene, maxEdges: Int, rouletteAfter: Int):
+private[bidirectional] final class LightPaths(
+    scene: Scene,
+    maxEdges: Int,
+    rouletteAfter: Int,
+    compresses: Boolean
+):
   private val powers = scene.lights.map(light => Math.max(0f, light.power(scene.ball)))
   private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
-  private val path = Subpath(scene, carriesLight = true, rouletteAfter)
+  private val path = Subpath(scene, carriesLight = true, compresses, rouletteAfter)
   private var kept = Array.fill(LightPaths.Some)(PathVertex(scene))
   private var used = 0
 

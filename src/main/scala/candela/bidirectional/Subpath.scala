@@ -9,11 +9,13 @@ import candela.scene.Scene
 /** The end of a path on its way through the scene, from the camera or from a light. Mutable.
   *
   * @param carriesLight  does it start at a light?
+  * @param compresses    does refraction change radiance by the square of the index? Not in pbrt-v2
   * @param rouletteAfter edges after which a path may end by chance
   */
 private[bidirectional] final class Subpath(
     scene: Scene,
     carriesLight: Boolean,
+    compresses: Boolean,
     rouletteAfter: Int
 ):
   var throughput: Rgb = Rgb.White
@@ -28,7 +30,7 @@ private[bidirectional] final class Subpath(
     if bounce.weight.isBlack || !(bounce.isSpecular || vertex.isOpen(wi)) then false
     else
       // Refraction spreads radiance over another solid angle, but not light (Veach 1997, §5.2)
-      val kept = bounce.weight * square(bounce.eta)
+      val kept = if compresses then bounce.weight * square(bounce.eta) else bounce.weight
       throughput = throughput *
         (if carriesLight then kept * correction(vertex, wi, bounce.wi.z) else bounce.weight)
       val cosine = vertex.cosine(wi)

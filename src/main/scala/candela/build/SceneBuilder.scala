@@ -75,8 +75,9 @@ object SceneBuilder:
     if layers.contains(Layer.Gradient) then resources.askForFootprints("the image's dzdx and dzdy")
     val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
-    val integrator = view(description.integrator, Integrators.all, defaults.integrator)
-    warnOfWholes(description, resources, problems)
+    val named = view(description.integrator, Integrators.all, defaults.integrator)
+    val integrator =
+      description.renderer.flatMap(d => Renderers.all.build(site(d))).flatten.getOrElse(named)
     val isV4 = description.dialect == Dialect.V4
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     val scale = if isV4 then Math.max(SharpestV4, density) else density
@@ -132,16 +133,6 @@ object SceneBuilder:
   private def moving(camera: Boolean, world: Boolean, shutter: Shutter): String =
     val what = Seq("camera" -> camera, "shapes" -> world).filter(_._2).map(_._1).mkString(" and ")
     if what.isEmpty then "none" else s"$what, from ${shutter.open} to ${shutter.close}"
-
-  /** Statements that are understood and have no effect on the picture yet. */
-  private def warnOfWholes(
-      d: SceneDescription,
-      resources: Resources,
-      problems: Findings
-  ): Unit =
-    def check(recipes: Recipes[?], statement: Declaration): Unit =
-      val _ = recipes.build(Site(statement, d.dialect, resources, problems))
-    for r <- d.renderer do check(Renderers.all, r)
 
   private def cropOf(
       film: FilmSettings,

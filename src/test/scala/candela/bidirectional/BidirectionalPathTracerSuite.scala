@@ -176,6 +176,32 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     val found = SceneTexts.mean(text("\"bdpt\"", glass))
     assert(Math.abs(found.g / expected.g - 1f) < 0.03f, s"$found, expected $expected")
 
+  test("so it does in pbrt-v2, whose refraction leaves radiance as it is"):
+    def text(integrator: String, glass: String) =
+      s"""LookAt 3 0 3  0 0 0  0 1 0
+         |Camera "orthographic" "float screenwindow" [-.2 .2 -.2 .2]
+         |Film "image" "integer xresolution" 4 "integer yresolution" 4
+         |Sampler "random" "integer pixelsamples" 2000
+         |$integrator
+         |WorldBegin
+         |LightSource "point" "point from" [0 0 1] "rgb I" [4 4 4]
+         |Material "matte" "rgb Kd" [.5 .5 .5]
+         |Shape "disk" "float radius" 1
+         |AttributeBegin
+         |Translate 0 0 1
+         |$glass
+         |AttributeEnd
+         |""".stripMargin
+    val glass = "Material \"glass\" \"float index\" 1.5\nShape \"sphere\" \"float radius\" .3"
+    val expected = SceneTexts.mean(text("SurfaceIntegrator \"path\"", ""), Dialect.V2)
+    for integrator <- Seq("SurfaceIntegrator \"photonmap\"", "Renderer \"metropolis\"") do
+      val found = SceneTexts.mean(text(integrator, glass), Dialect.V2)
+      assert(Math.abs(found.g / expected.g - 1f) < 0.04f, s"$found, expected $expected")
+
+  test("\"mlt\" makes the same picture"):
+    val text = scene("\"mlt\"", point, (matte, matte), Dialect.V3, perspective, 2)
+    assert(SceneTexts.mean(text) == SceneTexts.mean(text.replace("mlt", "bdpt")))
+
   test("the image is the same bit for bit by one thread and by three"):
     val text =
       scene(

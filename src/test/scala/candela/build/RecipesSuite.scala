@@ -63,7 +63,7 @@ final class MediumRecipesSuite
 final class VolumeRecipesSuite
     extends RecipeLaws[Option[Region]](Volumes.all, demanding = Set("volumegrid"))
 
-final class RendererRecipesSuite extends RecipeLaws[Unit](Renderers.all)
+final class RendererRecipesSuite extends RecipeLaws[Option[IntegratorPlan]](Renderers.all)
 
 final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](VolumeIntegrators.all)
 

@@ -40,12 +40,6 @@ abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dia
 
 /** Of integrators that are not there yet. */
 trait PathInstead extends Recipe[IntegratorPlan]:
-  override def pending: Option[String] =
-    Some(
-      "the path integrator is used: the same light where that one is unbiased, but for lamps " +
-        "that are points and seen by way of mirrors or glass, whose light it can't find"
-    )
-
   protected def depth()(using Site): Int = 5
 
   /** Does it see media in v3 and v4? */

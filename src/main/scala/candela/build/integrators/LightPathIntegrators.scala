@@ -1,9 +1,6 @@
 package candela.build
 
-import candela.bidirectional.BidirectionalPathTracer
-import candela.integrators.VolumePathTracer
-import candela.scenefile.Dialect
-
+/** Integrators whose paths start at lights, too. */
 object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3):
   notYet("the picture alone is written")(
     bool("visualizestrategies", "write an image for each way to join")(false),
@@ -18,44 +15,30 @@ object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, join
     bool("regularize", "roughen what a path meets late", onlyV4)(false)
   )
   windowed()
+  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
-  /** Scattering events before a path may end by chance. */
-  private val Patience = 4
-
-  protected def make()(using site: Site): IntegratorPlan =
-    val depth = Math.max(0, maxDepth())
-    val isV4 = site.dialect == Dialect.V4
-    IntegratorPlan(
-      (scene, _) => BidirectionalPathTracer(scene, depth, Patience),
-      samplesBsdf = false,
-      s"bdpt, up to $depth scattering events",
-      followsSpecular = isV4,
-      throughMedia = Some: (scene, media) =>
-        site.warn(
-          "\"bdpt\" sees no media and no borders of media yet: \"volpath\" is used, the same " +
-            "light but for lamps that are points and seen by way of mirrors or glass"
-        )
-        VolumePathTracer(scene, media, depth, if isV4 then 1 else 4, 1f, !isV4)
-    )
-
-/** Integrators whose paths start at lights, too, and are not there yet. */
+/** Its chains walk among the paths of [[Bdpt]] and have the same mean. */
 object Mlt
-    extends IntegratorRecipe("mlt", "Metropolis light transport", sinceV3)
-    with PathInstead:
-  override protected def seesMedia: Boolean = true
-  declare(
+    extends IntegratorRecipe(
+      "mlt",
+      "Metropolis light transport: by \"bdpt\", which has the same mean and other noise",
+      sinceV3
+    ):
+  noMeaning("the sampler's paths are taken, which depend on no others")(
     integer("bootstrapsamples", "paths to start with")(100000),
     integer("chains", "Markov chains")(1000),
     integer("mutationsperpixel", "mutations of paths, for each pixel")(100),
     float("largestepprobability", "of a path that is all new")(0.3f),
-    float("sigma", "standard deviation of small mutations")(0.01f),
+    float("sigma", "standard deviation of small mutations")(0.01f)
+  )
+  notYet("BSDFs stay as they are")(
     bool("regularize", "roughen what a path meets late", onlyV4)(false)
   )
-  override protected def depth()(using Site): Int = maxDepth()
+  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
 object Sppm
     extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3)
-    with PathInstead:
+    with BidirectionalInstead:
   declare(
     integer("numiterations", "passes", onlyV3)(64),
     integer("iterations", "another name of `numiterations`", onlyV3, shown = "numiterations")(64),
@@ -66,16 +49,21 @@ object Sppm
   noMeaning("the image is written at the end")(
     integer("imagewritefrequency", "passes between images", onlyV3, shown = "never")(Int.MaxValue)
   )
-  override protected def depth()(using Site): Int = maxDepth()
+
+  protected def depth()(using Site): Int = maxDepth()
 
 object LightPath
     extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4)
-    with PathInstead:
-  override protected def depth()(using Site): Int = maxDepth()
+    with BidirectionalInstead:
+  override def pending: Option[String] =
+    Some("\"bdpt\" is used: the same light, and that which is seen by way of mirrors or glass")
+  protected def depth()(using Site): Int = maxDepth()
 
 object FunctionIntegrator
     extends Recipe[IntegratorPlan]("function", "no image: the error of samplers", onlyV4)
     with PathInstead:
+  override def pending: Option[String] =
+    Some("it makes no picture of the scene; the path integrator's is made")
   declare(
     oneOf(
       "function",

@@ -6,18 +6,20 @@ import candela.integrators.{DipoleLighting, DirectLighting}
 /** pbrt-v2's surface integrators that are not there yet. */
 final class PhotonMap(name: String)
     extends Recipe[IntegratorPlan](name, "photon mapping with final gathering", onlyV2)
-    with PathInstead:
+    with BidirectionalInstead:
+  private val bounces = integer("maxphotondepth", "most bounces of a photon")(5)
+  private val gathers = bool("finalgather", "is indirect light gathered at one remove?")(true)
   declare(
     integer("causticphotons", "photons that came by mirrors and glass")(20000),
     integer("indirectphotons", "other photons")(100000),
     integer("nused", "photons of each estimate")(50),
     integer("maxspeculardepth", "most specular bounces")(5),
-    integer("maxphotondepth", "most bounces of a photon")(5),
-    bool("finalgather", "is indirect light gathered at one remove?")(true),
     integer("finalgathersamples", "rays of each gathering")(32),
     float("maxdist", "within which photons are sought", unit = "scene units")(0.1f),
     float("gatherangle", "between gathering rays and photons", unit = "degrees")(10f)
   )
+
+  override protected def depth()(using Site): Int = bounces() + (if gathers() then 1 else 0)
 
 object InstantGlobalIllumination
     extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)
@@ -29,11 +31,18 @@ object InstantGlobalIllumination
     float("glimit", "greatest geometric term")(10f),
     integer("gathersamples", "rays that make up for that limit")(16)
   )
+  override def pending: Option[String] =
+    Some("the path integrator is used: the same light, without the pattern of point lights")
   override protected def depth()(using Site): Int = maxDepth()
 
 object IrradianceCache
     extends Recipe[IntegratorPlan]("irradiancecache", "indirect light, interpolated", onlyV2)
     with PathInstead:
+  override def pending: Option[String] =
+    Some(
+      "the path integrator is used: nothing is interpolated, and glossy surfaces reflect " +
+        "indirect light, too"
+    )
   declare(
     float("minweight", "of neighbours that are used")(0.5f),
     float("minpixelspacing", "least distance of samples", unit = "pixels")(2.5f),
@@ -70,9 +79,23 @@ object DipoleSubsurface
       )
     )
 
+/** Of what is lit by harmonics: they hold the light that arrives directly. */
+trait DirectInstead extends Recipe[IntegratorPlan]:
+  protected def make()(using Site): IntegratorPlan = IntegratorPlan(
+    DirectLighting(_, 1, _),
+    samplesBsdf = true,
+    s"directlighting for $name",
+    throughVolumes = Some(DirectLighting(_, 1, _, _))
+  )
+
 object DiffusePrt
     extends Recipe[IntegratorPlan]("diffuseprt", "diffuse transfer, precomputed", onlyV2)
-    with PathInstead:
+    with DirectInstead:
+  override def pending: Option[String] =
+    Some(
+      "direct lighting is used: its shadows are sharp, lights stay where they are, and surfaces " +
+        "may be glossy"
+    )
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
     integer("nsamples", "rays from each point")(4096)
@@ -80,7 +103,12 @@ object DiffusePrt
 
 object GlossyPrt
     extends Recipe[IntegratorPlan]("glossyprt", "glossy transfer, precomputed", onlyV2)
-    with PathInstead:
+    with DirectInstead:
+  override def pending: Option[String] =
+    Some(
+      "direct lighting is used: its shadows are sharp, lights stay where they are, and surfaces " +
+        "have materials of their own"
+    )
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
     integer("nsamples", "rays from each point")(4096),
@@ -92,4 +120,6 @@ object GlossyPrt
 object UseProbes
     extends Recipe[IntegratorPlan]("useprobes", "light from precomputed probes", onlyV2)
     with PathInstead:
+  override def pending: Option[String] =
+    Some("the path integrator is used: no file is read, and light arrives in full detail")
   declare(string("filename", "file of probes")("probes.out"))

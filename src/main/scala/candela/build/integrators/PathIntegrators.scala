@@ -47,6 +47,11 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
 object SimplePath
     extends IntegratorRecipe("simplepath", "path tracing, without its refinements", onlyV4)
     with PathInstead:
+  override def pending: Option[String] =
+    Some(
+      "the path integrator is used: the same light, and that of lamps that are points even where " +
+        "`samplelights` is false"
+    )
   declare(
     bool("samplelights", "are lights sampled?")(true),
     bool("samplebsdf", "are BSDFs sampled?")(true)
@@ -56,10 +61,17 @@ object SimplePath
 object SimpleVolPath
     extends IntegratorRecipe("simplevolpath", "path tracing through media, without lights", onlyV4)
     with PathInstead:
+  override def pending: Option[String] =
+    Some("\"volpath\" is used: the same light, and that of lamps that are points")
   override protected def seesMedia: Boolean = true
   override protected def depth()(using Site): Int = maxDepth()
 
 object RandomWalk
     extends IntegratorRecipe("randomwalk", "path tracing into random directions", onlyV4)
     with PathInstead:
+  override def pending: Option[String] =
+    Some(
+      "the path integrator is used: the same light, and that of lamps that are points, of " +
+        "mirrors and of smooth glass"
+    )
   override protected def depth()(using Site): Int = maxDepth()

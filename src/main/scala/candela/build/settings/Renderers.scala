@@ -1,8 +1,10 @@
 package candela.build
 
-/** Recipes of v2's renderers, which are above its integrators. */
+/** Recipes of v2's renderers, which are above its integrators: what they use in place of the one
+  * that the scene names, if anything.
+  */
 object Renderers:
-  val all: Recipes[Unit] = Recipes(
+  val all: Recipes[Option[IntegratorPlan]] = Recipes(
     "renderer",
     Vector(
       SamplerRenderer("sampler"), SamplerRenderer("sample"), Metropolis, CreateProbes,
@@ -11,34 +13,50 @@ object Renderers:
   )
 
 /** Of renderers that are not there yet. */
-trait SamplerInstead extends Recipe[Unit]:
-  override def pending: Option[String] = Some("the surface integrator is used")
-  protected def make()(using Site): Unit = ()
+trait SamplerInstead extends Recipe[Option[IntegratorPlan]]:
+  override def pending: Option[String] =
+    Some("the picture is made that the surface integrator makes")
+  protected def make()(using Site): Option[IntegratorPlan] = None
 
 /** The usual one; "sample" is what some scenes call it. */
 final class SamplerRenderer(name: String)
-    extends Recipe[Unit](name, "an image by the surface and volume integrators", onlyV2):
+    extends Recipe[Option[IntegratorPlan]](
+      name,
+      "an image by the surface and volume integrators",
+      onlyV2
+    ):
   notYet("the picture is drawn")(
     bool("visualizeobjectids", "show primitives by colours of their own")(false)
   )
-  protected def make()(using Site): Unit = ()
+  protected def make()(using Site): Option[IntegratorPlan] = None
 
+/** It names no surface integrator: its chains walk among paths that are joined to light paths. */
 object Metropolis
-    extends Recipe[Unit]("metropolis", "Metropolis light transport", onlyV2)
-    with SamplerInstead:
-  declare(
+    extends Recipe[Option[IntegratorPlan]](
+      "metropolis",
+      "Metropolis light transport: by bidirectional path tracing, which has the same mean",
+      onlyV2
+    ):
+  private val depth = integer("maxdepth", "most bounces")(7)
+  noMeaning("the sampler's paths are taken, which depend on no others")(
     float("largestepprobability", "of a path that is all new")(0.25f),
     integer("samplesperpixel", "mutations, for each pixel")(100),
     integer("bootstrapsamples", "paths to start with")(100000),
     integer("directsamples", "samples of direct light in each pixel")(4),
     bool("dodirectseparately", "is direct light found without mutations?")(true),
     integer("maxconsecutiverejects", "after which any mutation is taken")(512),
-    integer("maxdepth", "most bounces")(7),
     bool("bidirectional", "do paths start at lights, too?")(true)
   )
 
+  protected def make()(using Site): Option[IntegratorPlan] =
+    Some(BidirectionalPlans.plan(name, depth()))
+
 object CreateProbes
-    extends Recipe[Unit]("createprobes", "no image: a file of light probes", onlyV2)
+    extends Recipe[Option[IntegratorPlan]](
+      "createprobes",
+      "no image: a file of light probes",
+      onlyV2
+    )
     with SamplerInstead:
   declare(
     bool("directlighting", "with direct light?")(true),
@@ -52,7 +70,11 @@ object CreateProbes
   )
 
 object SurfacePoints
-    extends Recipe[Unit]("surfacepoints", "no image: a file of points on surfaces", onlyV2)
+    extends Recipe[Option[IntegratorPlan]](
+      "surfacepoints",
+      "no image: a file of points on surfaces",
+      onlyV2
+    )
     with SamplerInstead:
   declare(
     float("minsampledistance", "between points", unit = "scene units")(0.25f),
@@ -60,6 +82,10 @@ object SurfacePoints
   )
 
 object AggregateTest
-    extends Recipe[Unit]("aggregatetest", "no image: a test of accelerators", onlyV2)
+    extends Recipe[Option[IntegratorPlan]](
+      "aggregatetest",
+      "no image: a test of accelerators",
+      onlyV2
+    )
     with SamplerInstead:
   declare(integer("niters", "rays to try")(100000))

@@ -1,0 +1,48 @@
+package candela.build
+
+import candela.bidirectional.BidirectionalPathTracer
+import candela.integrators.{PathThroughVolumes, VolumePathTracer}
+import candela.scenefile.Dialect
+
+/** How [[BidirectionalPathTracer]] is made, for all that is rendered by it. */
+private[build] object BidirectionalPlans:
+
+  /** Scattering events before a path may end by chance. */
+  private val Patience = 4
+
+  /** @param name by which the scene asked for it */
+  def plan(name: String, depth: Int)(using site: Site): IntegratorPlan =
+    val most = Math.max(0, depth)
+    val dialect = site.dialect
+    val shown = if name == "bdpt" then name else s"bdpt for $name"
+    IntegratorPlan(
+      (scene, _) =>
+        BidirectionalPathTracer(scene, most, Patience, compresses = dialect != Dialect.V2),
+      samplesBsdf = false,
+      s"$shown, up to $most scattering events",
+      followsSpecular = dialect == Dialect.V4,
+      throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
+        site.warn(
+          s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
+        )
+        val patience = if dialect == Dialect.V4 then 1 else Patience
+        VolumePathTracer(scene, media, most, patience, 1f, dialect == Dialect.V3)
+      ,
+      throughVolumes = Some: (scene, _, march) =>
+        site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
+        PathThroughVolumes(scene, march, most, Patience, 1f)
+    )
+
+  private val Lack =
+    "the same light but for that of lamps that are points, by way of mirrors or glass"
+
+/** Of integrators that find light which [[Bdpt]] can't. */
+trait BidirectionalInstead extends Recipe[IntegratorPlan]:
+  override def pending: Option[String] =
+    Some(
+      "\"bdpt\" is used: the same light, but for that of lamps that are points, where it comes " +
+        "by way of mirrors or glass and is seen by way of these, too"
+    )
+
+  protected def depth()(using Site): Int
+  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, depth())
