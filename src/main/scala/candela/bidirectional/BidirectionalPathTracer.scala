@@ -158,10 +158,10 @@ final class BidirectionalPathTracer(
   private def direct(sampler: Sampler): Rgb =
     val choice = sampler.next1D()
     sampler.next2D()
-    val chosen = scene.selection.choose(at.p, at.frame.n, choice)
-    if chosen < 0 then Rgb.Black
+    scene.selection.choose(at.p, at.frame.n, choice, chosen)
+    if chosen.light < 0 then Rgb.Black
     else
-      val source = scene.lights(chosen)
+      val source = scene.lights(chosen.light)
       val sample = lightSample
       source.sample(at.p, sampler.x, sampler.y, sample)
       if !(sample.pdf > 0f) || sample.radiance.isBlack then Rgb.Black
@@ -170,14 +170,14 @@ final class BidirectionalPathTracer(
         val f = vertex.received(wi)
         if f.isBlack || isBlocked() then Rgb.Black
         else
-          val pick = scene.selection.probability(at.p, at.frame.n, chosen)
+          val pick = chosen.probability
           val pdf = pick * sample.pdf
           val target = sample.target
           val meeting =
             if sample.isInfinite then sample.pdf
             else if target.n.isZero then (target.p - at.p).lengthSquared
             else sample.pdf * (target.n absDot wi)
-          val emission = lightPaths.chance(chosen) *
+          val emission = lightPaths.chance(chosen.light) *
             source.emissionPdf(scene.ball, target.p, target.n, -wi)
           val byLight = emission.toDouble * vertex.cosine(wi) / (pick.toDouble * meeting)
           val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / pdf)

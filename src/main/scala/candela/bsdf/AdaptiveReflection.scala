@@ -32,13 +32,16 @@ final class AdaptiveReflection(
   import AdaptiveReflection.*
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    val (o, i) = (upper(wo, wo), upper(wo, wi))
+    val o = upper(wo, wo)
+    val i = upper(wo, wi)
     val across = o + i
     if !Hemisphere.same(wo, wi) || across.isZero then Rgb.Black
     else
-      val (theta, phi) = (angle(o), azimuth(o))
+      val theta = angle(o)
+      val phi = azimuth(o)
       val m = across.normalized
-      val (mx, my) = (side(angle(m)), turn(azimuth(m), phi))
+      val mx = side(angle(m))
+      val my = turn(azimuth(m), phi)
       val place = visible.Blend(phi, theta)
       place.invert(mx, my)
       value(i, theta, phi, place.x, place.y, mx, my)
@@ -66,13 +69,16 @@ final class AdaptiveReflection(
     y - Math.floor(y.toDouble).toFloat
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    val (o, i) = (upper(wo, wo), upper(wo, wi))
+    val o = upper(wo, wo)
+    val i = upper(wo, wi)
     val across = o + i
     if !Hemisphere.same(wo, wi) || across.isZero then 0f
     else
-      val (theta, phi) = (angle(o), azimuth(o))
+      val theta = angle(o)
+      val phi = azimuth(o)
       val m = across.normalized
-      val (mx, my) = (side(angle(m)), turn(azimuth(m), phi))
+      val mx = side(angle(m))
+      val my = turn(azimuth(m), phi)
       val place = visible.Blend(phi, theta)
       place.invert(mx, my)
       density(o, m, mx, place(mx, my) * luminance.Blend(phi, theta)(place.x, place.y))
@@ -84,7 +90,8 @@ final class AdaptiveReflection(
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val o = upper(wo, wo)
-    val (theta, phi) = (angle(o), azimuth(o))
+    val theta = angle(o)
+    val phi = azimuth(o)
     val bright = luminance.Blend(phi, theta)
     bright.sample(u1, u2)
     val place = visible.Blend(phi, theta)

@@ -25,8 +25,8 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
     (2 * absorption + reducedScattering) / (3 * reducedExtinction * reducedExtinction)
   private val effective = Math.sqrt(absorption / diffusion)
 
-  private val (moment1, moment2) =
-    (FresnelMoments.first(eta).toDouble, FresnelMoments.second(eta).toDouble)
+  private val moment1 = FresnelMoments.first(eta).toDouble
+  private val moment2 = FresnelMoments.second(eta).toDouble
 
   /** Where the fluence falls to 0, by linear extrapolation: above the surface. */
   private val zeroAt = -2 * diffusion * (1 + 3 * moment2) / (1 - 2 * moment1)
@@ -41,7 +41,8 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
       val mirrored = 2 * zeroAt - real
       val toReal = Math.hypot(r, real)
       val toMirrored = Math.hypot(r, mirrored)
-      val (near, far) = (Math.exp(-effective * toReal), Math.exp(-effective * toMirrored))
+      val near = Math.exp(-effective * toReal)
+      val far = Math.exp(-effective * toMirrored)
       val fluence = InvFourPi / diffusion * (near / toReal - far / toMirrored)
       val flux = InvFourPi * (
         real * (1 + effective * toReal) * near / cube(toReal) -

@@ -32,7 +32,8 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
       val under = base * (coat.transmittance(wo) * coat.transmittance(wi))
       if topIsSmooth then under
       else
-        val (o, i) = (Hemisphere.above(wo), Hemisphere.above(wi))
+        val o = Hemisphere.above(wo)
+        val i = Hemisphere.above(wi)
         val m = (o + i).normalized
         val reflected =
           Fresnel.dielectric(o dot m, eta) * top.d(m) * top.visibility(o, i, m)
@@ -69,7 +70,7 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
 
   private def weighed(wo: Vec3, wi: Vec3): BsdfSample =
     val density = pdf(wo, wi)
-    val value = f(wo, wi)
+    val value = if density > 0f then f(wo, wi) else Rgb.Black
     if density <= 0f || value.isBlack then BsdfSample.Absorbed
     else
       val weight = value * (Hemisphere.absCos(wi) / density)

@@ -19,7 +19,9 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
   def bsdf(at: ShadingPoint): Bsdf =
-    val (p, u, v) = (at.p, at.u, at.v)
+    val p = at.p
+    val u = at.u
+    val v = at.v
     val here = height(at)
     // Half a step to the neighbouring samples, so that no detail is met that they would miss
     val du = step(at.dudx, at.dudy)

@@ -131,9 +131,11 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
       series: Array[Float],
       count: Int
   ): BsdfSample =
-    val (c, s) = (cos(phi), sin(phi))
+    val c = cos(phi)
+    val s = sin(phi)
     val sinO = sqrt(wo.x * wo.x + wo.y * wo.y)
-    val (x, y) = if sinO > 0f then (wo.x / sinO, wo.y / sinO) else (1f, 0f)
+    val x = if sinO > 0f then wo.x / sinO else 1f
+    val y = if sinO > 0f then wo.y / sinO else 0f
     val r = safeSqrt(1f - light * light)
     val wi = Vec3(-r * (c * x - s * y), -r * (s * x + c * y), -light).normalized
     val pdf = density(series, count, c, wo)

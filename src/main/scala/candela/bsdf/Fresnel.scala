@@ -64,7 +64,8 @@ object Fresnel:
     */
   def conductor(cosThetaI: Float, eta: Float, k: Float): Float =
     val c = Math.min(Math.abs(cosThetaI.toDouble), 1.0)
-    val (n, kk) = (eta.toDouble, k.toDouble)
+    val n = eta.toDouble
+    val kk = k.toDouble
     val s2 = 1.0 - c * c
     // (a + ib)² = (n + ik)² − sin²θ. Of a² and b², the one that no difference spoils comes first.
     val real = n * n - kk * kk - s2

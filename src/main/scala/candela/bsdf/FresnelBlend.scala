@@ -21,7 +21,8 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
     else
-      val (o, i) = (Hemisphere.above(wo), Hemisphere.above(wi))
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
       val m = (o + i).normalized
       val cosM = o dot m
       val under = base * (penetration(o.z) * penetration(i.z))

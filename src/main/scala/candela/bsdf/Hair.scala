@@ -70,8 +70,10 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     val cosine = Math.abs(wi.z)
-    val (sinO, sinI) = (wo.x, wi.x)
-    val (cosO, cosI) = (safeSqrt(1f - sinO * sinO), safeSqrt(1f - sinI * sinI))
+    val sinO = wo.x
+    val sinI = wi.x
+    val cosO = safeSqrt(1f - sinO * sinO)
+    val cosI = safeSqrt(1f - sinI * sinI)
     val inside = gammaT(sinO, cosO)
     val phi = azimuth(wi) - azimuth(wo)
     val r = fresnel(cosO)
@@ -86,8 +88,10 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     if cosine > Hemisphere.Horizon then sum * (1f / cosine) else Rgb.Black
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    val (sinO, sinI) = (wo.x, wi.x)
-    val (cosO, cosI) = (safeSqrt(1f - sinO * sinO), safeSqrt(1f - sinI * sinI))
+    val sinO = wo.x
+    val sinI = wi.x
+    val cosO = safeSqrt(1f - sinO * sinO)
+    val cosI = safeSqrt(1f - sinI * sinI)
     val inside = gammaT(sinO, cosO)
     val phi = azimuth(wi) - azimuth(wo)
     val r = fresnel(cosO)
@@ -124,7 +128,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       p += 1
       own = share(p, r, t).average
     val again = if own > 0f then clamp(rest / own, 0f, OneMinusEpsilon) else 0f
-    val (sinP, cosP) = (tiltedSin(sinO, cosO, p), tiltedCos(sinO, cosO, p))
+    val sinP = tiltedSin(sinO, cosO, p)
+    val cosP = tiltedCos(sinO, cosO, p)
     val v = shape.v(p)
     val height = 1f + v * log(Math.max(u1, 1e-5f) + (1f - u1) * exp(-2f / v))
     val sinI = clamp(

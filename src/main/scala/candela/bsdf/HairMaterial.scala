@@ -20,7 +20,8 @@ enum Pigment:
     case Absorption(sigmaA) => sigmaA(at).map(s => Math.max(s, 0f))
     case Color(reflectance) => Pigment.ofColor(reflectance(at), betaN)
     case Melanin(eu, pheo, basis) =>
-      val (e, p) = (Math.max(eu(at), 0f), Math.max(pheo(at), 0f))
+      val e = Math.max(eu(at), 0f)
+      val p = Math.max(pheo(at), 0f)
       basis.fromSrgb(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
 
   def isConstant: Boolean = this match

@@ -54,7 +54,8 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
     else
-      val (o, i) = (Hemisphere.above(wo), Hemisphere.above(wi))
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
       var sum = Rgb.Black
       var walk = 0
       while walk < layers.walks do

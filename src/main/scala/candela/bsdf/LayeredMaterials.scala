@@ -98,7 +98,8 @@ final class LayeredConductorMaterial(
     * mirrors of half that slope.
     */
   protected def glossy(at: ShadingPoint): TrowbridgeReitz =
-    val (b, t) = (bottom.trowbridgeReitz(at), top.trowbridgeReitz(at))
+    val b = bottom.trowbridgeReitz(at)
+    val t = top.trowbridgeReitz(at)
     def along(base: Float, interface: Float) =
       Math.min(sqrt(square(eta * base) + 0.5f * square((eta - 1f) * interface)), 1f)
     TrowbridgeReitz(along(b.alphaX, t.alphaX), along(b.alphaY, t.alphaY))

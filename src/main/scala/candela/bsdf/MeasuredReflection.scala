@@ -107,7 +107,8 @@ final class HalfAngleReflection(values: Array[Float]) extends CosineSampled:
       val light = if across.z < 0f then -wi else wi
       val h = sum.normalized
       val sine = safeSqrt(1f - h.z * h.z)
-      val (c, s) = if sine > 0f then (h.x / sine, h.y / sine) else (1f, 0f)
+      val c = if sine > 0f then h.x / sine else 1f
+      val s = if sine > 0f then h.y / sine else 0f
       // The light in a frame around the half vector
       val x = light.x * c * h.z + light.y * s * h.z - light.z * sine
       val y = light.y * c - light.x * s

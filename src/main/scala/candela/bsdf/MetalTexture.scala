@@ -25,7 +25,8 @@ final class IndexedMetal(
     strong: Boolean = false
 ) extends MetalTexture:
   def apply(at: ShadingPoint): ReflectanceCurve =
-    val (n, a) = (eta(at) * (1f / outside), k(at) * (1f / outside))
+    val n = eta(at) * (1f / outside)
+    val a = k(at) * (1f / outside)
     if strong then StrongConductorReflectance(n, a) else ConductorReflectance(n, a)
   def isConstant: Boolean = eta.constant.isDefined && k.constant.isDefined
 

@@ -19,7 +19,8 @@ final class MicrofacetReflection(
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
     else
-      val (o, i) = (Hemisphere.above(wo), Hemisphere.above(wi))
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
       val m = (o + i).normalized
       val cosM = o dot m
       val value = distribution.d(m) * distribution.visibility(o, i, m)

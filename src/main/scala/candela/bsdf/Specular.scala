@@ -55,7 +55,8 @@ final class SmoothDielectric(
     if cosT <= 0f then BsdfSample.Absorbed
     else
       // From a cosine near 1 the sine, and what becomes of it, has half the digits
-      val (x, y) = (-wo.x.toDouble / relative, -wo.y.toDouble / relative)
+      val x = -wo.x.toDouble / relative
+      val y = -wo.y.toDouble / relative
       val sin2 = x * x + y * y
       val depth = if sin2 < 0.5 then Math.sqrt(1.0 - sin2).toFloat else cosT
       val wi = Vec3(x.toFloat, y.toFloat, if wo.z < 0f then depth else -depth).normalized

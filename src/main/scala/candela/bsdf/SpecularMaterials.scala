@@ -108,7 +108,8 @@ final class UberMaterial(
 final class ShinyMetalMaterial(ks: RgbTexture, kr: RgbTexture, roughness: Roughness)
     extends Material:
   def bsdf(at: ShadingPoint): Bsdf =
-    val (gloss, mirror) = (ks(at), kr(at))
+    val gloss = ks(at)
+    val mirror = kr(at)
     Lobes.Builder()
       .add(MicrofacetReflection(roughness(at), ShinyMetalMaterial.curve(gloss)), gloss.max)
       .add(Mirror(Rgb.White, ShinyMetalMaterial.curve(mirror)), mirror.max)

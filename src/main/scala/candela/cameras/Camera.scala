@@ -73,7 +73,8 @@ abstract class Camera:
       ray: Ray,
       scratch: Ray
   ): Unit =
-    val (o, d) = (ray.origin, ray.direction)
+    val o = ray.origin
+    val d = ray.direction
     val neighbours = ray.differential
     val across = reaches(x + step, y, lensU, lensV, scratch)
     val alongX =

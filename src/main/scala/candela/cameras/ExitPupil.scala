@@ -113,17 +113,21 @@ object ExitPupil:
     val dx = (region.x1 - region.x0) / Across
     val dy = region.top / Up
     def rim(inside: Double, outside: Double)(isIn: Double => Boolean): Double =
-      var (a, b) = (inside, outside)
+      var a = inside
+      var b = outside
       for _ <- 1 to 12 do
         val middle = (a + b) / 2
         if isIn(middle) then a = middle else b = middle
       b
-    var (x0, x1, top) = (Double.PositiveInfinity, Double.NegativeInfinity, -1.0)
+    var x0 = Double.PositiveInfinity
+    var x1 = Double.NegativeInfinity
+    var top = -1.0
     for row <- 0 to Up do
       val y = row * dy
       val hits = (0 to Across).filter(i => passes(region.x0 + i * dx, y))
       if hits.nonEmpty then
-        val (left, right) = (region.x0 + hits.head * dx, region.x0 + hits.last * dx)
+        val left = region.x0 + hits.head * dx
+        val right = region.x0 + hits.last * dx
         x0 = Math.min(x0, rim(left, left - dx)(passes(_, y)))
         x1 = Math.max(x1, rim(right, right + dx)(passes(_, y)))
         for i <- hits do

@@ -82,7 +82,8 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
     if !(t >= 0.0) then 0.0
     else
       advance(ray, t)
-      val (x, y) = (ray(0), ray(1))
+      val x = ray(0)
+      val y = ray(1)
       val form = shape
       if form != null then
         val scale = 1.0 / Math.sqrt(limit(i))

@@ -21,7 +21,8 @@ final class MovingCamera(camera: Camera, toWorld: Motion) extends Camera:
     camera.generate(x, y, lensU, lensV, ray)
     val m = ray.nested.space
     toWorld.write(ray.time, m, 0)
-    val (o, d) = (ray.origin, ray.direction)
+    val o = ray.origin
+    val d = ray.direction
     def along(r: Int, v: Vec3) = m(r) * v.x + m(r + 1) * v.y + m(r + 2) * v.z
     val origin = Vec3(
       (along(0, o) + m(3)).toFloat,

@@ -43,10 +43,12 @@ object PixelCone:
   private val Probes = 512
 
   def of(camera: Camera, eye: Vec3, width: Int, height: Int, scale: Float): PixelCone =
-    val (ray, scratch) = (Ray(), Ray())
+    val ray = Ray()
+    val scratch = Ray()
     val found = (0 until Probes).flatMap: i =>
       val part = i.toFloat / (Probes - 1)
-      val (x, y) = (part * width, part * height)
+      val x = part * width
+      val y = part * height
       camera.generate(x, y, 0.5f, 0.5f, ray)
       val isRay = !camera.weighs || ray.weight > 0f
       if isRay then camera.differential(x, y, 0.5f, 0.5f, 1f, ray, scratch)

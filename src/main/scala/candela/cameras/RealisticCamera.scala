@@ -39,7 +39,8 @@ final class RealisticCamera(
     val ring = pupil.ring(radius)
     ray.weight = 0f
     if !pupil.isDark(ring) then
-      val (px, py) = (pupil.x(ring, lensU), pupil.y(ring, lensV))
+      val px = pupil.x(ring, lensU)
+      val py = pupil.y(ring, lensV)
       val c = if radius > 0 then filmX / radius else 1.0
       val s = if radius > 0 then filmY / radius else 0.0
       val path = ray.space

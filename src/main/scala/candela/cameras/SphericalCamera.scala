@@ -25,7 +25,8 @@ final class SphericalCamera(
   private val eye = cameraToWorld.point(Vec3.Zero)
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
-    val (u, v) = (x / frame.width, y / frame.height)
+    val u = x / frame.width
+    val v = y / frame.height
     val d =
       if folds then
         // Over a vertical border, then over a horizontal one: each mirrors the other coordinate

@@ -28,9 +28,12 @@ final class StopShape(width: Int, height: Int, values: Array[Float]):
   def transmission(x: Double, y: Double): Double =
     val u = (x + 1) / 2 * width - 0.5
     val v = (y + 1) / 2 * height - 0.5
-    val (u0, v0) = (Math.floor(u), Math.floor(v))
-    val (tu, tv) = (u - u0, v - v0)
-    val (i, j) = (u0.toInt, v0.toInt)
+    val u0 = Math.floor(u)
+    val v0 = Math.floor(v)
+    val tu = u - u0
+    val tv = v - v0
+    val i = u0.toInt
+    val j = v0.toInt
     (1 - tv) * ((1 - tu) * texel(i, j) + tu * texel(i + 1, j)) +
       tv * ((1 - tu) * texel(i, j + 1) + tu * texel(i + 1, j + 1))
 

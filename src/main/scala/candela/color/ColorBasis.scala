@@ -43,8 +43,10 @@ object ColorBasis:
     // Cramer's rule in Double; the basis is well-conditioned
     val d = m.map(_.toDouble)
     def minor(r: Int, c: Int): Double =
-      val (r1, r2) = ((r + 1) % 3, (r + 2) % 3)
-      val (c1, c2) = ((c + 1) % 3, (c + 2) % 3)
+      val r1 = (r + 1) % 3
+      val r2 = (r + 2) % 3
+      val c1 = (c + 1) % 3
+      val c2 = (c + 2) % 3
       d(3 * r1 + c1) * d(3 * r2 + c2) - d(3 * r1 + c2) * d(3 * r2 + c1)
     val determinant = (0 until 3).map(c => d(c) * minor(0, c)).sum
     ColorBasis(m, Array.tabulate(9)(i => (minor(i % 3, i / 3) / determinant).toFloat))

@@ -17,7 +17,9 @@ final class Rgb(val r: Float, val g: Float, val b: Float):
 
   /** The largest magnitude: the colour of a single wavelength may be negative. */
   def largest: Float =
-    val (x, y, z) = (Math.abs(r), Math.abs(g), Math.abs(b))
+    val x = Math.abs(r)
+    val y = Math.abs(g)
+    val z = Math.abs(b)
     if x > y then (if x > z then x else z) else if y > z then y else z
 
   def average: Float = (r + g + b) * (1f / 3f)

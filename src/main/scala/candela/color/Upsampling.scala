@@ -57,7 +57,8 @@ object Upsampling:
   private def newton(c: Array[Double], off: Array[Double]): Unit =
     val h = 1e-3
     val columns = Array.tabulate(3): k =>
-      val (up, down) = (c.clone(), c.clone())
+      val up = c.clone()
+      val down = c.clone()
       up(k) += h
       down(k) -= h
       color(up).zip(color(down)).map((a, b) => (a - b) / (2 * h))

@@ -22,7 +22,8 @@ object WhiteBalance:
   def ofDaylight(kelvin: Float): Array[Float] =
     // As named daylights are, by Planck's constant of before 1968
     val white = chromaticity(kelvin * 1.4388 / 1.4380)
-    val (from, to) = (response(white), response(Target))
+    val from = response(white)
+    val to = response(Target)
     columns: rgb =>
       val seen = times(ToResponse, xyz(rgb))
       val (x, y, z) = solved(Vector.tabulate(3)(i => seen(i) * to(i) / from(i)))

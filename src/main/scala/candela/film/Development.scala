@@ -24,7 +24,9 @@ final case class Development(
     for m <- balance do
       loop(image.width * image.height): pixel =>
         val at = 3 * pixel
-        val (r, g, b) = (image.data(at), image.data(at + 1), image.data(at + 2))
+        val r = image.data(at)
+        val g = image.data(at + 1)
+        val b = image.data(at + 2)
         loop(3)(c => image.data(at + c) = m(3 * c) * r + m(3 * c + 1) * g + m(3 * c + 2) * b)
     if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))
     image

@@ -97,5 +97,6 @@ object LanczosSincFilter:
     */
   def stretched(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
     require(tau > 0f, s"sinc filter with tau $tau")
-    val (inverseX, inverseY) = (1.0 / radiusX, 1.0 / radiusY)
+    val inverseX = 1.0 / radiusX
+    val inverseY = 1.0 / radiusY
     new LanczosSincFilter(radiusX, radiusY, tau * inverseX, tau * inverseY, inverseX, inverseY)

@@ -71,7 +71,9 @@ final class Ray:
     invX = 1f / dx
     invY = 1f / dy
     invZ = 1f / dz
-    val (ax, ay, az) = (Math.abs(dx), Math.abs(dy), Math.abs(dz))
+    val ax = Math.abs(dx)
+    val ay = Math.abs(dy)
+    val az = Math.abs(dz)
     kz = if ax > ay then (if ax > az then 0 else 2) else if ay > az then 1 else 2
     kx = if kz == 2 then 0 else kz + 1
     ky = if kx == 2 then 0 else kx + 1

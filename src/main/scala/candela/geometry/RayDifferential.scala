@@ -57,7 +57,8 @@ final class RayDifferential:
   def refract(at: ShadingPoint, wo: Vec3, wi: Vec3, eta: Float): Unit =
     val side = if (wo dot at.frame.n) < 0f then -1f else 1f
     val n = at.frame.n * side
-    val (cosine, inside) = (wo dot n, wi absDot n)
+    val cosine = wo dot n
+    val inside = wi absDot n
     val ratio = 1f / eta
     // Snell's law is wi = −ratio·wo + mu·n; its derivative by the product rule
     val mu = ratio * cosine - inside

@@ -53,8 +53,8 @@ final class DipoleLighting(
 
   /** Light that enters at `at`, over π. */
   private def irradiance(dipole: DipoleBssrdf, choice: Float, sampler: Sampler): Rgb =
-    val chosen = scene.selection.choose(at.p, at.frame.n, choice)
-    if chosen < 0 then Rgb.Black
+    scene.selection.choose(at.p, at.frame.n, choice, chosen)
+    if chosen.light < 0 then Rgb.Black
     else
-      val selected = scene.selection.probability(at.p, at.frame.n, chosen)
-      sampleLight(chosen, selected, dipole.entry, at.frame.n, sampler, combined = false)
+      val selected = chosen.probability
+      sampleLight(chosen.light, selected, dipole.entry, at.frame.n, sampler, combined = false)

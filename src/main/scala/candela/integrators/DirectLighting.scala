@@ -37,10 +37,9 @@ class DirectLighting(
   protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
-      val chosen = scene.selection.choose(at.p, at.frame.n, sampler.next1D())
-      if chosen >= 0 then
-        val selected = scene.selection.probability(at.p, at.frame.n, chosen)
-        sum = estimate(chosen, selected, bsdf, wo, sampler)
+      scene.selection.choose(at.p, at.frame.n, sampler.next1D(), chosen)
+      if chosen.light >= 0 then
+        sum = estimate(chosen.light, chosen.probability, bsdf, wo, sampler)
     else
       var light = 0
       while light < lightSamples.length do

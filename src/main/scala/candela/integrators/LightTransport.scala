@@ -3,7 +3,7 @@ package candela.integrators
 import candela.bsdf.{Bsdf, BsdfSample}
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
-import candela.lights.{EnvironmentLight, LightSample}
+import candela.lights.{EnvironmentLight, LightChoice, LightSample}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
@@ -22,6 +22,7 @@ abstract class LightTransport(
   protected var at = scene.newPoint()
   protected val shadowRay = Ray()
   protected val shadowHit = Hit()
+  protected val chosen = LightChoice()
   protected val lightSample = LightSample()
   protected var rays = 0L
 
@@ -46,7 +47,8 @@ abstract class LightTransport(
       ray: Ray,
       inline weight: (Int, EnvironmentLight) => Float
   ): Rgb =
-    val (origin, direction) = (ray.origin, ray.direction)
+    val origin = ray.origin
+    val direction = ray.direction
     var sum = Rgb.Black
     var i = 0
     while i < scene.environments.length do
@@ -91,11 +93,9 @@ abstract class LightTransport(
 
   /** Light of one of the sources, chosen by `choice`; the point on it is the sampler's last. */
   protected final def oneLight(choice: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
-    val chosen = scene.selection.choose(at.p, at.frame.n, choice)
-    if chosen < 0 then Rgb.Black
-    else
-      val selected = scene.selection.probability(at.p, at.frame.n, chosen)
-      sampleLight(chosen, selected, bsdf, wo, sampler, combined = true)
+    scene.selection.choose(at.p, at.frame.n, choice, chosen)
+    if chosen.light < 0 then Rgb.Black
+    else sampleLight(chosen.light, chosen.probability, bsdf, wo, sampler, combined = true)
 
   /** The same, unless a BSDF or a scene leaves nothing to sample: that takes no numbers. */
   protected final def anyLight(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =

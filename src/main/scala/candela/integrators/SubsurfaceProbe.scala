@@ -51,8 +51,10 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
     else
       val phi = TwoPi * sampler.y
       val half = sqrt(reach * reach - radius * radius)
-      val (x, y) = (radius * cos(phi), radius * sin(phi))
-      val (p, frame) = (at.p, at.frame)
+      val x = radius * cos(phi)
+      val y = radius * sin(phi)
+      val p = at.p
+      val frame = at.frame
       val (start, direction) = axis match
         case 0 => (p + frame.t * x + frame.n * y - frame.s * half, frame.s)
         case 1 => (p + frame.n * x + frame.s * y - frame.t * half, frame.t)

@@ -2,7 +2,7 @@ package candela.integrators
 
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
-import candela.lights.LightSample
+import candela.lights.{LightChoice, LightSample}
 import candela.math.*
 import candela.media.Regions
 import candela.sampling.{RandomStream, Sampler}
@@ -21,6 +21,7 @@ import candela.scene.Scene
   */
 final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatters: Boolean):
   private val work = regions.newWork()
+  private val chosen = LightChoice()
   private val lightSample = LightSample()
   private val shadowRay = Ray()
   private val shadowHit = Hit()
@@ -44,7 +45,8 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     transmitted = Rgb.White
     if regions.clip(ray, work) then
       val unit = ray.direction.length
-      val (begin, end) = (work.overlap.begin, work.overlap.end)
+      val begin = work.overlap.begin
+      val end = work.overlap.end
       val wanted = Math.ceil(((end - begin) * unit / stepSize).toDouble).toInt
       val count = clamp(wanted, 1, Regions.MostSteps)
       val step = (end - begin) / count
@@ -73,7 +75,9 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
           sumG += here.g * work.glowG
           sumB += here.b * work.glowB
           if scatters && work.scatters && scene.lights.length > 0 then
-            val (dr, dg, db) = (work.depthR, work.depthG, work.depthB)
+            val dr = work.depthR
+            val dg = work.depthG
+            val db = work.depthB
             val arrived = scattered(p, -ray.direction * (1f / unit))
             work.depthR = dr
             work.depthG = dg
@@ -87,11 +91,11 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
 
   /** Light of one source that is scattered to `wo`, per scene unit. */
   private def scattered(p: Vec3, wo: Vec3): Rgb =
-    val chosen = scene.selection.choose(p, Vec3.Zero, random.next())
-    if chosen < 0 then Rgb.Black
+    scene.selection.choose(p, Vec3.Zero, random.next(), chosen)
+    if chosen.light < 0 then Rgb.Black
     else
-      val selected = scene.selection.probability(p, Vec3.Zero, chosen)
-      scene.lights(chosen).sample(p, random.next(), random.next(), lightSample)
+      val selected = chosen.probability
+      scene.lights(chosen.light).sample(p, random.next(), random.next(), lightSample)
       if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
       else
         LightTransport.towards(p, lightSample, shadowRay)

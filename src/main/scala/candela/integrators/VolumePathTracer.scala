@@ -160,16 +160,14 @@ final class VolumePathTracer(
         arriving(if isAlone then 0f else bsdf.pdf(local, towards)) * f * Math.abs(wi.z)
 
   // Of the light that was chosen last
-  private var chosenProbability = 0f
   private var chosenIsDelta = false
 
   /** Samples a light for `p`; false if it brings none. */
   private def chooseLight(p: Vec3, n: Vec3, choice: Float, sampler: Sampler): Boolean =
-    val chosen = scene.selection.choose(p, n, choice)
-    if chosen < 0 then false
+    scene.selection.choose(p, n, choice, chosen)
+    if chosen.light < 0 then false
     else
-      chosenProbability = scene.selection.probability(p, n, chosen)
-      val source = scene.lights(chosen)
+      val source = scene.lights(chosen.light)
       chosenIsDelta = source.isDelta
       source.sample(p, sampler.x, sampler.y, lightSample)
       lightSample.pdf > 0f && !lightSample.radiance.isBlack
@@ -180,7 +178,7 @@ final class VolumePathTracer(
   private def arriving(scatterPdf: Float): Rgb =
     val w = weights
     val s = work.shadow
-    val byLight = chosenProbability * lightSample.pdf *
+    val byLight = chosen.probability * lightSample.pdf *
       (w.ur * s.lr + w.ug * s.lg + w.ub * s.lb) * (1f / 3f)
     val byDirection =
       if chosenIsDelta then 0f

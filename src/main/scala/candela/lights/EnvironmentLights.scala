@@ -33,7 +33,8 @@ final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Bo
 
   private val distribution: Distribution2D =
     // Weight of a pixel: its mean radiance times its solid angle
-    val (width, height) = (image.width, image.height)
+    val width = image.width
+    val height = image.height
     val shares = Array.tabulate(height)(y => layout.stretch((y + 0.5f) / height))
     def weights(least: Float): Array[Float] =
       Array.tabulate(width * height): i =>

@@ -24,6 +24,7 @@ final case class LightBounds(
     twoSided: Boolean
 ):
   private val center = box.center
+  private val sinNormals = safeSqrt(1f - square(cosNormals))
   private val radius2 = square(box.radius)
   private val minDistance2 = Math.max(radius2, square(box.extent.length * 0.5f))
 
@@ -40,7 +41,6 @@ final case class LightBounds(
     // θb: half the angle under which the box is seen; from inside, all directions
     val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
     val sinBox = safeSqrt(1f - square(cosBox))
-    val sinNormals = safeSqrt(1f - square(cosNormals))
     val cosX = LightBounds.cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
     val sinX = LightBounds.sinDifference(sinAxis, cosAxis, sinNormals, cosNormals)
     val cosMin = LightBounds.cosDifference(sinX, cosX, sinBox, cosBox)

@@ -13,12 +13,24 @@ abstract class LightSelection:
   /** The probability with which `choose` returns `light`. */
   def probability(p: Vec3, n: Vec3, light: Int): Float
 
+  /** Both at once: what `choose` returns, and with which probability. */
+  def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit
+
   def describe: String
+
+/** Which light was chosen, and how probable that was; mutable, one per worker. */
+final class LightChoice:
+  /** −1: none. */
+  var light: Int = -1
+  var probability: Float = 0f
 
 /** Only one light: nothing to choose. */
 final class SingleLight extends LightSelection:
   def choose(p: Vec3, n: Vec3, u: Float): Int = 0
   def probability(p: Vec3, n: Vec3, light: Int): Float = 1f
+  def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
+    out.light = 0
+    out.probability = 1f
   def describe: String = "one light"
 
 /** By a binary tree of [[LightBounds]], going down at each node by the importance of its children;
@@ -73,17 +85,24 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
     part.sortBy(_._2.box.center(axis)).splitAt(part.length / 2)
 
   def choose(p: Vec3, n: Vec3, u: Float): Int =
+    val out = LightChoice()
+    choose(p, n, u, out)
+    out.light
+
+  def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
+    out.probability = infiniteShare
     val inInfinite = infinite.length * infiniteShare
     if infinite.length > 0 && (u < inInfinite || finite.isEmpty) then
-      infinite(Math.min((u / infiniteShare).toInt, infinite.length - 1))
-    else if finite.isEmpty then -1
-    else descend(p, n, Math.min((u - inInfinite) / (1f - inInfinite), OneMinusEpsilon))
+      out.light = infinite(Math.min((u / infiniteShare).toInt, infinite.length - 1))
+    else if finite.isEmpty then out.light = -1
+    else descend(p, n, Math.min((u - inInfinite) / (1f - inInfinite), OneMinusEpsilon), out)
 
-  private def descend(p: Vec3, n: Vec3, u0: Float): Int =
+  private def descend(p: Vec3, n: Vec3, u0: Float, out: LightChoice): Unit =
     var u = u0
     var node = 0
-    if nodes(0).importance(p, n) <= 0f && children(0) < 0 then -1
+    if children(0) < 0 && nodes(0).importance(p, n) <= 0f then out.light = -1
     else
+      var probability = out.probability
       while node >= 0 && children(node) >= 0 do
         val second = children(node)
         val a = nodes(node + 1).importance(p, n)
@@ -93,11 +112,14 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
           val pa = a / (a + b)
           if u < pa then
             u = Math.min(u / pa, OneMinusEpsilon)
+            probability *= pa
             node += 1
           else
             u = Math.min((u - pa) / (1f - pa), OneMinusEpsilon)
+            probability *= b / (a + b)
             node = second
-      if node < 0 then -1 else ~children(node)
+      out.light = if node < 0 then -1 else ~children(node)
+      out.probability = if node < 0 then 0f else probability
 
   def probability(p: Vec3, n: Vec3, light: Int): Float =
     if lights(light).bounds.isEmpty then (if lights(light).isSampled then infiniteShare else 0f)

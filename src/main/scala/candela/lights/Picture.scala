@@ -21,7 +21,9 @@ enum PictureLookup:
   * @param image red, green, blue, linear
   */
 final class Picture(image: Image, lookup: PictureLookup):
-  private val (width, height, data) = (image.width, image.height, image.data)
+  private val width = image.width
+  private val height = image.height
+  private val data = image.data
 
   val aspect: Float = width.toFloat / height
 
@@ -31,12 +33,20 @@ final class Picture(image: Image, lookup: PictureLookup):
         pixel(clamp((x * width).toInt, 0, width - 1), clamp((y * height).toInt, 0, height - 1))
       Rgb(data(i), data(i + 1), data(i + 2))
     else
-      val (fx, fy) = (x * width - 0.5f, y * height - 0.5f)
-      val (i, j) = (Math.floor(fx).toInt, Math.floor(fy).toInt)
-      val (tx, ty) = (fx - i, fy - j)
-      val (x0, x1) = (wrapped(i, width), wrapped(i + 1, width))
-      val (y0, y1) = (wrapped(j, height), wrapped(j + 1, height))
-      val (a, b, c, d) = (pixel(x0, y0), pixel(x1, y0), pixel(x0, y1), pixel(x1, y1))
+      val fx = x * width - 0.5f
+      val fy = y * height - 0.5f
+      val i = Math.floor(fx).toInt
+      val j = Math.floor(fy).toInt
+      val tx = fx - i
+      val ty = fy - j
+      val x0 = wrapped(i, width)
+      val x1 = wrapped(i + 1, width)
+      val y0 = wrapped(j, height)
+      val y1 = wrapped(j + 1, height)
+      val a = pixel(x0, y0)
+      val b = pixel(x1, y0)
+      val c = pixel(x0, y1)
+      val d = pixel(x1, y1)
       def mix(k: Int): Float =
         lerp(ty, lerp(tx, data(a + k), data(b + k)), lerp(tx, data(c + k), data(d + k)))
       Rgb(mix(0), mix(1), mix(2))

@@ -27,7 +27,8 @@ final class PortalEnvironment(
     opposite: Vec3,
     window: Frame
 ) extends EnvironmentLight:
-  private val (width, height) = (image.width, image.height)
+  private val width = image.width
+  private val height = image.height
 
   /** As seen through the window: one colour a pixel. */
   private val rectified: Picture =
@@ -42,7 +43,8 @@ final class PortalEnvironment(
 
   private val distribution: WindowedDistribution2D =
     val weights = Array.tabulate(width * height): i =>
-      val (x, y) = ((i % width + 0.5f) / width, (i / width + 0.5f) / height)
+      val x = (i % width + 0.5f) / width
+      val y = (i / width + 0.5f) / height
       rectified(x, y).average / density(window.toLocal(direction(x, y)))
     WindowedDistribution2D(weights, width, height)
 
@@ -75,15 +77,18 @@ final class PortalEnvironment(
     val b = window.toLocal(opposite - from)
     if !(a.z > 0f && b.z > 0f) then none
     else
-      val (ax, ay) = (place(a.x, a.z), place(a.y, a.z))
-      val (bx, by) = (place(b.x, b.z), place(b.y, b.z))
+      val ax = place(a.x, a.z)
+      val ay = place(a.y, a.z)
+      val bx = place(b.x, b.z)
+      val by = place(b.y, b.z)
       use(Math.min(ax, bx), Math.min(ay, by), Math.max(ax, bx), Math.max(ay, by))
 
   def radiance(from: Vec3, d: Vec3): Rgb =
     val w = window.toLocal(d)
     if w.z <= 0f then Rgb.Black
     else
-      val (x, y) = (place(w.x, w.z), place(w.y, w.z))
+      val x = place(w.x, w.z)
+      val y = place(w.y, w.z)
       seen(from, Rgb.Black): (x0, y0, x1, y1) =>
         if x < x0 || x > x1 || y < y0 || y > y1 then Rgb.Black else rectified(x, y)
 
@@ -91,7 +96,8 @@ final class PortalEnvironment(
     val w = window.toLocal(d)
     if w.z <= 0f then 0f
     else
-      val (x, y) = (place(w.x, w.z), place(w.y, w.z))
+      val x = place(w.x, w.z)
+      val y = place(w.y, w.z)
       seen(from, 0f): (x0, y0, x1, y1) =>
         distribution.pdf(x, y, x0, y0, x1, y1) * density(w)
 

@@ -40,7 +40,8 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
     val fy = place.y * height - 0.5f
     val x = Math.floor(fx).toInt
     val y = Math.floor(fy).toInt
-    val (tx, ty) = (fx - x, fy - y)
+    val tx = fx - x
+    val ty = fy - y
     val a = pixel(x, y)
     val b = pixel(x + 1, y)
     val c = pixel(x, y + 1)
@@ -67,7 +68,8 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
     else
       var sum = 0f
       loop(9): k =>
-        val (i, j) = (k % 3 - 1, k / 3 - 1)
+        val i = k % 3 - 1
+        val j = k / 3 - 1
         sum += SphereImage.Tent(k) * brightness(pixel(x + i, y + j))
       sum
 
@@ -75,7 +77,8 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
 
   /** Of the largest component, over all directions. */
   def meanOfMax: Float =
-    var (sum, weights) = (0.0, 0.0)
+    var sum = 0.0
+    var weights = 0.0
     loop(height): y =>
       val share = layout.stretch((y + 0.5f) / height)
       loop(width): x =>

@@ -28,7 +28,8 @@ object LatLongMap extends SphereMap:
     Vec3(clamp((if phi < 0f then phi + TwoPi else phi) * InvTwoPi, 0f, 1f), theta * InvPi, 0f)
 
   def toDirection(x: Float, y: Float): Vec3 =
-    val (phi, theta) = (x * TwoPi, y * Pi)
+    val phi = x * TwoPi
+    val theta = y * Pi
     val s = sin(theta)
     Vec3(s * cos(phi), s * sin(phi), cos(theta))
 
@@ -45,10 +46,13 @@ object LatLongMap extends SphereMap:
   */
 object EqualAreaMap extends SphereMap:
   def toImage(d: Vec3): Vec3 =
-    val (ax, ay, az) = (Math.abs(d.x), Math.abs(d.y), Math.abs(d.z))
+    val ax = Math.abs(d.x)
+    val ay = Math.abs(d.y)
+    val az = Math.abs(d.z)
     val r = safeSqrt(1f - az)
     // Of the first octant, in [0, 1]
-    val (longer, shorter) = if ax >= ay then (ax, ay) else (ay, ax)
+    val longer = if ax >= ay then ax else ay
+    val shorter = if ax >= ay then ay else ax
     val half = if longer == 0f then 0f else arcTangent(shorter / longer) * (2f * InvPi)
     val phi = if ax >= ay then half else 1f - half
     val v0 = phi * r
@@ -67,8 +71,10 @@ object EqualAreaMap extends SphereMap:
       0.3333314528f) * z + 1f)
 
   def toDirection(x: Float, y: Float): Vec3 =
-    val (u, v) = (2f * x - 1f, 2f * y - 1f)
-    val (au, av) = (Math.abs(u), Math.abs(v))
+    val u = 2f * x - 1f
+    val v = 2f * y - 1f
+    val au = Math.abs(u)
+    val av = Math.abs(v)
     val signed = 1f - (au + av)
     val r = 1f - Math.abs(signed)
     val phi = (if r == 0f then 1f else (av - au) / r + 1f) * (Pi / 4f)

@@ -33,7 +33,8 @@ object CatmullRom:
       val t = (x - nodes(i)) / width
       val t2 = t * t
       val t3 = t2 * t
-      val (slope0, slope1) = (t3 - 2f * t2 + t, t3 - t2)
+      val slope0 = t3 - 2f * t2 + t
+      val slope1 = t3 - t2
       to(1) = 2f * t3 - 3f * t2 + 1f
       to(2) = 3f * t2 - 2f * t3
       if i > 0 then

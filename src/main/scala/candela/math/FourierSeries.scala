@@ -34,8 +34,10 @@ object FourierSeries:
       if !(phi >= low && phi <= high) then phi = 0.5 * (low + high)
       // The integral from 0 on, and the value
       val twice = 2 * Math.cos(phi)
-      var (sinBefore, sin) = (0.0, Math.sin(phi))
-      var (cosBefore, cos) = (1.0, Math.cos(phi))
+      var sinBefore = 0.0
+      var sin = Math.sin(phi)
+      var cosBefore = 1.0
+      var cos = Math.cos(phi)
       var integral = a(0) * phi
       var density = a(0).toDouble
       var k = 1

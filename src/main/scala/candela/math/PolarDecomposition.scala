@@ -45,8 +45,12 @@ private[math] object PolarDecomposition:
 
   private def cofactors(m: Array[Double]): Array[Double] =
     Array.tabulate(9): i =>
-      val (r, c) = (i / 3, i % 3)
-      val (r1, r2, c1, c2) = ((r + 1) % 3, (r + 2) % 3, (c + 1) % 3, (c + 2) % 3)
+      val r = i / 3
+      val c = i % 3
+      val r1 = (r + 1) % 3
+      val r2 = (r + 2) % 3
+      val c1 = (c + 1) % 3
+      val c2 = (c + 2) % 3
       m(3 * r1 + c1) * m(3 * r2 + c2) - m(3 * r1 + c2) * m(3 * r2 + c1)
 
   private def determinant(m: Array[Double]): Double =
@@ -76,7 +80,8 @@ private[math] object PolarDecomposition:
       )
     else
       val i = (0 until 3).maxBy(d => r(4 * d))
-      val (j, k) = ((i + 1) % 3, (i + 2) % 3)
+      val j = (i + 1) % 3
+      val k = (i + 2) % 3
       val s = Math.sqrt(r(4 * i) - r(4 * j) - r(4 * k) + 1)
       val f = 0.5 / s
       val v = new Array[Double](3)

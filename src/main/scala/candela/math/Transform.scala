@@ -15,7 +15,9 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
     Transform(Transform.product(m, b.m), Transform.product(b.inverseM, inverseM))
 
   def point(p: Vec3): Vec3 =
-    val (x, y, z) = (p.x.toDouble, p.y.toDouble, p.z.toDouble)
+    val x = p.x.toDouble
+    val y = p.y.toDouble
+    val z = p.z.toDouble
     val w = m(12) * x + m(13) * y + m(14) * z + m(15)
     Vec3(
       ((m(0) * x + m(1) * y + m(2) * z + m(3)) / w).toFloat,
@@ -24,7 +26,9 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
     )
 
   def vector(v: Vec3): Vec3 =
-    val (x, y, z) = (v.x.toDouble, v.y.toDouble, v.z.toDouble)
+    val x = v.x.toDouble
+    val y = v.y.toDouble
+    val z = v.z.toDouble
     Vec3(
       (m(0) * x + m(1) * y + m(2) * z).toFloat,
       (m(4) * x + m(5) * y + m(6) * z).toFloat,
@@ -33,7 +37,9 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
 
   /** Surface normals go by the transposed inverse; the result has no particular length. */
   def normal(n: Vec3): Vec3 =
-    val (x, y, z) = (n.x.toDouble, n.y.toDouble, n.z.toDouble)
+    val x = n.x.toDouble
+    val y = n.y.toDouble
+    val z = n.z.toDouble
     Vec3(
       (inverseM(0) * x + inverseM(4) * y + inverseM(8) * z).toFloat,
       (inverseM(1) * x + inverseM(5) * y + inverseM(9) * z).toFloat,
@@ -117,7 +123,9 @@ object Transform:
   def rotate(degrees: Double, x: Double, y: Double, z: Double): Option[Transform] =
     val length = Math.sqrt(x * x + y * y + z * z)
     Option.when(length > 0):
-      val (ax, ay, az) = (x / length, y / length, z / length)
+      val ax = x / length
+      val ay = y / length
+      val az = z / length
       val s = Math.sin(Math.toRadians(degrees))
       val c = Math.cos(Math.toRadians(degrees))
       val k = 1 - c
@@ -195,7 +203,8 @@ object Transform:
 
   private def product(a: IArray[Double], b: IArray[Double]): IArray[Double] =
     IArray.tabulate(16): i =>
-      val (r, c) = (i / 4 * 4, i % 4)
+      val r = i / 4 * 4
+      val c = i % 4
       a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
 
   /** Gauss–Jordan with row pivoting. Beside each number runs a bound of its rounding error, that of

@@ -26,7 +26,9 @@ final class Vec3(val x: Float, val y: Float, val z: Float):
     * underflow.
     */
   def normalized: Vec3 =
-    val (dx, dy, dz) = (x.toDouble, y.toDouble, z.toDouble)
+    val dx = x.toDouble
+    val dy = y.toDouble
+    val dz = z.toDouble
     val s = 1.0 / Math.sqrt(dx * dx + dy * dy + dz * dz)
     Vec3((dx * s).toFloat, (dy * s).toFloat, (dz * s).toFloat)
 

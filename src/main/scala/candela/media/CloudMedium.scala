@@ -52,7 +52,9 @@ final class CloudMedium(
       var octave = 10f
       var i = 0
       while i < 2 do
-        val (ax, ay, az) = (octave * x, octave * y, octave * z)
+        val ax = octave * x
+        val ay = octave * y
+        val az = octave * z
         val here = PerlinNoise(ax, ay, az)
         val scale = shift / CloudMedium.Step
         x += scale * (PerlinNoise(ax + CloudMedium.Step, ay, az) - here)

@@ -54,7 +54,8 @@ final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid
       y1: Float,
       z1: Float
   ): Float =
-    val (mr, mg) = (r.most(x0, y0, z0, x1, y1, z1), g.most(x0, y0, z0, x1, y1, z1))
+    val mr = r.most(x0, y0, z0, x1, y1, z1)
+    val mg = g.most(x0, y0, z0, x1, y1, z1)
     Math.max(Math.max(mr, mg), b.most(x0, y0, z0, x1, y1, z1))
 
 /** Grids of coefficients; what is not given as a grid is the same all over the box.

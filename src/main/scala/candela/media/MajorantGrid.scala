@@ -24,10 +24,14 @@ object MajorantGrid:
   def of(nx: Int, ny: Int, nz: Int)(
       most: (Float, Float, Float, Float, Float, Float) => Float
   ): MajorantGrid =
-    val (cx, cy, cz) = (Math.min(nx, Finest), Math.min(ny, Finest), Math.min(nz, Finest))
+    val cx = Math.min(nx, Finest)
+    val cy = Math.min(ny, Finest)
+    val cz = Math.min(nz, Finest)
     val values = new Array[Float](cx * cy * cz)
     loop(values.length): i =>
-      val (x, y, z) = (i % cx, i / cx % cy, i / (cx * cy))
+      val x = i % cx
+      val y = i / cx % cy
+      val z = i / (cx * cy)
       values(i) = most(
         x.toFloat / cx,
         y.toFloat / cy,

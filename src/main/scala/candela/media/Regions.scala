@@ -52,7 +52,8 @@ final class Regions(all: Array[Region]):
           if region.isUniform then (out.overlap.end - out.overlap.begin) * unit
           else
             var sum = 0f
-            val (begin, end) = (out.overlap.begin * unit, out.overlap.end * unit)
+            val begin = out.overlap.begin * unit
+            val end = out.overlap.end * unit
             val length = Math.max(step, (end - begin) / Regions.MostSteps)
             var t = begin + offset * length
             while t < end do

@@ -38,7 +38,8 @@ final class SceneMedia(
     * through `current`.
     */
   def beyond(at: ShadingPoint, w: Vec3, current: Int): Int =
-    val (in, out) = (inside(at.material), outside(at.material))
+    val in = inside(at.material)
+    val out = outside(at.material)
     if in == out then current else if (w dot at.geometricNormal) > 0f then out else in
 
   /** For the plan. */

@@ -19,8 +19,8 @@ final class SphericalTriangle:
   private var sinAlpha, cosAlpha = 0.0 // of the angle at a
   private var area = 0.0
 
-  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`. */
-  def set(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Unit =
+  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`; answers its [[solidAngle]]. */
+  def set(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
     ax = p0.x.toDouble - from.x
     ay = p0.y.toDouble - from.y
     az = p0.z.toDouble - from.z
@@ -44,8 +44,12 @@ final class SphericalTriangle:
     cz *= c
     cosAB = ax * bx + ay * by + az * bz
     // The angle at a is the one between the planes through (a, b) and (a, c).
-    val (abX, abY, abZ) = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
-    val (acX, acY, acZ) = (ay * cz - az * cy, az * cx - ax * cz, ax * cy - ay * cx)
+    val abX = ay * bz - az * by
+    val abY = az * bx - ax * bz
+    val abZ = ax * by - ay * bx
+    val acX = ay * cz - az * cy
+    val acY = az * cx - ax * cz
+    val acZ = ax * cy - ay * cx
     val scale = 1 / (length(abX, abY, abZ) * length(acX, acY, acZ))
     val triple = Math.abs(abX * cx + abY * cy + abZ * cz)
     sinAlpha = triple * scale
@@ -54,6 +58,7 @@ final class SphericalTriangle:
       triple,
       1 + cosAB + (bx * cx + by * cy + bz * cz) + (cx * ax + cy * ay + cz * az)
     )
+    area
 
   /** In sr, 0 to 2π; NaN where the eye is at a corner. */
   def solidAngle: Double = area
@@ -68,13 +73,19 @@ final class SphericalTriangle:
     val v = s + sinAlpha * cosAB
     val q = clamped(((v * t - u * s) * cosAlpha - v) / ((v * s + u * t) * sinAlpha))
     val cosAC = ax * cx + ay * cy + az * cz
-    val (ex, ey, ez) = (cx - ax * cosAC, cy - ay * cosAC, cz - az * cosAC)
+    val ex = cx - ax * cosAC
+    val ey = cy - ay * cosAC
+    val ez = cz - az * cosAC
     val up = sine(q) / positive(length(ex, ey, ez))
-    val (mx, my, mz) = (ax * q + ex * up, ay * q + ey * up, az * q + ez * up)
+    val mx = ax * q + ex * up
+    val my = ay * q + ey * up
+    val mz = az * q + ez * up
     // Then from b along the arc to the moved corner, uniformly in the height over b.
     val cosBM = bx * mx + by * my + bz * mz
     val w = 1 - u2 * (1 - cosBM)
-    val (fx, fy, fz) = (mx - bx * cosBM, my - by * cosBM, mz - bz * cosBM)
+    val fx = mx - bx * cosBM
+    val fy = my - by * cosBM
+    val fz = mz - bz * cosBM
     val on = sine(w) / positive(length(fx, fy, fz))
     Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
 
@@ -89,12 +100,15 @@ object SphericalTriangle:
     * sample it.
     */
   def solidAngle(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
-    val (ax, ay, az) =
-      (p0.x.toDouble - from.x, p0.y.toDouble - from.y, p0.z.toDouble - from.z)
-    val (bx, by, bz) =
-      (p1.x.toDouble - from.x, p1.y.toDouble - from.y, p1.z.toDouble - from.z)
-    val (cx, cy, cz) =
-      (p2.x.toDouble - from.x, p2.y.toDouble - from.y, p2.z.toDouble - from.z)
+    val ax = p0.x.toDouble - from.x
+    val ay = p0.y.toDouble - from.y
+    val az = p0.z.toDouble - from.z
+    val bx = p1.x.toDouble - from.x
+    val by = p1.y.toDouble - from.y
+    val bz = p1.z.toDouble - from.z
+    val cx = p2.x.toDouble - from.x
+    val cy = p2.y.toDouble - from.y
+    val cz = p2.z.toDouble - from.z
     val a = Math.sqrt(ax * ax + ay * ay + az * az)
     val b = Math.sqrt(bx * bx + by * by + bz * bz)
     val c = Math.sqrt(cx * cx + cy * cy + cz * cz)

@@ -88,9 +88,12 @@ final class WarpTable(
 
     /** The function, or density, at a point of the square. */
     def apply(px: Float, py: Float, channel: Int = 0): Float =
-      val (gx, gy) = (px * (width - 1).toFloat, py * (height - 1).toFloat)
-      val (cx, cy) = (clamp(gx.toInt, 0, width - 2), clamp(gy.toInt, 0, height - 2))
-      val (fx, fy) = (gx - cx.toFloat, gy - cy.toFloat)
+      val gx = px * (width - 1).toFloat
+      val gy = py * (height - 1).toFloat
+      val cx = clamp(gx.toInt, 0, width - 2)
+      val cy = clamp(gy.toInt, 0, height - 2)
+      val fx = gx - cx.toFloat
+      val fy = gy - cy.toFloat
       val at = cx + cy * width
       lerp(
         fy,
@@ -103,7 +106,8 @@ final class WarpTable(
     /** Sets x and y to where an even point goes. */
     def sample(u1: Float, u2: Float): Unit =
       val row = WarpTable.find(height)(r => blended(down, height, r) < u2)
-      val (r0, r1) = (rowSum(row), rowSum(row + 1))
+      val r0 = rowSum(row)
+      val r1 = rowSum(row + 1)
       val fy = WarpTable.invert(r0, r1, u2 - blended(down, height, row))
       val target = u1 * lerp(fy, r0, r1)
       def sum(column: Int) = lerp(
@@ -121,19 +125,24 @@ final class WarpTable(
 
     /** Sets x and y to the even point that goes to this one. */
     def invert(px: Float, py: Float): Unit =
-      val (gx, gy) = (px * (width - 1).toFloat, py * (height - 1).toFloat)
-      val (column, row) = (clamp(gx.toInt, 0, width - 2), clamp(gy.toInt, 0, height - 2))
-      val (fx, fy) = (gx - column.toFloat, gy - row.toFloat)
+      val gx = px * (width - 1).toFloat
+      val gy = py * (height - 1).toFloat
+      val column = clamp(gx.toInt, 0, width - 2)
+      val row = clamp(gy.toInt, 0, height - 2)
+      val fx = gx - column.toFloat
+      val fy = gy - row.toFloat
       val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
       def edge(c: Int) = scale *
         lerp(fy, value(0, row * width + c), value(0, (row + 1) * width + c))
-      val (c0, c1) = (edge(column), edge(column + 1))
+      val c0 = edge(column)
+      val c1 = edge(column + 1)
       val before = lerp(
         fy,
         blended(along, size, row * width + column),
         blended(along, size, (row + 1) * width + column)
       )
-      val (r0, r1) = (rowSum(row), rowSum(row + 1))
+      val r0 = rowSum(row)
+      val r1 = rowSum(row + 1)
       val whole = lerp(fy, r0, r1)
       x = if whole > 0f then (before + fx * (c0 + 0.5f * fx * (c1 - c0))) / whole else fx
       y = blended(down, height, row) + fy * (r0 + 0.5f * fy * (r1 - r0))

@@ -28,9 +28,12 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
 
   /** ∫ over [0, x] × [0, y]. */
   private def upTo(x: Double, y: Double): Double =
-    val (cx, cy) = (x * columns, y * rows)
-    val (i, j) = (Math.min(cx.toInt, columns - 1), Math.min(cy.toInt, rows - 1))
-    val (tx, ty) = (cx - i, cy - j)
+    val cx = x * columns
+    val cy = y * rows
+    val i = Math.min(cx.toInt, columns - 1)
+    val j = Math.min(cy.toInt, rows - 1)
+    val tx = cx - i
+    val ty = cy - j
     val at = j * (columns + 1) + i
     val top = sums(at) * (1 - tx) + sums(at + 1) * tx
     val bottom = sums(at + columns + 1) * (1 - tx) + sums(at + columns + 2) * tx
@@ -50,10 +53,12 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
     val all = integral(x0, y0, x1, y1)
     if !(all > 0) then Vec3.Zero
     else
-      val (top, bottom) = (y0.toDouble, y1.toDouble)
+      val top = y0.toDouble
+      val bottom = y1.toDouble
       val x = place(u1 * all, x0.toDouble, x1.toDouble, columns)(over(x0.toDouble, top, _, bottom))
       val column = Math.min((x * columns).toInt, columns - 1).toDouble
-      val (left, right) = (column / columns, (column + 1) / columns)
+      val left = column / columns
+      val right = (column + 1) / columns
       val within = over(left, top, right, bottom)
       if !(within > 0) then Vec3.Zero
       else
@@ -72,9 +77,10 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
     while last - first > 1 do
       val middle = (first + last) >>> 1
       if sum(middle.toDouble / cells) <= target then first = middle else last = middle
-    val (a, b) =
-      (Math.max(low, first.toDouble / cells), Math.min(high, last.toDouble / cells))
-    val (sumA, sumB) = (sum(a), sum(b))
+    val a = Math.max(low, first.toDouble / cells)
+    val b = Math.min(high, last.toDouble / cells)
+    val sumA = sum(a)
+    val sumB = sum(b)
     val t = if sumB > sumA then (target - sumA) / (sumB - sumA) else 0.5
     Math.max(a, Math.min(b, a + t * (b - a)))
 

@@ -53,7 +53,9 @@ object BezierCurve:
     def blossom(a: Double, b: Double, c: Double, k: Int): Double =
       def at(i: Int) = points(3 * i + k)
       def along(t: Double, p: Double, q: Double) = p + t * (q - p)
-      val (ab, bc, cd) = (along(a, at(0), at(1)), along(a, at(1), at(2)), along(a, at(2), at(3)))
+      val ab = along(a, at(0), at(1))
+      val bc = along(a, at(1), at(2))
+      val cd = along(a, at(2), at(3))
       along(c, along(b, ab, bc), along(b, bc, cd))
     val out = new Array[Double](12)
     loop(3): k =>

@@ -33,8 +33,10 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
       at.u = blend(t, 2, 0, u, v)
       at.v = blend(t, 2, 1, u, v)
       // By the chain rule, with the inverse of ∂(s, t)/∂(u, v)
-      val (su, sv) = (alongU(t, 2, 0, v), alongV(t, 2, 0, u))
-      val (tu, tv) = (alongU(t, 2, 1, v), alongV(t, 2, 1, u))
+      val su = alongU(t, 2, 0, v)
+      val sv = alongV(t, 2, 0, u)
+      val tu = alongU(t, 2, 1, v)
+      val tv = alongV(t, 2, 1, u)
       val determinant = differenceOfProducts(su, tv, sv, tu)
       val isSpanned = Math.abs(determinant) > 1e-8f
       val dpds = if isSpanned then (pu * tv - pv * tu) * Math.signum(determinant) else pu
@@ -56,7 +58,8 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
       dvdt: Float,
       at: ShadingPoint
   ): Unit =
-    val (pu, pv) = (p.alongU(v), p.alongV(u))
+    val pu = p.alongU(v)
+    val pv = p.alongV(u)
     val dpds = pu * duds + pv * dvds
     val dpdt = pu * dudt + pv * dvdt
     val a = mesh.normals
@@ -67,7 +70,8 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
     val nu = if isFacet then (pu cross p.twist) * side else triple(alongU(a, 3, _, v))
     val nv = if isFacet then (p.twist cross pv) * side else triple(alongV(a, 3, _, u))
     if n.lengthSquared > 0f then
-      val (tu, tv) = (ShadingPoint.turn(n, nu), ShadingPoint.turn(n, nv))
+      val tu = ShadingPoint.turn(n, nu)
+      val tv = ShadingPoint.turn(n, nv)
       at.setPartials(dpds, dpdt, tu * duds + tv * dvds, tu * dudt + tv * dvdt)
     else at.setPartials(dpds, dpdt, Vec3.Zero, Vec3.Zero)
     if !isFacet then
@@ -174,7 +178,8 @@ object BilinearPatch:
 
     /** Bound of the error of a point on the patch. */
     def error(p: Vec3): Vec3 =
-      val (a, b) = (TriangleSoup.error(p, p00, p10, p01), TriangleSoup.error(p, p01, p10, p11))
+      val a = TriangleSoup.error(p, p00, p10, p01)
+      val b = TriangleSoup.error(p, p01, p10, p11)
       Vec3(Math.max(a.x, b.x), Math.max(a.y, b.y), Math.max(a.z, b.z))
 
     /** ∂²p/∂u∂v */

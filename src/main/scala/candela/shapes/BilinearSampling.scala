@@ -43,18 +43,24 @@ private[shapes] final class BilinearSampling(corners: BilinearPatch.Corners):
 
   /** The density per area with which `sample` returns the point p. */
   def perArea(p: Vec3): Float =
-    var (u, v) = (0.5, 0.5)
+    var u = 0.5
+    var v = 0.5
     // Newton's method on the two equations (p(u, v) − p) · ∂p/∂u = 0 and · ∂p/∂v = 0, less the
     // second derivatives: p is on the patch, so it converges like Newton's
     var steps = 12
     while steps > 0 do
-      val (uf, vf) = (u.toFloat, v.toFloat)
-      val (pu, pv) = (alongU(vf), alongV(uf))
+      val uf = u.toFloat
+      val vf = v.toFloat
+      val pu = alongU(vf)
+      val pv = alongV(uf)
       val d = p - point(uf, vf)
-      val (e, f, g) = (pu dot pu, pu dot pv, pv dot pv)
+      val e = pu dot pu
+      val f = pu dot pv
+      val g = pv dot pv
       val determinant = e.toDouble * g - f.toDouble * f
       if determinant > 0 then
-        val (a, b) = ((d dot pu).toDouble, (d dot pv).toDouble)
+        val a = (d dot pu).toDouble
+        val b = (d dot pv).toDouble
         u = Math.max(0.0, Math.min(1.0, u + (g * a - f * b) / determinant))
         v = Math.max(0.0, Math.min(1.0, v + (e * b - f * a) / determinant))
       steps -= 1

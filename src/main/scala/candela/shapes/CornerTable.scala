@@ -90,7 +90,8 @@ private[shapes] object CornerTable:
 
   /** Two faces run along an edge the same way: is there a third, or is one of the two turned? */
   private def badEdge(vertices: Array[Int], corner: Int, other: Int): MeshError =
-    val (from, to) = (vertices(corner), vertices(next(corner)))
+    val from = vertices(corner)
+    val to = vertices(next(corner))
     val faces = (0 until vertices.length / 3).filter: f =>
       val face = vertices.slice(3 * f, 3 * f + 3)
       face.contains(from) && face.contains(to)

@@ -30,7 +30,8 @@ final class CurveBuilder(
   def add(curve: BezierCurve, splitDepth: Int, toWorld: Option[Transform], scale: Float): Unit =
     val n = 1 << splitDepth
     loop(n): i =>
-      val (u0, u1) = (i.toFloat / n, (i + 1).toFloat / n)
+      val u0 = i.toFloat / n
+      val u1 = (i + 1).toFloat / n
       val part = BezierCurve.part(curve.points, u0, u1)
       loop(4)(k => addPoint(part, 3 * k, toWorld))
       params += u0

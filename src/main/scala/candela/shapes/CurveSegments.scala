@@ -71,11 +71,15 @@ final class CurveSegments(
     var dz = ray.dz.toDouble
     if !inWorld then
       val m = toObject
-      val (px, py, pz) = (ox, oy, oz)
+      val px = ox
+      val py = oy
+      val pz = oz
       ox = m(0) * px + m(1) * py + m(2) * pz + m(3)
       oy = m(4) * px + m(5) * py + m(6) * pz + m(7)
       oz = m(8) * px + m(9) * py + m(10) * pz + m(11)
-      val (ex, ey, ez) = (dx, dy, dz)
+      val ex = dx
+      val ey = dy
+      val ez = dz
       dx = m(0) * ex + m(1) * ey + m(2) * ez
       dy = m(4) * ex + m(5) * ey + m(6) * ez
       dz = m(8) * ex + m(9) * ey + m(10) * ez

@@ -75,7 +75,9 @@ final class Disk(
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val m = toObject
     val t = Quadric.refined(plane(ray), ray.tMax)
-    val (wx, wy, wz) = (ray.ox + t * ray.dx, ray.oy + t * ray.dy, ray.oz + t * ray.dz)
+    val wx = ray.ox + t * ray.dx
+    val wy = ray.oy + t * ray.dy
+    val wz = ray.oz + t * ray.dz
     val x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
     val y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
     // Put back into the plane: the point is exact but for the rounding of the way to world space

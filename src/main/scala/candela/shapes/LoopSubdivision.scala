@@ -140,12 +140,14 @@ object LoopSubdivision:
       val behind = previous(corner)
       val middle = child(corner, 3)
       val own = child(corner, corner % 3)
-      val (ahead, back) = (turned(own, corner, next(corner)), turned(own, corner, behind))
+      val ahead = turned(own, corner, next(corner))
+      val back = turned(own, corner, behind)
       vertices(own) = table.vertices(corner)
       vertices(ahead) = odd(corner)
       vertices(back) = odd(behind)
       vertices(middle) = odd(corner)
-      val (twin, twinBehind) = (table.twins(corner), table.twins(behind))
+      val twin = table.twins(corner)
+      val twinBehind = table.twins(behind)
       twins(own) = if twin < 0 then -1
       else
         val there = next(twin) // the same vertex, in the neighbour

@@ -22,7 +22,9 @@ private[shapes] object MeshInput:
     positions.indices.find(i => !java.lang.Float.isFinite(positions(i))).foreach: i =>
       fail(s"a coordinate of vertex ${i / 3} is ${positions(i)}")
     loop(indices.length / 3): f =>
-      val (a, b, c) = (indices(3 * f), indices(3 * f + 1), indices(3 * f + 2))
+      val a = indices(3 * f)
+      val b = indices(3 * f + 1)
+      val c = indices(3 * f + 2)
       if a == b || b == c || c == a then
         fail(s"face $f uses a vertex twice: $a, $b, $c")
 

@@ -60,7 +60,8 @@ final class Nurbs(u: KnotVector, v: KnotVector, points: Array[Double]):
   def at(s: Double, t: Double): Array[Double] =
     val (wu, du) = u.weights(s)
     val (wv, dv) = v.weights(t)
-    val (i0, j0) = (u.first(s), v.first(t))
+    val i0 = u.first(s)
+    val j0 = v.first(t)
     val p, pu, pv = new Array[Double](4)
     loop(v.order): j =>
       loop(u.order): i =>

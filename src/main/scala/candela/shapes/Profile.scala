@@ -88,9 +88,14 @@ object Profile:
     */
   def hyperboloid(a: Vec3, b: Vec3): Option[Profile] =
     val (p1, p2) = if b.z == 0f then (b, a) else (a, b)
-    val (x, y, z) = (p1.x.toDouble, p1.y.toDouble, p1.z.toDouble)
-    val (dx, dy, dz) = (p2.x - x, p2.y - y, p2.z - z)
-    val (z2, s2) = (p2.z.toDouble * p2.z, p2.x.toDouble * p2.x + p2.y.toDouble * p2.y)
+    val x = p1.x.toDouble
+    val y = p1.y.toDouble
+    val z = p1.z.toDouble
+    val dx = p2.x - x
+    val dy = p2.y - y
+    val dz = p2.z - z
+    val z2 = p2.z.toDouble * p2.z
+    val s2 = p2.x.toDouble * p2.x + p2.y.toDouble * p2.y
     val other = Seq(2, 4)
       .map(k => (square(z + k * dz), square(x + k * dx) + square(y + k * dy)))
       .find((zz, _) => Math.abs(zz - z2) > 1e-6 * z2)

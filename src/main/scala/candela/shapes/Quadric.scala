@@ -135,7 +135,8 @@ final class Quadric(
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, -slope.toFloat)) * outside
     def turned(along: Vec3) =
       if n.isZero then Vec3.Zero else ShadingPoint.turn(n, objectToWorld.normal(along) * outside)
-    val (dpdu, dpdv) = (objectToWorld.vector(alongU), objectToWorld.vector(alongV))
+    val dpdu = objectToWorld.vector(alongU)
+    val dpdv = objectToWorld.vector(alongV)
     at.setPartials(dpdu, dpdv, turned(alongU), turned(bend))
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)

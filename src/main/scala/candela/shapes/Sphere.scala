@@ -64,13 +64,16 @@ final class Sphere(
     // r² − |o − (b/a) d|² does not cancel far from a small sphere, as b² − ac does (Haines et al.,
     // "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019)
     val s = b / a
-    val (nx, ny, nz) = (ox - s * dx, oy - s * dy, oz - s * dz)
+    val nx = ox - s * dx
+    val ny = oy - s * dy
+    val nz = oz - s * dz
     val discriminant = a * (r2 - (nx * nx + ny * ny + nz * nz))
     if !(discriminant >= 0.0) then -1.0
     else
       val root = Math.sqrt(discriminant)
       val q = -(b + (if b < 0.0 then -root else root))
-      val (t0, t1) = if b < 0.0 then (c / q, q / a) else (q / a, c / q)
+      val t0 = if b < 0.0 then c / q else q / a
+      val t1 = if b < 0.0 then q / a else c / q
       if t0 > 0.0 && isKept(ox + t0 * dx, oy + t0 * dy, oz + t0 * dz) then t0
       else if t1 > 0.0 && isKept(ox + t1 * dx, oy + t1 * dy, oz + t1 * dz) then t1
       else -1.0
@@ -82,12 +85,16 @@ final class Sphere(
     // Once more in Double: from a million radii away the Float t is a twentieth of one off
     val m = toObject
     val t = Quadric.refined(nearest(ray), ray.tMax)
-    val (wx, wy, wz) = (ray.ox + t * ray.dx, ray.oy + t * ray.dy, ray.oz + t * ray.dz)
+    val wx = ray.ox + t * ray.dx
+    val wy = ray.oy + t * ray.dy
+    val wz = ray.oz + t * ray.dz
     val px = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
     val py = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
     val pz = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
     val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
-    val (x, y, z) = (px * scale, py * scale, pz * scale)
+    val x = px * scale
+    val y = py * scale
+    val z = pz * scale
     at.p = Quadric.place(toWorld, x, y, z)
     at.pError = TriangleSoup.roundingError(at.p) + doubleError
     val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
@@ -105,7 +112,8 @@ final class Sphere(
     val perV = thetaMax - thetaMin
     val r = Math.sqrt(x * x + y * y)
     // At a pole any direction is as good
-    val (c, s) = if r > 0 then (x / r, y / r) else (1.0, 0.0)
+    val c = if r > 0 then x / r else 1.0
+    val s = if r > 0 then y / r else 0.0
     val alongU = Vec3((-y * perU).toFloat, (x * perU).toFloat, 0f)
     val alongV = Vec3((z * c * perV).toFloat, (z * s * perV).toFloat, (-r * perV).toFloat)
     // The normal of an untransformed sphere is the point itself, over the radius
@@ -139,7 +147,8 @@ final class Sphere(
     val z = zMin + u1.toDouble * (zMax.toDouble - zMin)
     val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
     val phi = u2.toDouble * phiMax
-    val (x, y) = (r * Math.cos(phi), r * Math.sin(phi))
+    val x = r * Math.cos(phi)
+    val y = r * Math.sin(phi)
     out.p = Quadric.place(toWorld, x, y, z)
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))

@@ -17,7 +17,9 @@ object SphereSampling:
   private def oneMinusCos(sin2: Double): Double = sin2 / (1 + Math.sqrt(Math.max(0.0, 1 - sin2)))
 
   private def distanceSquared(a: Vec3, b: Vec3): Double =
-    val (x, y, z) = (a.x.toDouble - b.x, a.y.toDouble - b.y, a.z.toDouble - b.z)
+    val x = a.x.toDouble - b.x
+    val y = a.y.toDouble - b.y
+    val z = a.z.toDouble - b.z
     x * x + y * y + z * z
 
   def cone(

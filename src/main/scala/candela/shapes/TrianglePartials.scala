@@ -22,7 +22,9 @@ private[shapes] object TrianglePartials:
       e2: Vec3,
       at: ShadingPoint
   ): Unit =
-    val (k0, k1, k2) = (i0 - mesh.firstVertex, i1 - mesh.firstVertex, i2 - mesh.firstVertex)
+    val k0 = i0 - mesh.firstVertex
+    val k1 = i1 - mesh.firstVertex
+    val k2 = i2 - mesh.firstVertex
     val t = mesh.uvs
     // Differences of the parameters along the two edges; those without any are (0,0), (1,0), (1,1)
     val isPlain = t.length == 0
@@ -44,7 +46,8 @@ private[shapes] object TrianglePartials:
       else
         // Of the interpolated normal as it is, not of the unit vector made of it: so in pbrt
         val n0 = normal(n, k0)
-        val (d1, d2) = (normal(n, k1) - n0, normal(n, k2) - n0)
+        val d1 = normal(n, k1) - n0
+        val d2 = normal(n, k2) - n0
         val dndu = (d1 * v2 - d2 * v1) * inverse
         val dndv = (d2 * u1 - d1 * u2) * inverse
         at.setPartials(dpdu, dpdv, dndu, dndv)

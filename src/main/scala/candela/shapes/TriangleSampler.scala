@@ -32,10 +32,9 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
+    val angle = out.triangle.set(from, p0, p1, p2)
     out.n = normal
     if isByAngle(angle) then
-      out.triangle.set(from, p0, p1, p2)
       place(from, out.triangle.sample(u1, u2), out)
       out.pdf = (1 / angle).toFloat
     else

@@ -61,35 +61,61 @@ final class TriangleSoup(
     val i2 = indices(3 * triangle + 2)
     val b1 = hit.u.toFloat
     val b2 = hit.v.toFloat
-    val p0 = vertex(triangle, 0)
-    val p1 = vertex(triangle, 1)
-    val p2 = vertex(triangle, 2)
-    at.p = mix(p0, p1, p2, hit.u, hit.v)
-    at.pError = TriangleSoup.error(at.p, p0, p1, p2)
-    val e1 = p1 - p0
-    val e2 = p2 - p0
-    val facet = TriangleSoup.facet(p0, p1, p2)
-    val outside = if mesh.flipped then -facet else facet
+    place(3 * i0, 3 * i1, 3 * i2, hit.u, hit.v, at)
+    val outside = facet(3 * i0, 3 * i1, 3 * i2, if mesh.flipped then -1.0 else 1.0)
     val n =
       if mesh.normals.length == 0 then outside
       else shadingNormal(mesh, i0, i1, i2, b1, b2, outside)
     at.geometricNormal = if mesh.normals.length == 0 then outside else outside.facing(n)
     uv(mesh, i0, i1, i2, b1, b2, at)
-    at.frame =
-      if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
-    if at.wantsPartials then
-      TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
+    if !tangents && !at.wantsPartials then at.frame = Frame.around(n)
+    else
+      val p0 = vertex(triangle, 0)
+      val e1 = vertex(triangle, 1) - p0
+      val e2 = vertex(triangle, 2) - p0
+      at.frame =
+        if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
+      if at.wantsPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
 
-  private def mix(p0: Vec3, p1: Vec3, p2: Vec3, b1: Double, b2: Double): Vec3 =
+  /** The point and the bound of its error; `j0` … are the corners' first coordinates. */
+  private def place(j0: Int, j1: Int, j2: Int, b1: Double, b2: Double, at: ShadingPoint): Unit =
     val b0 = 1.0 - b1 - b2
-    Vec3(
-      (b0 * p0.x + b1 * p1.x + b2 * p2.x).toFloat,
-      (b0 * p0.y + b1 * p1.y + b2 * p2.y).toFloat,
-      (b0 * p0.z + b1 * p1.z + b2 * p2.z).toFloat
+    val p = positions
+    val x = (b0 * p(j0) + b1 * p(j1) + b2 * p(j2)).toFloat
+    val y = (b0 * p(j0 + 1) + b1 * p(j1 + 1) + b2 * p(j2 + 1)).toFloat
+    val z = (b0 * p(j0 + 2) + b1 * p(j1 + 2) + b2 * p(j2 + 2)).toFloat
+    at.p = Vec3(x, y, z)
+    at.pError = Vec3(
+      TriangleSoup.error(x, p(j0), p(j1), p(j2)),
+      TriangleSoup.error(y, p(j0 + 1), p(j1 + 1), p(j2 + 1)),
+      TriangleSoup.error(z, p(j0 + 2), p(j1 + 2), p(j2 + 2))
     )
+
+  /** The unit normal, times `side`; any across the longer side if the triangle has no area. */
+  private def facet(j0: Int, j1: Int, j2: Int, side: Double): Vec3 =
+    val p = positions
+    val ax = p(j1).toDouble - p(j0)
+    val ay = p(j1 + 1).toDouble - p(j0 + 1)
+    val az = p(j1 + 2).toDouble - p(j0 + 2)
+    val bx = p(j2).toDouble - p(j0)
+    val by = p(j2 + 1).toDouble - p(j0 + 1)
+    val bz = p(j2 + 2).toDouble - p(j0 + 2)
+    val x = ay * bz - az * by
+    val y = az * bx - ax * bz
+    val z = ax * by - ay * bx
+    val length = Math.sqrt(x * x + y * y + z * z)
+    if length > 0.0 then
+      val s = side / length
+      Vec3((x * s).toFloat, (y * s).toFloat, (z * s).toFloat)
+    else
+      val isFirst = ax == 0.0 && ay == 0.0 && az == 0.0
+      val along =
+        if isFirst then Vec3(bx.toFloat, by.toFloat, bz.toFloat)
+        else Vec3(ax.toFloat, ay.toFloat, az.toFloat)
+      if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
 
   private def shadingNormal(
       mesh: Mesh,
@@ -171,14 +197,3 @@ object TriangleSoup:
   private def error(x: Float, a: Float, b: Float, c: Float): Float =
     val largest = Math.max(Math.abs(a), Math.max(Math.abs(b), Math.abs(c)))
     Math.abs(x) * gamma(2) + largest * DoubleError
-
-  /** The unit normal; any across the longer side if the triangle has no area. */
-  private def facet(p0: Vec3, p1: Vec3, p2: Vec3): Vec3 =
-    val (ax, ay, az) = (p1.x.toDouble - p0.x, p1.y.toDouble - p0.y, p1.z.toDouble - p0.z)
-    val (bx, by, bz) = (p2.x.toDouble - p0.x, p2.y.toDouble - p0.y, p2.z.toDouble - p0.z)
-    val (x, y, z) = (ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
-    val length = Math.sqrt(x * x + y * y + z * z)
-    if length > 0.0 then Vec3((x / length).toFloat, (y / length).toFloat, (z / length).toFloat)
-    else
-      val side = if p1 == p0 then p2 - p0 else p1 - p0
-      if side.isZero then Vec3.Z else Frame.around(side.normalized).s

@@ -28,7 +28,10 @@ final class EwaLookup(
     else
       val widenX = if lengthX < lengthY then widening else 1f
       val widenY = if lengthX < lengthY then 1f else widening
-      val (ax, ay, bx, by) = (dsdx * widenX, dydx * widenX, dsdy * widenY, dydy * widenY)
+      val ax = dsdx * widenX
+      val ay = dydx * widenX
+      val bx = dsdy * widenY
+      val by = dydy * widenY
       val lod = Math.max(0f, last + log2(minor * widening))
       if lod >= last then top
       else
@@ -60,7 +63,8 @@ object EwaLookup:
       bx: Float,
       by: Float
   ): Rgb =
-    val (w, h) = (level.width.toFloat, level.height.toFloat)
+    val w = level.width.toFloat
+    val h = level.height.toFloat
     val x = s * w - 0.5f
     val y = row * h - 0.5f
     // The ellipse is a·dx² + b·dx·dy + c·dy² = 1 (Heckbert, p. 80)
@@ -68,7 +72,9 @@ object EwaLookup:
     val b0 = -2f * (ax * w * ay * h + bx * w * by * h)
     val c0 = square(ax * w) + square(bx * w) + 1f
     val f = 1f / (a0 * c0 - 0.25f * b0 * b0)
-    val (a, b, c) = (a0 * f, b0 * f, c0 * f)
+    val a = a0 * f
+    val b = b0 * f
+    val c = c0 * f
     // Half its extent along each axis: the roots of the inverse matrix's diagonal
     val reachX = sqrt(c0)
     val reachY = sqrt(a0)

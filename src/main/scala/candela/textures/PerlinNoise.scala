@@ -11,9 +11,15 @@ import candela.math.*
 object PerlinNoise:
 
   def apply(x: Float, y: Float, z: Float): Float =
-    val (x0, y0, z0) = (floor(x), floor(y), floor(z))
-    val (dx, dy, dz) = (x - x0, y - y0, z - z0)
-    val (ix, iy, iz) = (x0.toInt & 255, y0.toInt & 255, z0.toInt & 255)
+    val x0 = floor(x)
+    val y0 = floor(y)
+    val z0 = floor(z)
+    val dx = x - x0
+    val dy = y - y0
+    val dz = z - z0
+    val ix = x0.toInt & 255
+    val iy = y0.toInt & 255
+    val iz = z0.toInt & 255
     val wx = fade(dx)
     val wy = fade(dy)
     val front = lerp(

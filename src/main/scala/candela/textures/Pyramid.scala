@@ -21,7 +21,8 @@ object Pyramid:
 
   /** Of an edge of one texel, that texel counts twice. */
   private def halved(from: Texels): Texels =
-    val (width, height) = (Math.max(1, from.width / 2), Math.max(1, from.height / 2))
+    val width = Math.max(1, from.width / 2)
+    val height = Math.max(1, from.height / 2)
     val right = if from.width > 1 then 1 else 0
     val below = if from.height > 1 then from.width else 0
     val values = new Array[Float](width * height * from.channels)
@@ -35,7 +36,8 @@ object Pyramid:
     FloatTexels(width, height, from.channels, values)
 
   private def enlarged(from: Texels, wrap: Wrap, most: Float): Texels =
-    val (width, height) = (powerOfTwo(from.width), powerOfTwo(from.height))
+    val width = powerOfTwo(from.width)
+    val height = powerOfTwo(from.height)
     if width == from.width && height == from.height then from
     else
       val channels = from.channels

@@ -43,7 +43,13 @@ final class LightSelectionSuite extends AnyFunSuite:
         val p = draws.vec(-6, 6)
         val n = if round % 2 == 0 then draws.direction() else Vec3.Zero
         val counts = new Array[Int](lights.size + 1)
-        for i <- 0 until Draws_ do counts(selection.choose(p, n, (i + 0.5f) / Draws_) + 1) += 1
+        val choice = LightChoice()
+        for i <- 0 until Draws_ do
+          selection.choose(p, n, (i + 0.5f) / Draws_, choice)
+          counts(choice.light + 1) += 1
+          assert(selection.choose(p, n, (i + 0.5f) / Draws_) == choice.light): Unit
+          if choice.light >= 0 then
+            assert(selection.probability(p, n, choice.light) == choice.probability): Unit
         val chances = lights.indices.map(selection.probability(p, n, _))
         for i <- lights.indices do
           // Evenly spaced numbers are right to one in 20000 at each of the tree's borders
