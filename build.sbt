@@ -78,7 +78,8 @@ lazy val bench = (project in file("bench"))
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  val options = jvmOptions :+ "-XX:MaxRAMPercentage=70"
+  // the launcher adds the module of vectors where it pays
+  val options = jvmOptions.filterNot(_.startsWith("--add-modules")) :+ "-XX:MaxRAMPercentage=70"
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))

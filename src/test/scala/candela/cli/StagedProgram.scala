@@ -27,9 +27,14 @@ final class StagedProgram(folder: Path, name: String = "stage"):
   Files.writeString(lib.resolve("start-up").resolve("a.pbrt"), "")
 
   /** A JDK where people keep theirs; the real ones of this machine are older than 90. */
-  def jdk(version: String, in: String = "home/.jdks", java: String = ""): Path =
+  def jdk(
+      version: String,
+      in: String = "home/.jdks",
+      java: String = "",
+      modules: String = "java.base"
+  ): Path =
     val jdk = Files.createDirectories(folder.resolve(in).resolve(s"jdk $version"))
-    val text = s"IMPLEMENTOR=\"X\"\nJAVA_VERSION=\"$version\"\nMODULES=\"a b\"\n"
+    val text = s"IMPLEMENTOR=\"X\"\nJAVA_VERSION=\"$version\"\nMODULES=\"$modules\"\n"
     val _ = Files.writeString(jdk.resolve("release"), text)
     val program = Files.createDirectories(jdk.resolve("bin")).resolve("java")
     val _ = Files.writeString(program, s"$record\n$java\n")
