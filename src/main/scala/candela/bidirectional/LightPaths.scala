@@ -65,8 +65,11 @@ private[bidirectional] final class LightPaths(
         edges += 1
         val vertex = next()
         scene.surface(ray, hit, vertex.at)
-        alive = !scene.isInterface(vertex.at)
-        if alive then
+        if scene.isInterface(vertex.at) then
+          edges -= 1
+          val on = ray.direction
+          ray.set(vertex.at.offsetOrigin(on), on, Float.PositiveInfinity)
+        else
           vertex.look(ray.direction)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)

@@ -16,8 +16,13 @@ import candela.textures.{FloatTexture, RgbTexture}
   *
   * @param basis in which all colours of the scene are given to the runtime
   * @param crew  does what can be divided
+  * @param seed  of random numbers that are not the sampler's
   */
-final class Resources(val basis: ColorBasis, val crew: Parallel = Parallel.Alone):
+final class Resources(
+    val basis: ColorBasis,
+    val crew: Parallel = Parallel.Alone,
+    val seed: Int = 0
+):
   val materials = NamedMaterials()
 
   /** Tables of coated materials, shared by all of them that are alike. */

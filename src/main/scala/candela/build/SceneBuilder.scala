@@ -42,7 +42,7 @@ object SceneBuilder:
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
-    val resources = Resources(basis, options.crew)
+    val resources = Resources(basis, options.crew, options.seed)
     def site(d: Declaration) = Site(d, description.dialect, resources, problems)
     def view[A](given_ : Option[Declaration], recipes: Recipes[A], default: String): A =
       val fallback = Declaration(recipes.category, default, Vector.empty, NoPlace, NoFolder)
@@ -57,7 +57,10 @@ object SceneBuilder:
       if options.quick then (Math.max(1, film.width / 4), Math.max(1, film.height / 4))
       else (film.width, film.height)
     val filter = view(description.filter, Filters.all, defaults.filter)
-    val spp = options.spp.orElse(Option.when(options.quick)(1))
+    val named = view(description.integrator, Integrators.all, defaults.integrator)
+    val integrator =
+      description.renderer.flatMap(d => Renderers.all.build(site(d))).flatten.getOrElse(named)
+    val spp = options.spp.orElse(Option.when(options.quick)(1)).orElse(integrator.samples)
     val sampler = view(description.sampler, Samplers.all, defaults.sampler)(
       SamplerRequest(spp, options.seed ^ settings.seed, width, height)
     )
@@ -75,9 +78,6 @@ object SceneBuilder:
     if layers.contains(Layer.Gradient) then resources.askForFootprints("the image's dzdx and dzdy")
     val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
-    val named = view(description.integrator, Integrators.all, defaults.integrator)
-    val integrator =
-      description.renderer.flatMap(d => Renderers.all.build(site(d))).flatten.getOrElse(named)
     val isV4 = description.dialect == Dialect.V4
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     val scale = if isV4 then Math.max(SharpestV4, density) else density

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.cameras.Camera
+import candela.cameras.{Camera, Shutter}
 import candela.color.Rgb
 
 /** Takes light that paths from the lights bring to any place of the film. Safe for all workers at
@@ -20,3 +20,13 @@ trait Splatting:
     * null: such light is lost.
     */
   def aim(camera: Camera, splats: Splats | Null): Unit
+
+/** An [[Integrator]] whose samples of one number belong together, all over the image. They are
+  * taken before those of the next but one.
+  */
+trait Stepping:
+  /** Sample `number` of some pixel is next; so many `pixels` are rendered.
+    *
+    * @param shutter when light is on its way
+    */
+  def step(number: Int, pixels: Long, shutter: Shutter): Unit

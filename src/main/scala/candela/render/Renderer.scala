@@ -2,7 +2,7 @@ package candela.render
 
 import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SplatFilm}
-import candela.integrators.Splatting
+import candela.integrators.{Splatting, Stepping}
 import candela.scene.PathReport
 
 /** Turns a plan into an image. */
@@ -28,7 +28,9 @@ object Renderer:
     def seconds = (System.nanoTime - started - paused) * 1e-9
 
     val samplesPerPixel = plan.sampler.samplesPerPixel
-    val schedule = Schedule(plan.crop, samplesPerPixel)
+    val schedule = plan.integrator match
+      case _: Stepping => Schedule(plan.crop, samplesPerPixel, largestWave = 1)
+      case _ => Schedule(plan.crop, samplesPerPixel)
     val board = Board(schedule, cancellation)
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val splats = plan.integrator match

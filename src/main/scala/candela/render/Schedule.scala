@@ -5,7 +5,11 @@ package candela.render
   * The waves grow (1, 1, 2, 4, … 64 samples per pixel), so that an image which is cut short is
   * noisy evenly, while a long rendering rarely comes back to a tile.
   */
-private[render] final class Schedule(crop: PixelBounds, samplesPerPixel: Int):
+private[render] final class Schedule(
+    crop: PixelBounds,
+    samplesPerPixel: Int,
+    largestWave: Int = Schedule.LargestWave
+):
   import Schedule.*
 
   private val columns = (crop.width + TileSize - 1) / TileSize
@@ -15,7 +19,7 @@ private[render] final class Schedule(crop: PixelBounds, samplesPerPixel: Int):
   // Wave w has the samples from waveStarts(w) until waveStarts(w + 1): each doubles what there is.
   private val waveStarts: Array[Int] =
     Iterator
-      .iterate(0)(start => start + Math.min(Math.max(start, 1), LargestWave))
+      .iterate(0)(start => start + Math.min(Math.max(start, 1), largestWave))
       .takeWhile(_ < samplesPerPixel)
       .toArray :+ samplesPerPixel
 

@@ -4,7 +4,7 @@ import candela.cameras.Shutter
 import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
 import candela.geometry.Ray
-import candela.integrators.{Splatting, SurfaceProbe}
+import candela.integrators.{Splatting, Stepping, SurfaceProbe}
 import candela.scene.PathReport
 
 /** One of several that render the same image: takes tiles from the board, and owns all that it
@@ -26,6 +26,9 @@ private[render] final class TileWorker(
   integrator match
     case i: Splatting => i.aim(camera, film.splats.orNull)
     case _ => ()
+  private val stepping: Stepping | Null = integrator match
+    case i: Stepping => i
+    case _ => null
   private val ray = Ray()
   private val scratch = Ray()
   private val hasDifferentials = plan.differentialScale > 0f
@@ -111,6 +114,7 @@ private[render] final class TileWorker(
         val scale = plan.differentialScale
         camera.differential(filmX, filmY, sampler.x, sampler.y, scale, ray, scratch)
       if probe != null then probe.look(ray)
+      if stepping != null then stepping.step(sample, plan.crop.pixels, shutter)
       val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
       if radiance.isFinite then record(if weighs then weighed(radiance, weight) else radiance)
       else refuse()

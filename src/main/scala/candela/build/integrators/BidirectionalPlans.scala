@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bidirectional.BidirectionalPathTracer
+import candela.bidirectional.{BidirectionalPathTracer, PhotonMapper, PhotonSettings}
 import candela.integrators.{PathThroughVolumes, VolumePathTracer}
 import candela.scenefile.Dialect
 
@@ -36,13 +36,30 @@ private[build] object BidirectionalPlans:
   private val Lack =
     "the same light but for that of lamps that are points, by way of mirrors or glass"
 
-/** Of integrators that find light which [[Bdpt]] can't. */
-trait BidirectionalInstead extends Recipe[IntegratorPlan]:
-  override def pending: Option[String] =
-    Some(
-      "\"bdpt\" is used: the same light, but for that of lamps that are points, where it comes " +
-        "by way of mirrors or glass and is seen by way of these, too"
-    )
+/** How [[PhotonMapper]] is made. */
+private[build] object PhotonPlans:
 
-  protected def depth()(using Site): Int
-  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, depth())
+  /** @param depth  most edges of a light path, and scattering events of one from the camera
+    * @param paths  from the lights in each pass; at most 0: one for each pixel
+    * @param passes if the scene says how many
+    */
+  def plan(name: String, depth: Int, radius: Float, paths: Int, passes: Option[Int], seed: Int)(
+      using site: Site
+  ): IntegratorPlan =
+    val most = Math.max(0, depth)
+    if !(radius > 0f) then site.error("photons need a radius above 0")
+    val settings =
+      PhotonSettings(
+        radius,
+        paths,
+        most,
+        compresses = site.dialect != Dialect.V2,
+        seed ^ site.resources.seed
+      )
+    val bidirectional = BidirectionalPlans.plan(name, most)
+    bidirectional.copy(
+      make = (scene, _) => PhotonMapper(scene, most, settings),
+      describe = s"$name, up to $most scattering events, photons within $radius at first",
+      samples = passes,
+      throughMedia = None
+    )

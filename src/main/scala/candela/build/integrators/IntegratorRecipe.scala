@@ -10,6 +10,7 @@ import candela.scenefile.Dialect
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
+  * @param samples      of each pixel, if the integrator and not the sampler says how many
   * @param isLit        do lights matter? Else a scene without them is no mistake
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
   * @param throughMedia   makes the integrator where there are media, if it sees them
@@ -22,6 +23,7 @@ final case class IntegratorPlan(
     followsSpecular: Boolean = true,
     goesBeneath: Boolean = false,
     isLit: Boolean = true,
+    samples: Option[Int] = None,
     throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )

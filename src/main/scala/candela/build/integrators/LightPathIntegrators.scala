@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.scenefile.Dialect
+
 /** Integrators whose paths start at lights, too. */
 object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3):
   notYet("the picture alone is written")(
@@ -36,28 +38,35 @@ object Mlt
   )
   protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
-object Sppm
-    extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3)
-    with BidirectionalInstead:
-  declare(
-    integer("numiterations", "passes", onlyV3)(64),
-    integer("iterations", "another name of `numiterations`", onlyV3, shown = "numiterations")(64),
-    integer("photonsperiteration", "photons of each pass", shown = "one a pixel")(-1),
-    float("radius", "in which photons are gathered at first", unit = "scene units")(1f),
+object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
+  private val passes = integer("numiterations", "passes", onlyV3)(64)
+  private val passesToo = integer(
+    "iterations",
+    "another name of `numiterations`",
+    onlyV3,
+    shown = "numiterations"
+  )(-1)
+  private val photons =
+    integer("photonsperiteration", "light paths of each pass", shown = "one a pixel")(-1)
+  private val radius =
+    float("radius", "in which photons are gathered at first", unit = "scene units")(1f)
+  private val seed =
     integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
-  )
   noMeaning("the image is written at the end")(
     integer("imagewritefrequency", "passes between images", onlyV3, shown = "never")(Int.MaxValue)
   )
 
-  protected def depth()(using Site): Int = maxDepth()
+  protected def make()(using site: Site): IntegratorPlan =
+    val asked = if passesToo() > 0 then passesToo() else passes()
+    // v4 takes as many as the sampler says
+    val count = Option.when(site.dialect == Dialect.V3)(Math.max(1, asked))
+    PhotonPlans.plan(name, maxDepth(), radius(), photons(), count, seed())
 
 object LightPath
-    extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4)
-    with BidirectionalInstead:
+    extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4):
   override def pending: Option[String] =
     Some("\"bdpt\" is used: the same light, and that which is seen by way of mirrors or glass")
-  protected def depth()(using Site): Int = maxDepth()
+  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
 object FunctionIntegrator
     extends Recipe[IntegratorPlan]("function", "no image: the error of samplers", onlyV4)

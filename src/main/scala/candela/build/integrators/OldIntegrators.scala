@@ -3,23 +3,29 @@ package candela.build
 import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 
-/** pbrt-v2's surface integrators that are not there yet. */
+/** By progressive photon mapping, which comes to the same picture without final gathering. */
 final class PhotonMap(name: String)
-    extends Recipe[IntegratorPlan](name, "photon mapping with final gathering", onlyV2)
-    with BidirectionalInstead:
+    extends Recipe[IntegratorPlan](
+      name,
+      "photon mapping with final gathering: by progressive photon mapping, to the same picture",
+      onlyV2
+    ):
   private val bounces = integer("maxphotondepth", "most bounces of a photon")(5)
-  private val gathers = bool("finalgather", "is indirect light gathered at one remove?")(true)
-  declare(
+  private val specular = integer("maxspeculardepth", "most specular bounces")(5)
+  private val radius =
+    float("maxdist", "within which photons are sought", unit = "scene units")(0.1f)
+  noMeaning("photons are sent out for each sample anew, and the radius shrinks")(
     integer("causticphotons", "photons that came by mirrors and glass")(20000),
     integer("indirectphotons", "other photons")(100000),
     integer("nused", "photons of each estimate")(50),
-    integer("maxspeculardepth", "most specular bounces")(5),
+    bool("finalgather", "is indirect light gathered at one remove?")(true),
     integer("finalgathersamples", "rays of each gathering")(32),
-    float("maxdist", "within which photons are sought", unit = "scene units")(0.1f),
     float("gatherangle", "between gathering rays and photons", unit = "degrees")(10f)
   )
 
-  override protected def depth()(using Site): Int = bounces() + (if gathers() then 1 else 0)
+  protected def make()(using Site): IntegratorPlan =
+    val depth = Math.max(bounces(), specular()) + 1
+    PhotonPlans.plan(name, depth, radius(), paths = -1, passes = None, seed = 0)
 
 object InstantGlobalIllumination
     extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)

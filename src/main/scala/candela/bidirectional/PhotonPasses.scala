@@ -1,0 +1,111 @@
+package candela.bidirectional
+
+import candela.cameras.Shutter
+import candela.sampling.IndependentSampler
+import candela.scene.Scene
+
+import java.util.concurrent.atomic.AtomicInteger
+import java.util.concurrent.locks.LockSupport
+
+/** How photons are sent out.
+  *
+  * @param radius   of the first pass, in scene units
+  * @param paths    of each pass; at most 0: as many as there are pixels
+  * @param maxEdges of a light path
+  * @param seed     of the random numbers
+  */
+final case class PhotonSettings(
+    radius: Float,
+    paths: Int,
+    maxEdges: Int,
+    compresses: Boolean,
+    seed: Int = 0
+)
+
+/** Sends out the photons of a pass; mutable, one per worker. */
+private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSettings):
+  private val paths = LightPaths(scene, settings.maxEdges, rouletteAfter = 1, settings.compresses)
+  private val sampler = IndependentSampler(1, settings.seed)
+
+  def raysTraced: Long = paths.raysTraced
+
+  /** Those of one part of a pass, whoever asks. What arrives straight from a light is left out. */
+  def trace(pass: Int, part: Int, count: Int, shutter: Shutter): Photons =
+    val photons = Photons()
+    var i = 0
+    while i < count do
+      sampler.start(part * PhotonPasses.PartSize + i, -1, pass)
+      paths.trace(shutter.at(sampler.next1D()), sampler)
+      var k = 0
+      while k < paths.count do
+        val vertex = paths(k)
+        if vertex.edges > 1 then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
+        k += 1
+      i += 1
+    photons
+
+/** The photon maps of all passes, shared by all workers: who needs one helps to make it. Which
+  * photons are in it does not depend on who did.
+  *
+  * With each pass the radius shrinks, so that the mean over all passes has neither bias nor noise
+  * in the end: r² by (k + α)/(k + 1), α = 2/3.
+  *
+  * Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 30(3),
+  * 2011.
+  */
+private[bidirectional] final class PhotonPasses(settings: PhotonSettings):
+  import PhotonPasses.*
+
+  // Workers are at most one pass apart
+  private val recent = new Array[Pass](3)
+
+  def apply(number: Int, pixels: Long, shutter: Shutter, tracer: PhotonTracer): PhotonMap =
+    val pass = find(number, pixels)
+    if pass.map.isEmpty then pass.help(tracer, shutter)
+    pass.map.get
+
+  private def find(number: Int, pixels: Long): Pass = synchronized:
+    val at = number % recent.length
+    if recent(at) == null || recent(at).number != number then
+      val paths =
+        if settings.paths > 0 then settings.paths else Math.min(pixels, MostPaths).toInt
+      recent(at) = Pass(number, paths, radius(number))
+    recent(at)
+
+  private def radius(pass: Int): Float =
+    var r2 = settings.radius.toDouble * settings.radius
+    for k <- 1 to pass do r2 *= (k + Alpha) / (k + 1)
+    Math.sqrt(r2).toFloat
+
+private object PhotonPasses:
+  val Alpha: Double = 2.0 / 3.0
+  val PartSize = 1024
+  val MostPaths = 100_000_000L
+
+  /** Nanoseconds; short beside a pass. */
+  val Pause = 50_000L
+
+  final class Pass(val number: Int, paths: Int, radius: Float):
+    private val parts = new Array[Photons]((paths + PartSize - 1) / PartSize)
+    private val next = AtomicInteger()
+    private val done = AtomicInteger()
+    @volatile private var failure: Option[Throwable] = None
+    @volatile var map: Option[PhotonMap] = None
+
+    def help(tracer: PhotonTracer, shutter: Shutter): Unit =
+      try work(tracer, shutter)
+      catch
+        case e: Throwable =>
+          failure = Some(e)
+          throw e
+      while map.isEmpty do
+        for e <- failure do throw e
+        LockSupport.parkNanos(Pause)
+
+    private def work(tracer: PhotonTracer, shutter: Shutter): Unit =
+      var part = next.getAndIncrement()
+      while part < parts.length do
+        val count = Math.min(PartSize, paths - part * PartSize)
+        parts(part) = tracer.trace(number, part, count, shutter)
+        if done.incrementAndGet() == parts.length then map = Some(PhotonMap(parts, paths, radius))
+        part = next.getAndIncrement()

@@ -1,0 +1,64 @@
+package candela.bidirectional
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.accel.{Bvh, Instances}
+import candela.bsdf.{ConstantMaterial, Lambert}
+import candela.color.Rgb
+import candela.lights.{LightSelection, PointLight}
+import candela.math.*
+import candela.scene.{Instanced, Scene, Surfaces}
+import candela.testing.Draws
+
+final class PhotonMapSuite extends AnyFunSuite:
+  private val albedo = 0.6f
+
+  private def scene: Scene =
+    val light = PointLight(Vec3.Zero, Rgb.White)
+    val surfaces = Surfaces.None
+    Scene(
+      surfaces,
+      Instanced.None,
+      Bvh(surfaces.primitives(Instances.None)),
+      Array(ConstantMaterial(Lambert(Rgb.gray(albedo)))),
+      Array(light),
+      LightSelection.of(Array(light)),
+      sidesByGeometry = false
+    )
+
+  test("all photons within the radius count, each once, and no other"):
+    val draws = Draws(3)
+    val (radius, paths) = (0.13f, 7)
+    val places = Vector.fill(3000)((draws.vec(-1, 1), draws.direction(), draws.unit()))
+    val parts = places.grouped(700).toArray.map: part =>
+      val photons = Photons()
+      for (p, from, light) <- part do photons.add(p, from, Rgb(light, 2 * light, 0))
+      photons
+    val map = PhotonMap(parts, paths, radius)
+    assert(map.count == 3000)
+    val vertex = PathVertex(scene)
+    for _ <- 1 to 200 do
+      vertex.at.p = draws.vec(-1.1f, 1.1f)
+      vertex.look(Vec3(0, 0, -1))
+      // Matte surfaces scatter what comes from above alone
+      val near = places.filter((p, from, _) => (p - vertex.at.p).length < radius && from.z > 0f)
+      val expected = near.map(_._3.toDouble).sum * albedo / Math.PI /
+        (Math.PI * radius * radius * paths)
+      val found = map.gather(vertex, 1f)
+      assert(Math.abs(found.r - expected) < 1e-4 * expected + 1e-6)
+      assert(Math.abs(found.g - 2 * expected) < 2e-4 * expected + 1e-6 && found.b == 0f)
+
+  test("directions that the path follows by itself are left out"):
+    val photons = Photons()
+    photons.add(Vec3.Zero, Vec3(0, 0, 1), Rgb.White)
+    photons.add(Vec3.Zero, Vec3(sqrt(0.99f), 0, 0.1f), Rgb.White)
+    val map = PhotonMap(Array(photons), 1, 1f)
+    val vertex = PathVertex(scene)
+    vertex.look(Vec3(0, 0, -1))
+    val all = map.gather(vertex, 1f).r
+    assert(Math.abs(map.gather(vertex, 0.1f).r / all - 0.5f) < 1e-5f)
+
+  test("a map without photons is dark"):
+    val vertex = PathVertex(scene)
+    vertex.look(Vec3(0, 0, -1))
+    assert(PhotonMap(Array(Photons()), 1, 1f).gather(vertex, 1f).isBlack)
