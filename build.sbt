@@ -72,7 +72,13 @@ lazy val root = (project in file("."))
 lazy val bench = (project in file("bench"))
   .dependsOn(root)
   .enablePlugins(JmhPlugin)
-  .settings(scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"))
+  .settings(
+    scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"),
+    // `bench/runMain`: a JVM like the renderer's, in the checkout's folder; 10⁷ triangles fit in
+    run / fork := true,
+    run / baseDirectory := (ThisBuild / baseDirectory).value,
+    run / javaOptions ++= jvmOptions :+ "-Xmx2g"
+  )
 
 /** What the launcher in src/universal/bin starts: one jar, the native libraries, and options. */
 def program = Def.task {

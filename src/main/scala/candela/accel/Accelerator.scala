@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray}
 
 /** Finds what a ray meets among many primitives. Immutable; the work space of a walk is in the
@@ -37,5 +38,10 @@ object Accelerator:
   /** The box around boxes of six Floats each. */
   def union(bounds: Array[Float]): Bounds3 =
     import candela.math.Vec3
-    bounds.grouped(6).foldLeft(Bounds3.Empty): (all, b) =>
-      all.union(Bounds3(Vec3(b(0), b(1), b(2)), Vec3(b(3), b(4), b(5))))
+    val all = Array.fill(6)(Float.PositiveInfinity)
+    java.util.Arrays.fill(all, 3, 6, Float.NegativeInfinity)
+    loop(bounds.length / 6): i =>
+      loop(3): k =>
+        all(k) = Math.min(all(k), bounds(6 * i + k))
+        all(3 + k) = Math.max(all(3 + k), bounds(6 * i + 3 + k))
+    Bounds3(Vec3(all(0), all(1), all(2)), Vec3(all(3), all(4), all(5)))

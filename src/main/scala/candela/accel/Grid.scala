@@ -7,16 +7,15 @@ import candela.math.*
 /** A uniform voxel grid, walked voxel by voxel along the ray.
   *
   * Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
-  * 1987; the resolution, 3·∛n voxels along the longest side and at most 64 a side, as in PBRT's
-  * `grid`.
+  * 1987; the resolution, 3·∛n voxels along the longest side, as in PBRT's `grid`. That has at most
+  * 64 a side; here it is as many as make four voxels a primitive, if these are more.
   *
   * All places are relative to the lower corner, so that a grid far from the origin loses no digits.
   * A primitive is listed in every voxel that its box overlaps, padded by a hundredth of a voxel
   * against the rounding of Floats; the walk itself is in Double (stability suite: rays from afar).
   */
 final class Grid(primitives: Primitives) extends Accelerator:
-  private val boxes = primitives.bounds
-  val bounds: Bounds3 = Accelerator.union(boxes)
+  val bounds: Bounds3 = Accelerator.union(primitives.bounds)
   private val packed = primitives.packed(Array.range(0, primitives.count))
 
   private val resolution: Array[Int] =
@@ -24,33 +23,42 @@ final class Grid(primitives: Primitives) extends Accelerator:
     val longest = Math.max(extent.x, Math.max(extent.y, extent.z))
     val perUnit =
       if longest > 0f then (3.0 * Math.cbrt(primitives.count.toDouble) / longest).toFloat else 0f
-    Array.tabulate(3)(k => clamp(Math.round(extent(k) * perUnit), 1, 64))
+    val most = Math.max(64, Math.cbrt(Grid.VoxelsPerPrimitive * primitives.count).toInt)
+    Array.tabulate(3)(k => clamp(Math.round(extent(k) * perUnit), 1, most))
 
   private val width: Array[Float] = Array.tabulate(3)(k => bounds.extent(k) / resolution(k))
   private val voxels = resolution.product
 
   /** cells(starts(i)) until cells(starts(i + 1)): the primitives in voxel i, x fastest. */
   private val starts = new Array[Int](voxels + 1)
-  private val cells: Array[Int] = if primitives.count == 0 then Array.empty else fill()
+  private val cells: Array[Int] =
+    if primitives.count == 0 then Array.empty else fill(primitives.bounds)
 
   def describe: String =
     val voxels = resolution.mkString("×")
     s"grid: ${primitives.count} primitives in $voxels voxels, ${cells.length} entries"
 
-  private def fill(): Array[Int] =
-    loop(primitives.count)(i => overlapped(i)(v => starts(v + 1) += 1))
-    loop(voxels)(v => starts(v + 1) += starts(v))
+  private def fill(boxes: Array[Float]): Array[Int] =
+    loop(primitives.count)(i => overlapped(boxes, i)(v => starts(v + 1) += 1))
+    loop(voxels): v =>
+      if starts(v + 1) > Int.MaxValue - starts(v) then
+        throw IllegalStateException("the voxels' lists of primitives have no place in an array")
+      starts(v + 1) += starts(v)
     val next = starts.clone()
     val all = new Array[Int](starts(voxels))
     loop(primitives.count): i =>
-      overlapped(i): v =>
+      overlapped(boxes, i): v =>
         all(next(v)) = i
         next(v) += 1
     all
 
-  private inline def overlapped(i: Int)(inline body: Int => Unit): Unit =
-    val (x0, y0, z0) = (voxelOf(i, 0, -0.01f), voxelOf(i, 1, -0.01f), voxelOf(i, 2, -0.01f))
-    val (x1, y1, z1) = (voxelOf(i, 3, 0.01f), voxelOf(i, 4, 0.01f), voxelOf(i, 5, 0.01f))
+  private inline def overlapped(boxes: Array[Float], i: Int)(inline body: Int => Unit): Unit =
+    val x0 = voxelOf(boxes, i, 0, -0.01f)
+    val y0 = voxelOf(boxes, i, 1, -0.01f)
+    val z0 = voxelOf(boxes, i, 2, -0.01f)
+    val x1 = voxelOf(boxes, i, 3, 0.01f)
+    val y1 = voxelOf(boxes, i, 4, 0.01f)
+    val z1 = voxelOf(boxes, i, 5, 0.01f)
     var z = z0
     while z <= z1 do
       var y = y0
@@ -65,7 +73,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
   /** Voxel number along an axis of the box side `side` (0–2 lower, 3–5 upper), moved by `pad`
     * voxels.
     */
-  private def voxelOf(i: Int, side: Int, pad: Float): Int =
+  private def voxelOf(boxes: Array[Float], i: Int, side: Int, pad: Float): Int =
     val axis = side % 3
     if width(axis) > 0f then
       val position = (boxes(6 * i + side) - bounds.min(axis)) / width(axis) + pad
@@ -154,3 +162,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
   private def wall(i: Int, step: Int, axis: Int, o: Double, d: Float): Double =
     if d == 0f || width(axis) <= 0f then Double.PositiveInfinity
     else ((if step > 0 then i + 1 else i) * width(axis).toDouble - o) / d
+
+object Grid:
+  /** Of large sets. */
+  private val VoxelsPerPrimitive = 4.0

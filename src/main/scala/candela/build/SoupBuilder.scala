@@ -1,6 +1,7 @@
 package candela.build
 
 import scala.collection.mutable.ArrayBuffer
+import scala.reflect.ClassTag
 
 import candela.base.loop
 import candela.math.Transform
@@ -34,7 +35,7 @@ final class SoupBuilder:
     val first = triangles
     val base = vertices
     positions += SoupBuilder.points(mesh.positions, toWorld)
-    indices += mesh.indices.map(_ + base)
+    indices += SoupBuilder.shifted(mesh.indices, base)
     meshes += Mesh(
       firstVertex = base,
       firstTriangle = first,
@@ -50,19 +51,27 @@ final class SoupBuilder:
     triangles += mesh.indices.length / 3
     first
 
+  /** All of it, which is no longer here afterwards: large scenes need the memory. */
   def result(tangents: Boolean): TriangleSoup =
-    val meshOf = new Array[Int](triangles)
-    for (mesh, i) <- meshes.zipWithIndex do
-      java.util.Arrays.fill(meshOf, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
-    TriangleSoup(
-      Array.concat(positions.toSeq*),
-      Array.concat(indices.toSeq*),
-      meshOf,
-      meshes.toArray,
-      tangents
-    )
+    val owners = new Array[Int](if meshes.length == 1 then 0 else triangles)
+    if meshes.length > 1 then
+      for (mesh, i) <- meshes.zipWithIndex do
+        java.util.Arrays.fill(owners, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
+    def joined[A: ClassTag](pieces: ArrayBuffer[Array[A]]): Array[A] =
+      val all = if pieces.length == 1 then pieces.head else Array.concat(pieces.toSeq*)
+      pieces.clear()
+      all
+    val points = joined(positions)
+    TriangleSoup(points, joined(indices), owners, meshes.toArray, tangents)
 
 object SoupBuilder:
+  private def shifted(indices: Array[Int], by: Int): Array[Int] =
+    if by == 0 then indices
+    else
+      val out = new Array[Int](indices.length)
+      loop(out.length)(i => out(i) = indices(i) + by)
+      out
+
   private[build] def points(p: Array[Float], toWorld: Transform): Array[Float] =
     if toWorld.isIdentity then p
     else

@@ -30,17 +30,19 @@ final class Mesh(
   *
   * @param positions x, y, z of every vertex of every mesh
   * @param indices   three vertices a triangle, counted over all meshes
-  * @param meshOf    the mesh of each triangle
+  * @param owners    the mesh of each triangle; may be empty if there is only one
   * @param tangents  does any material ask for the direction of u? If not, it isn't computed
   */
 final class TriangleSoup(
     val positions: Array[Float],
     val indices: Array[Int],
-    val meshOf: Array[Int],
+    owners: Array[Int],
     val meshes: Array[Mesh],
     tangents: Boolean
 ):
-  def count: Int = meshOf.length
+  def count: Int = indices.length / 3
+
+  def meshOf(triangle: Int): Int = if owners.length == 0 then 0 else owners(triangle)
 
   def vertex(triangle: Int, corner: Int): Vec3 =
     val i = indices(3 * triangle + corner) * 3

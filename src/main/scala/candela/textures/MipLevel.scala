@@ -7,7 +7,7 @@ import candela.math.lerp
   * second coordinate down from the picture's upper edge; texel centres lie at half-integer
   * multiples of the texel size.
   */
-final class MipLevel(texels: Texels, wrap: Wrap):
+final class MipLevel(private[textures] val texels: Texels, wrap: Wrap):
   val width: Int = texels.width
   val height: Int = texels.height
   val isGray: Boolean = texels.channels == 1

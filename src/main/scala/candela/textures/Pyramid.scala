@@ -2,7 +2,7 @@ package candela.textures
 
 import scala.collection.mutable.ArrayBuffer
 
-import candela.base.loop
+import candela.base.{loop, Parallel}
 import candela.math.*
 
 /** A picture and its halves, each the mean of four texels of the one before, down to one texel.
@@ -11,22 +11,29 @@ import candela.math.*
   */
 object Pyramid:
 
-  /** @param most what texels between those of the picture are limited to: a picture whose width
-    *             or height is no power of two is first enlarged until they are, as in pbrt
+  /** @param most     what texels between those of the picture are limited to: a picture whose
+    *                 width or height is no power of two is first enlarged until they are, as in
+    *                 pbrt
+    * @param parallel does rows of texels
     */
-  def of(texels: Texels, wrap: Wrap, most: Float): Array[MipLevel] =
-    val levels = ArrayBuffer(enlarged(texels, wrap, most))
-    while levels.last.width > 1 || levels.last.height > 1 do levels += halved(levels.last)
+  def of(
+      texels: Texels,
+      wrap: Wrap,
+      most: Float,
+      parallel: Parallel = Parallel.Alone
+  ): Array[MipLevel] =
+    val levels = ArrayBuffer(enlarged(texels, wrap, most, parallel))
+    while levels.last.width > 1 || levels.last.height > 1 do levels += halved(levels.last, parallel)
     levels.map(MipLevel(_, wrap)).toArray
 
   /** Of an edge of one texel, that texel counts twice. */
-  private def halved(from: Texels): Texels =
+  private def halved(from: Texels, parallel: Parallel): Texels =
     val width = Math.max(1, from.width / 2)
     val height = Math.max(1, from.height / 2)
     val right = if from.width > 1 then 1 else 0
     val below = if from.height > 1 then from.width else 0
     val values = new Array[Float](width * height * from.channels)
-    loop(height): y =>
+    rows(parallel, width, height): y =>
       loop(width): x =>
         val i = y * (1 + Math.min(1, below)) * from.width + x * (1 + right)
         loop(from.channels): c =>
@@ -35,33 +42,95 @@ object Pyramid:
           values((y * width + x) * from.channels + c) = 0.25f * (upper + lower)
     FloatTexels(width, height, from.channels, values)
 
-  private def enlarged(from: Texels, wrap: Wrap, most: Float): Texels =
+  private[textures] def enlarged(
+      from: Texels,
+      wrap: Wrap,
+      most: Float,
+      parallel: Parallel = Parallel.Alone
+  ): Texels =
     val width = powerOfTwo(from.width)
     val height = powerOfTwo(from.height)
     if width == from.width && height == from.height then from
     else
-      val channels = from.channels
-      val wide = new Array[Float](width * from.height * channels)
-      val across = weights(from.width, width)
-      loop(from.height): y =>
-        loop(width): x =>
-          loop(Taps): k =>
-            val i = wrap.index(across.first(x) + k, y, from.width, from.height)
-            if i >= 0 then
-              loop(channels): c =>
-                wide((y * width + x) * channels + c) += across.weight(Taps * x + k) * from(i, c)
-      val values = new Array[Float](width * height * channels)
-      val down = weights(from.height, height)
-      loop(height): y =>
-        loop(width): x =>
-          loop(Taps): k =>
-            val i = wrap.index(x, down.first(y) + k, width, from.height)
-            if i >= 0 then
-              loop(channels): c =>
-                values((y * width + x) * channels + c) +=
-                  down.weight(Taps * y + k) * wide(i * channels + c)
-      loop(values.length)(i => values(i) = clamp(values(i), 0f, most))
-      FloatTexels(width, height, channels, values)
+      val wide = widened(from, wrap, width, parallel)
+      val values = heightened(wide, from, wrap, width, height, parallel)
+      rows(parallel, width * from.channels, height): y =>
+        val start = y * width * from.channels
+        loop(width * from.channels): k =>
+          values(start + k) = clamp(values(start + k), 0f, most)
+      FloatTexels(width, height, from.channels, values)
+
+  /** As many rows as before, of `width` texels each. */
+  private def widened(from: Texels, wrap: Wrap, width: Int, parallel: Parallel): Array[Float] =
+    val channels = from.channels
+    val wide = new Array[Float](width * from.height * channels)
+    val across = weights(from.width, width)
+    rows(parallel, width, from.height): y =>
+      loop(width): x =>
+        val first = across.first(x)
+        val isInside = first >= 0 && first + Taps <= from.width
+        loop(Taps): k =>
+          val i =
+            if isInside then y * from.width + first + k
+            else wrap.index(first + k, y, from.width, from.height)
+          if i >= 0 then
+            val weight = across.weight(Taps * x + k)
+            loop(channels): c =>
+              wide((y * width + x) * channels + c) += weight * from(i, c)
+    wide
+
+  /** As many columns as in `wide`, of `height` texels each: row by row, which lie together. */
+  private def heightened(
+      wide: Array[Float],
+      from: Texels,
+      wrap: Wrap,
+      width: Int,
+      height: Int,
+      parallel: Parallel
+  ): Array[Float] =
+    val channels = from.channels
+    val length = width * channels
+    val values = new Array[Float](length * height)
+    val down = weights(from.height, height)
+    rows(parallel, width, height): y =>
+      loop(Taps): k =>
+        val row = down.first(y) + k
+        val weight = down.weight(Taps * y + k)
+        val at = y * length
+        if row >= 0 && row < from.height then add(wide, row * length, weight, values, at, length)
+        else
+          loop(width): x =>
+            val i = wrap.index(x, row, width, from.height)
+            if i >= 0 then add(wide, i * channels, weight, values, at + x * channels, channels)
+    values
+
+  private def add(
+      from: Array[Float],
+      start: Int,
+      weight: Float,
+      to: Array[Float],
+      at: Int,
+      length: Int
+  ): Unit =
+    var i = 0
+    while i < length do
+      to(at + i) += weight * from(start + i)
+      i += 1
+
+  /** Does rows of a picture; those of a small one alone. */
+  private def rows(parallel: Parallel, width: Int, height: Int)(row: Int => Unit): Unit =
+    if width.toLong * height < SmallPicture then loop(height)(row(_))
+    else
+      val strips = Math.min(height, 4 * parallel.threads)
+      parallel.each(strips): k =>
+        var y = (height.toLong * k / strips).toInt
+        val end = (height.toLong * (k + 1) / strips).toInt
+        while y < end do
+          row(y)
+          y += 1
+
+  /** Texels, below which threads don't pay. */
+  private val SmallPicture = 1L << 14
 
   private def powerOfTwo(n: Int): Int =
     if Integer.bitCount(n) == 1 then n else Integer.highestOneBit(n) << 1

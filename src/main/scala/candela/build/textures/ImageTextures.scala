@@ -58,7 +58,8 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
     val isBytes = stored match
       case _: ByteImage => true
       case _: Image => false
-    val pyramid = Pyramid.of(texels, wrap, if isV4 && isBytes then 1f else Float.PositiveInfinity)
+    val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
+    val pyramid = Pyramid.of(texels, wrap, most, site.resources.crew)
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
       case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)
