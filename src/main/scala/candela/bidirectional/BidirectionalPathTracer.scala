@@ -63,7 +63,8 @@ final class BidirectionalPathTracer(
     val film = splats
     if seenBy != null && film != null && lightPaths.count > 0 then
       sampler.next2D()
-      val (lensU, lensV) = (sampler.x, sampler.y)
+      val lensU = sampler.x
+      val lensV = sampler.y
       var i = 0
       while i < lightPaths.count do
         val lit = lightPaths(i)
@@ -206,7 +207,8 @@ final class BidirectionalPathTracer(
       val g = if f.isBlack then Rgb.Black else lit.sent(back)
       if g.isBlack then Rgb.Black
       else
-        val (here, there) = (vertex.cosine(wi), lit.cosine(back))
+        val here = vertex.cosine(wi)
+        val there = lit.cosine(back)
         val toLit = vertex.pdf(wi).toDouble * there / distance2
         val toHere = lit.pdf(back).toDouble * here / distance2
         val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +

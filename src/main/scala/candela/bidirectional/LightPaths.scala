@@ -45,7 +45,8 @@ private[bidirectional] final class LightPaths(
     if picks != null && maxEdges > 0 then
       val light = picks.sample(sampler.next1D())
       sampler.next2D()
-      val (u1, u2) = (sampler.x, sampler.y)
+      val u1 = sampler.x
+      val u2 = sampler.y
       sampler.next2D()
       scene.lights(light).emit(scene.ball, u1, u2, sampler.x, sampler.y, start)
       path.throughput = start.power * (1f / picks.probability(light))
@@ -56,6 +57,7 @@ private[bidirectional] final class LightPaths(
         walk(light, sampler)
 
   private def walk(light: Int, sampler: Sampler): Unit =
+    path.isSpecularSoFar = true
     var edges = 0
     var alive = true
     while alive do
@@ -79,6 +81,7 @@ private[bidirectional] final class LightPaths(
           if alive then
             if !vertex.bsdf.isSpecular then
               vertex.throughput = path.throughput
+              vertex.isSpecularSoFar = path.isSpecularSoFar
               vertex.weights.set(path.weights)
               used += 1
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)

@@ -21,6 +21,9 @@ private[bidirectional] final class PathVertex(scene: Scene):
 
   /** How many edges the path has had. */
   var edges: Int = 0
+
+  /** Has it come by mirrors and smooth glass alone? */
+  var isSpecularSoFar: Boolean = true
   val weights: PartialWeights = PartialWeights()
 
   /** Looks at the surface, once `at` is filled in. */

@@ -73,7 +73,9 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
   def gather(vertex: PathVertex, limit: Float): Rgb =
     val p = vertex.at.p
     // The corner of the eight cubes: the one before the nearest border along each axis
-    val (x0, y0, z0) = (cube(p.x - radius), cube(p.y - radius), cube(p.z - radius))
+    val x0 = cube(p.x - radius)
+    val y0 = cube(p.y - radius)
+    val z0 = cube(p.z - radius)
     var sum = Rgb.Black
     var k = 0
     while k < 8 do
@@ -84,11 +86,13 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
   private def gather(vertex: PathVertex, limit: Float, x: Int, y: Int, z: Int): Rgb =
     val b = bucket(x, y, z)
     val p = vertex.at.p
-    var (r, g, blue) = (0f, 0f, 0f)
+    var r, g, blue = 0f
     var at = starts(b) * Numbers
     val end = starts(b + 1) * Numbers
     while at < end do
-      val (px, py, pz) = (data(at), data(at + 1), data(at + 2))
+      val px = data(at)
+      val py = data(at + 1)
+      val pz = data(at + 2)
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
       // Other cubes may have the same hash, and be looked at in their turn
       if distance2 < radius2 && cube(px) == x && cube(py) == y && cube(pz) == z then

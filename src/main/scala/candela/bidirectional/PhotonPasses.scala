@@ -13,13 +13,17 @@ import java.util.concurrent.locks.LockSupport
   * @param paths    of each pass; at most 0: as many as there are pixels
   * @param maxEdges of a light path
   * @param seed     of the random numbers
+  * @param caustics are photons kept that have come by mirrors and glass alone?
+  * @param indirect are all others?
   */
 final case class PhotonSettings(
     radius: Float,
     paths: Int,
     maxEdges: Int,
     compresses: Boolean,
-    seed: Int = 0
+    seed: Int = 0,
+    caustics: Boolean = true,
+    indirect: Boolean = true
 )
 
 /** Sends out the photons of a pass; mutable, one per worker. */
@@ -39,7 +43,8 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
       var k = 0
       while k < paths.count do
         val vertex = paths(k)
-        if vertex.edges > 1 then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
+        val isKept = if vertex.isSpecularSoFar then settings.caustics else settings.indirect
+        if vertex.edges > 1 && isKept then photons.add(vertex.at.p, vertex.wo, vertex.throughput)
         k += 1
       i += 1
     photons

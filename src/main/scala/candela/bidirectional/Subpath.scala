@@ -19,6 +19,7 @@ private[bidirectional] final class Subpath(
     rouletteAfter: Int
 ):
   var throughput: Rgb = Rgb.White
+  var isSpecularSoFar: Boolean = true
   val weights: PartialWeights = PartialWeights()
 
   /** Scatters the path at `vertex`; false if it ends there. */
@@ -33,6 +34,7 @@ private[bidirectional] final class Subpath(
       val kept = if compresses then bounce.weight * square(bounce.eta) else bounce.weight
       throughput = throughput *
         (if carriesLight then kept * correction(vertex, wi, bounce.wi.z) else bounce.weight)
+      if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
       if bounce.isSpecular then weights.turnSpecular(cosine)
       else weights.turn(cosine, bounce.pdf, vertex.bsdf.pdf(bounce.wi, vertex.local))

@@ -54,7 +54,8 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
     else
       val disk =
         if hasLens then candela.sampling.Warp.concentricDisk(lensU, lensV) else Vec3.Zero
-      val (lx, ly) = (disk.x * setup.lensRadius, disk.y * setup.lensRadius)
+      val lx = disk.x * setup.lensRadius
+      val ly = disk.y * setup.lensRadius
       locate(c, lx, ly, out)
       val d = out.eye - p
       out.direction = d * (1f / d.length)

@@ -96,6 +96,26 @@ final class PhotonMapperSuite extends AnyFunSuite:
     val lost = text("\"bdpt\" \"integer maxdepth\" 8", glass, mirror = true, Dialect.V3)
     assert(SceneTexts.mean(lost).largest == 0f)
 
+  test("v2's map without photons of a kind lacks that light"):
+    def text(integrator: String) =
+      s"""LookAt 3 0 3  0 0 0  0 1 0
+         |Camera "orthographic" "float screenwindow" [-.2 .2 -.2 .2]
+         |Film "image" "integer xresolution" 16 "integer yresolution" 16
+         |Sampler "random" "integer pixelsamples" 16
+         |SurfaceIntegrator "photonmap" "float maxdist" .2 $integrator
+         |WorldBegin
+         |LightSource "point" "point from" [0 0 1] "rgb I" [4 4 4]
+         |Material "matte" "rgb Kd" [.5 .5 .5]
+         |Shape "disk" "float radius" 1
+         |Material "glass"
+         |Translate 0 0 1
+         |Shape "sphere" "float radius" .3
+         |""".stripMargin
+    def seen(integrator: String) = SceneTexts.mean(text(integrator), Dialect.V2).g
+    assert(seen("") > 0.1f && seen("\"integer indirectphotons\" 0") > 0.1f)
+    // Only what the floor sends back into the glass returns once more
+    assert(seen("\"integer causticphotons\" 0") < 0.05f)
+
   test("the image is the same bit for bit by one thread and by three"):
     val text = room(sppm.replace("iterations\" 64", "iterations\" 5"), "Material \"glass\"")
     val images = Seq(1, 3).map: threads =>

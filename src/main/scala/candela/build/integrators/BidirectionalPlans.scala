@@ -39,27 +39,21 @@ private[build] object BidirectionalPlans:
 /** How [[PhotonMapper]] is made. */
 private[build] object PhotonPlans:
 
-  /** @param depth  most edges of a light path, and scattering events of one from the camera
-    * @param paths  from the lights in each pass; at most 0: one for each pixel
+  /** @param depth  scattering events of a path from the camera
     * @param passes if the scene says how many
     */
-  def plan(name: String, depth: Int, radius: Float, paths: Int, passes: Option[Int], seed: Int)(
+  def plan(name: String, depth: Int, settings: PhotonSettings, passes: Option[Int])(
       using site: Site
   ): IntegratorPlan =
     val most = Math.max(0, depth)
-    if !(radius > 0f) then site.error("photons need a radius above 0")
-    val settings =
-      PhotonSettings(
-        radius,
-        paths,
-        most,
-        compresses = site.dialect != Dialect.V2,
-        seed ^ site.resources.seed
+    if !(settings.radius > 0f) then site.error("photons need a radius above 0")
+    val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
+    BidirectionalPlans
+      .plan(name, most)
+      .copy(
+        make = (scene, _) => PhotonMapper(scene, most, seeded),
+        describe =
+          s"$name, up to $most scattering events, photons within ${settings.radius} at first",
+        samples = passes,
+        throughMedia = None
       )
-    val bidirectional = BidirectionalPlans.plan(name, most)
-    bidirectional.copy(
-      make = (scene, _) => PhotonMapper(scene, most, settings),
-      describe = s"$name, up to $most scattering events, photons within $radius at first",
-      samples = passes,
-      throughMedia = None
-    )

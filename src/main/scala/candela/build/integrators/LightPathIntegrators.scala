@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.bidirectional.PhotonSettings
 import candela.scenefile.Dialect
 
 /** Integrators whose paths start at lights, too. */
@@ -60,7 +61,9 @@ object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", since
     val asked = if passesToo() > 0 then passesToo() else passes()
     // v4 takes as many as the sampler says
     val count = Option.when(site.dialect == Dialect.V3)(Math.max(1, asked))
-    PhotonPlans.plan(name, maxDepth(), radius(), photons(), count, seed())
+    val settings =
+      PhotonSettings(radius(), photons(), Math.max(0, maxDepth()), compresses = true, seed())
+    PhotonPlans.plan(name, maxDepth(), settings, count)
 
 object LightPath
     extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4):

@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.bidirectional.PhotonSettings
 import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 
@@ -14,9 +15,14 @@ final class PhotonMap(name: String)
   private val specular = integer("maxspeculardepth", "most specular bounces")(5)
   private val radius =
     float("maxdist", "within which photons are sought", unit = "scene units")(0.1f)
+  private val caustics =
+    integer(
+      "causticphotons",
+      "photons that came by mirrors and glass; 0: without that light"
+    )(20000)
+  private val indirect =
+    integer("indirectphotons", "other photons; 0: without indirect light")(100000)
   noMeaning("photons are sent out for each sample anew, and the radius shrinks")(
-    integer("causticphotons", "photons that came by mirrors and glass")(20000),
-    integer("indirectphotons", "other photons")(100000),
     integer("nused", "photons of each estimate")(50),
     bool("finalgather", "is indirect light gathered at one remove?")(true),
     integer("finalgathersamples", "rays of each gathering")(32),
@@ -25,7 +31,15 @@ final class PhotonMap(name: String)
 
   protected def make()(using Site): IntegratorPlan =
     val depth = Math.max(bounces(), specular()) + 1
-    PhotonPlans.plan(name, depth, radius(), paths = -1, passes = None, seed = 0)
+    val settings = PhotonSettings(
+      radius(),
+      paths = -1,
+      maxEdges = Math.max(0, bounces()),
+      compresses = false,
+      caustics = caustics() > 0,
+      indirect = indirect() > 0
+    )
+    PhotonPlans.plan(name, depth, settings, passes = None)
 
 object InstantGlobalIllumination
     extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)
