@@ -77,7 +77,8 @@ object Architecture:
     "sun" -> Set("cli"),
     "scalatags" -> Set("report"),
     "ujson" -> Set("report"),
-    "com" -> Set("suite")
+    "com" -> Set("suite"),
+    "jdk" -> Set("accel")
   )
   private val language = Set("candela", "java", "javax", "scala")
 

@@ -3,7 +3,8 @@ package candela.accel
 import candela.base.Parallel
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** A bounding volume hierarchy of two children a node.
+/** A bounding volume hierarchy of two children a node: the plain twin of [[WideBvh]], and for sets
+  * of primitives that are too large for that.
   *
   * A node is 16 Floats (one cache line): the left child's box (min x y z, max x y z), the right
   * one's, then as raw bits left child, right child, and their sizes if they are leaves. A child ≥ 0
@@ -21,6 +22,9 @@ final class Bvh(
   private val tree = BvhBuilder.of(primitives, maxLeaf, parallel)
   private val packed = primitives.packed(tree.order, parallel)
   private val nodes = tree.nodes
+  parallel.ranges(tree.nodeCount): (from, until) =>
+    for i <- from until until; side <- 0 until 2 do
+      WideTree.pad(nodes, BvhBuilder.NodeFloats * i + 6 * side, 1)
   private val root = tree.root
   private val rootCount = tree.rootCount
   val bounds: Bounds3 = tree.bounds
@@ -62,7 +66,7 @@ final class Bvh(
         // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): such a slab is
         // passed
         var near = 0f
-        var far = ray.tMax
+        var far = ray.tMax * Bvh.FarSlack
         var t = (b(node + nx) - ox) * ix
         if t > near then near = t
         t = (b(node + ny) - oy) * iy
@@ -78,7 +82,7 @@ final class Bvh(
         val hitsLeft = near <= far
         val nearLeft = near
         near = 0f
-        far = ray.tMax
+        far = ray.tMax * Bvh.FarSlack
         t = (b(node + 6 + nx) - ox) * ix
         if t > near then near = t
         t = (b(node + 6 + ny) - oy) * iy
@@ -122,7 +126,7 @@ final class Bvh(
         while !going && top > 0 do
           top -= 1
           val entry = stack(top)
-          if java.lang.Float.intBitsToFloat((entry >>> 32).toInt) <= ray.tMax then
+          if java.lang.Float.intBitsToFloat((entry >>> 32).toInt) <= ray.tMax * Bvh.FarSlack then
             val slot = entry.toInt
             leafSize = bits(slot + 14)
             node = bits(slot + 12)
@@ -133,10 +137,11 @@ final class Bvh(
     private inline def toRawBits: Int = java.lang.Float.floatToRawIntBits(x)
 
 object Bvh:
-  /** 1 + 2γ(3): keeps the rounding of the slab distances from missing a box that is grazed (Ize,
-    * "Robust BVH Ray Traversal", JCGT 2(2), 2013).
+  /** More than 1 + 12 round-offs: keeps the rounding of slab distances, of hits and of the Float
+    * triangle test from missing a box that is grazed (Ize, "Robust BVH Ray Traversal", JCGT 2(2),
+    * 2013).
     */
-  private inline val FarSlack = 1.0000004f
+  private inline val FarSlack = 1.000001f
 
   /** A node code for "nothing here": no leaf can start at that slot. */
   private inline val Pop = Int.MinValue

@@ -43,9 +43,13 @@ final class MaskedPrimitives(
     val primitive = order(slot)
     if primitive < triangles then
       val mask = masks.ofMesh(soup.meshOf(primitive))
-      if mask eq SolidMask then TriangleTest.intersect(corners, 9 * slot, ray, hit)
+      if mask eq SolidMask then triangle(slot, ray, hit, shadow)
       else triangle(slot, mask, ray, hit, shadow)
-    else if primitive < firstInstance then
+    else if shadow then other(primitive, ray, hit, shadow)
+    else PackedPrimitives.withTies(primitive, ray, hit)(other(primitive, ray, hit, shadow))
+
+  private def other(primitive: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
+    if primitive < firstInstance then
       val i = primitive - triangles
       val mask = masks.ofShape(i)
       if mask eq SolidMask then shapes(i).intersect(ray, hit)
@@ -53,11 +57,16 @@ final class MaskedPrimitives(
     else if shadow then instances.isHit(primitive - firstInstance, ray, hit)
     else instances.intersect(primitive - firstInstance, ray, hit)
 
+  /** `hit` says what was met before only if the closest is asked for. */
+  private def triangle(slot: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
+    val number = if shadow then Int.MaxValue else order(slot)
+    TriangleTest.intersect(corners, 9 * slot, 1, number, ray, hit)
+
   private def triangle(slot: Int, mask: Mask, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     val tMax = ray.tMax
     val u = hit.u
     val v = hit.v
-    if !TriangleTest.intersect(corners, 9 * slot, ray, hit) then false
+    if !triangle(slot, ray, hit, shadow) then false
     else
       val at = hit.work
       soup.surface(order(slot), hit, at)

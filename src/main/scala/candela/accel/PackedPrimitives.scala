@@ -13,6 +13,20 @@ abstract class PackedPrimitives:
 
   def isHit(first: Int, end: Int, ray: Ray, hit: Hit): Boolean
 
+object PackedPrimitives:
+  /** Of two primitives at the same distance the one of the lower number is met, so that the answer
+    * does not depend on the order of asking: triangles see to that themselves, for others the ray
+    * is as long as the next Float.
+    */
+  private[accel] inline def withTies(primitive: Int, ray: Ray, hit: Hit)(
+      inline intersect: Boolean
+  ): Boolean =
+    val end = ray.tMax
+    if primitive < hit.primitive then ray.tMax = Math.nextUp(end)
+    val found = intersect
+    if !found || ray.tMax > end then ray.tMax = end
+    found
+
 /** Primitives without holes.
   *
   * @param order   which primitive is in each slot
@@ -33,7 +47,8 @@ final class SolidPrimitives(
     while slot < end do
       val primitive = order(slot)
       val here =
-        if primitive < triangles then TriangleTest.intersect(corners, 9 * slot, ray, hit)
+        if primitive < triangles then
+          TriangleTest.intersect(corners, 9 * slot, 1, primitive, ray, hit)
         else other(primitive, ray, hit)
       if here then
         hit.primitive = primitive
@@ -53,8 +68,9 @@ final class SolidPrimitives(
     found
 
   private def other(primitive: Int, ray: Ray, hit: Hit): Boolean =
-    if primitive < firstInstance then shapes(primitive - triangles).intersect(ray, hit)
-    else instances.intersect(primitive - firstInstance, ray, hit)
+    PackedPrimitives.withTies(primitive, ray, hit):
+      if primitive < firstInstance then shapes(primitive - triangles).intersect(ray, hit)
+      else instances.intersect(primitive - firstInstance, ray, hit)
 
   private def isOtherHit(primitive: Int, ray: Ray, hit: Hit): Boolean =
     if primitive < firstInstance then shapes(primitive - triangles).isHit(ray)

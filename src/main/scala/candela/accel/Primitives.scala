@@ -16,6 +16,10 @@ final class Primitives(
   private val firstInstance = soup.count + shapes.length
   def count: Int = firstInstance + instances.count
 
+  /** Is it a triangle without holes? */
+  def isSolidTriangle(i: Int): Boolean =
+    i < soup.count && (masks.isEmpty || (masks.ofMesh(soup.meshOf(i)) eq SolidMask))
+
   /** Lower and upper corner of each primitive's box: six Floats. */
   def bounds: Array[Float] =
     val all = new Array[Float](6 * count)

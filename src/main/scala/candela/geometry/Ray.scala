@@ -23,12 +23,21 @@ final class Ray:
   var shearX, shearY, shearZ = 0f
 
   /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree
-    * that the builder makes.
+    * that the builder makes, of two children a node or of sixteen.
     */
-  val stack: Array[Long] = new Array[Long](128)
+  val stack: Array[Long] = new Array[Long](Ray.StackSize)
+
+  /** Work space too: what a walk finds out about the children of a node, all at once. */
+  val lanes: Array[Int] = new Array[Int](16)
+
+  /** How often an accelerator has walked with it, as far as it counts. */
+  var walks = 0
 
   /** Filled in only where textures ask for it. */
   val differential: RayDifferential = RayDifferential()
+
+  /** Of the origin, by the number of the axis. */
+  inline def along(axis: Int): Float = if axis == 0 then ox else if axis == 1 then oy else oz
 
   def origin: Vec3 = Vec3(ox, oy, oz)
   def direction: Vec3 = Vec3(dx, dy, dz)
@@ -87,3 +96,7 @@ final class Ray:
     shearZ = 1f / along
 
   private def component(axis: Int): Float = if axis == 0 then dx else if axis == 1 then dy else dz
+
+object Ray:
+  /** 91 levels at most, each with 15 children that wait. */
+  inline val StackSize = 1400

@@ -158,6 +158,15 @@ class BvhSuite extends AcceleratorLaws(Bvh(_)):
         ray.set(o, d, Float.PositiveInfinity)
         assert(tree.closest(ray, hit) == (expected >= 0) && hit.primitive == expected)
 
+class ScalarWideSuite extends AcceleratorLaws(Hierarchies.scalar(_))
+class CarefulSuite extends AcceleratorLaws(Hierarchies.careful(_))
+
+/** The best that this JVM has. */
+class HierarchySuite
+    extends AcceleratorLaws(p =>
+      if Hierarchies.hasVectors then Hierarchies.vector(p, patience = 10) else Hierarchies.of(p)
+    )
+
 class GridSuite extends AcceleratorLaws(Grid(_)):
 
   test("its size follows the number of primitives"):

@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.accel.{Accelerator, Bvh, Grid, Primitives}
+import candela.accel.{Accelerator, Grid, Hierarchies, Primitives}
 
 /** Recipes of accelerators: the picture is the same with each. */
 object Accelerators:
@@ -18,7 +18,7 @@ object BvhRecipe
 
   /** What every scene gets that doesn't ask for another. */
   def accelerator(resources: Resources): Primitives => Accelerator =
-    Bvh(_, parallel = resources.crew)
+    Hierarchies.of(_, resources.crew)
 
 object GridRecipe
     extends Recipe[Primitives => Accelerator]("grid", "cells of equal size", onlyV2):

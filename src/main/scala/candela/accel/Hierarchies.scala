@@ -1,0 +1,47 @@
+package candela.accel
+
+import candela.base.Parallel
+
+/** Which hierarchy suits a set of primitives and this JVM. */
+object Hierarchies:
+  def of(primitives: Primitives, parallel: Parallel = Parallel.Alone): Accelerator =
+    if primitives.count > Most then Bvh(primitives, parallel = parallel)
+    else if hasVectors then vector(primitives, parallel = parallel)
+    else scalar(primitives, parallel = parallel)
+
+  /** Walked in plain Scala alone. */
+  def scalar(
+      primitives: Primitives,
+      lanes: Int = 4,
+      parallel: Parallel = Parallel.Alone
+  ): Accelerator =
+    WideBvh(WideTree.of(primitives, lanes, MaxLeaf, parallel), ScalarKernel, Int.MaxValue)
+
+  /** Walked by vectors from the given ray on; only if [[hasVectors]]. */
+  def vector(
+      primitives: Primitives,
+      patience: Int = Patience,
+      parallel: Parallel = Parallel.Alone
+  ): Accelerator =
+    val tree = WideTree.of(primitives, VectorKernel.lanes, MaxLeaf, parallel)
+    WideBvh(tree, VectorKernel, patience)
+
+  private[accel] def careful(primitives: Primitives): Accelerator =
+    WideBvh(WideTree.of(primitives, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
+
+  /** Is the JVM's incubating Vector API there (`--add-modules jdk.incubator.vector`), and are this
+    * machine's vectors worth it?
+    */
+  lazy val hasVectors: Boolean =
+    ModuleLayer.boot.findModule("jdk.incubator.vector").isPresent && VectorKernel.isWorthIt
+
+  private inline val MaxLeaf = 4
+
+  /** Vectors cost about 0.9 s until they are compiled, and then half as much a ray as scalars: the
+    * time that scalars take for this many rays, so that at worst a rendering takes that much longer
+    * (docs/decisions/0010-ray-kernels.md).
+    */
+  private inline val Patience = 250000
+
+  /** Blocks of more would not fit into one array. */
+  private inline val Most = 60000000

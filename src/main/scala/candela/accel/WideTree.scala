@@ -1,0 +1,115 @@
+package candela.accel
+
+import candela.base.Parallel
+import candela.geometry.Bounds3
+import candela.shapes.TriangleSoup
+
+/** A hierarchy with as many children a node as a vector has lanes, all in flat arrays.
+  *
+  * A node is six rows of `lanes` Floats (its children's min x, y, z, max x, y, z) and a row of raw
+  * bits, the children themselves: one load a row and slab. A child ≥ 0 is the index of its node's
+  * first Float. Below 0 it is the complement of a leaf (see [[WideTree.leaf]]): up to `lanes`
+  * triangles in a block, or up to 16 primitives of any kind in a row.
+  *
+  * A block is nine rows of `lanes` Floats, x, y, z of the triangles' three corners; its primitives'
+  * numbers are in `owners`. All boxes are somewhat larger than what is in them: see
+  * [[WideBuilder]].
+  *
+  * Source of the layout: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
+  *
+  * @param count  of all primitives
+  * @param root   a child's code
+  * @param others the primitives that are in no block
+  */
+private[accel] final class WideTree(
+    val lanes: Int,
+    val count: Int,
+    val bounds: Bounds3,
+    val nodes: Array[Float],
+    val root: Int,
+    val blocks: Array[Float],
+    val owners: Array[Int],
+    val others: PackedPrimitives
+):
+  def nodeCount: Int = nodes.length / WideTree.floats(lanes)
+  def blockCount: Int = owners.length / lanes
+
+private[accel] object WideTree:
+  /** @param maxLeaf of the binary tree that it is made of */
+  def of(primitives: Primitives, lanes: Int, maxLeaf: Int, parallel: Parallel): WideTree =
+    val built = BvhBuilder.of(primitives, maxLeaf, parallel)
+    val wide = WideBuilder(
+      lanes,
+      built.nodes,
+      built.nodeCount,
+      built.order,
+      built.root,
+      built.rootCount,
+      primitives.isSolidTriangle
+    )
+    val owners = wide.owners.toArray
+    WideTree(
+      lanes,
+      primitives.count,
+      built.bounds,
+      wide.wideNodes,
+      wide.rootCode,
+      blocks(primitives.soup, owners, lanes, parallel),
+      owners,
+      primitives.packed(wide.others.toArray, parallel)
+    )
+
+  private def blocks(
+      soup: TriangleSoup,
+      owners: Array[Int],
+      lanes: Int,
+      parallel: Parallel
+  ): Array[Float] =
+    val all = new Array[Float](Math.multiplyExact(9, owners.length))
+    parallel.ranges(owners.length): (from, until) =>
+      var i = from
+      while i < until do
+        val triangle = owners(i)
+        if triangle >= 0 then
+          val at = i / lanes * blockFloats(lanes) + i % lanes
+          var c = 0
+          while c < 9 do
+            all(at + c * lanes) = soup.positions(3 * soup.indices(3 * triangle + c / 3) + c % 3)
+            c += 1
+        i += 1
+    all
+
+  /** Widens a box, six Floats that are `stride` apart: to as far beside it as hits may be, and one
+    * Float more, so that no corner is on its planes: there, a ray along the plane has no distance.
+    */
+  def pad(boxes: Array[Float], at: Int, stride: Int): Unit =
+    var axis = 0
+    while axis < 3 do
+      val low = boxes(at + axis * stride)
+      val high = boxes(at + (3 + axis) * stride)
+      val more = (high - low) * Pad
+      boxes(at + axis * stride) = Math.nextDown(low - more)
+      boxes(at + (3 + axis) * stride) = Math.nextUp(high + more)
+      axis += 1
+
+  /** Twice what [[candela.shapes.TriangleTest.Within]] allows. */
+  private final val Pad = 4e-6f
+
+  inline def floats(lanes: Int): Int = 7 * lanes
+  inline def blockFloats(lanes: Int): Int = 9 * lanes
+
+  /** The code of a leaf: 26 bits of where (a block, or the first slot of `others`), 4 bits of how
+    * many less one, 1 bit of which kind.
+    */
+  def leaf(isBlock: Boolean, first: Int, count: Int): Int =
+    ~((first << 5) | ((count - 1) << 1) | (if isBlock then 1 else 0))
+
+  inline def isBlock(leaf: Int): Boolean = (~leaf & 1) != 0
+  inline def size(leaf: Int): Int = ((~leaf >> 1) & 15) + 1
+  inline def first(leaf: Int): Int = ~leaf >>> 5
+
+  /** The code of no child at all: never arrived at, but as a root. */
+  final val Nothing = -2147483648
+
+  /** What [[leaf]] can number. */
+  final val MostLeaves = 67108864
