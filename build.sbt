@@ -82,7 +82,8 @@ lazy val bench = (project in file("bench"))
     // `bench/runMain`: a JVM like the renderer's, in the checkout's folder; 10⁷ triangles fit in
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
-    run / javaOptions ++= jvmOptions :+ "-Xmx2g"
+    run / javaHome := sys.env.get("CANDELA_JAVA").map(file),
+    run / javaOptions ++= jvmOptions :+ vectorModule :+ "-Xmx2g"
   )
 
 /** What the launcher in src/universal/bin starts: one jar, the native libraries, and options. */
