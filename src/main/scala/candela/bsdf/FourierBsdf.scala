@@ -81,7 +81,7 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
   def f(wo: Vec3, wi: Vec3): Rgb =
     val series = new Array[Float](order * table.channels)
     val count = table.series(clamp(-wi.z, -1f, 1f), clamp(wo.z, -1f, 1f), series)
-    if count == 0 || wi.z == 0f then Rgb.Black
+    if count == 0 || Hemisphere.isLevel(wo, wi) then Rgb.Black
     else color(series, count, FourierBsdf.cosPhi(wi, wo)) * (1f / scale(wo, wi))
 
   /** What turns f·|cos| as the table has it into f: refraction changes the solid angle. */

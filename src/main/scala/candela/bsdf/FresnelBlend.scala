@@ -41,7 +41,15 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
     else
       val o = Hemisphere.above(wo)
       val m = (o + Hemisphere.above(wi)).normalized
-      0.5f * (Hemisphere.cosinePdf(wi) + MicrofacetReflection.pdf(distribution, o, m))
+      0.5f * (Hemisphere.cosinePdf(wi) + coatPdf(o, m))
+
+  /** Facets are drawn as they are seen from straight above: nothing in [[f]] shadows them, so that
+    * those which one sees from `wo` would rarely be the ones that matter near the horizon, and have
+    * weights of any size then.
+    */
+  private def coatPdf(o: Vec3, m: Vec3): Float =
+    val cosM = o dot m
+    if cosM > 0f then distribution.pdf(Vec3.Z, m) / (4f * cosM) else 0f
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val wi =
@@ -54,7 +62,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
 
   private def sampleCoat(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val o = Hemisphere.above(wo)
-    val m = distribution.sample(o, u1, u2)
+    val m = distribution.sample(Vec3.Z, u1, u2)
     val i = Hemisphere.reflected(o, m, o dot m)
     if wo.z < 0f then Hemisphere.flipped(i) else i
 

@@ -1,11 +1,10 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.color.Rgb
 import candela.film.*
 import candela.render.{PixelBounds, Renderer, TinyPlan}
 import candela.testing.Draws
+import Checks.assert
 
 /** Sums of many samples of very different sizes. */
 object Accumulation extends Group(
@@ -15,6 +14,9 @@ object Accumulation extends Group(
         ),
         Case("a million equal samples have the same mean as one", 1000000, 1_000_000_000L)(
           Sums.equal
+        ),
+        Case("a rendered pixel of a million samples has their mean", 1000000, 1_000_000_000L)(
+          Sums.rendered
         ),
         Case("filters with negative lobes keep what is constant", 100000, 100_000_000L)(
           Sums.negativeLobes
@@ -57,6 +59,15 @@ private object Sums:
     val data = film.toImage(1f).data
     for (found, exact) <- data.zip(Seq(0.1f, 1e-30f, 1e30f)) do
       assert(Math.abs(found - exact) <= Math.ulp(exact), s"$found, not $exact"): Unit
+
+  /** Through the renderer: what is the same each time, what is 0 or 2, and what is tiny. */
+  def rendered(count: Long): Unit =
+    val plan = TinyPlan(width = 1, height = 1, spp = count.toInt): (_, sampler) =>
+      Rgb(1f, if sampler.next1D() < 0.5f then 2f else 0f, 1e-12f)
+    val data = Renderer.render(plan, threads = 2).film.toImage(1f).data
+    assert(data(0) == 1f && Math.abs(data(2) - 1e-12f) <= Math.ulp(1e-12f), s"${data.toSeq}")
+    // 4.5 standard errors of 1
+    assert(Math.abs(data(1) - 1) < 4.5 / Math.sqrt(count.toDouble), s"${data(1)}")
 
   def negativeLobes(count: Long): Unit =
     val filters = Seq(

@@ -6,8 +6,11 @@ import org.scalatest.funsuite.AnyFunSuite
   *
   * @param quick trials in every run of the tests
   * @param long  trials of [[LongRun]]
+  * @param kind  more words by which [[LongRun]] finds it
   */
-final class Case(val name: String, val quick: Int, val long: Long)(val check: Long => Unit)
+final class Case(val name: String, val quick: Int, val long: Long, val kind: String = "")(
+    val check: Long => Unit
+)
 
 /** A group of cases; [[LongRun]] knows all groups. */
 abstract class Group(val cases: Seq[Case])

@@ -1,10 +1,9 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.bsdf.Fresnel
 import candela.math.*
 import candela.testing.Draws
+import Checks.assert
 
 /** Fresnel's equations with 60 digits: at grazing angles, around the critical one, and between
   * media that are nearly the same, where all but a few digits of Floats cancel.
@@ -21,6 +20,7 @@ private object Interfaces:
     )(
       critical
     ),
+    Case("reflectance of metals has the digits of Floats", 1000, 1_000_000L)(metal),
     Case("refracted directions obey Snell's law", 3000, 1_000_000L)(snell)
   )
 
@@ -58,6 +58,28 @@ private object Interfaces:
           Math.abs(found - exact) <= 1e-6 * exact + 1e-30 + 4e-8 * exact,
           s"$c $eta $exact"
         ): Unit
+      i += 1
+
+  /** Born and Wolf, "Principles of Optics", §13.4, for a complex index against 1. */
+  private def metal(count: Long): Unit =
+    val draws = Draws(4)
+    val (two, four) = (of(2f), of(4f))
+    var i = 0L
+    while i < count do
+      val (c, eta, k) = (cosine(draws), draws.magnitude(1e-3, 1e3), draws.magnitude(1e-6, 1e3))
+      val (cos, n, kk) = (of(c), of(eta), of(k))
+      val cos2 = cos *~ cos
+      val sin2 = one -~ cos2
+      val real = (n *~ n) -~ (kk *~ kk) -~ sin2
+      val modulus = ((real *~ real) +~ (four *~ n *~ n *~ kk *~ kk)).root
+      val twiceA = two *~ ((modulus +~ real) /~ two).root *~ cos
+      val across = (modulus +~ cos2 -~ twiceA) /~ (modulus +~ cos2 +~ twiceA)
+      val (sum, part) = ((modulus *~ cos2) +~ (sin2 *~ sin2), twiceA *~ sin2)
+      val along = across *~ (sum -~ part) /~ (sum +~ part)
+      val exact = ((across +~ along) /~ two).doubleValue
+      val found = Fresnel.conductor(c, eta, k)
+      // Where nearly all passes, the difference of Doubles is all that is left
+      assert(Math.abs(found - exact) <= 1e-6 * exact + 1e-13, s"$found, not $exact: $c $eta $k")
       i += 1
 
   private def critical(count: Long): Unit =

@@ -1,12 +1,11 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.accel.*
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.*
 import candela.testing.{Draws, Soups}
+import Checks.assert
 
 /** Rays that are hard to intersect, and surfaces that are. */
 object Intersections extends Group(
@@ -148,6 +147,9 @@ private object OddRays:
     Case("triangles without an area have normals and points that are numbers", 5000, 10_000_000L)(
       degenerate
     ),
+    Case("triangles that are there twice are met once, where one of them is", 5000, 10_000_000L)(
+      duplicates
+    ),
     Case("rays along the axes meet boxes without thickness", 2000, 1_000_000L)(flatBoxes)
   )
 
@@ -195,6 +197,24 @@ private object OddRays:
         assert(at.p.isFinite && at.pError.isFinite, s"${at.p} of $a $b $c")
         assert(Math.abs(n.length - 1f) < 1e-5f, s"$n of $a $b $c")
         assert(Math.abs(at.frame.s.length - 1f) < 1e-5f, s"${at.frame.s} of $a $b $c"): Unit
+      i += 1
+
+  private def duplicates(count: Long): Unit =
+    val draws = Draws(9)
+    val (ray, hit, other) = (Ray(), Hit(), Hit())
+    var i = 0L
+    while i < count do
+      val one = Soups.around(draws, 1, 1f)(draws.vec(-1, 1)).head
+      val alone = Bvh(Primitives(Soups.of(Seq(one)), Array.empty))
+      val all = Primitives(Soups.of(Seq(one, one, one)), Array.empty)
+      val o = draws.vec(-3, 3)
+      val d = draws.vec(-1, 1) - o
+      ray.set(o, d, Float.PositiveInfinity)
+      val isMet = alone.closest(ray, hit)
+      val t = ray.tMax
+      for a <- Seq(Bvh(all), Grid(all)) do
+        ray.set(o, d, Float.PositiveInfinity)
+        assert(a.closest(ray, other) == isMet && ray.tMax == t, s"$t, ${ray.tMax}: $o along $d")
       i += 1
 
   private def flatBoxes(count: Long): Unit =

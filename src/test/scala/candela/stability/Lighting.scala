@@ -1,7 +1,5 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.image.Image
@@ -9,6 +7,7 @@ import candela.lights.*
 import candela.math.*
 import candela.shapes.*
 import candela.testing.{Draws, Soups}
+import Checks.assert
 
 /** Lights of any size and distance, at points beside, on and inside them. */
 object Lighting extends Group(

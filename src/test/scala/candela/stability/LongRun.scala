@@ -14,7 +14,8 @@ object LongRun:
       Option.when(at >= 0)(args.drop(at + 1).takeWhile(!_.startsWith("--")).mkString(" "))
     val wanted = option("--case").getOrElse("")
     val count = option("--count").map(_.toLong)
-    val chosen = groups.flatMap(_.cases).filter(_.name.contains(wanted))
+    val chosen =
+      groups.flatMap(_.cases).filter(c => c.name.contains(wanted) || c.kind.contains(wanted))
     val failures = chosen.count(c => !holds(c, count.getOrElse(c.long)))
     println(s"${chosen.size - failures} passed, $failures failed")
     if failures > 0 then throw IllegalStateException(s"$failures cases failed")

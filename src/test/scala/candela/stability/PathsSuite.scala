@@ -59,3 +59,20 @@ class PathsSuite extends AnyFunSuite:
     val found = inside(path(200), spp = 256, world)
     // 4096 samples; what is trapped by total reflection within spheres is less than a hundredth
     assert(Math.abs(found - 1f) < 0.01f, s"$found")
+
+  test("where shading normals disagree with the surface, an even sky still shows its albedo"):
+    // As in pbrt-v3, geometry decides on the side and the shading normal on the cosine, whose sign
+    // doesn't count: ∫ |cos| over any half space is π
+    for degrees <- Seq(0.0, 30.0, 60.0, 85.0) do
+      val (s, c) = (Math.sin(degrees.toRadians), Math.cos(degrees.toRadians))
+      val n = s"$s 0 ${-c}"
+      val found = inside(
+        path(5),
+        spp = 1024,
+        s"""LightSource "infinite" "rgb L" [1 1 1]
+           |Material "matte" "rgb Kd" [.8 .8 .8]
+           |Shape "trianglemesh" "integer indices" [0 1 2] "normal N" [$n $n $n]
+           |  "point P" [-90 -90 9  90 -90 9  0 90 9]""".stripMargin
+      )
+      // 16,384 samples, each between 0 and twice the mean
+      assert(Math.abs(found - 0.8) < 0.015, s"$found at $degrees degrees")

@@ -1,9 +1,8 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.sampling.*
 import candela.testing.Draws
+import Checks.assert
 
 /** Samplers at the ends of their counts, pixels and dimensions. */
 object Sampling extends Group(

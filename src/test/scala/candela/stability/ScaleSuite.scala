@@ -60,3 +60,7 @@ class ScaleSuite extends AnyFunSuite:
     for m <- Seq(10.0, 1000.0) do
       val off = apart(plain, image(1, m))
       assert(off < 0.05, s"$m: $off")
+
+  test("moving a scene of a thousand units by a million changes no more than that"):
+    val off = apart(plain, image(1e3, 1e6))
+    assert(off < 0.05, s"$off")

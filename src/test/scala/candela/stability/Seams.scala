@@ -1,11 +1,10 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.*
 import candela.testing.Draws
+import Checks.assert
 
 /** Where shapes end: two parts leave no gap, and tips and edges have geometry that is finite. */
 private object Seams:

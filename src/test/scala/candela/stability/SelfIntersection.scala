@@ -1,10 +1,9 @@
 package candela.stability
 
-import org.scalatest.Assertions.assert
-
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.testing.Draws
+import Checks.assert
 
 /** No ray that leaves a surface meets the same surface where it can't.
   *
