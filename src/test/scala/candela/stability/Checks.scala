@@ -2,7 +2,7 @@ package candela.stability
 
 import org.scalatest.Assertions.fail
 
-/** An assertion that costs nothing as long as it holds. ScalaTest's makes its words, and a record of
+/** An assertion that costs nothing while it holds. ScalaTest's makes its words, and a record of
   * what it compares, in every call: most of the time of ten million trials.
   */
 private object Checks:
