@@ -1,7 +1,9 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Version}
-import candela.report.{SuiteData, SuitePage, SuiteReport}
+import candela.convert.SideFiles
+import candela.render.Cancellation
+import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
 
 import java.lang.management.ManagementFactory
@@ -14,6 +16,7 @@ import scala.util.Using
 /** `candela bench`: how fast programs come to which error. */
 final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   private val asked = options.bench
+  private val cancellation = Cancellation()
 
   def run(): ExitCode = report.guarded:
     val source = OutputFiles.path(options.files.head)
@@ -21,16 +24,32 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     paths.foreach(checkFolder)
     val suite = read(source).only(asked.programs, asked.scenes)
     val shown = asked.samples.fold(suite)(counts => suite.copy(work = Work.Samples(counts)))
-    val results = inScratch: scratch =>
-      val say: String => Unit = if options.quiet then _ => () else terminal.err.println
-      SuiteResults.of(seeded(withoutOwnWork(shown)), self, scratch, Version.current, say)
-    if results.scenes.isEmpty then
-      throw SceneError(Problem.general("nothing could be run"))
+    terminal.interrupts.during(cancellation):
+      val results = inScratch(measured(seeded(withoutOwnWork(shown)), paths, _))
+      if results.scenes.nonEmpty then
+        write(paths, results)
+        for path <- paths do terminal.out.println(s"wrote $path")
+        terminal.out.flush()
+      else if !cancellation.isRequested then
+        throw SceneError(Problem.general("nothing could be run"))
+      if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
+
+  private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
+    val say: String => Unit = if options.quiet then _ => () else terminal.err.println
+    SuiteResults.of(
+      suite,
+      self,
+      scratch,
+      Version.current,
+      say,
+      () => cancellation.isRequested,
+      write(paths, _)
+    )
+
+  /** Each file is whole at any time, even if the machine stops while it is written anew. */
+  private def write(paths: Vector[Path], results: SuiteReport): Unit =
     for path <- paths do
-      val _ = Files.write(path, text(path, results).getBytes(UTF_8))
-      terminal.out.println(s"wrote $path")
-    terminal.out.flush()
-    ExitCode.Done
+      SideFiles.write(path)(Files.write(_, text(path, results).getBytes(UTF_8)))
 
   private def read(source: Path): Suite =
     if Files.isDirectory(source) then
@@ -54,7 +73,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   private def checkFolder(path: Path): Unit =
     val known = Vector("html", "json", "csv", "svg")
     if !known.contains(ReportFiles.ending(path)) then
-      val help = Some("results are written as .html, .json, .csv, or .svg (a scene's main chart)")
+      val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
       throw SceneError(Problem.general(s"can't write `$path`", help))
     val folder = path.toAbsolutePath.getParent
     if !Files.isDirectory(folder) then
@@ -64,7 +83,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     case "html" => SuitePage.html(results, asked.pictures)
     case "json" => SuiteData.json(results)
     case "csv" => SuiteData.csv(results)
-    case _ => SuitePage.svg(results.scenes.head)
+    case _ => SuiteChart.svg(results)
 
   /** This very program: the same Java, with the same options and classes. */
   private def self: Vector[String] =

@@ -41,7 +41,7 @@ object Interrupts:
         if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
         else
           // said first: a rendering may end as soon as it is asked to, and its result is said next
-          err.println(s"${lineEnd}stopping; Ctrl-C again quits without an image")
+          err.println(s"${lineEnd}stopping; Ctrl-C again quits and writes nothing")
           cancellation.request()
       Runtime.getRuntime.addShutdownHook(onShutdown)
       // Refused if Java was told (-Xrs) to leave signals alone.

@@ -24,34 +24,50 @@ final case class Series(name: String, color: Int, isThin: Boolean, marks: Vector
   * pictures with colours that suit one of both screens (docs/decisions/0009).
   *
   * @param guideSlope how the figure should fall, drawn as a dotted line
+  * @param goal       a height to be reached, drawn as a line across
+  * @param frame      how large it is, and what stands around it
   */
 final class LogLogChart(
     title: String,
     xLabel: String,
     yLabel: String,
     series: Vector[Series],
-    guideSlope: Option[Double]
+    guideSlope: Option[Double],
+    goal: Option[Double] = None,
+    frame: ChartFrame = ChartFrame.Whole
 ):
   import LogLogChart.*
   import Svg.*
 
+  private val Left = if frame.isWhole then 70.0 else 46.0
+  private val Top = if frame.isWhole then 36.0 else 50.0
   private val drawn = series.map(s => s.copy(marks = s.marks.filter(m => m.x > 0 && m.y > 0)))
   private val marks = drawn.flatMap(_.marks)
-  private val legendRows = (series.size + 2) / 3
-  private val bottom = Height - 52 - 20 * legendRows
-  private val x = LogAxis.around(marks.map(_.x), Left, Width - Right)
+  private val width = frame.width
+  private val legend = Option.when(frame.isWhole)(ChartLegend(series, 3, width - Left - Right))
+  private val bottom = frame.height - legend.fold(BareBottom)(_.height + 52)
+  private val x = LogAxis.around(marks.map(_.x), Left, width - Right)
   private val y =
-    LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), bottom.toDouble, Top)
+    LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), bottom, Top)
 
-  def svg: Node = picture(Width, Height, title)(content*)
+  def svg: Node = picture(width, frame.height, title)(content*)
 
-  def standalone: String =
-    val style = element("style")(scalatags.Text.all.raw(Page.chartStyle))
-    val back = element("rect", "width" -> "100%", "height" -> "100%", "class" -> "back")()
-    picture(Width, Height, title)((Vector(style, back) ++ content)*).render
+  def standalone: String = Svg.standalone(width, frame.height, title)(content)
 
-  private def content: Vector[Frag] =
-    grid ++ guide ++ drawn.map(curve) ++ legend :+ text(Left, 22, "charttitle", "start")(title)
+  /** All but the picture around it. */
+  def content: Vector[Frag] =
+    val words = text(Left, 22, "charttitle", "start")(title) +:
+      frame.note.map(text(Left, 39, "note", "start")(_)).toVector
+    grid ++ goalLine ++ guide ++ drawn.map(curve) ++
+      legend.toVector.flatMap(_.at(Left, bottom + 54)) ++ words
+
+  private def goalLine: Vector[Frag] =
+    val (least, most) = (y.at(marks.map(_.y).minOption.getOrElse(1.0)), Top)
+    goal.toVector.map(y.at).filter(h => h <= least + 1 && h >= most).map: h =>
+      element("g", "class" -> "goal")(
+        line(Left, h, width - Right, h, "goalline"),
+        tip(s"the goal: ${goal.fold("")(Numbers.short)}")
+      )
 
   private def grid: Vector[Frag] =
     val vertical = x.ticks.flatMap: value =>
@@ -61,11 +77,14 @@ final class LogLogChart(
       )
     val horizontal = y.ticks.flatMap: value =>
       Vector(
-        line(Left, y.at(value), Width - Right, y.at(value), "grid"),
+        line(Left, y.at(value), width - Right, y.at(value), "grid"),
         text(Left - 8, y.at(value) + 4, "tick", "end")(Numbers.tick(value))
       )
-    val labels = Vector(
-      text((Left + Width - Right) / 2, bottom + 34, "axis", "middle")(xLabel),
+    vertical ++ horizontal ++ (if frame.isWhole then labels else Vector.empty)
+
+  private def labels: Vector[Frag] =
+    Vector(
+      text((Left + width - Right) / 2, bottom + 34, "axis", "middle")(xLabel),
       element(
         "text",
         "transform" -> s"translate(16 ${px((Top + bottom) / 2)}) rotate(-90)",
@@ -73,7 +92,6 @@ final class LogLogChart(
         "text-anchor" -> "middle"
       )(stringFrag(yLabel))
     )
-    vertical ++ horizontal ++ labels
 
   /** From the first point on, as far as the picture goes. */
   private def guide: Vector[Frag] =
@@ -89,7 +107,7 @@ final class LogLogChart(
         )
 
   private def curve(s: Series): Frag =
-    val css = s"series c${s.color % Colors}${if s.isThin then " thin" else ""}"
+    val css = cssOf(s)
     val path = s.marks.map(m => s"${px(x.at(m.x))},${px(y.at(m.y))}").mkString(" ")
     val bars =
       for m <- s.marks if m.low > 0 && m.high > m.low * 1.001
@@ -100,24 +118,11 @@ final class LogLogChart(
       frag((element("polyline", "points" -> path)() +: (bars ++ dots))*)
     )
 
-  private def legend: Vector[Frag] =
-    val width = (Width - Left - Right) / 3
-    series.zipWithIndex.map: (s, i) =>
-      val left = Left + (i % 3) * width
-      val height = bottom + 54 + 20 * (i / 3)
-      val css = s"series c${s.color % Colors}${if s.isThin then " thin" else ""}"
-      element("g", "class" -> css)(
-        line(left, height - 4, left + 22, height - 4, "sample"),
-        element("circle", "cx" -> px(left + 11), "cy" -> px(height - 4), "r" -> "4")(),
-        text(left + 28, height, "legend", "start")(s.name)
-      )
-
 object LogLogChart:
-  private val Width = 760.0
-  private val Height = 460
-  private val Left = 70.0
   private val Right = 20.0
-  private val Top = 36.0
+
+  /** Below the curves, where there are ticks only. */
+  private val BareBottom = 24.0
 
   /** Of squared errors −1, half the error for double the work; of FLIP nobody knows. */
   def guideOf(metric: Metric): Option[Double] = metric match
@@ -127,3 +132,6 @@ object LogLogChart:
 
   /** As many as the style has. */
   val Colors = 8
+
+  /** How a curve and its entry in a legend look. */
+  def cssOf(s: Series): String = s"series c${s.color % Colors}${if s.isThin then " thin" else ""}"

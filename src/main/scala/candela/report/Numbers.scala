@@ -1,5 +1,7 @@
 package candela.report
 
+import candela.measure.Interval
+
 import java.util.Locale
 
 /** Numbers in pages and charts; the same in every locale. */
@@ -17,6 +19,11 @@ private[report] object Numbers:
       else s"${fixed(value / Math.pow(10, exponent), 3)}·10${raised(exponent)}"
 
   def fixed(value: Double, digits: Int): String = s"%.${digits}f".formatLocal(Locale.ROOT, value)
+
+  /** With half the width of the interval, if it is known. */
+  def plusMinus(i: Interval, number: Double => String): String =
+    if i.isKnown then s"${number(i.estimate)} ± ${number((i.high - i.low) / 2)}"
+    else number(i.estimate)
 
   /** A tick of a logarithmic axis: `0.01`, `10`, `10⁻⁵`. */
   def tick(value: Double): String =

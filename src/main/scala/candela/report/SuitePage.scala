@@ -18,6 +18,7 @@ object SuitePage:
           "The best of each scene stands out; – was not reached, blank was not run."
       ),
       overview(r),
+      Option.when(r.scenes.sizeIs > 1)(div(cls := "card chart", SuiteChart.all(r).svg)),
       r.scenes.map(scene(_, hasPictures)),
       h2("How it was measured"),
       method(r),
@@ -27,9 +28,6 @@ object SuitePage:
       h3("Commands"),
       Page.facts(commands(r))
     )
-
-  /** The main chart of a scene as a file of its own. */
-  def svg(s: SceneResult): String = chart(s, Metric.RelativeMse, "seconds").standalone
 
   private def overview(r: SuiteReport): Frag =
     val programs = r.scenes.flatMap(_.programs.map(p => (p.name, p.title))).distinct
@@ -51,7 +49,7 @@ object SuitePage:
       for
         metric <- Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
         axis <- Vector("seconds", "samples")
-      yield (metric.word, metric.title, axis, chart(s, metric, axis).svg)
+      yield (metric.word, metric.title, axis, SuiteChart.of(s, metric, axis).svg)
     val pictures = s.programs.map(p => Picture(p.title, p.picture)) :+
       Picture("reference", s.reference, isReference = true)
     frag(
@@ -78,37 +76,17 @@ object SuitePage:
       p.title,
       last.samples.toString,
       Numbers.short(last.seconds),
-      last(Metric.RelativeMse).fold("–")(plusMinus(_, Numbers.short)),
+      last(Metric.RelativeMse).fold("–")(Numbers.plusMinus(_, Numbers.short)),
       last(Metric.Flip).fold("–")(i => Numbers.short(i.estimate)),
       p.curve.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "),
-      p.curve.slope.fold("–")(plusMinus(_, Numbers.fixed(_, 2))),
+      p.curve.slope.fold("–")(Numbers.plusMinus(_, Numbers.fixed(_, 2))),
       p.curve.efficiency.fold("–")(range),
       p.curve.secondsUntil(s.target).fold("–")(Numbers.short)
     ).map(stringFrag)
 
-  private def plusMinus(i: Interval, number: Double => String): String =
-    if i.isKnown then s"${number(i.estimate)} ± ${number((i.high - i.low) / 2)}"
-    else number(i.estimate)
-
   private def range(i: Interval): String =
     val known = if i.isKnown then s" (${Numbers.short(i.low)} to ${Numbers.short(i.high)})" else ""
     Numbers.short(i.estimate) + known
-
-  private def chart(s: SceneResult, metric: Metric, axis: String): LogLogChart =
-    val series = s.programs.map: p =>
-      val marks = p.curve.points.flatMap: point =>
-        point(metric).map: i =>
-          val x = if axis == "seconds" then point.seconds else point.samples.toDouble
-          val (low, high) = if i.isKnown then (i.low, i.high) else (i.estimate, i.estimate)
-          // A bar that reaches 0 has no end on a logarithmic axis.
-          val shown = Math.max(low, i.estimate / 10)
-          val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
-          val tip = s"${p.title}: $when, ${metric.title} ${plusMinus(i, Numbers.short)}"
-          Mark(x, i.estimate, shown, high, tip)
-      Series(p.title, p.color, p.isThin, marks)
-    val label = if axis == "seconds" then "seconds, whole program" else "samples a pixel"
-    val guide = LogLogChart.guideOf(metric)
-    LogLogChart(s"${s.title}: ${metric.title}", label, metric.title, series, guide)
 
   private def method(r: SuiteReport): Frag = frag(
     p(

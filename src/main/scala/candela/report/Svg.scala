@@ -39,5 +39,15 @@ private[report] object Svg:
       "aria-label" -> label
     )(children*)
 
+  /** A file of its own, with the style of charts. */
+  def standalone(width: Double, height: Double, label: String)(content: Vector[Frag]): String =
+    val style = element("style")(scalatags.Text.all.raw(Page.chartStyle))
+    val back = element("rect", "width" -> "100%", "height" -> "100%", "class" -> "back")()
+    picture(width, height, label)((Vector(style, back) ++ content)*).render
+
+  /** Others, moved right and down. */
+  def moved(x: Double, y: Double)(children: Vector[Frag]): Node =
+    element("g", "transform" -> s"translate(${px(x)} ${px(y)})")(children*)
+
   /** A tenth of a pixel is finer than the screen. */
   def px(value: Double): String = "%.1f".formatLocal(Locale.ROOT, value).stripSuffix(".0")

@@ -11,12 +11,16 @@ enum Outcome:
   case Done(seconds: Double)
   case Failed(why: String)
 
+  /** Ended because nobody waits for it any more. */
+  case Cancelled
+
 /** Starts programs.
   *
-  * @param self    the words that start Candela itself
-  * @param scratch where they run, and write their logs
+  * @param self        the words that start Candela itself
+  * @param scratch     where they run, and write their logs
+  * @param isCancelled asked again and again while they run
   */
-final class Commands(self: Vector[String], scratch: Path):
+final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boolean = () => false):
 
   /** Why a program can't be started, if it can't. */
   def missing(program: Program): Option[String] =
@@ -43,9 +47,16 @@ final class Commands(self: Vector[String], scratch: Path):
     val started = System.nanoTime
     val process = builder.start()
     try
-      val ended = process.waitFor((timeout * 1000).toLong, TimeUnit.MILLISECONDS)
-      val seconds = (System.nanoTime - started) * 1e-9
-      if !ended then Outcome.Failed(s"took longer than $timeout s")
+      def elapsed = (System.nanoTime - started) * 1e-9
+      // It returns as soon as the program ends, whatever the time that it would wait.
+      def ended(): Boolean = process.waitFor(Commands.Patience, TimeUnit.MILLISECONDS)
+      var hasEnded = ended()
+      while !hasEnded && elapsed < timeout && !isCancelled() do hasEnded = ended()
+      val seconds = elapsed
+      // A Ctrl-C that ends it may be known here a moment later
+      if hasEnded && process.exitValue != 0 then TimeUnit.MILLISECONDS.sleep(Commands.Patience)
+      if isCancelled() then Outcome.Cancelled
+      else if !hasEnded then Outcome.Failed(s"took longer than $timeout s")
       else if process.exitValue != 0 then
         Outcome.Failed(s"ended with ${process.exitValue}: ${lastWords(log.toPath)}")
       else if !Files.isRegularFile(out) then
@@ -67,6 +78,9 @@ final class Commands(self: Vector[String], scratch: Path):
         .find(Files.isExecutable(_))
 
 object Commands:
+  /** Milliseconds from a cancellation until it is noticed. */
+  private val Patience = 100L
+
   private val Nothing = if File.separatorChar == '\\' then "NUL" else "/dev/null"
 
   def notSet(variables: Vector[String]): String =

@@ -11,45 +11,53 @@ import java.time.format.DateTimeFormatter
 /** Runs a suite and puts together what came of it. */
 object SuiteResults:
 
-  /** @param scratch a folder for images on their way, which somebody else removes
+  /** @param scratch     a folder for images on their way, which somebody else removes
+    * @param isCancelled asked again and again; what there is then is all
+    * @param publish     told what there is after each scene, so that no crash loses more than one
     */
   def of(
       suite: Suite,
       self: Vector[String],
       scratch: Path,
       version: String,
-      say: String => Unit
+      say: String => Unit,
+      isCancelled: () => Boolean = () => false,
+      publish: SuiteReport => Unit = _ => ()
   ): SuiteReport =
+    val names = PublicNames.of(suite, scratch)
     val machine = Machine.here()
     val begun = LocalDateTime.now.format(DateTimeFormatter.ofPattern("yyyy-MM-dd HH:mm"))
     val started = System.nanoTime
-    val runner = SuiteRunner(suite, Commands(self, scratch), scratch, say)
-    val results = runner.run()
-    val seconds = (System.nanoTime - started) * 1e-9
-    val scenes = suite.scenes.flatMap: scene =>
-      val ofScene = results.filter(_.job.entry.scene == scene)
-      Option.when(ofScene.nonEmpty)(sceneResult(scene, suite, ofScene, runner))
-    SuiteReport(
-      suite.title,
-      version,
-      machine,
-      begun,
-      seconds,
-      suite.seeds,
-      scenes,
-      runner.omissions
-    )
+    val commands = Commands(self, scratch, isCancelled)
+    val runner = SuiteRunner(suite, commands, scratch, names, say, isCancelled)
+    def report(results: Vector[Result]): SuiteReport =
+      val seconds = (System.nanoTime - started) * 1e-9
+      val scenes = suite.scenes.flatMap: scene =>
+        val ofScene = results.filter(_.job.entry.scene == scene)
+        Option.when(ofScene.nonEmpty)(sceneResult(scene, suite, ofScene, runner, names))
+      SuiteReport(
+        suite.title,
+        version,
+        machine,
+        begun,
+        seconds,
+        suite.seeds,
+        scenes,
+        runner.omissions
+      )
+    report(runner.run(results => publish(report(results))))
 
   private def sceneResult(
       scene: SuiteScene,
       suite: Suite,
       results: Vector[Result],
-      runner: SuiteRunner
+      runner: SuiteRunner,
+      names: PublicNames
   ): SceneResult =
     val byEntry = results.groupBy(_.job.entry)
     val programs = suite.programs.flatMap: program =>
       byEntry.collectFirst { case (entry, all) if entry.program == program => entry -> all }
-        .map((entry, all) => programResult(entry, all, runner))
+        .map((entry, all) => programResult(entry, all, runner, names))
     SceneResult(
       scene.name,
       scene.title,
@@ -70,7 +78,8 @@ object SuiteResults:
   private def programResult(
       entry: Entry,
       results: Vector[Result],
-      runner: SuiteRunner
+      runner: SuiteRunner,
+      names: PublicNames
   ): ProgramResult =
     val program = entry.program
     val measurements = results.map(_.measurement)
@@ -82,7 +91,7 @@ object SuiteResults:
       program.title,
       program.color,
       program.isThin,
-      program.command.mkString(" ").replace("{candela}", "candela") +
+      names.of(program.command.mkString(" "), program.needs).replace("{candela}", "candela") +
         program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
       MeasuredCurve(kept, times),
       runner.picture(entry)

@@ -19,43 +19,68 @@ private[suite] final case class Result(job: Job, measurement: Measurement)
 
 /** Runs the programs of a suite on its scenes, in turn.
   *
-  * @param say told what happens, a line each
+  * @param names       by which messages call files
+  * @param say         told what happens, a line each
+  * @param isCancelled asked between runs: no other one begins then
   */
-final class SuiteRunner(suite: Suite, commands: Commands, scratch: Path, say: String => Unit):
+final class SuiteRunner(
+    suite: Suite,
+    commands: Commands,
+    scratch: Path,
+    names: PublicNames,
+    say: String => Unit,
+    isCancelled: () => Boolean
+):
   private val copies = SceneCopy(scratch)
   private val leftOut = Vector.newBuilder[(String, String)]
   private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
 
-  /** What could not be run, and why. */
-  def omissions: Vector[(String, String)] = leftOut.result()
+  private var waiting = Vector.empty[SuiteScene]
+  private var forecast = Forecast(Vector.empty)
+
+  /** What could not be run, and why; and what was not, up to now. */
+  def omissions: Vector[(String, String)] =
+    val begun = pictures.keySet.map(_.scene)
+    leftOut.result() ++ waiting.map: scene =>
+      val part = if begun(scene) then "only in part " else "not "
+      scene.title -> s"${part}rendered when this was written"
 
   /** The image of the longest rendering with the first seed. */
   private[suite] def picture(entry: Entry): Image = pictures(entry)._2
 
-  private[suite] def run(): Vector[Result] =
+  /** @param afterScene told after each scene what there is until then */
+  private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
     val scenes = suite.scenes.filter(isThere)
     val programs = suite.programs.filter: program =>
       commands.missing(program).forall: why =>
         leaveOut(program.title, why)
         false
-    val plans = scenes.map: scene =>
-      val reference = ImageFiles.read(scene.reference).toRgb
-      val entries = programs.flatMap(entryOf(_, scene)).flatMap: entry =>
-        planned(entry, reference).map(entry -> _)
-      (reference, entries)
+    val plans = scenes.map(scene => scene -> programs.flatMap(entryOf(_, scene)))
+    forecast = Forecast(plans.flatMap(_._2).flatMap(Forecast.runs(_, suite)))
+    waiting = scenes
+    plans.foldLeft(Vector.empty[Result]): (before, plan) =>
+      val (scene, entries) = plan
+      val all = before ++ (if isCancelled() then Vector.empty else ofScene(scene, entries))
+      if !isCancelled() then waiting = waiting.filterNot(_ == scene)
+      if all.sizeIs > before.size then afterScene(all)
+      all
+
+  private def ofScene(scene: SuiteScene, entries: Vector[Entry]): Vector[Result] =
+    val reference = ImageFiles.read(scene.reference).toRgb
+    val plans = entries.flatMap(entry => planned(entry, reference).map(entry -> _))
     for
-      (reference, entries) <- plans
       seed <- (1 to suite.seeds).toVector
-      step <- entries.flatMap(_._2.indices).distinct.sorted
+      step <- plans.flatMap(_._2.indices).distinct.sorted
       // Another one begins each time: what wears on the machine wears on all.
-      (entry, samples) <- rotated(entries, seed + step)
+      (entry, samples) <- rotated(plans, seed + step)
       if step < samples.size
       result <- measured(Job(entry, step, samples(step), seed), reference)
     yield result
 
   private def leaveOut(what: String, why: String): Unit =
-    say(s"left out: $what: $why")
-    leftOut += what -> why
+    val publicly = names.of(why)
+    say(s"left out: $what: $publicly")
+    leftOut += what -> publicly
 
   private def isThere(scene: SuiteScene): Boolean =
     val unset = scene.needs.filterNot(sys.env.contains)
@@ -82,24 +107,31 @@ final class SuiteRunner(suite: Suite, commands: Commands, scratch: Path, say: St
   private def planned(entry: Entry, reference: Image): Option[Vector[Int]] =
     def seconds(samples: Int): Option[Double] =
       measured(Job(entry, -1, samples, 1), reference).map(_.measurement.seconds)
-    entry.scene.work.getOrElse(suite.work) match
+    val counts = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
       case Work.Seconds(budgets) =>
         for
           one <- seconds(1)
           many <- seconds(SuiteRunner.Pilot)
         yield budgets.map(SuiteRunner.samplesFor(_, one, many)).distinct
+    forecast.dropFrom(entry, counts.fold(0)(_.size))
+    counts
 
   private def rotated[A](items: Vector[A], by: Int): Vector[A] =
     if items.isEmpty then items
     else items.drop(by % items.size) ++ items.take(by % items.size)
 
   private def measured(job: Job, reference: Image): Option[Result] =
+    if isCancelled() then None else render(job, reference)
+
+  private def render(job: Job, reference: Image): Option[Result] =
     val Entry(program, scene, _) = job.entry
     val out = scratch.resolve("out.exr")
     val name = s"${scene.title}, ${program.title}, ${job.samples} spp"
     commands.run(words(job, out), out, suite.timeout) match
+      case Outcome.Cancelled => None
       case Outcome.Failed(why) =>
+        forecast.ended(job, None)
         leaveOut(name, why)
         None
       case Outcome.Done(seconds) =>
@@ -107,11 +139,14 @@ final class SuiteRunner(suite: Suite, commands: Commands, scratch: Path, say: St
           val image = ImageFiles.read(out).toRgb
           val errors = Errors.against(reference)(image)
           val counted = if job.step < 0 then "warm-up" else s"seed ${job.seed}"
-          say(f"$name%-48s $counted%-8s $seconds%8.2f s  relative MSE ${errors.relativeMse}%.3g")
+          forecast.ended(job, Some(seconds))
+          say(f"$name%-48s $counted%-8s $seconds%8.2f s  relative MSE ${errors.relativeMse}%.3g  " +
+            forecast.words)
           keep(job, image)
           Some(Result(job, Measurement(job.samples, job.seed, seconds, errors)))
         catch
           case e: ImageError =>
+            forecast.ended(job, None)
             leaveOut(name, e.getMessage)
             None
 

@@ -1,7 +1,9 @@
 package candela.cli
 
 import candela.image.{Image, ImageFiles}
+import candela.render.Cancellation
 
+import java.io.PrintStream
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -58,6 +60,20 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(!captured.err.contains("left out"))
       assert(!Files.readString(page).contains("class=\"viewer card\""))
 
+  test("what is interrupted writes what there is"):
+    inSuite: (folder, suite) =>
+      val files = Vector("html", "json", "csv").map(e => folder.resolve(s"out.$e"))
+      val stop = StopAfterFirst()
+      val captured = Captured()
+      val terminal = Terminal(captured.terminal.out, stop.heard(captured.terminal.err), false, stop)
+      val words = Vector("--samples", "1,2,4", "--report", files.mkString(","))
+      val code = Main.run(Vector("bench", suite) ++ words, terminal)
+      assert(code == 130, captured.err)
+      assert(captured.out.linesIterator.toVector == files.map(f => s"wrote $f"))
+      assert(Files.readAllLines(files(2)).size == 2)
+      assert(Files.readString(files(0)).contains("only in part rendered when this was written"))
+      assert(!Files.list(folder).anyMatch(_.toString.endsWith(".tmp")))
+
   test("what can't be is said before anything runs"):
     inSuite: (folder, suite) =>
       def error(args: String*) =
@@ -70,3 +86,16 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(error(suite, "--scenes", "flut").contains("no scene `flut`; it has flat"))
       assert(error(folder.toString, "--report", s"$folder/x.csv").contains("no scene of"))
       assert(!Files.exists(folder.resolve("x.csv")))
+
+/** Ctrl-C after the first image that counts. */
+private final class StopAfterFirst extends Interrupts:
+  private var asked = Option.empty[Cancellation]
+
+  def during[A](cancellation: Cancellation)(body: => A): A =
+    asked = Some(cancellation)
+    body
+
+  def heard(to: PrintStream): PrintStream = new PrintStream(to, true):
+    override def println(line: String): Unit =
+      super.println(line)
+      if line.contains("seed 1") then asked.foreach(_.request())

@@ -32,7 +32,7 @@ class InterruptsSuite extends AnyFunSuite:
     assert(cancellation.isRequested)
     assert(!rendering.isComplete)
     assert(rendering.samplesDone >= 2)
-    assert(captured.err == "stopping; Ctrl-C again quits without an image\n")
+    assert(captured.err == "stopping; Ctrl-C again quits and writes nothing\n")
 
   test("without Ctrl-C nothing is cancelled, and the result is passed on"):
     val cancellation = Cancellation()

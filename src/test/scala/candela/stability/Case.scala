@@ -1,20 +1,49 @@
 package candela.stability
 
+import candela.testing.Draws
 import org.scalatest.funsuite.AnyFunSuite
+
+/** What a case is asked for.
+  *
+  * @param slice which part of its random numbers: each has others, 0 those of every test run
+  */
+final case class Trials(count: Long, slice: Int):
+  /** The seed of this slice's random numbers. */
+  def seed(first: Long): Long = first + slice * Trials.Apart
+  def draws(first: Long): Draws = Draws(seed(first))
+
+object Trials:
+  /** Any odd number but the one that SplittableRandom adds in each step: with that, slices would
+    * have the same numbers, one later each.
+    */
+  private val Apart = 0xd1b54a32d192ed03L
 
 /** A hard case of arithmetic, checked with as many random trials as are asked for.
   *
-  * @param quick trials in every run of the tests
-  * @param long  trials of [[LongRun]]
-  * @param kind  more words by which [[LongRun]] finds it
+  * @param quick    trials in every run of the tests
+  * @param long     trials of [[LongRun]]
+  * @param kind     more words by which [[LongRun]] finds it, and under which it counts them
+  * @param isSliced whether slices differ; else there is one only
   */
-final class Case(val name: String, val quick: Int, val long: Long, val kind: String = "")(
-    val check: Long => Unit
-)
+final class Case private (
+    val name: String,
+    val quick: Int,
+    val long: Long,
+    val kind: String,
+    val isSliced: Boolean
+)(val check: Trials => Unit)
+
+object Case:
+  def apply(name: String, quick: Int, long: Long)(check: Long => Unit): Case =
+    new Case(name, quick, long, name, isSliced = false)(trials => check(trials.count))
+
+  /** One whose many trials can be taken in parts, and counted where they were stopped. */
+  def sliced(name: String, quick: Int, long: Long, kind: String)(check: Trials => Unit): Case =
+    new Case(name, quick, long, kind, isSliced = true)(check)
 
 /** A group of cases; [[LongRun]] knows all groups. */
 abstract class Group(val cases: Seq[Case])
 
 /** Tests a group with its quick counts. */
 abstract class GroupSuite(group: Group) extends AnyFunSuite:
-  for c <- group.cases do test(c.name)(c.check(c.quick.toLong))
+  for c <- group.cases do test(c.name)(c.check(Trials(c.quick.toLong, slice = 0)))

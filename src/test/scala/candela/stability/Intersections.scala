@@ -14,45 +14,6 @@ object Intersections extends Group(
 
 class IntersectionsSuite extends GroupSuite(Intersections)
 
-/** No ray leaves a closed mesh, whatever edge or corner it is aimed at: what belongs to two
-  * triangles is decided for both by the same products, so that one of them owns it.
-  */
-private object ClosedMeshes:
-  private def uniform(s: Double) = Transform.scale(s, s, s).get
-
-  private def placements: Seq[(String, Transform)] =
-    val draws = Draws(1)
-    Seq(
-      "around the origin" -> Transform.Identity,
-      "of size 1e-6" -> uniform(1e-6) * draws.rotation(),
-      "of size 1e6" -> uniform(1e6) * draws.rotation(),
-      "far away" -> Transform.translate(3e4, -1e4, 2e4) * draws.rotation(),
-      "flat as a needle" -> draws.rotation() * Transform.scale(1, 1e-4, 1e-3).get
-    )
-
-  val cases: Seq[Case] =
-    for (name, toWorld) <- placements; grid <- Seq(false, true) yield
-      val by = if grid then "grid" else "bvh"
-      val quick = if name.startsWith("flat") then 1500 else 10000
-      Case(s"no ray leaks from a closed mesh $name ($by)", quick, 100_000_000L): count =>
-        val soup = Soups.icosphere(3, toWorld)
-        val primitives = Primitives(soup, Array.empty)
-        leaks(if grid then Grid(primitives) else Bvh(primitives), soup, toWorld, count)
-
-  private def leaks(a: Accelerator, soup: TriangleSoup, toWorld: Transform, count: Long): Unit =
-    val draws = Draws(2)
-    val (ray, hit) = (Ray(), Hit())
-    var i = 0L
-    while i < count do
-      val o = toWorld.point(if i % 50 == 0 then Vec3.Zero else draws.direction() * 0.6f)
-      val triangle = draws.below(soup.count)
-      val (p, q) = (soup.vertex(triangle, draws.below(3)), soup.vertex(triangle, draws.below(3)))
-      val t = if i % 3 == 0 then 0f else draws.unit()
-      val goal = p * (1f - t) + q * t
-      ray.set(o, if i % 2 == 0 then goal - o else (goal - o).normalized, Float.PositiveInfinity)
-      assert(a.closest(ray, hit), s"from $o to $goal"): Unit
-      i += 1
-
 /** Rays close to what is large, and far from what is small: against 60 digits. */
 private object LargeAndFar:
   import Exact.*

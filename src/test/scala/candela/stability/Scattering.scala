@@ -14,8 +14,9 @@ object Scattering extends Group(
       ExtremeBsdfs.all.flatMap(kind =>
         kind.variants.map((name, bsdf) =>
           val long = (100_000_000L + kind.variants.size - 1) / kind.variants.size
-          Case(s"$name scatters numbers, whatever the directions", kind.quick, long, kind.name)(
-            count => Extremes.staysFinite(bsdf, count)
+          val words = s"$name scatters numbers, whatever the directions"
+          Case.sliced(words, kind.quick, long, s"inputs of ${kind.name}")(
+            Extremes.staysFinite(bsdf, _)
           )
         )
       ) ++ Furnaces.cases ++ Interfaces.cases
@@ -51,8 +52,9 @@ private object Extremes:
   private def isSane(x: Float) = java.lang.Float.isFinite(x) && x >= 0f
   private def isSane(c: Rgb) = c.isFinite && c.r >= 0f && c.g >= 0f && c.b >= 0f
 
-  def staysFinite(bsdf: Bsdf, count: Long): Unit =
-    val random = SplittableRandom(1)
+  def staysFinite(bsdf: Bsdf, trials: Trials): Unit =
+    val count = trials.count
+    val random = SplittableRandom(trials.seed(1))
     var i = 0L
     while i < count do
       val (wo, wi) = (direction(random), direction(random))

@@ -17,10 +17,12 @@ object SelfIntersection extends Group(
       for
         kind <- Kind.all
         place <- Place.values.toSeq
-      yield Case(s"a ${kind.name} ${place.words} is not met again", kind.quick, 10_000_000L)(
-        count =>
-          SpawnedRays(kind, place).check(count)
-      )
+      yield Case.sliced(
+        s"a ${kind.name} ${place.words} is not met again",
+        kind.quick,
+        10_000_000L,
+        s"rays spawned on a ${kind.name}"
+      )(trials => SpawnedRays(kind, place, trials).check())
     )
 
 class SelfIntersectionSuite extends GroupSuite(SelfIntersection)
@@ -38,11 +40,11 @@ enum Place(val words: String):
   case Instanced extends Place("in an instance")
   case Moving extends Place("in a moving instance")
 
-private final class SpawnedRays(kind: Kind, place: Place):
+private final class SpawnedRays(kind: Kind, place: Place, trials: Trials):
   private val ray = Ray()
   private val hit = Hit()
   private val at = ShadingPoint()
-  private val draws = Draws(kind.name.hashCode + place.ordinal)
+  private val draws = trials.draws(kind.name.hashCode + place.ordinal)
   private var size = 1f
 
   private def uniform(s: Double) = Transform.scale(s, s, s).get
@@ -106,7 +108,8 @@ private final class SpawnedRays(kind: Kind, place: Place):
     val goal = draws.direction() * draws.magnitude(1e-6, 1e3)
     meet(target, goal + draws.direction() * draws.magnitude(1e-2, 1e3), goal)
 
-  def check(count: Long): Unit =
+  def check(): Unit =
+    val count = trials.count
     var spawned = 0L
     var tries = 0L
     while spawned < count do

@@ -33,8 +33,8 @@ class SuiteRunnerSuite extends AnyFunSuite:
       isThin = false
     )
 
-  private def run(folder: Path, programs: Program*): (SuiteReport, Vector[String]) =
-    val scene = SuiteScene(
+  private def sceneIn(folder: Path): SuiteScene =
+    SuiteScene(
       "flat",
       "Flat",
       "",
@@ -45,6 +45,9 @@ class SuiteRunnerSuite extends AnyFunSuite:
       None,
       Vector.empty
     )
+
+  private def run(folder: Path, programs: Program*): (SuiteReport, Vector[String]) =
+    val scene = sceneIn(folder)
     val away = scene.copy(name = "away", title = "Away", needs = Vector("NO_SUCH_VARIABLE"))
     val suite =
       Suite("T", programs.toVector, Vector(scene, away), Work.Samples(Vector(1, 2)), 2, 30)
@@ -97,6 +100,54 @@ class SuiteRunnerSuite extends AnyFunSuite:
       assert(reasons("Flat, silent, 1 spp") == "wrote no image: it said nothing")
       assert(reasons("edited on Flat") == "nothing to edit: `no such words`")
       for (what, why) <- reasons do assert(said.contains(s"left out: $what: $why"))
+
+  private def twoScenes(folder: Path, command: String): Suite =
+    val first = sceneIn(folder)
+    val scenes = Vector(first, first.copy(name = "second", title = "Second"))
+    Suite("T", Vector(program("copy", command)), scenes, Work.Samples(Vector(1, 2)), 2, 30)
+
+  test("what there is is told after each scene, and what is missing yet"):
+    inFolder: folder =>
+      val told = Vector.newBuilder[SuiteReport]
+      val report = SuiteResults.of(
+        twoScenes(folder, "cp {scene} {out}"),
+        Vector("self"),
+        folder,
+        "1",
+        _ => (),
+        publish = r => told += r
+      )
+      assert(told.result().map(_.scenes.map(_.name)) ==
+        Vector(Vector("flat"), Vector("flat", "second")))
+      assert(told.result().head.leftOut == Vector("Second" -> "not rendered when this was written"))
+      assert(report.leftOut.isEmpty && report.scenes.size == 2)
+
+  test("what is cancelled keeps what was measured, and says what was not"):
+    inFolder: folder =>
+      @volatile var isCancelled = false
+      val report = SuiteResults.of(
+        twoScenes(folder, "cp {scene} {out}"),
+        Vector("self"),
+        folder,
+        "1",
+        line => if line.startsWith("Flat") && line.contains("seed 2") then isCancelled = true,
+        () => isCancelled
+      )
+      // Both counts with the first seed, the smaller one with the second
+      val points = report.scenes.head.programs.head.curve.points
+      assert(points.map(_.runs.size) == Vector(2, 1))
+      assert(report.leftOut == Vector(
+        "Flat" -> "only in part rendered when this was written",
+        "Second" -> "not rendered when this was written"
+      ))
+
+  test("a program that is cancelled ends soon, and is no failure"):
+    inFolder: folder =>
+      val started = System.nanoTime
+      def isCancelled = System.nanoTime - started > 200000000L
+      val commands = Commands(Vector.empty, folder, () => isCancelled)
+      val outcome = commands.run(Vector("sleep", "30"), folder.resolve("out.exr"), timeout = 60)
+      assert(outcome == Outcome.Cancelled && System.nanoTime - started < 10000000000L)
 
   test("a run that takes too long is ended"):
     inFolder: folder =>

@@ -1,0 +1,63 @@
+package candela.report
+
+import candela.measure.Metric
+
+/** The charts of a suite: each scene's, and all of them at one glance. */
+object SuiteChart:
+
+  /** The relative error against time, as a file of its own. */
+  def svg(r: SuiteReport): String =
+    if r.scenes.sizeIs == 1 then of(r.scenes.head, Metric.RelativeMse, "seconds").standalone
+    else all(r).standalone
+
+  /** Every scene in a small chart that says who was first. */
+  private[report] def all(r: SuiteReport): ChartGrid =
+    val legend = r.scenes.flatMap(_.programs).distinctBy(_.name)
+      .map(p => Series(p.title, p.color, p.isThin, Vector.empty))
+    val panels = r.scenes.map: s =>
+      chart(s, s.title, Metric.RelativeMse, "seconds", ChartGrid.frame(winner(s)))
+    ChartGrid(r.title, Words, legend, panels)
+
+  private val Words =
+    "Relative MSE over seconds of the whole program, both logarithmic: further left is faster, " +
+      "lower is better. Dashed: the error raced to."
+
+  def of(s: SceneResult, metric: Metric, axis: String): LogLogChart =
+    chart(s, s"${s.title}: ${metric.title}", metric, axis, ChartFrame.Whole)
+
+  private def chart(
+      s: SceneResult,
+      title: String,
+      metric: Metric,
+      axis: String,
+      frame: ChartFrame
+  ): LogLogChart =
+    val label = if axis == "seconds" then "seconds, whole program" else "samples a pixel"
+    val goal = Option.when(metric == Metric.RelativeMse)(s.target)
+    val guide = LogLogChart.guideOf(metric)
+    val curves = s.programs.map(series(_, metric, axis))
+    LogLogChart(title, label, metric.title, curves, guide, goal, frame)
+
+  private def series(p: ProgramResult, metric: Metric, axis: String): Series =
+    val marks = p.curve.points.flatMap: point =>
+      point(metric).map: i =>
+        val x = if axis == "seconds" then point.seconds else point.samples.toDouble
+        val (low, high) = if i.isKnown then (i.low, i.high) else (i.estimate, i.estimate)
+        // A bar that reaches 0 has no end on a logarithmic axis.
+        val shown = Math.max(low, i.estimate / 10)
+        val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
+        val figure = Numbers.plusMinus(i, Numbers.short)
+        Mark(x, i.estimate, shown, high, s"${p.title}: $when, ${metric.title} $figure")
+    Series(p.title, p.color, p.isThin, marks)
+
+  /** Who reaches the scene's goal first, and how long the others take at least. */
+  private def winner(s: SceneResult): String =
+    val times = s.programs.filterNot(_.isThin)
+      .flatMap(p => p.curve.secondsUntil(s.target).map(p.title -> _)).sortBy(_._2)
+    def seconds(t: Double) = s"${Numbers.fixed(t, if t < 9.95 then 1 else 0)} s"
+    val goal = Numbers.tick(s.target)
+    times.headOption match
+      case None => s"$goal was reached by none"
+      case Some((name, t)) =>
+        val next = times.lift(1).fold("")((_, later) => s" (next ${seconds(later)})")
+        s"$goal first: $name, ${seconds(t)}$next"

@@ -1,0 +1,58 @@
+package candela.suite
+
+import scala.collection.mutable
+
+/** How long a suite still takes: each run as long as the same program took for the same step on the
+  * same scene, or else on other scenes, or else as others took.
+  */
+private[suite] final class Forecast(runs: Vector[Forecast.Run]):
+  import Forecast.*
+
+  private val left = mutable.Map.from(runs.groupMapReduce(identity)(_ => 1)(_ + _))
+  private val times = mutable.Map.empty[Run, Vector[Double]]
+  private var done = 0
+
+  /** @param seconds if it came to its end */
+  def ended(job: Job, seconds: Option[Double]): Unit =
+    val run = Run(job.entry.program.name, job.entry.scene.name, job.step)
+    done += 1
+    left.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
+    for s <- seconds do times(run) = times.getOrElse(run, Vector.empty) :+ s
+
+  /** Nothing of this will run any more but its first steps that count. */
+  def dropFrom(entry: Entry, step: Int): Unit =
+    def isOf(run: Run) = run.program == entry.program.name && run.scene == entry.scene.name
+    left.filterInPlace((run, _) => !isOf(run) || 0 <= run.step && run.step < step): Unit
+
+  /** None while no program has come to one of the steps. */
+  def secondsLeft: Option[Double] =
+    val all = left.toVector.map((run, count) => expected(run).map(_ * count))
+    Option.when(all.forall(_.isDefined))(all.flatten.sum)
+
+  def words: String =
+    val time = secondsLeft match
+      case None => ""
+      case Some(s) if s < 90 => f", about $s%.0f s left"
+      case Some(s) => f", about ${s / 60}%.0f min left"
+    s"[$done of ${done + left.values.sum}$time]"
+
+  private def expected(run: Run): Option[Double] =
+    def mean(like: Run => Boolean) =
+      val known = times.filter((r, _) => like(r)).values.flatten.toVector
+      Option.when(known.nonEmpty)(known.sum / known.size)
+    mean(_ == run)
+      .orElse(mean(r => r.program == run.program && r.step == run.step))
+      .orElse(mean(_.step == run.step))
+
+private[suite] object Forecast:
+
+  /** @param step as of [[Job]]; −1 is what isn't counted */
+  final case class Run(program: String, scene: String, step: Int)
+
+  /** All that a program is to do with a scene. */
+  def runs(entry: Entry, suite: Suite): Vector[Run] =
+    val (pilots, steps) = entry.scene.work.getOrElse(suite.work) match
+      case Work.Samples(counts) => (1, counts.size)
+      case Work.Seconds(budgets) => (2, budgets.size)
+    def run(step: Int) = Run(entry.program.name, entry.scene.name, step)
+    Vector.fill(pilots)(run(-1)) ++ (0 until steps).flatMap(k => Vector.fill(suite.seeds)(run(k)))
