@@ -69,20 +69,11 @@ final class PhotonMapper private (
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(
-          ray,
-          (i, source) =>
-            val chosen = scene.selection.probability(lastP, lastN, i)
-            LightTransport.metWeight(lastPdf, chosen * source.pdf(lastP, ray.direction))
-        )
+        light += throughput * escaped(ray, lastPdf, lastP, lastN)
         alive = false
       else
         scene.surface(ray, hit, at)
-        if at.areaLight >= 0 then
-          val source = scene.surfaceLight(at)
-          val chosen = scene.selection.probability(lastP, lastN, at.areaLight)
-          val weight = LightTransport.metWeight(lastPdf, chosen * source.pdf(lastP, at))
-          light += throughput * source.radiance(at, -ray.direction) * weight
+        light += metLight(throughput, -ray.direction, lastPdf, lastP, lastN)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)

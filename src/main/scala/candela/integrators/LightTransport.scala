@@ -58,6 +58,43 @@ abstract class LightTransport(
       i += 1
     sum
 
+  /** The same where light sampling competes with the direction of the ray.
+    *
+    * @param lastPdf of that direction; 0: light sampling was no choice
+    * @param lastP   where it was chosen, on a surface with normal `lastN`
+    */
+  protected final def escaped(ray: Ray, lastPdf: Float, lastP: Vec3, lastN: Vec3): Rgb =
+    escaped(
+      ray,
+      (i, source) =>
+        if lastPdf > 0f then
+          val pdf = source.pdf(lastP, ray.direction)
+          LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
+        else 1f
+    )
+
+  /** What the surface at `at` emits to `wo` and adds to a path of this throughput, weighted in the
+    * same way; black if it is no light.
+    */
+  protected final def metLight(
+      throughput: Rgb,
+      wo: Vec3,
+      lastPdf: Float,
+      lastP: Vec3,
+      lastN: Vec3
+  ): Rgb =
+    if at.areaLight < 0 then Rgb.Black
+    else
+      val source = scene.surfaceLight(at)
+      val emitted = source.radiance(at, wo)
+      if emitted.isBlack then Rgb.Black
+      else
+        val pdf =
+          if lastPdf > 0f then
+            scene.selection.probability(lastP, lastN, at.areaLight) * source.pdf(lastP, at)
+          else 0f
+        throughput * emitted * LightTransport.metWeight(lastPdf, pdf)
+
   /** One sample of the light that `light` sends to `at` and on to `wo` (world space).
     *
     * @param selected probability with which this light was chosen

@@ -38,21 +38,12 @@ final class PathThroughVolumes(
     var alive = true
     while alive do
       if !met then
-        light += throughput * escaped(
-          ray,
-          (i, source) =>
-            val pdf = source.pdf(lastP, ray.direction)
-            LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
-        )
+        light += throughput * escaped(ray, lastPdf, lastP, lastN)
         alive = false
       else
         scene.surface(ray, hit, at)
         val wo = -ray.direction
-        if at.areaLight >= 0 then
-          val source = scene.surfaceLight(at)
-          val selected = scene.selection.probability(lastP, lastN, at.areaLight)
-          val weight = LightTransport.metWeight(lastPdf, selected * source.pdf(lastP, at))
-          light += throughput * source.radiance(at, wo) * weight
+        light += metLight(throughput, wo, lastPdf, lastP, lastN)
         if depth == maxDepth then alive = false
         else
           depth += 1

@@ -46,27 +46,12 @@ final class PathTracer(
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(
-          ray,
-          (i, source) =>
-            if lastPdf > 0f then
-              val pdf = source.pdf(lastP, ray.direction)
-              LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
-            else 1f
-        )
+        light += throughput * escaped(ray, lastPdf, lastP, lastN)
         alive = false
       else
         scene.surface(ray, hit, at)
         val wo = -ray.direction
-        if at.areaLight >= 0 then
-          val source = scene.surfaceLight(at)
-          val emitted = source.radiance(at, wo)
-          if !emitted.isBlack then
-            val pdf =
-              if lastPdf > 0f then
-                scene.selection.probability(lastP, lastN, at.areaLight) * source.pdf(lastP, at)
-              else 0f
-            light += throughput * emitted * LightTransport.metWeight(lastPdf, pdf)
+        light += metLight(throughput, wo, lastPdf, lastP, lastN)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)

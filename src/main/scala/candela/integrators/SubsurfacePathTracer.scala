@@ -45,28 +45,12 @@ final class SubsurfacePathTracer(
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(
-          ray,
-          (i, source) =>
-            if lastPdf > 0f then
-              val pdf = source.pdf(lastP, ray.direction)
-              LightTransport.metWeight(lastPdf, scene.selection.probability(lastP, lastN, i) * pdf)
-            else 1f
-        )
+        light += throughput * escaped(ray, lastPdf, lastP, lastN)
         alive = false
       else
         scene.surface(ray, hit, at)
         var wo = -ray.direction
-        if at.areaLight >= 0 then
-          val source = scene.surfaceLight(at)
-          val emitted = source.radiance(at, wo)
-          if !emitted.isBlack then
-            val weight =
-              if lastPdf > 0f then
-                val selected = scene.selection.probability(lastP, lastN, at.areaLight)
-                LightTransport.powerHeuristic(lastPdf, selected * source.pdf(lastP, at))
-              else 1f
-            light += throughput * emitted * weight
+        light += metLight(throughput, wo, lastPdf, lastP, lastN)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
