@@ -9,14 +9,18 @@ import candela.scene.Scene
   * to it. Mutable, one per worker.
   *
   * @param maxEdges most edges of such a path
+  * @param weighsAll are paths weighted against those that meet lights by chance? Then none starts
+  *                  at a light whose light these see on another side
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
     maxEdges: Int,
     rouletteAfter: Int,
-    compresses: Boolean
+    compresses: Boolean,
+    weighsAll: Boolean
 ):
-  private val powers = scene.lights.map(light => Math.max(0f, light.power(scene.ball)))
+  private val powers = scene.lights.map: light =>
+    if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
   private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
   private val start = EmittedRay()
   private val ray = Ray()

@@ -28,7 +28,8 @@ final case class PhotonSettings(
 
 /** Sends out the photons of a pass; mutable, one per worker. */
 private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSettings):
-  private val paths = LightPaths(scene, settings.maxEdges, rouletteAfter = 1, settings.compresses)
+  private val paths =
+    LightPaths(scene, settings.maxEdges, rouletteAfter = 1, settings.compresses, weighsAll = false)
   private val sampler = IndependentSampler(1, settings.seed)
 
   def raysTraced: Long = paths.raysTraced

@@ -176,7 +176,7 @@ final class WorldBuilder(
     val mask = Alpha.mask(using here)
     for shape <- shapes do
       val index = light.filter(_ => hasArea(shape, here)).fold(-1): plan =>
-        lights += Alpha.emission(using here).of(plan.ofShape(shape))
+        lights += Alpha.emission(using here).of(plan.ofShape(shape, inverted), shape)
         lightSamples += plan.samples
         lights.length - 1
       to.add(ShapeInstance(shape, material, index, inverted), mask)

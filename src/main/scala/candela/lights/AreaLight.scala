@@ -11,6 +11,7 @@ import candela.shapes.SurfaceSampler
   *
   * @param box contains the surface
   * @param axis mean of its normals, and the cosine of the largest angle that a normal makes with it
+  * @param isContrary do rays that meet it see the other side shine?
   */
 final class AreaLight(
     surface: SurfaceSampler,
@@ -18,7 +19,8 @@ final class AreaLight(
     twoSided: Boolean,
     box: Bounds3,
     axis: Vec3,
-    cosSpread: Float
+    cosSpread: Float,
+    override val isContrary: Boolean = false
 ) extends SurfaceLight:
 
   def radiance(at: ShadingPoint, w: Vec3): Rgb =

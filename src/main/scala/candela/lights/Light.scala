@@ -16,6 +16,11 @@ abstract class Light:
   /** Is there any use in `sample`? Not if chance finds the light as well, or if it is black. */
   def isSampled: Boolean = true
 
+  /** Does it shine to the other side than where rays see it shine? Then paths that start at it find
+    * other light than those that meet it.
+    */
+  def isContrary: Boolean = false
+
   /** Can a ray never meet it by chance? Then only `sample` finds it. */
   def isDelta: Boolean
 

@@ -14,6 +14,7 @@ private[scene] object ReportedLights:
 
   /** Light paths are not told. */
   private sealed trait Emitting(source: Light) extends Light:
+    override def isContrary: Boolean = source.isContrary
     override def power(scene: Ball): Float = source.power(scene)
     override def emit(
         scene: Ball,

@@ -124,6 +124,46 @@ final class PhotonMapperSuite extends AnyFunSuite:
       Renderer.render(plan, threads).image(plan.development).data.toVector
     assert(images(0) == images(1) && images(0).exists(_ > 0f))
 
+  test("a lamp with holes lights what is matte, glossy or behind glass as in path tracing"):
+    def text(integrator: String, material: String) =
+      s"""LookAt 0 -5 2.5  0 0 .6  0 0 1
+         |Camera "perspective" "float fov" 35
+         |Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+         |Sampler "independent" "integer pixelsamples" 64
+         |PixelFilter "box"
+         |Integrator $integrator
+         |WorldBegin
+         |Texture "sieve" "float" "checkerboard" "float uscale" 4 "float vscale" 4
+         |  "float tex1" 1 "float tex2" .2
+         |AttributeBegin
+         |AreaLightSource "diffuse" "rgb L" [8 6 4]
+         |Translate -.5 0 2.2
+         |Rotate 180 1 0 0
+         |Shape "disk" "float radius" .8 "texture alpha" "sieve"
+         |AttributeEnd
+         |Material "diffuse" "rgb reflectance" [.6 .5 .4]
+         |Shape "trianglemesh" "integer indices" [0 1 2 0 2 3  4 5 6 4 6 7]
+         |  "point3 P" [-2 -2 0  2 -2 0  2 2 0  -2 2 0  -2 2 0  2 2 0  2 2 3  -2 2 3]
+         |$material
+         |Translate .3 .4 .6
+         |Shape "sphere" "float radius" .6
+         |""".stripMargin
+    for
+      material <- Seq(
+        """Material "diffuse"""",
+        """Material "conductor" "float roughness" .1""",
+        """Material "dielectric""""
+      )
+    do
+      val found = SceneTexts.mean(
+        text("\"sppm\" \"float radius\" .12 \"integer photonsperiteration\" 2000", material),
+        Dialect.V4
+      )
+      val expected =
+        SceneTexts.mean(text("\"path\" \"integer maxdepth\" 5", material), Dialect.V4)
+      // Noise as above, and that of the holes
+      assert(Math.abs(found.g / expected.g - 1f) < 0.05f, s"$found, expected $expected")
+
   test("a radius of nothing is an error"):
     val text = room("\"sppm\" \"float radius\" 0", "")
     assert(SceneTexts.problems(text).exists(_.message.contains("radius above 0")))

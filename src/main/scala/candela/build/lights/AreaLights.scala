@@ -36,19 +36,22 @@ final class AreaLightPlan(
 
   /** Every triangle is a shape of its own, as in pbrt-v4: each has all of the power. */
   def ofTriangle(triangle: TriangleSampler): SurfaceLight =
-    light(triangle, Bounds3.of(triangle.vertices), triangle.normal, 1f)
+    light(triangle, Bounds3.of(triangle.vertices), triangle.normal, 1f, contrary = false)
 
-  def ofShape(shape: Shape): SurfaceLight =
+  /** @param contrary as in [[candela.lights.Light.isContrary]] */
+  def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
     val (axis, cosSpread) = shape.normals
-    light(shape, shape.bounds, axis, cosSpread)
+    light(shape, shape.bounds, axis, cosSpread, contrary && !twoSided)
 
   private def light(
       surface: SurfaceSampler,
       bounds: Bounds3,
       axis: Vec3,
-      cosSpread: Float
+      cosSpread: Float,
+      contrary: Boolean
   ): SurfaceLight =
-    val plain = AreaLight(surface, radiance(surface.area), twoSided, bounds, axis, cosSpread)
+    val emitted = radiance(surface.area)
+    val plain = AreaLight(surface, emitted, twoSided, bounds, axis, cosSpread, contrary)
     picture.fold(plain)(PictureLight(plain, surface, _))
 
 /** Makes nothing where nothing would shine. */

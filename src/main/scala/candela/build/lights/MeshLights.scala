@@ -22,4 +22,4 @@ private[build] final case class MeshLights(
     val flat = samplers.count(s => !(s.area > 0f))
     if flat > 0 then
       site.warn(s"$flat of $count triangles of this light have no area: they emit nothing")
-    samplers.zipWithIndex.map((s, k) => (emission.of(plan.ofTriangle(s)), light + k))
+    samplers.zipWithIndex.map((s, k) => (emission.of(plan.ofTriangle(s), s), light + k))

@@ -3,6 +3,7 @@ package candela.build
 import candela.accel.{HoleMask, Mask, SolidMask, StochasticMask}
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.scenefile.Dialect
+import candela.shapes.SurfaceSampler
 import candela.textures.{ConstantFloat, FloatTexture}
 
 /** `alpha` and `shadowalpha` of shapes. */
@@ -43,15 +44,16 @@ private[build] object Alpha extends Fields:
       given_(alpha, every).map(_.constant) match
         case None => Emission.Plain
         case Some(Some(a)) if a <= 0f => Emission.Hidden
-        case Some(_) => Emission.Perforated
+        case Some(_) => Emission.Perforated(alpha())
 
   private val Whole = ConstantFloat(1f)
 
 /** How light sampling takes an emitting surface: v2 and v3 forget its holes. */
 private[build] enum Emission:
-  case Plain, Hidden, Perforated
+  case Plain, Hidden
+  case Perforated(alpha: FloatTexture)
 
-  def of(light: SurfaceLight): Light = this match
+  def of(light: SurfaceLight, surface: SurfaceSampler): Light = this match
     case Plain => light
     case Hidden => HiddenLight(light)
-    case Perforated => PerforatedLight(light)
+    case Perforated(alpha) => PerforatedLight(light, surface, alpha)
