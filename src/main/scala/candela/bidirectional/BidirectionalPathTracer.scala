@@ -6,7 +6,7 @@ import candela.geometry.{Ray, ShadingPoint}
 import candela.integrators.{LightTransport, Splats, Splatting}
 import candela.math.*
 import candela.sampling.Sampler
-import candela.scene.Scene
+import candela.scene.{PathReport, Scene}
 
 /** Bidirectional path tracing: each sample follows a path from the camera and one from a light, and
   * joins every point of the one with every point of the other, with the camera, and with another
@@ -31,7 +31,7 @@ final class BidirectionalPathTracer(
     with Splatting:
   import PartialWeights.mis
 
-  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter, compresses)
+  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter, compresses, weighsAll = true)
   private val path = Subpath(scene, carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
   at = vertex.at
@@ -49,13 +49,29 @@ final class BidirectionalPathTracer(
 
   override def raysTraced: Long = rays + lightPaths.raysTraced
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb =
+  /** The same, for another worker. */
+  private[bidirectional] def another(): BidirectionalPathTracer = over(scene)
+  private[bidirectional] def telling(report: PathReport): BidirectionalPathTracer =
+    over(scene.reported(report))
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
+
+  /** @param light  whose numbers make the path from a light, and show it to the camera
+    * @param joins  with which the path from the camera is joined to points of lights
+    * @param onward by which that path goes on
+    */
+  private[bidirectional] def radiance(
+      ray: Ray,
+      light: Sampler,
+      joins: Sampler,
+      onward: Sampler
+  ): Rgb =
     shadowRay.time = ray.time
-    lightPaths.trace(ray.time, sampler)
+    lightPaths.trace(ray.time, light)
     if splats != null then
       splats.begin()
-      showLight(sampler)
-    fromCamera(ray, sampler)
+      showLight(light)
+    fromCamera(ray, joins, onward)
 
   /** Joins the points of the light's path with the camera. */
   private def showLight(sampler: Sampler): Unit =
@@ -87,7 +103,7 @@ final class BidirectionalPathTracer(
     rays += 1
     !scene.isOccluded(shadowRay, shadowHit)
 
-  private def fromCamera(ray: Ray, sampler: Sampler): Rgb =
+  private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
     var light = Rgb.Black
     path.throughput = Rgb.White
@@ -129,8 +145,8 @@ final class BidirectionalPathTracer(
           vertex.edges = edges
           vertex.look(ray.direction)
           if !vertex.bsdf.isSpecular then
-            light += path.throughput * (direct(sampler) + joined())
-          alive = edges <= maxDepth && path.scatter(vertex, ray, sampler)
+            light += path.throughput * (direct(joins) + joined())
+          alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
           lastP = at.p
           lastN = at.frame.n
     light

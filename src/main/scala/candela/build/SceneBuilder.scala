@@ -4,9 +4,10 @@ import candela.base.{Parallel, Problem, SceneError, Severity}
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.film.Layer
-import candela.integrators.{Splatting, SurfaceProbe}
+import candela.integrators.{Chained, Splatting, SurfaceProbe}
 import candela.math.*
 import candela.render.{LayerPlan, PixelBounds, RenderPlan}
+import candela.sampling.IndependentSampler
 import candela.scene.Footprints
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
 
@@ -96,6 +97,11 @@ object SceneBuilder:
               "find there, like that of a point by way of glass, is left out"
           )
       case _ => ()
+    // Chains draw numbers of their own, as many as they are told
+    val isChained = world.integrator.isInstanceOf[Chained]
+    if isChained && layers.nonEmpty then
+      for at <- description.integrator.orElse(description.renderer).map(_.at) do
+        problems.warn(at, "chains of paths find no layers: the image has its colours alone")
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -103,7 +109,8 @@ object SceneBuilder:
       crop = cropOf(film, width, height, options),
       camera = camera,
       filter = filter,
-      sampler = sampler,
+      sampler =
+        if isChained then IndependentSampler(spp.getOrElse(1), options.seed) else sampler,
       integrator = world.integrator,
       basis = basis,
       limit = film.limit(exposure),
@@ -116,7 +123,7 @@ object SceneBuilder:
       differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
       shutter = Option.when(motions.camera.isDefined || world.moves)(shutter),
       weighsFirst = isV4,
-      layers = Option.when(layers.nonEmpty):
+      layers = Option.when(layers.nonEmpty && !isChained):
         val space =
           if film.layersInWorld then Still(Transform.Identity)
           else motions.camera.fold(Still(description.worldToCamera.start))(InverseMotion(_))

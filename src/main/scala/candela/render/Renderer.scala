@@ -2,7 +2,7 @@ package candela.render
 
 import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SplatFilm}
-import candela.integrators.{Splatting, Stepping}
+import candela.integrators.{Chained, Splatting, Stepping, View}
 import candela.scene.PathReport
 
 /** Turns a plan into an image. */
@@ -28,10 +28,6 @@ object Renderer:
     def seconds = (System.nanoTime - started - paused) * 1e-9
 
     val samplesPerPixel = plan.sampler.samplesPerPixel
-    val schedule = plan.integrator match
-      case _: Stepping => Schedule(plan.crop, samplesPerPixel, largestWave = 1)
-      case _ => Schedule(plan.crop, samplesPerPixel)
-    val board = Board(schedule, cancellation)
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val splats = plan.integrator match
       case _: Splatting =>
@@ -50,9 +46,7 @@ object Renderer:
       case _ => None
     val film = Film(x0, y0, x1, y1, splats)
     val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
-    val filterSampler = new FilterSampler(plan.filter)
-    val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt):
-      TileWorker(plan, schedule, board, film, layers, filterSampler.copy())
+    val (schedule, board, workers) = crew(plan, threads, cancellation, film, layers)
 
     val total = plan.crop.pixels * samplesPerPixel
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
@@ -76,6 +70,45 @@ object Renderer:
       seconds,
       firstOf(workers.flatMap(_.refused)),
       layers
+    )
+
+  private def crew(
+      plan: RenderPlan,
+      threads: Int,
+      cancellation: Cancellation,
+      film: Film,
+      layers: Option[LayerFilm]
+  ): (Waves, Board, Vector[Worker]) =
+    def workers(waves: Waves)(worker: Board => Worker) =
+      val board = Board(waves, cancellation)
+      (waves, board, Vector.fill(Math.min(threads.toLong, waves.steps).toInt)(worker(board)))
+    val samples = plan.sampler.samplesPerPixel
+    (plan.integrator, film.splats) match
+      case (chained: Chained, Some(splats)) =>
+        val chains = chained.chains(view(plan, splats))
+        val waves = Waves(chains.count, samples)
+        workers(waves)(ChainWorker(chains.walker(), waves, _, plan.crop.pixels))
+      case (integrator, _) =>
+        val largest = integrator match
+          case _: Stepping => 1
+          case _ => Waves.Largest
+        val filterSampler = new FilterSampler(plan.filter)
+        val schedule = Schedule(plan.crop, samples, largest)
+        workers(schedule)(TileWorker(plan, schedule, _, film, layers, filterSampler.copy()))
+
+  /** All places of the film that can add to a pixel. */
+  private def view(plan: RenderPlan, splats: SplatFilm): View =
+    val (beyondX, beyondY) = (plan.filter.radiusX - 0.5f, plan.filter.radiusY - 0.5f)
+    View(
+      plan.camera,
+      splats,
+      plan.crop.x0 - beyondX,
+      plan.crop.y0 - beyondY,
+      plan.crop.x1 + beyondX,
+      plan.crop.y1 + beyondY,
+      plan.width.toDouble * plan.height,
+      plan.shutter,
+      plan.differentialScale
     )
 
   /** Takes one sample by itself, the very one that [[render]] takes, and tells `report` what

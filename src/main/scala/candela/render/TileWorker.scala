@@ -7,9 +7,7 @@ import candela.geometry.Ray
 import candela.integrators.{Splatting, Stepping, SurfaceProbe}
 import candela.scene.PathReport
 
-/** One of several that render the same image: takes tiles from the board, and owns all that it
-  * scribbles on.
-  */
+/** Renders tiles, pixel by pixel. */
 private[render] final class TileWorker(
     plan: RenderPlan,
     schedule: Schedule,
@@ -18,7 +16,7 @@ private[render] final class TileWorker(
     layers: Option[LayerFilm],
     filterSampler: FilterSampler,
     report: Option[PathReport] = None
-) extends Runnable:
+) extends Worker(schedule, board):
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
   private val integrator =
@@ -59,23 +57,9 @@ private[render] final class TileWorker(
     this.sample = sample
     takeSample()
 
-  private var runNanos = 0L
+  protected def failure(cause: Throwable): RenderFailure = RenderFailure(x, y, sample, cause)
 
-  /** How long the last run took: from when its thread began until it found no more to do. */
-  def seconds: Double = runNanos * 1e-9
-
-  def run(): Unit =
-    val started = System.nanoTime
-    try
-      var step = board.takeStep()
-      while step >= 0 do
-        val wave = (step / schedule.tiles).toInt
-        val tile = (step % schedule.tiles).toInt
-        if board.awaitTurn(tile, wave) && renderTile(schedule.tile(tile), wave) then
-          board.finish(tile, wave)
-        step = board.takeStep()
-      runNanos = System.nanoTime - started
-    catch case e: Throwable => throw RenderFailure(x, y, sample, e)
+  protected def work(tile: Int, wave: Int): Boolean = renderTile(schedule.tile(tile), wave)
 
   /** False if it was told to stop on the way. */
   private def renderTile(tile: PixelBounds, wave: Int): Boolean =

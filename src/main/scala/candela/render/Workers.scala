@@ -4,10 +4,10 @@ import java.util.concurrent.atomic.{AtomicIntegerArray, AtomicLong, AtomicRefere
 import java.util.concurrent.locks.LockSupport
 
 /** What the workers of one rendering share: who does what, what is done, and whether to stop. */
-private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
+private[render] final class Board(schedule: Waves, cancellation: Cancellation):
   private val nextStep = AtomicLong()
   private var endStep = 0L // changed only while there are no workers
-  private val finishedWaves = AtomicIntegerArray(schedule.tiles)
+  private val finishedWaves = AtomicIntegerArray(schedule.pieces)
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
 
@@ -15,7 +15,7 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
   def openUntil(wave: Int): Unit =
     // Workers that found nothing to do have counted on.
     nextStep.set(endStep)
-    endStep = wave.toLong * schedule.tiles
+    endStep = wave.toLong * schedule.pieces
 
   def isStopped: Boolean = cancellation.isRequested || firstFailure.get.isDefined
 
@@ -29,21 +29,21 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     val step = nextStep.getAndIncrement()
     if step < endStep && !isStopped then step else -1L
 
-  /** Waits until the earlier waves of a tile are finished; false if they won't be.
+  /** Waits until the earlier waves of a piece are finished; false if they won't be.
     *
     * Another worker may still be at them. There is no deadlock, since steps are taken in order:
     * whoever waits, waits for an earlier step. This is also what makes that worker's sums visible
     * to this one.
     */
-  def awaitTurn(tile: Int, wave: Int): Boolean =
-    while finishedWaves.get(tile) < wave && !isStopped do LockSupport.parkNanos(Board.Pause)
-    finishedWaves.get(tile) == wave
+  def awaitTurn(piece: Int, wave: Int): Boolean =
+    while finishedWaves.get(piece) < wave && !isStopped do LockSupport.parkNanos(Board.Pause)
+    finishedWaves.get(piece) == wave
 
-  def finish(tile: Int, wave: Int): Unit = finishedWaves.set(tile, wave + 1)
+  def finish(piece: Int, wave: Int): Unit = finishedWaves.set(piece, wave + 1)
 
   /** Samples that every pixel has. */
   def samplesDone: Int =
-    val wave = (0 until schedule.tiles).map(finishedWaves.get).min
+    val wave = (0 until schedule.pieces).map(finishedWaves.get).min
     schedule.firstSample(wave)
 
 private object Board:

@@ -198,10 +198,6 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       val found = SceneTexts.mean(text(integrator, glass), Dialect.V2)
       assert(Math.abs(found.g / expected.g - 1f) < 0.04f, s"$found, expected $expected")
 
-  test("\"mlt\" makes the same picture"):
-    val text = scene("\"mlt\"", point, (matte, matte), Dialect.V3, perspective, 2)
-    assert(SceneTexts.mean(text) == SceneTexts.mean(text.replace("mlt", "bdpt")))
-
   test("the image is the same bit for bit by one thread and by three"):
     val text =
       scene(

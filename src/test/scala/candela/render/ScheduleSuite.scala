@@ -21,7 +21,7 @@ class ScheduleSuite extends AnyFunSuite:
     val schedule = Schedule(crop, 1)
     val covered =
       for
-        i <- 0 until schedule.tiles
+        i <- 0 until schedule.pieces
         tile = schedule.tile(i)
         y <- tile.y0 until tile.y1
         x <- tile.x0 until tile.x1
@@ -32,6 +32,6 @@ class ScheduleSuite extends AnyFunSuite:
 
   test("an image smaller than a tile is one tile"):
     val schedule = Schedule(PixelBounds(7, 7, 8, 9), 4)
-    assert(schedule.tiles == 1)
+    assert(schedule.pieces == 1)
     assert(schedule.tile(0) == PixelBounds(7, 7, 8, 9))
     assert(schedule.steps == schedule.waves)

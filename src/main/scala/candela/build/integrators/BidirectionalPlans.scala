@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bidirectional.{BidirectionalPathTracer, PhotonMapper, PhotonSettings}
+import candela.bidirectional.*
 import candela.integrators.{PathThroughVolumes, VolumePathTracer}
 import candela.scenefile.Dialect
 
@@ -31,6 +31,33 @@ private[build] object BidirectionalPlans:
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
         PathThroughVolumes(scene, march, most, Patience, 1f)
+    )
+
+  /** Of [[Metropolis]]: where there are media or volumes, as above.
+    *
+    * @param mutations for each pixel
+    */
+  def metropolis(name: String, depth: Int, mutations: Int, settings: MetropolisSettings)(
+      using site: Site
+  ): IntegratorPlan =
+    for
+      (count, what) <- Seq(
+        mutations -> "mutations",
+        settings.bootstrap -> "bootstrap samples",
+        settings.chains -> "chains"
+      )
+      if count < 1
+    do site.error(s"there must be $what; found $count")
+    if !(settings.largeStep >= 0f && settings.largeStep <= 1f) then
+      site.error(s"`largestepprobability` must be in [0, 1]; found ${settings.largeStep}")
+    val most = Math.max(0, depth)
+    val seeded = settings.copy(seed = site.resources.seed)
+    val compresses = site.dialect != Dialect.V2
+    plan(name, depth).copy(
+      make = (scene, _) =>
+        Metropolis(BidirectionalPathTracer(scene, most, Patience, compresses), seeded),
+      describe = s"$name, up to $most scattering events, ${settings.chains} chains",
+      samples = Some(Math.max(1, mutations))
     )
 
   private val Lack =

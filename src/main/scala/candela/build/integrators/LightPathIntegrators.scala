@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.bidirectional.PhotonSettings
+import candela.bidirectional.{MetropolisSettings, PhotonSettings}
 import candela.scenefile.Dialect
 
 /** Integrators whose paths start at lights, too. */
@@ -20,24 +20,24 @@ object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, join
   windowed()
   protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
-/** Its chains walk among the paths of [[Bdpt]] and have the same mean. */
 object Mlt
     extends IntegratorRecipe(
       "mlt",
-      "Metropolis light transport: by \"bdpt\", which has the same mean and other noise",
+      "Metropolis light transport: chains of paths from camera and lights",
       sinceV3
     ):
-  noMeaning("the sampler's paths are taken, which depend on no others")(
-    integer("bootstrapsamples", "paths to start with")(100000),
-    integer("chains", "Markov chains")(1000),
-    integer("mutationsperpixel", "mutations of paths, for each pixel")(100),
-    float("largestepprobability", "of a path that is all new")(0.3f),
-    float("sigma", "standard deviation of small mutations")(0.01f)
-  )
+  private val bootstrap = integer("bootstrapsamples", "paths to start with")(100000)
+  private val chains = integer("chains", "Markov chains")(1000)
+  private val mutations = integer("mutationsperpixel", "mutations of paths, for each pixel")(100)
+  private val largeStep = float("largestepprobability", "of a path that is all new")(0.3f)
+  private val sigma = float("sigma", "standard deviation of small mutations")(0.01f)
   notYet("BSDFs stay as they are")(
     bool("regularize", "roughen what a path meets late", onlyV4)(false)
   )
-  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
+
+  protected def make()(using Site): IntegratorPlan =
+    val settings = MetropolisSettings(bootstrap(), chains(), largeStep(), sigma())
+    BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings)
 
 object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
   private val passes = integer("numiterations", "passes", onlyV3)(64)

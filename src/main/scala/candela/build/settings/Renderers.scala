@@ -1,5 +1,7 @@
 package candela.build
 
+import candela.bidirectional.MetropolisSettings
+
 /** Recipes of v2's renderers, which are above its integrators: what they use in place of the one
   * that the scene names, if anything.
   */
@@ -34,22 +36,29 @@ final class SamplerRenderer(name: String)
 object Metropolis
     extends Recipe[Option[IntegratorPlan]](
       "metropolis",
-      "Metropolis light transport: by bidirectional path tracing, which has the same mean",
+      "Metropolis light transport: chains of paths from camera and lights",
       onlyV2
     ):
   private val depth = integer("maxdepth", "most bounces")(7)
-  noMeaning("the sampler's paths are taken, which depend on no others")(
-    float("largestepprobability", "of a path that is all new")(0.25f),
-    integer("samplesperpixel", "mutations, for each pixel")(100),
-    integer("bootstrapsamples", "paths to start with")(100000),
+  private val largeStep = float("largestepprobability", "of a path that is all new")(0.25f)
+  private val mutations = integer("samplesperpixel", "mutations, for each pixel")(100)
+  private val bootstrap = integer("bootstrapsamples", "paths to start with")(100000)
+  noMeaning("the chains find all light, by paths from both ends: the same mean")(
     integer("directsamples", "samples of direct light in each pixel")(4),
     bool("dodirectseparately", "is direct light found without mutations?")(true),
-    integer("maxconsecutiverejects", "after which any mutation is taken")(512),
     bool("bidirectional", "do paths start at lights, too?")(true)
+  )
+  noMeaning("no mutation is taken against the rule: that would make the image wrong")(
+    integer("maxconsecutiverejects", "after which any mutation is taken")(512)
   )
 
   protected def make()(using Site): Option[IntegratorPlan] =
-    Some(BidirectionalPlans.plan(name, depth()))
+    val settings = MetropolisSettings(bootstrap(), Chains, largeStep(), Sigma)
+    Some(BidirectionalPlans.metropolis(name, depth(), mutations(), settings))
+
+  // As v3's "mlt", where v2 goes by its threads and by another distribution
+  private val Chains = 1000
+  private val Sigma = 0.01f
 
 object CreateProbes
     extends Recipe[Option[IntegratorPlan]](

@@ -1,0 +1,41 @@
+package candela.render
+
+import candela.integrators.ChainWalker
+
+/** Takes chains on: the paths of a wave are as many as its samples of all pixels, and are dealt out
+  * to the chains in turn.
+  */
+private[render] final class ChainWorker(
+    walker: ChainWalker,
+    waves: Waves,
+    board: Board,
+    pixels: Long
+) extends Worker(waves, board):
+  import ChainWorker.*
+
+  def raysTraced: Long = walker.raysTraced
+
+  def refused: Option[Refused] =
+    Option.when(walker.refused > 0):
+      Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
+
+  protected def work(chain: Int, wave: Int): Boolean =
+    val end = paths(chain, waves.endSample(wave))
+    var left = end - paths(chain, waves.firstSample(wave))
+    while left > 0 && !board.isStopped do
+      val some = Math.min(left, AtOnce)
+      walker.advance(chain, some)
+      board.samplesTaken.add(some)
+      left -= some
+    left <= 0
+
+  /** That the chain has after so many samples per pixel. */
+  private def paths(chain: Int, samples: Int): Long =
+    (samples * pixels + waves.pieces - 1 - chain) / waves.pieces
+
+  protected def failure(cause: Throwable): RenderFailure =
+    RenderFailure(walker.x, walker.y, 0, cause)
+
+private object ChainWorker:
+  /** Paths between two looks at whether to stop. */
+  val AtOnce = 1024L
