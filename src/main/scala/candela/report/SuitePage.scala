@@ -41,7 +41,7 @@ object SuitePage:
           case Some(None) => td("–")
           case Some(Some(t)) =>
             td(Option.when(best.contains(t))(cls := "best"), s"${Numbers.short(t)} s")
-      tr(td(s.title), td(Numbers.short(s.target)), cells)
+      tr(td(s.title), td(Numbers.tick(s.target)), cells)
     div(cls := "scroll", table(thead(tr(head.map(th(_)))), tbody(rows)))
 
   private def scene(s: SceneResult, hasPictures: Boolean): Frag =

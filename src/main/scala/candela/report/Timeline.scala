@@ -17,7 +17,7 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
 
   def svg: Node =
     picture(Timeline.Width, height, "phases and threads")(
-      (labels ++ phases.zipWithIndex.map(phase) ++ passes.zipWithIndex.flatMap(pass) ++ axis)*
+      (axis ++ labels ++ phases.zipWithIndex.map(phase) ++ passes.zipWithIndex.flatMap(pass))*
     )
 
   private def top(row: Int): Double = 8.0 + row * Timeline.Row
