@@ -13,6 +13,8 @@ private[accel] object CarefulKernel extends WideKernel:
   private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     isFinite(ray) && WideWalk.walk(
       tree,
+      tree.width,
+      tree.lanes,
       ray,
       hit,
       anyHit,
@@ -26,19 +28,19 @@ private[accel] object CarefulKernel extends WideKernel:
       java.lang.Float.isFinite(ray.dy) && java.lang.Float.isFinite(ray.dz)
 
   private def boxes(tree: WideTree, node: Int, limit: Float, ray: Ray): Int =
-    val lanes = tree.lanes
+    val width = tree.width
     var hits = 0
     var k = 0
-    while k < lanes do
+    while k < width do
       var near = 0.0
       var far = limit.toDouble
       var axis = 0
       while axis < 3 do
         val o = ray.along(axis).toDouble
         val d = if axis == 0 then ray.dx else if axis == 1 then ray.dy else ray.dz
-        val low = tree.nodes(node + axis * lanes + k)
-        val high = tree.nodes(node + (3 + axis) * lanes + k)
-        if low > high then far = -1.0 // no child
+        val low = tree.nodes(node + axis * width + k)
+        val high = tree.nodes(node + (3 + axis) * width + k)
+        if low == Float.PositiveInfinity then far = -1.0 // no child
         else if d == 0f then
           if !(low <= o && o <= high) then far = -1.0
         else

@@ -12,10 +12,10 @@ object Hierarchies:
   /** Walked in plain Scala alone. */
   def scalar(
       primitives: Primitives,
-      lanes: Int = 4,
+      width: Int = 4,
       parallel: Parallel = Parallel.Alone
   ): Accelerator =
-    WideBvh(WideTree.of(primitives, lanes, MaxLeaf, parallel), ScalarKernel, Int.MaxValue)
+    WideBvh(WideTree.of(primitives, width, 4, MaxLeaf, parallel), ScalarKernel, Int.MaxValue)
 
   /** Walked by vectors from the given ray on; only if [[hasVectors]]. */
   def vector(
@@ -23,11 +23,11 @@ object Hierarchies:
       patience: Int = Patience,
       parallel: Parallel = Parallel.Alone
   ): Accelerator =
-    val tree = WideTree.of(primitives, VectorKernel.lanes, MaxLeaf, parallel)
+    val tree = WideTree.of(primitives, VectorKernel.width, VectorKernel.lanes, MaxLeaf, parallel)
     WideBvh(tree, VectorKernel, patience)
 
   private[accel] def careful(primitives: Primitives): Accelerator =
-    WideBvh(WideTree.of(primitives, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
+    WideBvh(WideTree.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
 
   /** Is the JVM's incubating Vector API there (`--add-modules jdk.incubator.vector`), and are this
     * machine's vectors worth it?

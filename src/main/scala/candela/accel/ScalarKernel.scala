@@ -12,7 +12,7 @@ private[accel] object ScalarKernel extends WideKernel:
 
   private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = tree.nodes
-    val lanes = tree.lanes
+    val width = tree.width
     val ox = ray.ox
     val oy = ray.oy
     val oz = ray.oz
@@ -20,22 +20,24 @@ private[accel] object ScalarKernel extends WideKernel:
     val iy = ray.invY
     val iz = ray.invZ
     // Where in a node the near plane of each axis stands, and the far one
-    val nx = lanes * (if ix < 0f then 3 else 0)
-    val ny = lanes * (if iy < 0f then 4 else 1)
-    val nz = lanes * (if iz < 0f then 5 else 2)
-    val fx = 3 * lanes - nx
-    val fy = 5 * lanes - ny
-    val fz = 7 * lanes - nz
+    val nx = width * (if ix < 0f then 3 else 0)
+    val ny = width * (if iy < 0f then 4 else 1)
+    val nz = width * (if iz < 0f then 5 else 2)
+    val fx = 3 * width - nx
+    val fy = 5 * width - ny
+    val fz = 7 * width - nz
     val begins = ray.lanes
     WideWalk.walk(
       tree,
+      width,
+      tree.lanes,
       ray,
       hit,
       anyHit,
       (node, limit) =>
         var hits = 0
         var k = 0
-        while k < lanes do
+        while k < width do
           var near = bits((b(node + nx + k) - ox) * ix)
           var far = bits((b(node + fx + k) - ox) * ix)
           val nearY = bits((b(node + ny + k) - oy) * iy)

@@ -1,11 +1,11 @@
 package candela.accel
 
-import jdk.incubator.vector.{FloatVector, IntVector, VectorOperators, VectorSpecies}
+import jdk.incubator.vector.{FloatVector, IntVector, VectorMask, VectorOperators, VectorSpecies}
 
 import candela.geometry.{Hit, Ray}
 
 /** Walks a [[WideTree]] by the JDK's Vector API, a node or a block of triangles in one go. The tree
-  * has as many lanes as this machine's vectors.
+  * has blocks of as many triangles as this machine's vectors have lanes.
   *
   * To be touched only where the module jdk.incubator.vector is there.
   */
@@ -21,7 +21,12 @@ private[accel] object VectorKernel extends WideKernel:
   /** Before, asking a mask for its bits made an object. */
   private val HasMaskBits = Runtime.version.feature >= 19
   private val LaneBits: IntVector = IntVector.fromArray(I, Array.tabulate(W)(1 << _), 0)
+  private val Zeros: IntVector = IntVector.zero(I)
 
+  /** Two vectors of children, or one of sixteen: a mask of theirs is then as many. */
+  private val N: Int = Math.min(16, 2 * W)
+
+  def width: Int = N
   def lanes: Int = W
   def isWorthIt: Boolean = W >= 4
   def name: String = s"vectors of $W"
@@ -29,70 +34,71 @@ private[accel] object VectorKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
   def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
 
-  private inline def slab(b: Array[Float], at: Int, o: FloatVector, i: FloatVector): IntVector =
+  /** One bit for each lane that is set. */
+  private inline def bits(m: VectorMask[Integer]): Int =
+    if HasMaskBits then m.toLong.toInt
+    else Zeros.blend(LaneBits, m).reduceLanes(VectorOperators.OR)
+
+  private inline def plane(b: Array[Float], at: Int, o: Float, i: Float): IntVector =
     FloatVector.fromArray(F, b, at).sub(o).mul(i).reinterpretAsInts()
 
-  /** One bit for each lane that is negative. */
-  private inline def signs(v: IntVector): Int =
-    if HasMaskBits then v.compare(VectorOperators.LT, 0).toLong.toInt
-    else
-      v.lanewise(VectorOperators.ASHR, 31).and(LaneBits).reduceLanes(VectorOperators.OR)
+  /** As many children as a vector has lanes, from `node` on: which ones the ray meets. Of a slab's
+    * two distances the lesser one, as an Int, is the near one: but where both are negative,
+    * and all is behind.
+    */
+  private inline def met(
+      b: Array[Float],
+      node: Int,
+      limit: Int,
+      ray: Ray,
+      lane: Int
+  ): Int =
+    val lowX = plane(b, node, ray.ox, ray.invX)
+    val highX = plane(b, node + 3 * N, ray.ox, ray.invX)
+    val lowY = plane(b, node + N, ray.oy, ray.invY)
+    val highY = plane(b, node + 4 * N, ray.oy, ray.invY)
+    val lowZ = plane(b, node + 2 * N, ray.oz, ray.invZ)
+    val highZ = plane(b, node + 5 * N, ray.oz, ray.invZ)
+    val near = lowX.min(highX).max(lowY.min(highY)).max(lowZ.min(highZ)).max(0)
+    val far = lowX
+      .max(highX)
+      .min(lowY.max(highY))
+      .min(lowZ.max(highZ))
+      .add(WideWalk.Slack)
+      .min(limit)
+    near.intoArray(ray.lanes, lane)
+    bits(near.compare(VectorOperators.LE, far))
 
+  // No vector is kept for longer than a node or a block: the JVM would write it to memory again and
+  // again, for the case that it has to leave compiled code
   private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = tree.nodes
-    val ox = FloatVector.broadcast(F, ray.ox)
-    val oy = FloatVector.broadcast(F, ray.oy)
-    val oz = FloatVector.broadcast(F, ray.oz)
-    val ix = FloatVector.broadcast(F, ray.invX)
-    val iy = FloatVector.broadcast(F, ray.invY)
-    val iz = FloatVector.broadcast(F, ray.invZ)
-    // Where in a node the near plane of each axis stands, and the far one
-    val nx = W * (if ray.invX < 0f then 3 else 0)
-    val ny = W * (if ray.invY < 0f then 4 else 1)
-    val nz = W * (if ray.invZ < 0f then 5 else 2)
-    val fx = 3 * W - nx
-    val fy = 5 * W - ny
-    val fz = 7 * W - nz
-    val begins = ray.lanes
     val t = tree.blocks
-    val kx = ray.kx
-    val ky = ray.ky
-    val kz = ray.kz
     WideWalk.walk(
       tree,
+      N,
+      W,
       ray,
       hit,
       anyHit,
       (node, limit) =>
-        val near = slab(b, node + nx, ox, ix)
-          .max(slab(b, node + ny, oy, iy))
-          .max(slab(b, node + nz, oz, iz))
-          .max(0)
-        val far = slab(b, node + fx, ox, ix)
-          .min(slab(b, node + fy, oy, iy))
-          .min(slab(b, node + fz, oz, iz))
-          .add(WideWalk.Slack)
-          .min(limit)
-        near.intoArray(begins, 0)
-        if HasMaskBits then near.compare(VectorOperators.LE, far).toLong.toInt
-        else signs(far.max(-1).sub(near).not())
+        val low = met(b, node, limit, ray, 0)
+        if N == W then low else low | (met(b, node + W, limit, ray, W) << W)
       ,
       corners =>
         // The Float part of TriangleTest, operation by operation
-        val x = FloatVector.broadcast(F, ray.along(kx))
-        val y = FloatVector.broadcast(F, ray.along(ky))
-        val z = FloatVector.broadcast(F, ray.along(kz))
-        val shearX = FloatVector.broadcast(F, ray.shearX)
-        val shearY = FloatVector.broadcast(F, ray.shearY)
-        val z0 = FloatVector.fromArray(F, t, corners + kz * W).sub(z)
-        val z1 = FloatVector.fromArray(F, t, corners + (3 + kz) * W).sub(z)
-        val z2 = FloatVector.fromArray(F, t, corners + (6 + kz) * W).sub(z)
-        val x0 = FloatVector.fromArray(F, t, corners + kx * W).sub(x).add(z0.mul(shearX))
-        val y0 = FloatVector.fromArray(F, t, corners + ky * W).sub(y).add(z0.mul(shearY))
-        val x1 = FloatVector.fromArray(F, t, corners + (3 + kx) * W).sub(x).add(z1.mul(shearX))
-        val y1 = FloatVector.fromArray(F, t, corners + (3 + ky) * W).sub(y).add(z1.mul(shearY))
-        val x2 = FloatVector.fromArray(F, t, corners + (6 + kx) * W).sub(x).add(z2.mul(shearX))
-        val y2 = FloatVector.fromArray(F, t, corners + (6 + ky) * W).sub(y).add(z2.mul(shearY))
+        val x = corners + ray.kx * W
+        val y = corners + ray.ky * W
+        val z = corners + ray.kz * W
+        val z0 = FloatVector.fromArray(F, t, z).sub(ray.oAlongZ)
+        val z1 = FloatVector.fromArray(F, t, z + 3 * W).sub(ray.oAlongZ)
+        val z2 = FloatVector.fromArray(F, t, z + 6 * W).sub(ray.oAlongZ)
+        val x0 = FloatVector.fromArray(F, t, x).sub(ray.oAlongX).add(z0.mul(ray.shearX))
+        val x1 = FloatVector.fromArray(F, t, x + 3 * W).sub(ray.oAlongX).add(z1.mul(ray.shearX))
+        val x2 = FloatVector.fromArray(F, t, x + 6 * W).sub(ray.oAlongX).add(z2.mul(ray.shearX))
+        val y0 = FloatVector.fromArray(F, t, y).sub(ray.oAlongY).add(z0.mul(ray.shearY))
+        val y1 = FloatVector.fromArray(F, t, y + 3 * W).sub(ray.oAlongY).add(z1.mul(ray.shearY))
+        val y2 = FloatVector.fromArray(F, t, y + 6 * W).sub(ray.oAlongY).add(z2.mul(ray.shearY))
         val e0 = x1.mul(y2).sub(y1.mul(x2))
         val e1 = x2.mul(y0).sub(y2.mul(x0))
         val e2 = x0.mul(y1).sub(y0.mul(x1))
@@ -101,5 +107,5 @@ private[accel] object VectorKernel extends WideKernel:
         val s1 = e1.reinterpretAsInts()
         val s2 = e2.reinterpretAsInts()
         // No sign, or all signs, or a zero
-        signs(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero))
+        bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))
     )

@@ -3,15 +3,18 @@ package candela.accel
 /** Makes a [[WideTree]] of the binary one that [[BvhBuilder]] leaves: decides which subtrees become
   * leaves and which nodes vanish into those above, so that the expected cost of a ray is least.
   *
-  * Each subtree is asked what it costs at least to hang it up as 1, 2, … `lanes` children. The
+  * Each subtree is asked what it costs at least to hang it up as 1, 2, … `width` children. The
   * answer for k is the best division of k among its two halves, the answer for 1 a leaf or a node
-  * of `lanes` children. Source: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs
+  * of `width` children. Source: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs
   * Through Compressed Wide BVHs", HPG 2017, §3.1.
   *
+  * @param width children a node
+  * @param lanes triangles a block
   * @param nodes, order as of a BvhBuilder; `root` and `rootCount`, too
   * @param isTriangle   may this primitive be tested in a block?
   */
 private[accel] final class WideBuilder(
+    width: Int,
     lanes: Int,
     nodes: Array[Float],
     nodeCount: Int,
@@ -23,12 +26,12 @@ private[accel] final class WideBuilder(
   /** For each binary node and k children: 0, as for k − 1 (or a leaf, if k is 1); otherwise how
     * many of the k go to its left half.
     */
-  private val choices = new Array[Byte](nodeCount * lanes)
+  private val choices = new Array[Byte](nodeCount * width)
 
   /** The costs of a subtree as 1, 2, … children, for each level of the recursion. */
-  private val costs = new FloatStack(lanes)
+  private val costs = new FloatStack(width)
 
-  private val wide = FloatBuffer(nodeCount / 3 * WideTree.floats(lanes))
+  private val wide = FloatBuffer(nodeCount / 3 * WideTree.floats(width))
 
   /** Which primitives are in the lanes of the blocks; −1: none. */
   val owners = IntBuffer(order.length + order.length / 4)
@@ -51,7 +54,7 @@ private[accel] final class WideBuilder(
 
   private def bits(at: Int): Int = java.lang.Float.floatToRawIntBits(nodes(at))
   private def choice(node: Int, k: Int): Int =
-    choices(node / BvhBuilder.NodeFloats * lanes + k - 1)
+    choices(node / BvhBuilder.NodeFloats * width + k - 1)
 
   private def rootArea: Float =
     def side(k: Int) =
@@ -73,11 +76,11 @@ private[accel] final class WideBuilder(
     costs.keep(level + 1, level)
     val right = priceChild(node, 1, level + 1)
     val count = if left >= Many || right >= Many then Many else left + right
-    val at = node / BvhBuilder.NodeFloats * lanes
+    val at = node / BvhBuilder.NodeFloats * width
     var split = 0
     var k = 2
     // Level `level` holds the left half's costs, the next one the right half's
-    while k <= lanes do
+    while k <= width do
       var best = Float.PositiveInfinity
       split = 0
       var i = 1
@@ -90,13 +93,13 @@ private[accel] final class WideBuilder(
       costs.found(k) = best
       choices(at + k - 1) = split.toByte
       k += 1
-    val asNode = area * WideBuilder.NodeCost + costs.found(lanes)
+    val asNode = area * WideBuilder.NodeCost + costs.found(width)
     val asLeaf = area * WideBuilder.BlockCost
     val isLeaf = count <= lanes && asLeaf <= asNode
     choices(at) = if isLeaf then 0 else split.toByte
     costs(level, 1) = if isLeaf then asLeaf else asNode
     k = 2
-    while k <= lanes do
+    while k <= width do
       if costs.found(k) < costs(level, k - 1) then costs(level, k) = costs.found(k)
       else
         costs(level, k) = costs(level, k - 1)
@@ -148,12 +151,12 @@ private[accel] final class WideBuilder(
 
   /** Writes the node that takes the place of this binary one, and all below it. */
   private def node(binary: Int, waiting: Int): Int =
-    val at = wide.grow(WideTree.floats(lanes))
-    val boxes = new Array[Int](lanes) // of the children: where in `nodes`
-    val count = gather(binary, choice(binary, 1), lanes, boxes, 0)
+    val at = wide.grow(WideTree.floats(width))
+    val boxes = new Array[Int](width) // of the children: where in `nodes`
+    val count = gather(binary, choice(binary, 1), width, boxes, 0)
     stackNeed = Math.max(stackNeed, waiting + count)
     var k = 0
-    while k < lanes do
+    while k < width do
       if k < count then
         val parent = boxes(k) & -BvhBuilder.NodeFloats
         val side = if boxes(k) == parent then 0 else 1
@@ -184,20 +187,19 @@ private[accel] final class WideBuilder(
   private def write(at: Int, lane: Int, box: Int, code: Int): Unit =
     var axis = 0
     while axis < 3 do
-      wide(at + axis * lanes + lane) = nodes(box + axis)
-      wide(at + (3 + axis) * lanes + lane) = nodes(box + 3 + axis)
+      wide(at + axis * width + lane) = nodes(box + axis)
+      wide(at + (3 + axis) * width + lane) = nodes(box + 3 + axis)
       axis += 1
-    WideTree.pad(wide.floats, at + lane, lanes)
-    wide(at + 6 * lanes + lane) = java.lang.Float.intBitsToFloat(code)
+    WideTree.pad(wide.floats, at + lane, width)
+    wide(at + 6 * width + lane) = java.lang.Float.intBitsToFloat(code)
 
-  /** Met by no ray. */
+  /** Met by no ray: it begins at infinity or lies behind. */
   private def writeEmpty(at: Int, lane: Int): Unit =
-    var axis = 0
-    while axis < 3 do
-      wide(at + axis * lanes + lane) = Float.PositiveInfinity
-      wide(at + (3 + axis) * lanes + lane) = Float.NegativeInfinity
-      axis += 1
-    wide(at + 6 * lanes + lane) = java.lang.Float.intBitsToFloat(WideTree.Nothing)
+    var row = 0
+    while row < 6 do
+      wide(at + row * width + lane) = Float.PositiveInfinity
+      row += 1
+    wide(at + 6 * width + lane) = java.lang.Float.intBitsToFloat(WideTree.Nothing)
 
   private def Many = WideBuilder.Many
 

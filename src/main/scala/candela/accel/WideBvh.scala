@@ -2,7 +2,7 @@ package candela.accel
 
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** A bounding volume hierarchy whose nodes have as many children as a vector has lanes.
+/** A bounding volume hierarchy whose nodes have as many children as vectors test in one go.
   *
   * A ray's first walks are done in plain Scala: until the JVM has compiled it, code with vectors is
   * a hundred times slower, and a small picture is finished by then. Which kernel walks is never
@@ -17,8 +17,8 @@ final class WideBvh private[accel] (tree: WideTree, fast: WideKernel, patience: 
   private val isTame = WideKernel.isTame(bounds)
 
   def describe: String =
-    s"bvh: ${tree.count} primitives, ${tree.nodeCount} nodes of ${tree.lanes} children, " +
-      s"${tree.blockCount} blocks of triangles; ${fast.name}" +
+    s"bvh: ${tree.count} primitives, ${tree.nodeCount} nodes of ${tree.width} children, " +
+      s"${tree.blockCount} blocks of ${tree.lanes} triangles; ${fast.name}" +
       (if fast eq ScalarKernel then "" else s", for the first $patience rays scalar")
 
   def closest(ray: Ray, hit: Hit): Boolean =

@@ -4,41 +4,50 @@ import candela.base.Parallel
 import candela.geometry.Bounds3
 import candela.shapes.TriangleSoup
 
-/** A hierarchy with as many children a node as a vector has lanes, all in flat arrays.
+/** A hierarchy of many children a node, made for vectors, all in flat arrays.
   *
-  * A node is six rows of `lanes` Floats (its children's min x, y, z, max x, y, z) and a row of raw
+  * A node is six rows of `width` Floats (its children's min x, y, z, max x, y, z) and a row of raw
   * bits, the children themselves: one load a row and slab. A child ≥ 0 is the index of its node's
   * first Float. Below 0 it is the complement of a leaf (see [[WideTree.leaf]]): up to `lanes`
   * triangles in a block, or up to 16 primitives of any kind in a row.
   *
-  * A block is nine rows of `lanes` Floats, x, y, z of the triangles' three corners; its primitives'
-  * numbers are in `owners`. All boxes are somewhat larger than what is in them: see
+  * A block is nine rows of `lanes` Floats, x, y, z of the triangles' three corners, and a row of
+  * raw bits, their numbers. All boxes are somewhat larger than what is in them: see
   * [[WideBuilder]].
   *
   * Source of the layout: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
   *
+  * @param width  children a node
+  * @param lanes  triangles a block
   * @param count  of all primitives
   * @param root   a child's code
   * @param others the primitives that are in no block
   */
 private[accel] final class WideTree(
+    val width: Int,
     val lanes: Int,
     val count: Int,
     val bounds: Bounds3,
     val nodes: Array[Float],
     val root: Int,
     val blocks: Array[Float],
-    val owners: Array[Int],
     val others: PackedPrimitives
 ):
-  def nodeCount: Int = nodes.length / WideTree.floats(lanes)
-  def blockCount: Int = owners.length / lanes
+  def nodeCount: Int = nodes.length / WideTree.floats(width)
+  def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
 private[accel] object WideTree:
   /** @param maxLeaf of the binary tree that it is made of */
-  def of(primitives: Primitives, lanes: Int, maxLeaf: Int, parallel: Parallel): WideTree =
+  def of(
+      primitives: Primitives,
+      width: Int,
+      lanes: Int,
+      maxLeaf: Int,
+      parallel: Parallel
+  ): WideTree =
     val built = BvhBuilder.of(primitives, maxLeaf, parallel)
     val wide = WideBuilder(
+      width,
       lanes,
       built.nodes,
       built.nodeCount,
@@ -47,15 +56,14 @@ private[accel] object WideTree:
       built.rootCount,
       primitives.isSolidTriangle
     )
-    val owners = wide.owners.toArray
     WideTree(
+      width,
       lanes,
       primitives.count,
       built.bounds,
       wide.wideNodes,
       wide.rootCode,
-      blocks(primitives.soup, owners, lanes, parallel),
-      owners,
+      blocks(primitives.soup, wide.owners.toArray, lanes, parallel),
       primitives.packed(wide.others.toArray, parallel)
     )
 
@@ -65,13 +73,14 @@ private[accel] object WideTree:
       lanes: Int,
       parallel: Parallel
   ): Array[Float] =
-    val all = new Array[Float](Math.multiplyExact(9, owners.length))
+    val all = new Array[Float](Math.multiplyExact(10, owners.length))
     parallel.ranges(owners.length): (from, until) =>
       var i = from
       while i < until do
         val triangle = owners(i)
+        val at = i / lanes * blockFloats(lanes) + i % lanes
+        all(at + 9 * lanes) = java.lang.Float.intBitsToFloat(triangle)
         if triangle >= 0 then
-          val at = i / lanes * blockFloats(lanes) + i % lanes
           var c = 0
           while c < 9 do
             all(at + c * lanes) = soup.positions(3 * soup.indices(3 * triangle + c / 3) + c % 3)
@@ -95,8 +104,8 @@ private[accel] object WideTree:
   /** Twice what [[candela.shapes.TriangleTest.Within]] allows. */
   private final val Pad = 4e-6f
 
-  inline def floats(lanes: Int): Int = 7 * lanes
-  inline def blockFloats(lanes: Int): Int = 9 * lanes
+  inline def floats(width: Int): Int = 7 * width
+  inline def blockFloats(lanes: Int): Int = 10 * lanes
 
   /** The code of a leaf: 26 bits of where (a block, or the first slot of `others`), 4 bits of how
     * many less one, 1 bit of which kind.

@@ -13,13 +13,16 @@ import candela.shapes.TriangleTest
   */
 private[accel] object WideWalk:
 
-  /** @param boxes     (node, limit): bits of the children that begin before `limit`, the bits of a
+  /** @param width, lanes those of the tree, as constants if the kernel has any
+    * @param boxes     (node, limit): bits of the children that begin before `limit`, the bits of a
     *                  distance; writes where they begin to `ray.lanes`, as bits too
     * @param triangles (block's first Float): bits of the lanes whose triangles may be hit; none
     *                  that [[TriangleTest]] accepts is missing
     */
   inline def walk(
       tree: WideTree,
+      inline width: Int,
+      inline lanes: Int,
       ray: Ray,
       hit: Hit,
       inline anyHit: Boolean,
@@ -27,7 +30,6 @@ private[accel] object WideWalk:
       inline triangles: Int => Int
   ): Boolean =
     val nodes = tree.nodes
-    val lanes = tree.lanes
     val stack = ray.stack
     val begins = ray.lanes
     var limit = limitOf(ray.tMax)
@@ -37,7 +39,7 @@ private[accel] object WideWalk:
     while node != WideTree.Nothing do
       if node >= 0 then
         var hits = boxes(node, limit)
-        val children = node + 6 * lanes
+        val children = node + 6 * width
         if hits == 0 then node = WideTree.Nothing
         else
           val a = Integer.numberOfTrailingZeros(hits)
@@ -74,7 +76,7 @@ private[accel] object WideWalk:
       else
         if WideTree.isBlock(node) then
           val block = WideTree.first(node)
-          val corners = block * (9 * lanes)
+          val corners = block * WideTree.blockFloats(lanes)
           var may = triangles(corners) & ((1 << WideTree.size(node)) - 1)
           while may != 0 do
             val k = Integer.numberOfTrailingZeros(may)
@@ -84,7 +86,8 @@ private[accel] object WideWalk:
                 found = true
                 may = 0
             else
-              val owner = tree.owners(block * lanes + k)
+              val owner =
+                java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
               if TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit) then
                 hit.primitive = owner
                 found = true
@@ -120,8 +123,7 @@ private[accel] object WideWalk:
   /** What begins later than this is behind the end of the ray. Finite: what begins at infinity is
     * never met.
     */
-  def limitOf(tMax: Float): Int =
-    val bits = java.lang.Float.floatToRawIntBits(tMax) + Slack
-    if bits < Largest then bits else Largest
+  inline def limitOf(tMax: Float): Int =
+    Math.min(java.lang.Float.floatToRawIntBits(tMax) + Slack, Largest)
 
   private final val Largest = 0x7f7fffff

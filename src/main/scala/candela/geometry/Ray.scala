@@ -22,6 +22,9 @@ final class Ray:
   var kx, ky, kz = 0
   var shearX, shearY, shearZ = 0f
 
+  /** The origin along kx, ky and kz. */
+  var oAlongX, oAlongY, oAlongZ = 0f
+
   /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree
     * that the builder makes, of two children a node or of sixteen.
     */
@@ -87,10 +90,13 @@ final class Ray:
     kx = if kz == 2 then 0 else kz + 1
     ky = if kx == 2 then 0 else kx + 1
     val along = component(kz)
+    oAlongZ = this.along(kz)
     if along < 0f then
       val swap = kx
       kx = ky
       ky = swap
+    oAlongX = this.along(kx)
+    oAlongY = this.along(ky)
     shearX = -component(kx) / along
     shearY = -component(ky) / along
     shearZ = 1f / along

@@ -54,9 +54,9 @@ object TriangleTest:
     val kx = ray.kx
     val ky = ray.ky
     val kz = ray.kz
-    val ox = ray.along(kx)
-    val oy = ray.along(ky)
-    val oz = ray.along(kz)
+    val ox = ray.oAlongX
+    val oy = ray.oAlongY
+    val oz = ray.oAlongZ
     // Into the space where the ray starts at 0 and runs along +z: shear x and y now, z at the end.
     // Kernels that test several triangles at once repeat this, operation by operation
     val z0 = v(at + kz * s) - oz

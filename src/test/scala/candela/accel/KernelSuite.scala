@@ -16,7 +16,7 @@ class KernelSuite extends AnyFunSuite:
     Seq[(String, Primitives => Accelerator)](
       "binary" -> (Bvh(_)),
       "scalar, 4 lanes" -> (Hierarchies.scalar(_)),
-      "scalar, 16 lanes" -> (Hierarchies.scalar(_, lanes = 16)),
+      "scalar, 16 lanes" -> (Hierarchies.scalar(_, width = 16)),
       "careful" -> (Hierarchies.careful(_))
     ) ++ Option.when(hasVectors)("vector" -> (Hierarchies.vector(_, patience = 0)))
 
@@ -145,9 +145,9 @@ class KernelSuite extends AnyFunSuite:
       assert(ray.walks == 100): Unit
 
   test("a tree is deep enough for no stack to overflow"):
-    for (scene, primitives) <- scenes; lanes <- Seq(4, 8, 16) do
+    for (scene, primitives) <- scenes; (width, lanes) <- Seq((4, 4), (8, 8), (16, 8), (16, 16)) do
       val built = BvhBuilder.of(primitives, 4, Parallel.Alone)
-      val wide = WideBuilder(lanes, built.nodes, built.nodeCount, built.order, built.root,
+      val wide = WideBuilder(width, lanes, built.nodes, built.nodeCount, built.order, built.root,
         built.rootCount, primitives.isSolidTriangle)
       assert(wide.stackNeed <= Ray.StackSize, scene)
       val owners = wide.owners.toArray.filter(_ >= 0)

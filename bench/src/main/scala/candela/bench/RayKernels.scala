@@ -43,7 +43,7 @@ object RayKernels:
     val few = if primitives.count > 10000 then Nil else Seq("brute" -> (() => BruteForce(primitives)))
     vector ++ Seq(
       "scalar4" -> (() => Hierarchies.scalar(primitives)),
-      "scalar8" -> (() => Hierarchies.scalar(primitives, lanes = 8)),
+      "scalar8" -> (() => Hierarchies.scalar(primitives, width = 8)),
       "binary" -> (() => Bvh(primitives)),
       "grid" -> (() => Grid(primitives))
     ) ++ few
