@@ -18,6 +18,7 @@ import candela.scene.{PathReport, Scene}
   * @param maxDepth      most scattering events of a whole path
   * @param rouletteAfter of these, before which neither part of a path ends by chance
   * @param compresses    as in [[Subpath]]
+  * @param regularizes   as in [[candela.integrators.PathTracer]], by each part of a path on its own
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
@@ -26,12 +27,14 @@ final class BidirectionalPathTracer(
     scene: Scene,
     maxDepth: Int,
     rouletteAfter: Int,
-    compresses: Boolean
+    compresses: Boolean,
+    regularizes: Boolean = false
 ) extends LightTransport(scene)
     with Splatting:
   import PartialWeights.mis
 
-  private val lightPaths = LightPaths(scene, maxDepth, rouletteAfter, compresses, weighsAll = true)
+  private val lightPaths =
+    LightPaths(scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes)
   private val path = Subpath(scene, carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
   at = vertex.at
@@ -45,7 +48,7 @@ final class BidirectionalPathTracer(
     this.splats = splats
 
   protected def over(scene: Scene): BidirectionalPathTracer =
-    BidirectionalPathTracer(scene, maxDepth, rouletteAfter, compresses)
+    BidirectionalPathTracer(scene, maxDepth, rouletteAfter, compresses, regularizes)
 
   override def raysTraced: Long = rays + lightPaths.raysTraced
 
@@ -107,6 +110,7 @@ final class BidirectionalPathTracer(
     val eye = ray.origin
     var light = Rgb.Black
     path.throughput = Rgb.White
+    path.isSpecularSoFar = true
     path.weights.near = 0.0
     path.weights.far = 0.0
     var edges = 0
@@ -143,7 +147,7 @@ final class BidirectionalPathTracer(
         alive = edges <= maxDepth && cosine > 0f
         if alive then
           vertex.edges = edges
-          vertex.look(ray.direction)
+          vertex.look(ray.direction, regularizes && !path.isSpecularSoFar)
           if !vertex.bsdf.isSpecular then
             light += path.throughput * (direct(joins) + joined())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)

@@ -11,13 +11,15 @@ import candela.scene.Scene
   * @param maxEdges most edges of such a path
   * @param weighsAll are paths weighted against those that meet lights by chance? Then none starts
   *                  at a light whose light these see on another side
+  * @param regularizes as in [[candela.integrators.PathTracer]]
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
     maxEdges: Int,
     rouletteAfter: Int,
     compresses: Boolean,
-    weighsAll: Boolean
+    weighsAll: Boolean,
+    regularizes: Boolean = false
 ):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
@@ -76,7 +78,7 @@ private[bidirectional] final class LightPaths(
           val on = ray.direction
           ray.set(vertex.at.offsetOrigin(on), on, Float.PositiveInfinity)
         else
-          vertex.look(ray.direction)
+          vertex.look(ray.direction, regularizes && !path.isSpecularSoFar)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)
           if edges == 1 then begin(light, vertex, cosine)

@@ -26,9 +26,12 @@ private[bidirectional] final class PathVertex(scene: Scene):
   var isSpecularSoFar: Boolean = true
   val weights: PartialWeights = PartialWeights()
 
-  /** Looks at the surface, once `at` is filled in. */
-  def look(direction: Vec3): Unit =
-    bsdf = scene.bsdf(at)
+  /** Looks at the surface, once `at` is filled in.
+    *
+    * @param widened with its sharp parts widened?
+    */
+  def look(direction: Vec3, widened: Boolean = false): Unit =
+    bsdf = if widened then scene.widenedBsdf(at) else scene.bsdf(at)
     wo = -direction
     local = at.frame.toLocal(wo)
 

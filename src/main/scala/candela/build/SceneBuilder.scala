@@ -106,7 +106,7 @@ object SceneBuilder:
     val plan = RenderPlan(
       width = width,
       height = height,
-      crop = cropOf(film, width, height, options),
+      crop = cropOf(film, integrator.window, width, height, options),
       camera = camera,
       filter = filter,
       sampler =
@@ -143,6 +143,7 @@ object SceneBuilder:
 
   private def cropOf(
       film: FilmSettings,
+      window: Option[PixelBounds],
       width: Int,
       height: Int,
       options: BuildOptions
@@ -154,13 +155,23 @@ object SceneBuilder:
       else (c(0), c(1), c(2), c(3))
     def edge(part: Float, size: Int) =
       candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
-    val bounds = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    val onFilm = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    val bounds = window.filter(_ => options.cropWindow.isEmpty).fold(onFilm): w =>
+      // An image may be made smaller than the film
+      def x(at: Int) = Math.ceil(at.toDouble * width / film.width).toInt
+      def y(at: Int) = Math.ceil(at.toDouble * height / film.height).toInt
+      PixelBounds(
+        Math.max(onFilm.x0, x(w.x0)),
+        Math.max(onFilm.y0, y(w.y0)),
+        Math.min(onFilm.x1, x(w.x1)),
+        Math.min(onFilm.y1, y(w.y1))
+      )
     if bounds.width < 1 || bounds.height < 1 then
       throw SceneError(
         Problem(
           Severity.Error,
           None,
-          s"the crop window $x0 $x1 $y0 $y1 holds no pixel of $width×$height"
+          s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, holds no pixel of $width×$height"
         )
       )
     bounds

@@ -31,6 +31,7 @@ final class WorldBuilder(
     problems: Findings
 ):
   private val materials = ArrayBuffer.empty[Material]
+  private val widened = ArrayBuffer.empty[Material]
   private val borders = ArrayBuffer.empty[MediumBorder]
   private val materialOf = mutable.HashMap.empty[(MaterialRef, MediumBorder), Int]
   private val madeOf = mutable.HashMap.empty[MaterialRef, Material]
@@ -64,8 +65,7 @@ final class WorldBuilder(
     val tangents = materials.exists(_.isAnisotropic)
     val surfaces = world.result(tangents)
     val objects = objectBuilders.map(_.result(tangents))
-    val triangles = surfaces.soup
-    for (light, k) <- meshLights.flatMap(_.of(triangles)) do lights(k) = light
+    for (light, k) <- meshLights.flatMap(_.of(surfaces.soup)) do lights(k) = light
     // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
     val complete = !integratorPlan.samplesBsdf || description.dialect != Dialect.V4
     for (l, made) <- description.lights.zip(lightPlans) do addLight(l, made, complete)
@@ -81,9 +81,12 @@ final class WorldBuilder(
       sources,
       selection,
       sidesByGeometry = description.dialect != Dialect.V4,
-      Option.when(resources.footprintUses.nonEmpty)(footprints)
+      Option.when(resources.footprintUses.nonEmpty)(footprints),
+      widened = widened.toArray
     )
-    if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then warnOfDarkness()
+    if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then
+      for c <- description.camera do
+        problems.warn(c.at, "the scene has no light: its image will be black")
     val (integrator, inMedia) = media.integrator(
       scene,
       lightSamples.toArray,
@@ -96,7 +99,7 @@ final class WorldBuilder(
       integrator,
       Vector(
         "accelerator" -> accelerator.describe,
-        "triangles" -> triangles.count.toString,
+        "triangles" -> surfaces.soup.count.toString,
         "other shapes" -> surfaces.solids.length.toString,
         "instances" -> instanced.describe,
         "masks" -> masked(surfaces +: objects),
@@ -119,10 +122,6 @@ final class WorldBuilder(
     if count == 0 then "none"
     else if integratorPlan.goesBeneath then s"light travels beneath $count materials"
     else s"$count materials show their surface alone: so this integrator does in pbrt, too"
-
-  private def warnOfDarkness(): Unit =
-    for c <- description.camera do
-      problems.warn(c.at, "the scene has no light: its image will be black")
 
   private def instances(objects: Vector[Surfaces], places: Vector[Vector[Motion]]): Instanced =
     val accelerators = objects.map(accelerate(_, Instances.None))
@@ -232,6 +231,7 @@ final class WorldBuilder(
     materialOf.getOrElseUpdate(
       (ref, border), {
         materials += madeOf.getOrElseUpdate(ref, material(ref))
+        if integratorPlan.regularizes then widened += resources.widened(material(ref))
         borders += border
         materials.length - 1
       }

@@ -12,6 +12,7 @@ import candela.scene.Scene
   * @param maxDepth most scattering events of a path
   * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
+  * @param regularizes is what a path meets after it was spread seen with its sharp parts widened?
   * @param wavelengths if a surface splits light: a path takes one of them at the first such surface
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
@@ -22,7 +23,8 @@ final class PathTracer(
     maxDepth: Int,
     rouletteAfter: Int,
     rouletteThreshold: Float,
-    wavelengths: Option[Wavelengths] = None
+    wavelengths: Option[Wavelengths] = None,
+    regularizes: Boolean = false
 ) extends LightTransport(scene):
 
   private val dispersion: Dispersion | Null = wavelengths.map(Dispersion(_)).orNull
@@ -30,7 +32,7 @@ final class PathTracer(
   override def splitsLight: Boolean = wavelengths.isDefined
 
   protected def over(scene: Scene): PathTracer =
-    PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, wavelengths)
+    PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, wavelengths, regularizes)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
@@ -42,6 +44,7 @@ final class PathTracer(
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
     var lastP = Vec3.Zero
     var lastN = Vec3.Zero
+    var isSpread = false
     var alive = true
     while alive do
       rays += 1
@@ -58,12 +61,13 @@ final class PathTracer(
           scene.passed(ray)
         else
           depth += 1
-          val met = scene.bsdf(at)
+          val met = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
           val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
           if dispersion != null then throughput = throughput * dispersion.weight
           light += throughput * anyLight(bsdf, wo, sampler)
           val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
           throughput = throughput * bounce.weight
+          isSpread ||= regularizes && !bounce.isSpecular
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           lastP = at.p
           lastN = at.frame.n

@@ -14,13 +14,15 @@ import candela.scene.Scene
   * @param seesThrough does light of the sources also go straight through a rough surface, where
   *                    nothing beneath it is in the way? So in pbrt-v3; v4 loses a part of it, that
   *                    which sampling of the BSDF would have found
+  * @param regularizes as in [[PathTracer]]
   */
 final class SubsurfacePathTracer(
     scene: Scene,
     maxDepth: Int,
     rouletteAfter: Int,
     rouletteThreshold: Float,
-    seesThrough: Boolean
+    seesThrough: Boolean,
+    regularizes: Boolean = false
 ) extends LightTransport(scene):
   private val probe = SubsurfaceProbe(scene)
 
@@ -28,7 +30,8 @@ final class SubsurfacePathTracer(
   private var atBoundary = false
 
   protected def over(scene: Scene): SubsurfacePathTracer =
-    SubsurfacePathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, seesThrough)
+    SubsurfacePathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, seesThrough,
+      regularizes)
 
   override def raysTraced: Long = rays + probe.raysTraced
 
@@ -41,6 +44,7 @@ final class SubsurfacePathTracer(
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
     var lastP = Vec3.Zero
     var lastN = Vec3.Zero
+    var isSpread = false
     var alive = true
     while alive do
       rays += 1
@@ -57,7 +61,7 @@ final class SubsurfacePathTracer(
           scene.passed(ray)
         else
           depth += 1
-          var bsdf = scene.bsdf(at)
+          var bsdf = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
           atBoundary = scene.isSubsurface(at.material)
           light += throughput * anyLight(bsdf, wo, sampler)
           var local = at.frame.toLocal(wo)
@@ -69,12 +73,14 @@ final class SubsurfacePathTracer(
             throughput = throughput * probe.enter(at, inside, ray.time, sampler, at)
             if !throughput.isBlack then
               atBoundary = false
+              isSpread = regularizes
               bsdf = inside.entry
               wo = at.frame.n
               local = Vec3.Z
               light += throughput * anyLight(bsdf, wo, sampler)
               bounce = drawn(bsdf, local, sampler)
               throughput = throughput * bounce.weight
+          isSpread ||= regularizes && !bounce.isSpecular
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           lastP = at.p
           lastN = at.frame.n

@@ -15,6 +15,7 @@ import candela.scene.Scene
   * @param maxDepth most scattering events of a path
   * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
+  * @param regularizes       as in [[PathTracer]]
   * @param seesThrough       as in [[SubsurfacePathTracer]], where light travels beneath surfaces
   *
   * Sources: see [[PathTracer]] for surfaces, [[candela.media.PathWeights]] for the weights of
@@ -27,7 +28,8 @@ final class VolumePathTracer(
     maxDepth: Int,
     rouletteAfter: Int,
     rouletteThreshold: Float,
-    seesThrough: Boolean
+    seesThrough: Boolean,
+    regularizes: Boolean = false
 ) extends LightTransport(scene):
   private val work = MediumWork()
   private val weights = work.weights
@@ -42,7 +44,8 @@ final class VolumePathTracer(
   private var lastN = Vec3.Zero
 
   protected def over(scene: Scene): VolumePathTracer =
-    VolumePathTracer(scene, media, maxDepth, rouletteAfter, rouletteThreshold, seesThrough)
+    VolumePathTracer(scene, media, maxDepth, rouletteAfter, rouletteThreshold, seesThrough,
+      regularizes)
 
   override def raysTraced: Long = rays + visibility.raysTraced + probe.raysTraced
 
@@ -55,6 +58,7 @@ final class VolumePathTracer(
     var medium = media.camera
     var depth = 0
     var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
+    var isSpread = false
     var alive = true
     while alive do
       rays += 1
@@ -68,6 +72,7 @@ final class VolumePathTracer(
         else
           depth += 1
           light += scatter(ray, scattered, medium, sampler)
+          isSpread = regularizes
           alive = survives(depth, etaScale, sampler)
       else if !met then
         light += weights.throughput * escaped(
@@ -88,7 +93,7 @@ final class VolumePathTracer(
         else if depth == maxDepth then alive = false
         else
           depth += 1
-          var bsdf = scene.bsdf(at)
+          var bsdf = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
           var towards = wo
           atBoundary = scene.isSubsurface(at.material)
           light += lightOnSurface(bsdf, towards, medium, sampler)
@@ -101,12 +106,14 @@ final class VolumePathTracer(
             weights.scale(probe.enter(at, inside, ray.time, sampler, at))
             if !weights.isDead then
               atBoundary = false
+              isSpread = regularizes
               bsdf = inside.entry
               towards = at.frame.n
               local = Vec3.Z
               light += lightOnSurface(bsdf, towards, medium, sampler)
               bounce = drawn(bsdf, local, sampler)
               weights.scale(bounce.weight)
+          isSpread ||= regularizes && !bounce.isSpecular
           weights.turn(if bounce.isSpecular then 0f else bounce.pdf)
           lastP = at.p
           lastN = at.frame.n

@@ -51,3 +51,17 @@ class TrowbridgeReitzSuite extends AnyFunSuite:
     assert(!TrowbridgeReitz(0f, 0.1f).isSmooth && !TrowbridgeReitz(0.001f, 0.001f).isSmooth)
     val m = TrowbridgeReitz(0f, 0.1f).sample(Directions.at(30, 30), 0.3f, 0.6f)
     assert(m.isFinite && java.lang.Float.isFinite(TrowbridgeReitz(0f, 0.1f).d(m)))
+
+  test("widened it is twice as rough, but from 0.1 to 0.3, and what is rougher stays"):
+    for
+      (alpha, expected) <- Seq(
+        (0f, 0.1f),
+        (0.04f, 0.1f),
+        (0.1f, 0.2f),
+        (0.2f, 0.3f),
+        (0.3f, 0.3f),
+        (0.5f, 0.5f)
+      )
+    do
+      val wide = TrowbridgeReitz(alpha, 0.7f).widened
+      assert(wide.alphaX == expected && wide.alphaY == 0.7f)

@@ -9,7 +9,8 @@ import candela.scenefile.Dialect
   * their mean by the cosine, times π, and v4's that mean, where nothing hides a point 1.
   */
 object AmbientOcclusionRecipe
-    extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees"):
+    extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees")
+    with Windowed:
   private val cosine = bool("cossample", "more rays along the normal?", sinceV3)(true)
   private val samples =
     integer("nsamples", "rays from each point", untilV3)(if v2 then 2048 else 64)
@@ -21,9 +22,6 @@ object AmbientOcclusionRecipe
     float("maxdistance", "what is farther hides nothing", onlyV4, "scene units")(
       Float.PositiveInfinity
     )
-  notYet("the film's crop window is rendered")(
-    integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
-  )
 
   /** v2 passes over what is nearer, in scene units, so that surfaces do not hide themselves. */
   private val NearV2 = 0.01f
@@ -53,10 +51,10 @@ object AmbientOcclusionRecipe
         )
       case Dialect.V4 =>
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, showsSky = false)
-    IntegratorPlan(
+    windowed(IntegratorPlan(
       (scene, _) => AmbientOcclusion(scene, rule),
       samplesBsdf = true,
       s"ambientocclusion, ${rule.samples} rays from each point",
       isLit = false,
       throughVolumes = Some((scene, _, march) => AmbientOcclusion(scene, rule, march))
-    )
+    ))

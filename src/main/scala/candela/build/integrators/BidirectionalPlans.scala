@@ -11,22 +11,23 @@ private[build] object BidirectionalPlans:
   private val Patience = 4
 
   /** @param name by which the scene asked for it */
-  def plan(name: String, depth: Int)(using site: Site): IntegratorPlan =
+  def plan(name: String, depth: Int, widens: Boolean = false)(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth)
     val dialect = site.dialect
     val shown = if name == "bdpt" then name else s"bdpt for $name"
     IntegratorPlan(
       (scene, _) =>
-        BidirectionalPathTracer(scene, most, Patience, compresses = dialect != Dialect.V2),
+        BidirectionalPathTracer(scene, most, Patience, dialect != Dialect.V2, widens),
       samplesBsdf = false,
-      s"$shown, up to $most scattering events",
+      s"$shown, up to $most scattering events" + (if widens then ", regularized" else ""),
+      regularizes = widens,
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         site.warn(
           s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
         )
         val patience = if dialect == Dialect.V4 then 1 else Patience
-        VolumePathTracer(scene, media, most, patience, 1f, dialect == Dialect.V3)
+        VolumePathTracer(scene, media, most, patience, 1f, dialect == Dialect.V3, widens)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
@@ -37,9 +38,13 @@ private[build] object BidirectionalPlans:
     *
     * @param mutations for each pixel
     */
-  def metropolis(name: String, depth: Int, mutations: Int, settings: MetropolisSettings)(
-      using site: Site
-  ): IntegratorPlan =
+  def metropolis(
+      name: String,
+      depth: Int,
+      mutations: Int,
+      settings: MetropolisSettings,
+      widens: Boolean = false
+  )(using site: Site): IntegratorPlan =
     for
       (count, what) <- Seq(
         mutations -> "mutations",
@@ -53,9 +58,9 @@ private[build] object BidirectionalPlans:
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
     val compresses = site.dialect != Dialect.V2
-    plan(name, depth).copy(
+    plan(name, depth, widens).copy(
       make = (scene, _) =>
-        Metropolis(BidirectionalPathTracer(scene, most, Patience, compresses), seeded),
+        Metropolis(BidirectionalPathTracer(scene, most, Patience, compresses, widens), seeded),
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))
     )

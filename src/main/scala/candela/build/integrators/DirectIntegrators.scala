@@ -7,15 +7,15 @@ object Direct
       "directlighting",
       "light that comes straight from lights, or by mirrors and glass",
       untilV3
-    ):
+    )
+    with Windowed:
   private val strategy =
     // pbrt-v1 had "weighted", which the later ones read as "all"
     oneOf("strategy", "which lights are sampled", Vector("all", "one", "weighted"))("all")
-  windowed()
 
   protected def make()(using Site): IntegratorPlan =
     val (depth, every) = (Math.max(1, maxDepth()), strategy() != "one")
-    IntegratorPlan(
+    windowed(IntegratorPlan(
       (scene, samples) => DirectLighting(scene, depth, if every then samples else Array.empty),
       // Only when each light has its turn can one of them be left to BSDF sampling
       samplesBsdf = every,
@@ -23,17 +23,17 @@ object Direct
       throughVolumes = Some((scene, samples, march) =>
         DirectLighting(scene, depth, if every then samples else Array.empty, march)
       )
-    )
+    ))
 
 object WhittedRecipe
-    extends IntegratorRecipe("whitted", "mirrors, glass and hard shadows alone", untilV3):
-  windowed()
+    extends IntegratorRecipe("whitted", "mirrors, glass and hard shadows alone", untilV3)
+    with Windowed:
 
   protected def make()(using Site): IntegratorPlan =
     val depth = Math.max(1, maxDepth())
-    IntegratorPlan(
+    windowed(IntegratorPlan(
       (scene, _) => Whitted(scene, depth),
       samplesBsdf = false,
       "whitted",
       throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
-    )
+    ))

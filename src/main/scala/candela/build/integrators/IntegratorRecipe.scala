@@ -2,6 +2,7 @@ package candela.build
 
 import candela.integrators.*
 import candela.media.SceneMedia
+import candela.render.PixelBounds
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -10,6 +11,8 @@ import candela.scenefile.Dialect
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
+  * @param regularizes  does it ask for [[Scene.widenedBsdf]]?
+  * @param window       of the full image that is rendered, if not all of it is
   * @param samples      of each pixel, if the integrator and not the sampler says how many
   * @param isLit        do lights matter? Else a scene without them is no mistake
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
@@ -24,6 +27,8 @@ final case class IntegratorPlan(
     goesBeneath: Boolean = false,
     isLit: Boolean = true,
     samples: Option[Int] = None,
+    regularizes: Boolean = false,
+    window: Option[PixelBounds] = None,
     throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )
@@ -34,11 +39,27 @@ abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dia
   protected val maxDepth: Field[Int] =
     integer("maxdepth", "most scattering events of a path")(5)
 
-  /** v3's integrators can be told what to render, beside the film. */
-  protected def windowed(): Unit =
-    notYet("the film's crop window is rendered")(
-      integers("pixelbounds", "x0 x1 y0 y1: the part to render", onlyV3, "integer[4]", "all")
-    )
+/** v3's integrators can be told what to render, beside the film. */
+trait Windowed extends Recipe[IntegratorPlan]:
+  private val window =
+    integers("pixelbounds", "x0 x1 y0 y1: the image's part to render", onlyV3, "integer[4]", "all")
+
+  protected final def windowed(plan: IntegratorPlan)(using site: Site): IntegratorPlan =
+    val asked = window()
+    if asked.length == 0 then plan
+    else if asked.length == 4 then
+      plan.copy(window = Some(PixelBounds(asked(0), asked(2), asked(1), asked(3))))
+    else
+      site.error("`pixelbounds` takes x0 x1 y0 y1")
+      plan
+
+/** v4's can roughen what a path meets late. */
+trait Regularizing extends Recipe[IntegratorPlan]:
+  protected final val regularize: Field[Boolean] = bool(
+    "regularize",
+    "is what a path meets after it was spread roughened to 0.1 at least?",
+    onlyV4
+  )(false)
 
 /** Of integrators that are not there yet. */
 trait PathInstead extends Recipe[IntegratorPlan]:

@@ -4,7 +4,9 @@ import candela.bidirectional.{MetropolisSettings, PhotonSettings}
 import candela.scenefile.Dialect
 
 /** Integrators whose paths start at lights, too. */
-object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3):
+object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
+    with Windowed
+    with Regularizing:
   notYet("the picture alone is written")(
     bool("visualizestrategies", "write an image for each way to join")(false),
     bool("visualizeweights", "write their weights")(false)
@@ -14,30 +16,25 @@ object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, join
       "power"
     )
   )
-  notYet("BSDFs stay as they are")(
-    bool("regularize", "roughen what a path meets late", onlyV4)(false)
-  )
-  windowed()
-  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
+  protected def make()(using Site): IntegratorPlan =
+    windowed(BidirectionalPlans.plan(name, maxDepth(), regularize()))
 
 object Mlt
     extends IntegratorRecipe(
       "mlt",
       "Metropolis light transport: chains of paths from camera and lights",
       sinceV3
-    ):
+    )
+    with Regularizing:
   private val bootstrap = integer("bootstrapsamples", "paths to start with")(100000)
   private val chains = integer("chains", "Markov chains")(1000)
   private val mutations = integer("mutationsperpixel", "mutations of paths, for each pixel")(100)
   private val largeStep = float("largestepprobability", "of a path that is all new")(0.3f)
   private val sigma = float("sigma", "standard deviation of small mutations")(0.01f)
-  notYet("BSDFs stay as they are")(
-    bool("regularize", "roughen what a path meets late", onlyV4)(false)
-  )
 
   protected def make()(using Site): IntegratorPlan =
     val settings = MetropolisSettings(bootstrap(), chains(), largeStep(), sigma())
-    BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings)
+    BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings, regularize())
 
 object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
   private val passes = integer("numiterations", "passes", onlyV3)(64)

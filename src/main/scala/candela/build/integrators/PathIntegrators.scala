@@ -4,7 +4,9 @@ import candela.integrators.*
 import candela.scenefile.Dialect
 
 final class Path(name: String, meaning: String, dialects: Set[Dialect])
-    extends IntegratorRecipe(name, meaning, dialects):
+    extends IntegratorRecipe(name, meaning, dialects)
+    with Windowed
+    with Regularizing:
   private val threshold =
     float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
   noMeaning("all of them have the same mean; Candela's tree of lights serves for each")(
@@ -13,10 +15,6 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
       "spatial"
     )
   )
-  notYet("BSDFs stay as they are")(
-    bool("regularize", "roughen what a path meets late", onlyV4)(false)
-  )
-  windowed()
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 lights one vertex more than it counts
@@ -24,25 +22,28 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
     val patience = if site.dialect == Dialect.V4 then 1 else 4
     // v2's path and v4's take such a surface for glass, or see its reflection alone
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
-    IntegratorPlan(
+    val widens = regularize()
+    val seesThrough = site.dialect == Dialect.V3
+    windowed(IntegratorPlan(
       (scene, _) =>
         if goesBeneath && scene.hasSubsurface then
-          val seesThrough = site.dialect == Dialect.V3
-          SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough)
+          SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough, widens)
         else
-          PathTracer(scene, depth, patience, threshold(), Dispersions.wavelengths(scene))
+          val wavelengths = Dispersions.wavelengths(scene)
+          PathTracer(scene, depth, patience, threshold(), wavelengths, widens)
       ,
       samplesBsdf = true,
-      s"$name, up to $depth scattering events",
+      s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),
       followsSpecular = site.dialect == Dialect.V4,
       goesBeneath = goesBeneath,
       throughMedia = Option.when(name == "volpath")((scene, media) =>
-        VolumePathTracer(scene, media, depth, patience, threshold(), site.dialect == Dialect.V3)
+        VolumePathTracer(scene, media, depth, patience, threshold(), seesThrough, widens)
       ),
+      regularizes = widens,
       throughVolumes = Some((scene, _, march) =>
         PathThroughVolumes(scene, march, depth, patience, threshold())
       )
-    )
+    ))
 
 object SimplePath
     extends IntegratorRecipe("simplepath", "path tracing, without its refinements", onlyV4)

@@ -43,7 +43,8 @@ abstract class SubsurfaceRecipe(
     case Dialect.V4 =>
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       val across = acrossV4.given_().getOrElse(both())
-      Make.dielectric(eta(), Roughness(alongV4.given_().getOrElse(both()), across, model))
+      val all = Roughness(alongV4.given_().getOrElse(both()), across, model)
+      Make.dielectric(eta(), if site.resources.isWidening then all.widened else all)
 
   protected def table(g: Float)(using site: Site): ProfileTable =
     site.resources.profiles.of(g, eta())
