@@ -85,8 +85,14 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     case "csv" => SuiteData.csv(results)
     case _ => SuiteChart.svg(results)
 
-  /** This very program: the same Java, with the same options and classes. */
+  /** This very program as people start it, so that its launcher chooses what suits each scene; else
+    * the same Java, with the same options and classes.
+    */
   private def self: Vector[String] =
+    sys.props.get("candela.launcher").filter(l => Files.isExecutable(Path.of(l)))
+      .fold(sameJava)(Vector(_))
+
+  private def sameJava: Vector[String] =
     val java = Path.of(System.getProperty("java.home"), "bin", "java").toString
     val runtime = ManagementFactory.getRuntimeMXBean
     val flags = runtime.getInputArguments.asScala.toVector

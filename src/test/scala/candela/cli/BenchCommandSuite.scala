@@ -60,6 +60,20 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(!captured.err.contains("left out"))
       assert(!Files.readString(page).contains("class=\"viewer card\""))
 
+  test("Candela is started by its launcher, if that started the suite"):
+    inSuite: (folder, suite) =>
+      val text = Files.readString(Path.of(suite)).replace("cp {scene}", "{candela} {scene}")
+      val _ = Files.writeString(Path.of(suite), text)
+      val launcher = Files.writeString(folder.resolve("launcher"), "#!/bin/sh\nexec cp \"$@\"\n")
+      assume(launcher.toFile.setExecutable(true) && Files.isExecutable(Path.of("/bin/sh")))
+      sys.props("candela.launcher") = launcher.toString
+      val csv = folder.resolve("out.csv")
+      try
+        val (code, captured) = run(suite, "--samples", "1", "--seeds", "1", "--report", s"$csv")
+        assert(code == 0 && Files.readAllLines(csv).size == 2, captured.err)
+      finally
+        val _ = sys.props.remove("candela.launcher")
+
   test("what is interrupted writes what there is"):
     inSuite: (folder, suite) =>
       val files = Vector("html", "json", "csv").map(e => folder.resolve(s"out.$e"))

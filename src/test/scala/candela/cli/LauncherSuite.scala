@@ -57,6 +57,15 @@ class LauncherSuite extends AnyFunSuite:
       val rest = Vector("-cp", jar, "candela.cli.Main", "a b", "*", "$HOME", "")
       assert(words.drop(5).dropRight(1) == rest)
 
+  test("bench is told how people start the program, and nothing else is"):
+    staged: p =>
+      val _ = p.jdk("99")
+      for words <- Seq(Seq("bench", "x.conf"), Seq("x.pbrt")) do
+        assert(p.run(words, Map(None_)).code == 0)
+      val launcher = p.launcher.toRealPath()
+      assert(p.starts.head.contains(s"-Dcandela.launcher=$launcher"))
+      assert(!p.starts.last.exists(_.startsWith("-Dcandela.launcher")))
+
   test("Java takes the launcher's place, so that signals reach it"):
     staged: p =>
       val _ = p.jdk("99")
@@ -175,7 +184,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(vectors(Seq("--spp=2000", scene)))
       assert(!vectors(Seq("--spp=2000", scene), "CANDELA_JAVA" -> older.toString))
       assert(vectors(Seq("--spp=1", scene, scene)))
-      assert(vectors(Seq("bench", "suite.conf")))
+      assert(!vectors(Seq("bench", "suite.conf")))
       assert(!vectors(Seq("check", scene)) && !vectors(Nil) && !vectors(Seq("--spp")))
       val much = Files.writeString(Path.of(scene), s"$film Sampler \"integer pixelsamples\" 0256")
       assert(vectors(Seq(much.toString)))
@@ -186,5 +195,5 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Make).code == 0)
       val names = p.archives(p.lib).map(_.getFileName.toString).toSet
       assert(names == Set("99.aot", "99-vectors.jsa"))
-      assert(p.run(Seq("bench"), Map.empty).code == 0)
+      assert(p.run(Seq("a.pbrt", "b.pbrt"), Map.empty).code == 0)
       assert(p.starts.last.exists(_.endsWith("99-vectors.jsa")))
