@@ -3,7 +3,7 @@ package candela.build
 import candela.base.{Parallel, Problem, SceneError, Severity}
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
-import candela.film.Layer
+import candela.film.{Layer, SpectralBands}
 import candela.integrators.{Chained, Splatting, SurfaceProbe}
 import candela.math.*
 import candela.render.{LayerPlan, PixelBounds, RenderPlan}
@@ -119,7 +119,7 @@ object SceneBuilder:
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features :+
         ("motion", moving(motions.camera.isDefined, world.moves, shutter)) :+
-        ("layers", if layers.isEmpty then "none" else layers.map(_.word).mkString(", ")),
+        ("layers", layersOf(layers, film.development.bands)),
       differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
       shutter = Option.when(motions.camera.isDefined || world.moves)(shutter),
       weighsFirst = isV4,
@@ -136,6 +136,10 @@ object SceneBuilder:
 
   /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
   private val SharpestV4 = 0.125f
+
+  private def layersOf(layers: Vector[Layer], bands: Option[SpectralBands]): String =
+    val all = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")
+    if all.isEmpty then "none" else all.mkString(", ")
 
   private def moving(camera: Boolean, world: Boolean, shutter: Shutter): String =
     val what = Seq("camera" -> camera, "shapes" -> world).filter(_._2).map(_._1).mkString(" and ")

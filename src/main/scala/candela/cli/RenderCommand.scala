@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Version}
+import candela.film.SpectralBands
 import candela.image.{ImageError, ImageFiles}
 import candela.render.{Cancellation, PixelBounds, Progress, Renderer, Rendering}
 
@@ -28,7 +29,8 @@ final class RenderCommand(
           if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
           else
             val files = outputs(loaded.plan.filename)
-            if loaded.plan.layers.nonEmpty then files.checkLayers()
+            val plan = loaded.plan
+            if plan.layers.nonEmpty || plan.development.bands.nonEmpty then files.checkLayers()
             for path <- files.paths.map(_.toAbsolutePath.normalize) do
               taken.get(path).foreach(other => throw overwrite(path, scene, other))
               taken += path -> scene
@@ -109,7 +111,8 @@ final class RenderCommand(
       "samplesPerPixel" -> rendering.samplesDone.toString,
       "seed" -> options.seed.toString,
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    ) ++ plan.features.filter(_._1 == "integrator") ++ crop
+    ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
+      plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
 
   private def summarise(
       written: Vector[Path],

@@ -40,16 +40,7 @@ object ColorBasis:
   )
 
   private def ofRows(m: Array[Float]): ColorBasis =
-    // Cramer's rule in Double; the basis is well-conditioned
-    val d = m.map(_.toDouble)
-    def minor(r: Int, c: Int): Double =
-      val r1 = (r + 1) % 3
-      val r2 = (r + 2) % 3
-      val c1 = (c + 1) % 3
-      val c2 = (c + 2) % 3
-      d(3 * r1 + c1) * d(3 * r2 + c2) - d(3 * r1 + c2) * d(3 * r2 + c1)
-    val determinant = (0 until 3).map(c => d(c) * minor(0, c)).sum
-    ColorBasis(m, Array.tabulate(9)(i => (minor(i % 3, i / 3) / determinant).toFloat))
+    ColorBasis(m, Matrix3(m.map(_.toDouble).toVector).inverse.toFloats)
 
   private def times(m: Array[Float], c: Rgb): Rgb = Rgb(
     m(0) * c.r + m(1) * c.g + m(2) * c.b,

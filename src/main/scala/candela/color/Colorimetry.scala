@@ -19,6 +19,23 @@ object Colorimetry:
   private lazy val observer: Array[Array[Float]] = table("cie1931")
   lazy val D65: Spectrum = named("D65").get
 
+  /** The observer's responses, for x, y and z. */
+  private[color] lazy val observers: Vector[Spectrum] =
+    Vector.tabulate(3)(i => Spectrum(observer.map(_(0)), observer.map(_(i + 1))))
+
+  /** Spectral radiance at a wavelength, of light with the spectrum of D65 and of luminance 1, where
+    * an even spectrum of 1 would have luminance 1: so in pbrt-v4.
+    */
+  def radianceOfD65(nm: Float): Float = (D65(nm) * EvenLuminance / luminanceOfD65).toFloat
+
+  /** The integral of the observer's y over the wavelength in nm (CIE 018:2019). */
+  private val EvenLuminance = 106.856895
+
+  /** What the observer sees of D65, over wavelength in nm: to what pbrt-v4 scales lights' spectra.
+    */
+  private[color] lazy val luminanceOfD65: Double =
+    observer.map(row => 5.0 * row(2) * D65(row(0))).sum
+
   /** The colour of a reflectance (or refractive index, …) that depends on wavelength. */
   def rgb(spectrum: Float => Float, white: White): Rgb =
     var x, y, z, sum = 0.0
@@ -49,12 +66,20 @@ object Colorimetry:
     0.019334f, 0.119193f, 0.950227f
   )
 
+  private[color] val xyzOfRgb: Matrix3 = Matrix3(XyzOfRgb.map(_.toDouble).toVector)
+
   /** IEC 61966-2-1, the inverse of its matrix of primaries. */
-  def fromXyz(x: Double, y: Double, z: Double): Rgb = Rgb(
-    (3.240479 * x - 1.537150 * y - 0.498535 * z).toFloat,
-    (-0.969256 * x + 1.875991 * y + 0.041556 * z).toFloat,
-    (0.055648 * x - 0.204043 * y + 1.057311 * z).toFloat
+  private[color] val rgbOfXyz: Matrix3 = Matrix3(
+    Vector(
+      3.240479, -1.537150, -0.498535, //
+      -0.969256, 1.875991, 0.041556, //
+      0.055648, -0.204043, 1.057311
+    )
   )
+
+  def fromXyz(x: Double, y: Double, z: Double): Rgb =
+    val c = rgbOfXyz * Vector(x, y, z)
+    Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
 
   /** The names of the spectra that come with Candela, as pbrt-v4 calls them. */
   val names: Vector[String] =
@@ -71,7 +96,7 @@ object Colorimetry:
       Spectrum(rows.map(_(0)), rows.map(_(1)))
 
   /** Rows of numbers; lines that begin with # are remarks. */
-  private def table(name: String): Array[Array[Float]] =
+  private[color] def table(name: String): Array[Array[Float]] =
     val stream = getClass.getResourceAsStream(s"/candela/spectra/$name.txt")
     val source = Source.fromInputStream(stream)(using Codec.UTF8)
     try

@@ -16,8 +16,9 @@ object Upsampling:
     val grey = (target.r == target.g) && (target.g == target.b)
     if grey then _ => target.r
     else
-      val c = fit(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
-      nm => logistic(c, nm)
+      val walk = Walk()
+      walk.go(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
+      walk(_)
 
   /** A spectrum of any size (an index of refraction, say): scaled down to fit, then up again. */
   def unbounded(value: Rgb): Float => Float =
@@ -27,31 +28,57 @@ object Upsampling:
       val unit = spectrum(value * (1f / scale))
       nm => scale * unit(nm)
 
+  /** Goes from colour to colour, the first of which is grey, and has the spectrum of where it is.
+    * Mutable.
+    */
+  private[color] final class Walk:
+    private val c = Array(0.0, 0.0, 0.0)
+    private var here = Array(0.5, 0.5, 0.5)
+
+    def apply(nm: Float): Float = logistic(c, nm)
+
+    /** To a reflectance with components from 0.001 to 0.999. */
+    def go(target: Array[Double]): Unit =
+      val way = target.lazyZip(here).map((a, b) => Math.abs(a - b)).max
+      val steps = Math.ceil(way * Steps / 0.5).toInt
+      for step <- 1 to steps do
+        val share = step.toDouble / steps
+        near(target.lazyZip(here).map((to, from) => from + (to - from) * share))
+      here = target
+
+    /** Newton's method, which finds what is not far. */
+    private def near(aim: Array[Double]): Unit =
+      var left = Iterations
+      while left > 0 do
+        val off = color(c).lazyZip(aim).map(_ - _)
+        if off.forall(e => Math.abs(e) < 2e-6) then left = 0
+        else
+          left -= 1
+          newton(c, off)
+
   private def logistic(c: Array[Double], nm: Float): Float =
     val x = (nm - 360.0) / 470.0
     val t = (c(0) * x + c(1)) * x + c(2)
     (0.5 + t / (2 * Math.sqrt(1 + t * t))).toFloat
 
-  private def color(c: Array[Double]): Array[Double] =
-    val rgb = Colorimetry.rgb(logistic(c, _), Colorimetry.White.D65)
-    Array(rgb.r.toDouble, rgb.g.toDouble, rgb.b.toDouble)
+  /** What each wavelength adds to X, Y and Z under D65, over what all add to Y of white. */
+  private lazy val seen: Array[Array[Double]] =
+    Colorimetry.responses.map: (nm, _) =>
+      val share = 5 * Colorimetry.D65(nm) / Colorimetry.luminanceOfD65
+      Array(nm.toDouble) ++ Colorimetry.observers.map(_(nm) * share)
 
+  private def color(c: Array[Double]): Array[Double] =
+    var x, y, z = 0.0
+    for row <- seen do
+      val s = logistic(c, row(0).toFloat)
+      x += s * row(1)
+      y += s * row(2)
+      z += s * row(3)
+    (Colorimetry.rgbOfXyz * Vector(x, y, z)).toArray
+
+  /** From grey to black or white. */
   private val Steps = 20
   private val Iterations = 12
-
-  private def fit(target: Array[Double]): Array[Double] =
-    val c = Array(0.0, 0.0, 0.0)
-    for step <- 1 to Steps do
-      val share = step.toDouble / Steps
-      val aim = target.map(v => 0.5 + (v - 0.5) * share)
-      var left = Iterations
-      while left > 0 do
-        val off = color(c).zip(aim).map(_ - _)
-        if off.forall(e => Math.abs(e) < 2e-6) then left = 0
-        else
-          left -= 1
-          newton(c, off)
-    c
 
   /** One step; its size is held to 50 units, beyond which the parabola is no guide. */
   private def newton(c: Array[Double], off: Array[Double]): Unit =

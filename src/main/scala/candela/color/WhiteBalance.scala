@@ -10,32 +10,30 @@ object WhiteBalance:
   /** Of D65 and sRGB, as x and y of CIE 1931. */
   private val Target = (0.3127, 0.3290)
 
-  private val ToResponse = Vector(
-    Vector(0.8951, 0.2664, -0.1614),
-    Vector(-0.7502, 1.7135, 0.0367),
-    Vector(0.0389, -0.0685, 1.0296)
+  private val ToResponse = Matrix3(
+    Vector(
+      0.8951, 0.2664, -0.1614, //
+      -0.7502, 1.7135, 0.0367, //
+      0.0389, -0.0685, 1.0296
+    )
   )
 
   /** The map of linear sRGB, nine numbers row by row, that makes daylight of the colour temperature
     * `kelvin` white.
     */
   def ofDaylight(kelvin: Float): Array[Float] =
-    // As named daylights are, by Planck's constant of before 1968
-    val white = chromaticity(kelvin * 1.4388 / 1.4380)
-    val from = response(white)
+    val from = response(chromaticity(Daylight.correlated(kelvin)))
     val to = response(Target)
-    columns: rgb =>
-      val seen = times(ToResponse, xyz(rgb))
-      val (x, y, z) = solved(Vector.tabulate(3)(i => seen(i) * to(i) / from(i)))
-      val c = Colorimetry.fromXyz(x, y, z)
-      Vector(c.r, c.g, c.b)
+    val scale = Matrix3.tabulate((r, c) => if r == c then to(r) / from(r) else 0.0)
+    val ofXyz = ToResponse.inverse * scale * ToResponse
+    (Colorimetry.rgbOfXyz * ofXyz * Colorimetry.xyzOfRgb).toFloats
 
   /** Of daylight; below 4000 K, where there is none, of a black body. */
   private[color] def chromaticity(kelvin: Double): (Double, Double) =
     if kelvin < 4000 then
       val body = Spectrum.blackbody(kelvin.toFloat)
       val c = Colorimetry.rgb(body(_), Colorimetry.White.EqualEnergy)
-      val v = xyz(Vector(c.r, c.g, c.b).map(_.toDouble))
+      val v = Colorimetry.xyzOfRgb * Vector(c.r, c.g, c.b).map(_.toDouble)
       (v(0) / v.sum, v(1) / v.sum)
     else
       val t = 1e3 / kelvin
@@ -46,24 +44,4 @@ object WhiteBalance:
 
   private def response(white: (Double, Double)): Vector[Double] =
     val (x, y) = white
-    times(ToResponse, Vector(x / y, 1, (1 - x - y) / y))
-
-  private def xyz(rgb: Vector[Double]): Vector[Double] =
-    Vector.tabulate(3)(r => (0 until 3).map(c => Colorimetry.XyzOfRgb(3 * r + c) * rgb(c)).sum)
-
-  private def times(m: Vector[Vector[Double]], v: Vector[Double]): Vector[Double] =
-    m.map(row => row.lazyZip(v).map(_ * _).sum)
-
-  /** X, Y and Z that have this response, by Cramer's rule. */
-  private def solved(wanted: Vector[Double]): (Double, Double, Double) =
-    def determinant(m: Vector[Vector[Double]]) =
-      def minor(a: Int, b: Int) = m(1)(a) * m(2)(b) - m(1)(b) * m(2)(a)
-      m(0)(0) * minor(1, 2) - m(0)(1) * minor(0, 2) + m(0)(2) * minor(0, 1)
-    def part(c: Int) =
-      val replaced = ToResponse.lazyZip(wanted).map((row, w) => row.updated(c, w))
-      determinant(replaced) / determinant(ToResponse)
-    (part(0), part(1), part(2))
-
-  private def columns(map: Vector[Double] => Vector[Float]): Array[Float] =
-    val images = Vector.tabulate(3)(c => map(Vector.tabulate(3)(i => if i == c then 1.0 else 0.0)))
-    Array.tabulate(9)(i => images(i % 3)(i / 3))
+    ToResponse * Vector(x / y, 1, (1 - x - y) / y)

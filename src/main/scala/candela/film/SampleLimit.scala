@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.color.{Colorimetry, Rgb}
+import candela.color.{Colorimetry, Matrix3, Rgb}
 
 /** The brightest that a sample may be; what is brighter is scaled down, and keeps its colour.
   *
@@ -27,6 +27,14 @@ object SampleLimit:
 
   /** Of the largest of X, Y and Z, the components that pbrt-v4's standard sensor has. */
   def sensor(most: Float): Option[SampleLimit] = limit(most, Colorimetry.XyzOfRgb)
+
+  /** Of the largest of what a camera's cells make of light.
+    *
+    * @param toSrgb nine numbers, row by row: the map of that to linear sRGB, whose inverse stands
+    *               for what the cells make of a colour
+    */
+  def camera(most: Float, toSrgb: Array[Float]): Option[SampleLimit] =
+    limit(most, Matrix3(toSrgb.map(_.toDouble).toVector).inverse.toFloats)
 
   private def limit(most: Float, weights: Array[Float]): Option[SampleLimit] =
     Option.when(most < Float.PositiveInfinity)(SampleLimit(most, weights))

@@ -29,10 +29,11 @@ final case class Rendering(
     refused: Option[Refused],
     layers: Option[LayerFilm] = None
 ):
-  /** Colours, then the layers. */
+  /** Colours, then the layers, then the bands of wavelengths. */
   def image(development: Development): Image =
     val colors = development(film)
-    layers.fold(colors)(_.behind(colors, development.scale))
+    val layered = layers.fold(colors)(_.behind(colors, development.scale))
+    development.bands.fold(layered)(_.behind(layered, film.toImage(1f)))
 
   def isComplete: Boolean = samplesDone == samplesPerPixel
 

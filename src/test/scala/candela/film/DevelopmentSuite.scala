@@ -19,7 +19,7 @@ final class DevelopmentSuite extends AnyFunSuite:
 
   test("a balance maps colours, after the scale"):
     val swap = Array(0f, 1f, 0f, 1f, 0f, 0f, 0f, 0f, 2f)
-    assert(developed(Rgb(1f, 2f, 3f), Development(2f, Some(swap))) == Vector(4f, 2f, 12f))
+    assert(developed(Rgb(1f, 2f, 3f), Development(2f, balance = Some(swap))) == Vector(4f, 2f, 12f))
 
   test("balanced for daylight of 6500 K, sRGB's white stays; for warm light it becomes blue"):
     val near = developed(Rgb.White, Development(balance = Some(WhiteBalance.ofDaylight(6500f))))

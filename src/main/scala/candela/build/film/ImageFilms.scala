@@ -1,6 +1,6 @@
 package candela.build
 
-import candela.film.{Development, Layer, SampleLimit}
+import candela.film.{Development, Layer, SampleLimit, SpectralBands}
 
 object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", untilV3):
   private val scale = float("scale", "factor of all pixel values", onlyV3)(1f)
@@ -28,10 +28,19 @@ object GBufferFilm
     super.make().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
 
 object SpectralFilm extends SensorFilm("spectral", "an image of many wavelengths"):
-  override def pending: Option[String] =
-    Some("light has three components here, no wavelengths; only R, G and B are written")
-  declare(
-    integer("nbuckets", "bands of wavelengths")(16),
-    float("lambdamin", "shortest wavelength", unit = "nm")(360f),
-    float("lambdamax", "longest wavelength", unit = "nm")(830f)
-  )
+  private val buckets = integer("nbuckets", "bands of wavelengths")(16)
+  private val shortest = float("lambdamin", "shortest wavelength", unit = "nm")(360f)
+  private val longest = float("lambdamax", "longest wavelength", unit = "nm")(830f)
+
+  override protected def make()(using site: Site): FilmSettings =
+    val (from, to) = (shortest(), longest())
+    if buckets() < 1 then site.error(s"`nbuckets` is 1 or more; found ${buckets()}")
+    if !(from >= 360f && from < to && to <= 830f) then
+      site.error(s"`lambdamin` and `lambdamax` lie between 360 and 830 nm; found $from and $to")
+    site.warn(
+      "light has three components here, no wavelengths: bands are those of a smooth spectrum of " +
+        "each pixel's colour"
+    )
+    val made = super.make()
+    val bands = SpectralBands(Math.max(buckets(), 1), from, to)
+    made.copy(development = made.development.copy(bands = Some(bands)))

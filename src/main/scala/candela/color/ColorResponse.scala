@@ -1,0 +1,87 @@
+package candela.color
+
+import candela.base.loop
+
+/** What wavelengths count for a detector of light.
+  *
+  * @param nm      where the light's spectrum is asked for
+  * @param weights by which it counts there; of light whose spectrum is D65, scaled to luminance 1
+  *                and dimmed to what is asked for, their sum is all
+  */
+final class Detector(val nm: Array[Float], val weights: Array[Float])
+
+/** What several detectors make of light of which only the colour is known, taken to have the
+  * spectrum that pbrt-v4 gives a light of this colour: D65, filtered by a smooth reflectance (see
+  * [[Upsampling]]).
+  *
+  * It grows as the light does, so that it is kept for colours whose largest component is 1, and is
+  * linear between them.
+  */
+final class ColorResponse(detectors: Vector[Detector]):
+  import ColorResponse.*
+  private val count = detectors.size
+
+  // By which component is the largest, then by that after it and by that before it
+  private val table = new Array[Float](3 * Nodes * Nodes * count)
+  for largest <- 0 until 3 do fill(largest)
+
+  /** To and fro through the table, since the fit finds its way to colours that are near. */
+  private def fill(largest: Int): Unit =
+    val walk = Upsampling.Walk()
+    for i <- Nodes - 1 to 0 by -1 do
+      for k <- 0 until Nodes do
+        val j = if (Nodes - 1 - i) % 2 == 0 then Nodes - 1 - k else k
+        // Half as bright as a reflectance can be: so in pbrt-v4
+        val half = Array(0.5, 0.5, 0.5)
+        half((largest + 1) % 3) *= i.toDouble / (Nodes - 1)
+        half((largest + 2) % 3) *= j.toDouble / (Nodes - 1)
+        walk.go(half.map(Math.max(_, Darkest)))
+        for (detector, d) <- detectors.zipWithIndex do
+          val all = detector.nm.indices.map(w => detector.weights(w) * walk(detector.nm(w)))
+          table(place(largest, i, j) + d) = 2 * all.sum
+
+  private def place(largest: Int, i: Int, j: Int): Int = ((largest * Nodes + i) * Nodes + j) * count
+
+  /** Sets `out` from `at` on to what the detectors make of linear sRGB. Light with negative
+    * components counts as the difference of two without.
+    */
+  def apply(r: Float, g: Float, b: Float, out: Array[Float], at: Int): Unit =
+    loop(count)(d => out(at + d) = 0f)
+    add(Math.max(r, 0f), Math.max(g, 0f), Math.max(b, 0f), 1f, out, at)
+    if r < 0f || g < 0f || b < 0f then
+      add(Math.max(-r, 0f), Math.max(-g, 0f), Math.max(-b, 0f), -1f, out, at)
+
+  private def add(r: Float, g: Float, b: Float, sign: Float, out: Array[Float], at: Int): Unit =
+    val most = Math.max(r, Math.max(g, b))
+    if most > 0f then
+      if r == most then add(0, most, g, b, sign, out, at)
+      else if g == most then add(1, most, b, r, sign, out, at)
+      else add(2, most, r, g, sign, out, at)
+
+  private def add(
+      largest: Int,
+      most: Float,
+      after: Float,
+      before: Float,
+      sign: Float,
+      out: Array[Float],
+      at: Int
+  ): Unit =
+    val x = after / most * (Nodes - 1)
+    val y = before / most * (Nodes - 1)
+    val i = Math.min(x.toInt, Nodes - 2)
+    val j = Math.min(y.toInt, Nodes - 2)
+    val (right, up) = (x - i, y - j)
+    val low = place(largest, i, j)
+    val high = place(largest, i + 1, j)
+    val scale = sign * most
+    loop(count): d =>
+      val atLow = table(low + d) * (1f - up) + table(low + count + d) * up
+      val atHigh = table(high + d) * (1f - up) + table(high + count + d) * up
+      out(at + d) += scale * (atLow * (1f - right) + atHigh * right)
+
+object ColorResponse:
+  private inline val Nodes = 25
+
+  /** As near to black as the fit stays smooth. */
+  private inline val Darkest = 1e-3

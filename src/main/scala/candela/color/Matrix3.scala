@@ -1,0 +1,34 @@
+package candela.color
+
+/** Three rows of three numbers, for maps between colours at build. Immutable. */
+final class Matrix3(rows: Vector[Double]):
+  require(rows.size == 9, s"${rows.size} numbers")
+
+  def apply(row: Int, column: Int): Double = rows(3 * row + column)
+
+  def *(m: Matrix3): Matrix3 =
+    Matrix3.tabulate((r, c) => (0 until 3).map(i => this(r, i) * m(i, c)).sum)
+
+  def *(v: Vector[Double]): Vector[Double] =
+    Vector.tabulate(3)(r => (0 until 3).map(i => this(r, i) * v(i)).sum)
+
+  def transposed: Matrix3 = Matrix3.tabulate((r, c) => this(c, r))
+
+  /** By Cramer's rule, for matrices that are far from singular. */
+  def inverse: Matrix3 =
+    def minor(r: Int, c: Int): Double =
+      val (r1, r2) = ((r + 1) % 3, (r + 2) % 3)
+      val (c1, c2) = ((c + 1) % 3, (c + 2) % 3)
+      this(r1, c1) * this(r2, c2) - this(r1, c2) * this(r2, c1)
+    val determinant = (0 until 3).map(c => this(0, c) * minor(0, c)).sum
+    Matrix3.tabulate((r, c) => minor(c, r) / determinant)
+
+  /** Row by row. */
+  def toFloats: Array[Float] = rows.map(_.toFloat).toArray
+
+object Matrix3:
+  def tabulate(f: (Int, Int) => Double): Matrix3 =
+    Matrix3(Vector.tabulate(9)(i => f(i / 3, i % 3)))
+
+  /** Whose columns these are. */
+  def ofColumns(columns: Vector[Vector[Double]]): Matrix3 = tabulate((r, c) => columns(c)(r))

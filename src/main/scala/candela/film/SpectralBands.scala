@@ -1,0 +1,54 @@
+package candela.film
+
+import java.util.Locale
+
+import candela.base.loop
+import candela.color.{ColorResponse, Colorimetry, Detector}
+import candela.image.Image
+import candela.math.lerp
+
+/** Bands of wavelengths of equal width, with the mean spectral radiance in each: pbrt-v4's film
+  * "spectral". Light has three components here; its spectrum is that which [[ColorResponse]] takes
+  * it to have, so that lines of a spectrum are not found.
+  *
+  * Names are those of Fichet, Pacanowski, Wilkie, "An OpenEXR Layout for Spectral Images", JCGT
+  * 10(3), 2021.
+  *
+  * @param from, to wavelengths in nm
+  */
+final class SpectralBands(count: Int, from: Float, to: Float):
+  import SpectralBands.*
+
+  /** By the wavelength in the middle of each; a dot would begin a layer's name. */
+  val channels: Vector[String] = Vector.tabulate(count): band =>
+    val middle = lerp((band + 0.5f) / count, from, to)
+    s"S0.${String.format(Locale.ROOT, "%.3f", middle).replace('.', ',')}nm"
+
+  def describe: String = s"$count from $from to $to nm"
+
+  private lazy val response = ColorResponse(Vector.tabulate(count): band =>
+    val nm = Array.tabulate(Points)(i => lerp((band + (i + 0.5f) / Points) / count, from, to))
+    Detector(nm, nm.map(l => Colorimetry.radianceOfD65(l) / Points)))
+
+  /** The image with the bands behind its channels.
+    *
+    * @param colors linear sRGB, as the light arrived
+    */
+  def behind(image: Image, colors: Image): Image =
+    require(image.width == colors.width && image.height == colors.height)
+    val width = image.channels + count
+    val data = new Array[Float](width * image.width * image.height)
+    loop(image.width * image.height): pixel =>
+      System.arraycopy(image.data, image.channels * pixel, data, width * pixel, image.channels)
+      val at = 3 * pixel
+      val c = colors.data
+      response(c(at), c(at + 1), c(at + 2), data, width * pixel + image.channels)
+    Image(image.width, image.height, image.channelNames ++ channels, data)
+
+object SpectralBands:
+  /** What the layout asks of a file. */
+  val metadata: Vector[(String, String)] =
+    Vector("spectralLayoutVersion" -> "1.0", "emissiveUnits" -> "W.m^-2.sr^-1")
+
+  /** Of each band, evenly. */
+  private inline val Points = 8
