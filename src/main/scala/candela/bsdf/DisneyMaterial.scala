@@ -3,7 +3,7 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.textures.{ConstantRgb, FloatTexture, RgbTexture}
 
 /** What [[DisneyMaterial]] is made of, each from 0 to 1 unless said otherwise.
   *
@@ -20,6 +20,8 @@ import candela.textures.{FloatTexture, RgbTexture}
   * @param isThin          is it a sheet of no thickness?
   * @param flatness        of a sheet: how far the diffuse part looks flat
   * @param diffTrans       of a sheet: how much of the diffuse part passes, 0 to 2
+  * @param scatterDistance mean free path below the surface, in scene units; 0: light leaves where
+  *                        it enters, as of a sheet
   */
 final class DisneyParameters(
     val color: RgbTexture,
@@ -35,9 +37,14 @@ final class DisneyParameters(
     val transmission: FloatTexture,
     val isThin: Boolean,
     val flatness: FloatTexture,
-    val diffTrans: FloatTexture
+    val diffTrans: FloatTexture,
+    scatterDistance: RgbTexture = ConstantRgb(Rgb.Black)
 ):
-  val isConstant: Boolean = color.constant.isDefined && Seq(
+  val distance: RgbTexture = if isThin then ConstantRgb(Rgb.Black) else scatterDistance
+
+  /** Does light anywhere leave elsewhere than it enters? */
+  val isSubsurface: Boolean = distance.constant.forall(!_.isBlack)
+  val isConstant: Boolean = Seq(color, distance).forall(_.constant.isDefined) && Seq(
     metallic, eta, roughness, specularTint, anisotropic, sheen, sheenTint, clearcoat,
     clearcoatGloss, transmission, flatness, diffTrans
   ).forall(_.constant.isDefined)
@@ -63,7 +70,13 @@ final class DisneyMaterial(p: DisneyParameters) extends Material:
 
     val lobes = Lobes.Builder()
     val broad = (1f - metallic) * (1f - transmission)
-    if broad > 0f then addBroad(lobes, at, color * broad, broad, hue, passing, roughness)
+    val scatters = broad > 0f && !p.distance(at).isBlack
+    if broad > 0f then
+      val base = if scatters then Rgb.Black else color * (broad * (1f - passing))
+      addBroad(lobes, at, base, color * broad, broad, hue, roughness)
+    // Its colour is that of what comes out
+    val entering = if scatters then color.max * broad else 0f
+    lobes.add(SmoothDielectric(eta, reflectance = Rgb.Black), entering)
 
     val tinted = Rgb.White * (1f - p.specularTint(at)) + hue * p.specularTint(at)
     val normal = tinted * (Schlick.normal(eta) * (1f - metallic)) + color * metallic
@@ -81,14 +94,16 @@ final class DisneyMaterial(p: DisneyParameters) extends Material:
     lobes.add(DiffuseTransmission(Rgb.Black, through), through.max)
     lobes.result
 
-  /** @param weighted colour, by the share of the broad part */
+  /** @param base     colour of what leaves where it entered
+    * @param weighted colour, by the share of the broad part
+    */
   private def addBroad(
       lobes: Lobes.Builder,
       at: ShadingPoint,
+      base: Rgb,
       weighted: Rgb,
       share: Float,
       hue: Rgb,
-      passing: Float,
       roughness: Float
   ): Unit =
     val flat = if p.isThin then p.flatness(at) else 0f
@@ -98,10 +113,10 @@ final class DisneyMaterial(p: DisneyParameters) extends Material:
         val tint = p.sheenTint(at)
         (Rgb.White * (1f - tint) + hue * tint) * (share * sheen)
       else Rgb.Black
-    val kept = weighted * (1f - passing)
     lobes.add(
-      DisneyDiffuse(kept * (1f - flat), kept * flat, weighted, cloth, roughness),
-      weighted.max + 0.2f * cloth.max
+      DisneyDiffuse(base * (1f - flat), base * flat, weighted, cloth, roughness),
+      // What rough surfaces send back is little beside the rest
+      Math.max(base.max, 0.1f * weighted.max) + 0.2f * cloth.max
     ): Unit
 
   /** Of a sheet, the roughness depends on the index (Burley 2015, figure 15). */

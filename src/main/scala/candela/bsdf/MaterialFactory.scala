@@ -177,7 +177,11 @@ object MaterialFactory:
     )
 
   def disney(parameters: DisneyParameters): Material =
-    fold(DisneyMaterial(parameters), parameters.isConstant)
+    val surface = fold(DisneyMaterial(parameters), parameters.isConstant)
+    if parameters.isSubsurface then
+      val inside = Interior.fold(DisneyInterior(parameters), parameters.isConstant)
+      SubsurfaceMaterial(surface, inside, alongTangents = true)
+    else surface
 
   private val White = ConstantRgb(Rgb.White)
   private val Zero = ConstantFloat(0f)

@@ -1,5 +1,6 @@
 package candela.bsdf
 
+import candela.color.Rgb
 import candela.math.*
 import java.util.concurrent.ConcurrentHashMap
 
@@ -18,6 +19,10 @@ final class ProfileTable(albedos: Array[Float], radii: Array[Float], values: Arr
 
   def profile(albedo: Float): RadialProfile =
     RadialProfile(radii, CatmullRom.row(albedos, values, albedo))
+
+  /** Those of the three channels, each of its own albedo. */
+  def profiles(albedos: Rgb): Array[RadialProfile] =
+    Array(profile(albedos.r), profile(albedos.g), profile(albedos.b))
 
   /** The albedo of the medium that reflects this part of the light that entered. */
   def albedoOf(reflectance: Float): Float = CatmullRom.invert(albedos, reflectances, reflectance)

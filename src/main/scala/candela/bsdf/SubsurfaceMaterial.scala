@@ -6,14 +6,21 @@ import candela.textures.{FloatTexture, RgbTexture}
 
 /** A surface that light enters, and leaves elsewhere.
   *
-  * @param boundary what the surface itself does
+  * @param boundary      what the surface itself does
+  * @param alongTangents is light searched for along the tangents of u and v, as in pbrt-v3? Other
+  *                      programs take any. Which part of the light that went farthest is left out
+  *                      depends on it (see [[Bssrdf.reach]])
   */
-final class SubsurfaceMaterial(boundary: Material, interior: Interior) extends Material:
+final class SubsurfaceMaterial(
+    boundary: Material,
+    interior: Interior,
+    alongTangents: Boolean = false
+) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = boundary.bsdf(at)
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = interior.bssrdf(at)
   override def isSubsurface: Boolean = true
   override def isConstant: Boolean = boundary.isConstant && interior.isConstant
-  override def isAnisotropic: Boolean = boundary.isAnisotropic
+  override def isAnisotropic: Boolean = alongTangents || boundary.isAnisotropic
 
 /** A smooth surface that reflects as an interface of index `eta` does, times `kr`, and lets nothing
   * through that goes on straight: so where PBRT 2 has something beneath.
@@ -27,16 +34,16 @@ final class ReflectingInterfaceMaterial(kr: RgbTexture, eta: FloatTexture) exten
 object ReflectingInterfaceMaterial:
   private val dark = Lambert(Rgb.Black)
 
-/** Gives every point the [[Bssrdf]] of what is beneath. */
+/** Gives every point the [[Bssrdf]] of what is beneath; null: nothing is there. */
 abstract class Interior:
-  def bssrdf(at: ShadingPoint): Bssrdf
+  def bssrdf(at: ShadingPoint): Bssrdf | Null
 
   /** Is it the same everywhere? */
   def isConstant: Boolean = false
 
 /** The same everywhere: the object is made once, at build. */
-final class ConstantInterior(value: Bssrdf) extends Interior:
-  def bssrdf(at: ShadingPoint): Bssrdf = value
+final class ConstantInterior(value: Bssrdf | Null) extends Interior:
+  def bssrdf(at: ShadingPoint): Bssrdf | Null = value
   override def isConstant: Boolean = true
 
 object Interior:
@@ -61,20 +68,9 @@ final class CoefficientInterior(
     val sigmaA = absorption(at).map(c => Math.max(scale * c, 0f))
     val sigmaS = scattering(at).map(c => Math.max(scale * c, 0f))
     val extinction = sigmaA + sigmaS
-    TabulatedBssrdf(
-      Array(
-        table.profile(CoefficientInterior.albedo(sigmaS.r, extinction.r)),
-        table.profile(CoefficientInterior.albedo(sigmaS.g, extinction.g)),
-        table.profile(CoefficientInterior.albedo(sigmaS.b, extinction.b))
-      ),
-      extinction,
-      eta,
-      entry
-    )
-
-object CoefficientInterior:
-  private def albedo(scattering: Float, extinction: Float): Float =
-    if extinction > 0f then scattering / extinction else 0f
+    // Without extinction 0/0, which is not above 0
+    val albedos = (sigmaS / extinction).map(a => if a > 0f then a else 0f)
+    TabulatedBssrdf(table.profiles(albedos), extinction, eta, entry)
 
 /** A medium by what it reflects; `meanFreePath` times `scale` in scene units.
   *
@@ -90,14 +86,6 @@ final class ReflectanceInterior(
   private val entry = NormalizedFresnel(eta)
 
   def bssrdf(at: ShadingPoint): Bssrdf =
-    val color = reflectance(at)
-    TabulatedBssrdf(
-      Array(
-        table.profile(table.albedoOf(color.r)),
-        table.profile(table.albedoOf(color.g)),
-        table.profile(table.albedoOf(color.b))
-      ),
-      meanFreePath(at).map(c => 1f / Math.max(scale * c, 0f)),
-      eta,
-      entry
-    )
+    val extinction = meanFreePath(at).map(c => 1f / Math.max(scale * c, 0f))
+    val albedos = reflectance(at).map(table.albedoOf(_))
+    TabulatedBssrdf(table.profiles(albedos), extinction, eta, entry)

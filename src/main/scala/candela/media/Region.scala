@@ -8,19 +8,15 @@ import candela.sampling.HenyeyGreenstein
 /** A box that is filled with a medium whose density varies: pbrt-v2's volumes. Unlike a [[Medium]]
   * it needs no surface around it, and several may overlap. Immutable.
   *
-  * @param toWorld    from the volume's space, where `box` is
-  * @param absorption, scattering, emitted  at a density of 1, per scene unit
+  * @param toWorld from the volume's space, where `box` is
+  * @param filling what it is filled with
   */
-abstract class Region(
-    toWorld: Transform,
-    box: Bounds3,
-    val absorption: Rgb,
-    val scattering: Rgb,
-    val emitted: Rgb,
-    val phase: HenyeyGreenstein
-):
+abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   private val toVolume = toWorld.inverse
-  val extinction: Rgb = absorption + scattering
+  val scattering: Rgb = filling.scattering
+  val extinction: Rgb = filling.absorption + filling.scattering
+  val emitted: Rgb = filling.emitted
+  val phase: HenyeyGreenstein = filling.phase
 
   /** At a place of the volume's space within the box. */
   protected def density(p: Vec3): Float
@@ -47,6 +43,12 @@ abstract class Region(
     overlap.cut(o.z, d.z, box.min.z, box.max.z)
     overlap.begin <= overlap.end
 
+/** What a [[Region]] is filled with.
+  *
+  * @param absorption, scattering, emitted  at a density of 1, per scene unit
+  */
+final case class Filling(absorption: Rgb, scattering: Rgb, emitted: Rgb, phase: HenyeyGreenstein)
+
 /** A part of a ray's way; mutable. */
 final class Overlap:
   var begin, end = 0f
@@ -62,14 +64,8 @@ final class Overlap:
       end = Math.min(end, Math.max(a, b))
 
 /** The same all over a box. */
-final class UniformRegion(
-    toWorld: Transform,
-    box: Bounds3,
-    absorption: Rgb,
-    scattering: Rgb,
-    emitted: Rgb,
-    phase: HenyeyGreenstein
-) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+final class UniformRegion(toWorld: Transform, box: Bounds3, filling: Filling)
+    extends Region(toWorld, box, filling):
   def isUniform: Boolean = true
   def describe: String = "homogeneous"
   protected def density(p: Vec3): Float = 1f
@@ -83,14 +79,11 @@ final class UniformRegion(
 final class ExponentialRegion(
     toWorld: Transform,
     box: Bounds3,
-    absorption: Rgb,
-    scattering: Rgb,
-    emitted: Rgb,
-    phase: HenyeyGreenstein,
+    filling: Filling,
     up: Vec3,
     ground: Float,
     fall: Float
-) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+) extends Region(toWorld, box, filling):
   def isUniform: Boolean = false
   def describe: String = "exponential"
   protected def density(p: Vec3): Float = ground * exp(-fall * ((p - box.min) dot up))
@@ -99,12 +92,9 @@ final class ExponentialRegion(
 final class GridRegion(
     toWorld: Transform,
     box: Bounds3,
-    absorption: Rgb,
-    scattering: Rgb,
-    emitted: Rgb,
-    phase: HenyeyGreenstein,
+    filling: Filling,
     grid: SampledGrid
-) extends Region(toWorld, box, absorption, scattering, emitted, phase):
+) extends Region(toWorld, box, filling):
   private val size = box.extent
   def isUniform: Boolean = false
   def describe: String = s"grid ${grid.describe}"

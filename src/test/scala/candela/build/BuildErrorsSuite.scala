@@ -43,10 +43,6 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val slip = found.find(_.message.contains("filenam`")).get
     assertWarning(slip, "`filenam` is not a parameter of \"ptex\"", "`filename`")
 
-  test("what scatters below a surface of \"disney\" says what is done instead"):
-    val p = only(s"Material \"disney\" \"rgb scatterdistance\" [1 .5 .2] $sphere")
-    assertWarning(p, "\"disney\" is not supported yet: its diffuse part reflects")
-
   test("a metal by its index and by its reflectance, or an interface in a mixture, is an error"):
     val both = "Material \"conductor\" \"rgb reflectance\" [.5 .5 .5] \"rgb k\" [1 1 1] "
     assert(SceneTexts.problems(s"WorldBegin\n$both$sphere\n", Dialect.V4).exists: p =>

@@ -13,7 +13,7 @@ final class RegionsSuite extends AnyFunSuite:
   private val moved = Transform.translate(3, 0, 0)
 
   private def uniform(s: Float, g: Float = 0f) =
-    UniformRegion(moved, box, Rgb.Black, Rgb.gray(s), Rgb.White, HenyeyGreenstein(g))
+    UniformRegion(moved, box, Filling(Rgb.Black, Rgb.gray(s), Rgb.White, HenyeyGreenstein(g)))
 
   private def depth(regions: Regions, from: Vec3, to: Vec3, step: Float): Float =
     val work = regions.newWork()
@@ -35,9 +35,8 @@ final class RegionsSuite extends AnyFunSuite:
     assert(Math.abs(found - 0.5f * 2.5f) < 1e-4f)
 
   test("the exponential medium's depth is the integral of its density"):
-    val region = ExponentialRegion(
-      moved, box, Rgb.Black, Rgb.White, Rgb.Black, phase, Vec3.Y, ground = 3f, fall = 1.5f
-    )
+    val filling = Filling(Rgb.Black, Rgb.White, Rgb.Black, phase)
+    val region = ExponentialRegion(moved, box, filling, Vec3.Y, ground = 3f, fall = 1.5f)
     // Straight up through the box, in steps whose offsets are all taken: unbiased
     val found = depth(Regions(Array(region)), Vec3(3.5f, -1f, 0.5f), Vec3(3.5f, 5f, 0.5f), 0.1f)
     val expected = 3.0 / 1.5 * (1 - Math.exp(-3))
@@ -45,7 +44,7 @@ final class RegionsSuite extends AnyFunSuite:
 
   test("a grid of v2 goes on as it ends"):
     val grid = SampledGrid(2, 1, 1, Array(1f, 3f), GridEdge.Clamped)
-    val region = GridRegion(moved, box, Rgb.White, Rgb.Black, Rgb.Black, phase, grid)
+    val region = GridRegion(moved, box, Filling(Rgb.White, Rgb.Black, Rgb.Black, phase), grid)
     def at(x: Float) = region.densityAt(Vec3(3f + x, 1f, 0.5f))
     assert(at(0.01f) == 1f && at(0.25f) == 1f && Math.abs(at(0.5f) - 2f) < 1e-5f)
     assert(at(0.9f) == 3f && at(1.1f) == 0f)

@@ -24,13 +24,7 @@ object Disney extends MaterialRecipe("disney", "the material of Burley 2012 and 
   private val diffTrans =
     floatTexture("difftrans", "of a thin sheet: transmitted diffuse light, 0 to 2")(1f)
 
-  protected def make()(using site: Site): Material =
-    val scatters = distance().constant.forall(!_.isBlack)
-    for p <- site.declaration.param("scatterdistance") if scatters && !thin() do
-      site.problems.warn(
-        p.at,
-        "scattering below the surface of \"disney\" is not supported yet: its diffuse part reflects"
-      )
+  protected def make()(using Site): Material =
     Make.disney(
       DisneyParameters(
         color(),
@@ -46,6 +40,7 @@ object Disney extends MaterialRecipe("disney", "the material of Burley 2012 and 
         transmission(),
         thin(),
         flatness(),
-        diffTrans()
+        diffTrans(),
+        distance()
       )
     )

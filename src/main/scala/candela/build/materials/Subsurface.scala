@@ -32,7 +32,7 @@ abstract class SubsurfaceRecipe(
   protected def interior()(using Site): Interior
 
   protected def make()(using site: Site): Material =
-    SubsurfaceMaterial(boundary(), interior())
+    SubsurfaceMaterial(boundary(), interior(), alongTangents = site.dialect == Dialect.V3)
 
   private def boundary()(using site: Site): Material = site.dialect match
     case Dialect.V2 => Make.reflectingInterface(kr(), index())

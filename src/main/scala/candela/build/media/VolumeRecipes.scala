@@ -17,9 +17,8 @@ abstract class VolumeRecipe(name: String, meaning: String)
   private val emitted =
     color("Le", "emitted radiance", SpectrumRole.Emission, unit = "W/(m³ sr)")(Rgb.Black)
 
-  protected def absorption()(using Site): Rgb = held(sigmaA(), "sigma_a")
-  protected def scattering()(using Site): Rgb = held(sigmaS(), "sigma_s")
-  protected def light()(using Site): Rgb = held(emitted(), "Le")
+  protected def filling()(using Site): Filling =
+    Filling(held(sigmaA(), "sigma_a"), held(sigmaS(), "sigma_s"), held(emitted(), "Le"), phase())
 
   /** The box, if it and its place in the world can be had; else it was said that they can't. */
   protected def box()(using site: Site): Option[Bounds3] =
@@ -33,7 +32,7 @@ abstract class VolumeRecipe(name: String, meaning: String)
 
 object HomogeneousVolume extends VolumeRecipe("homogeneous", "the same everywhere in a box"):
   protected def make()(using site: Site): Option[Region] =
-    box().map(UniformRegion(site.toWorld, _, absorption(), scattering(), light(), phase()))
+    box().map(UniformRegion(site.toWorld, _, filling()))
 
 object ExponentialVolume extends VolumeRecipe("exponential", "thinner with height: a exp(-b h)"):
   private val ground = float("a", "density at height 0")(1f)
@@ -50,10 +49,7 @@ object ExponentialVolume extends VolumeRecipe("exponential", "thinner with heigh
       yield ExponentialRegion(
         site.toWorld,
         b,
-        absorption(),
-        scattering(),
-        light(),
-        phase(),
+        filling(),
         direction.normalized,
         Math.max(0f, ground()),
         fall()
@@ -66,6 +62,4 @@ object VolumeGrid extends VolumeRecipe("volumegrid", "a grid of densities") with
     for
       b <- box()
       grids <- samples("density", density())
-    yield GridRegion(
-      site.toWorld, b, absorption(), scattering(), light(), phase(), grids.head
-    )
+    yield GridRegion(site.toWorld, b, filling(), grids.head)
