@@ -114,8 +114,6 @@ final class BidirectionalPathTracer(
     path.weights.near = 0.0
     path.weights.far = 0.0
     var edges = 0
-    var lastP = Vec3.Zero
-    var lastN = Vec3.Zero
     var alive = true
     while alive do
       rays += 1
@@ -143,7 +141,7 @@ final class BidirectionalPathTracer(
           val density = if seenBy == null then 0f else seenBy.density(eye, at.p)
           path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
         if at.areaLight >= 0 && cosine > 0f then
-          light += path.throughput * emitted(edges, wo, distance, lastP, lastN)
+          light += path.throughput * emitted(edges, wo, distance)
         alive = edges <= maxDepth && cosine > 0f
         if alive then
           vertex.edges = edges
@@ -151,8 +149,7 @@ final class BidirectionalPathTracer(
           if !vertex.bsdf.isSpecular then
             light += path.throughput * (direct(joins) + joined())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
     light
 
   /** Weight of light that the path has met, for the densities with which it is sampled and with
@@ -163,7 +160,7 @@ final class BidirectionalPathTracer(
     (1 / (1 + mis(sampled) * w.near + mis(emitted) * w.far)).toFloat
 
   /** Light of the surface that the path has met. */
-  private def emitted(edges: Int, wo: Vec3, distance: Double, lastP: Vec3, lastN: Vec3): Rgb =
+  private def emitted(edges: Int, wo: Vec3, distance: Double): Rgb =
     val source = scene.surfaceLight(at)
     val radiance = source.radiance(at, wo)
     if radiance.isBlack || edges == 1 then radiance

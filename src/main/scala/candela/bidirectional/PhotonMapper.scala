@@ -63,17 +63,15 @@ final class PhotonMapper private (
     var throughput = Rgb.White
     var depth = 0
     var lastPdf = 0f
-    var lastP = Vec3.Zero
-    var lastN = Vec3.Zero
     var alive = true
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray, lastPdf, lastP, lastN)
+        light += throughput * escaped(ray, lastPdf)
         alive = false
       else
         scene.surface(ray, hit, at)
-        light += metLight(throughput, -ray.direction, lastPdf, lastP, lastN)
+        light += metLight(throughput, -ray.direction, lastPdf)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
@@ -88,8 +86,7 @@ final class PhotonMapper private (
           val wi = at.frame.toWorld(bounce.wi)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           scene.scattered(ray, at, vertex.wo, wi, bounce)
           alive = !throughput.isBlack &&

@@ -23,6 +23,10 @@ abstract class Bsdf:
     */
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
 
+  /** The same, written to `out`. */
+  def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    out.take(sample(wo, choice, u1, u2))
+
   /** Draws among the perfectly specular directions only: what Whitted's recursion follows. */
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed

@@ -20,7 +20,7 @@ import candela.math.*
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
-final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends Bsdf:
+final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
   private val base = series * (InvPi / (eta * eta))
@@ -55,26 +55,26 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
         val m = (o + Hemisphere.above(wi)).normalized
         under + chance * MicrofacetReflection.pdf(top, o, m)
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val reflected = Fresnel.dielectric(Math.abs(wo.z), eta)
     val chance = topChance(reflected, wo)
-    if choice >= chance then weighed(wo, Hemisphere.cosineSample(wo, u1, u2))
+    if choice >= chance then weigh(wo, Hemisphere.cosineSample(wo, u1, u2), out)
     else if topIsSmooth then
       val weight = Rgb.gray(reflected / chance)
-      BsdfSample(Hemisphere.mirrored(wo), weight, chance, isSpecular = true)
+      out.set(Hemisphere.mirrored(wo), weight, chance, isSpecular = true)
     else
       val o = Hemisphere.above(wo)
       val m = top.sample(o, u1, u2)
       val i = Hemisphere.reflected(o, m, o dot m)
-      weighed(wo, if wo.z < 0f then Hemisphere.flipped(i) else i)
+      weigh(wo, if wo.z < 0f then Hemisphere.flipped(i) else i, out)
 
-  private def weighed(wo: Vec3, wi: Vec3): BsdfSample =
+  private def weigh(wo: Vec3, wi: Vec3, out: Bounce): Unit =
     val density = pdf(wo, wi)
     val value = if density > 0f then f(wo, wi) else Rgb.Black
-    if density <= 0f || value.isBlack then BsdfSample.Absorbed
+    if density <= 0f || value.isBlack then out.absorb()
     else
       val weight = value * (Hemisphere.absCos(wi) / density)
-      BsdfSample(wi, weight, density, isSpecular = false)
+      out.set(wi, weight, density, isSpecular = false)
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false

@@ -6,7 +6,7 @@ import candela.math.*
 /** Reflection whose directions are drawn by the cosine, because no better density is known; the
   * same on both sides.
   */
-abstract class CosineSampled extends Bsdf:
+abstract class CosineSampled extends LeanBsdf:
 
   /** The value in sr⁻¹, for directions on one side. */
   protected def value(wo: Vec3, wi: Vec3): Rgb
@@ -17,10 +17,10 @@ abstract class CosineSampled extends Bsdf:
   final def pdf(wo: Vec3, wi: Vec3): Float =
     if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
-  final def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  final override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
-    else BsdfSample(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
+    if !Hemisphere.same(wo, wi) then out.absorb()
+    else out.set(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
 
   final def isSpecular: Boolean = false
   final def isTransmissive: Boolean = false

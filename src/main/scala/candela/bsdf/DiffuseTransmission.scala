@@ -10,7 +10,7 @@ import candela.math.*
   * @param reflectance   the fraction of the power that stays on the side it came from, in [0, 1]
   * @param transmittance the fraction that passes; both together should not exceed 1
   */
-final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Bsdf:
+final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends LeanBsdf:
   private val total = reflectance.max + transmittance.max
   private val reflects = if total > 0f then reflectance.max / total else 0f
   private val transmits = if total > 0f then transmittance.max / total else 0f
@@ -26,16 +26,16 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Bs
     val side = if cosines > 0f then reflects else if cosines < 0f then transmits else 0f
     side * Hemisphere.cosinePdf(wi)
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val near = Hemisphere.cosineSample(wo, u1, u2)
-    if total == 0f || !Hemisphere.same(wo, near) then BsdfSample.Absorbed
+    if total == 0f || !Hemisphere.same(wo, near) then out.absorb()
     else if choice < reflects then
       val density = reflects * Hemisphere.cosinePdf(near)
-      BsdfSample(near, reflectance * (1f / reflects), density, isSpecular = false)
+      out.set(near, reflectance * (1f / reflects), density, isSpecular = false)
     else
       val far = Hemisphere.flipped(near)
       val density = transmits * Hemisphere.cosinePdf(far)
-      BsdfSample(far, transmittance * (1f / transmits), density, isSpecular = false)
+      out.set(far, transmittance * (1f / transmits), density, isSpecular = false)
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack

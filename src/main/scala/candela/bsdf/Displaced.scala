@@ -19,7 +19,7 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
   def bsdf(at: ShadingPoint): Bsdf =
-    val p = at.p
+    val p = at.p.copy
     val u = at.u
     val v = at.v
     val here = height(at)

@@ -14,7 +14,7 @@ import candela.math.*
   * 5(2), 2000; with Schlick's approximation for the coat.
   */
 final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDistribution)
-    extends Bsdf:
+    extends LeanBsdf:
   private val base = diffuse * (Rgb.White - specular) * (28f / (23f * Pi))
   private val absent = Rgb.White - specular
 
@@ -51,14 +51,14 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
     val cosM = o dot m
     if cosM > 0f then distribution.pdf(Vec3.Z, m) / (4f * cosM) else 0f
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi =
       if choice < 0.5f then Hemisphere.cosineSample(wo, u1, u2) else sampleCoat(wo, u1, u2)
     val density = pdf(wo, wi)
     if density > 0f then
       val weight = f(wo, wi) * (Hemisphere.absCos(wi) / density)
-      BsdfSample(wi, weight, density, isSpecular = false)
-    else BsdfSample.Absorbed
+      out.set(wi, weight, density, isSpecular = false)
+    else out.absorb()
 
   private def sampleCoat(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val o = Hemisphere.above(wo)

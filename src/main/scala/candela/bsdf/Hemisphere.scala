@@ -41,4 +41,4 @@ private[bsdf] object Hemisphere:
   /** A direction in the hemisphere of `side`, with a density proportional to its cosine. */
   def cosineSample(side: Vec3, u1: Float, u2: Float): Vec3 =
     val w = Warp.cosineHemisphere(u1, u2)
-    if side.z < 0f then flipped(w) else w
+    Vec3(w.x, w.y, if side.z < 0f then -w.z else w.z)

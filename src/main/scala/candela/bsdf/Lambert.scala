@@ -7,7 +7,7 @@ import candela.math.*
   *
   * @param albedo the fraction of the power that is reflected, in [0, 1]
   */
-final class Lambert(albedo: Rgb) extends Bsdf:
+final class Lambert(albedo: Rgb) extends LeanBsdf:
   private val value = albedo * InvPi
   private val absorbs = albedo.isBlack
 
@@ -16,10 +16,10 @@ final class Lambert(albedo: Rgb) extends Bsdf:
   def pdf(wo: Vec3, wi: Vec3): Float =
     if !absorbs && Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if absorbs || !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
-    else BsdfSample(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
+    if absorbs || !Hemisphere.same(wo, wi) then out.absorb()
+    else out.set(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false

@@ -14,7 +14,7 @@ final class MicrofacetReflection(
     distribution: MicrofacetDistribution,
     curve: ReflectanceCurve,
     scale: Rgb = Rgb.White
-) extends Bsdf:
+) extends LeanBsdf:
 
   def f(wo: Vec3, wi: Vec3): Rgb =
     if !Hemisphere.same(wo, wi) then Rgb.Black
@@ -32,18 +32,18 @@ final class MicrofacetReflection(
       val o = Hemisphere.above(wo)
       MicrofacetReflection.pdf(distribution, o, (o + Hemisphere.above(wi)).normalized)
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val o = Hemisphere.above(wo)
     val m = distribution.sample(o, u1, u2)
     val cosM = o dot m
     val i = Hemisphere.reflected(o, m, cosM)
-    if o.z < Hemisphere.Horizon || cosM <= 0f || i.z < Hemisphere.Horizon then BsdfSample.Absorbed
+    if o.z < Hemisphere.Horizon || cosM <= 0f || i.z < Hemisphere.Horizon then out.absorb()
     else
       val weight = scale * curve(oriented(cosM, wo)) * distribution.sampleWeight(o, i, m)
       val density = MicrofacetReflection.pdf(distribution, o, m)
       if density > 0f then
-        BsdfSample(if wo.z < 0f then Hemisphere.flipped(i) else i, weight, density, false)
-      else BsdfSample.Absorbed
+        out.set(if wo.z < 0f then Hemisphere.flipped(i) else i, weight, density, false)
+      else out.absorb()
 
   private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM
 

@@ -13,7 +13,7 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
   def bsdf(at: ShadingPoint): Bsdf =
     val part = amount(at).map(c => clamp(c, 0f, 1f))
     val rest = Rgb.White - part
-    val frame = at.frame
+    val frame = at.frame.copy
     val other = MixedMaterial.scatter(second, at)
     at.frame = frame
     Lobes.Builder()

@@ -11,7 +11,7 @@ import candela.math.*
   *
   * Source: PBRT 3rd ed., §11.4.2.
   */
-final class NormalizedFresnel(eta: Float) extends Bsdf:
+final class NormalizedFresnel(eta: Float) extends LeanBsdf:
   private val normalization = InvPi / (1f - 2f * FresnelMoments.first(1f / eta))
 
   def f(wo: Vec3, wi: Vec3): Rgb =
@@ -22,11 +22,11 @@ final class NormalizedFresnel(eta: Float) extends Bsdf:
   def pdf(wo: Vec3, wi: Vec3): Float =
     if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
     if Hemisphere.same(wo, wi) then
-      BsdfSample(wi, Rgb.gray(passed(wi) * Pi), Hemisphere.cosinePdf(wi), isSpecular = false)
-    else BsdfSample.Absorbed
+      out.set(wi, Rgb.gray(passed(wi) * Pi), Hemisphere.cosinePdf(wi), isSpecular = false)
+    else out.absorb()
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false

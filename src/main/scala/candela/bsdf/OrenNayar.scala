@@ -12,7 +12,7 @@ import candela.math.*
   * Source: Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994: the
   * qualitative model.
   */
-final class OrenNayar(albedo: Rgb, sigma: Float) extends Bsdf:
+final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
   private val variance = square(radians(sigma))
   private val a = 1f - variance / (2f * (variance + 0.33f))
   private val b = 0.45f * variance / (variance + 0.09f)
@@ -31,10 +31,10 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends Bsdf:
   def pdf(wo: Vec3, wi: Vec3): Float =
     if Hemisphere.same(wo, wi) then Hemisphere.cosinePdf(wi) else 0f
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val wi = Hemisphere.cosineSample(wo, u1, u2)
-    if !Hemisphere.same(wo, wi) then BsdfSample.Absorbed
-    else BsdfSample(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
+    if !Hemisphere.same(wo, wi) then out.absorb()
+    else out.set(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false

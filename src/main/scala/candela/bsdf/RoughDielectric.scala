@@ -19,7 +19,7 @@ final class RoughDielectric(
     eta: Float,
     reflectance: Rgb = Rgb.White,
     transmittance: Rgb = Rgb.White
-) extends Bsdf:
+) extends LeanBsdf:
   import RoughDielectric.{facet, jacobian}
 
   private val maxReflectance = reflectance.max
@@ -64,28 +64,28 @@ final class RoughDielectric(
     else if i.z > 0f then p * MicrofacetReflection.pdf(distribution, o, m)
     else (1f - p) * distribution.pdf(o, m) * jacobian(o, i, m, relative)
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val relative = relativeEta(wo)
     val o = Hemisphere.above(wo)
     val m = distribution.sample(o, u1, u2)
     val cosM = o dot m
-    if o.z < Hemisphere.Horizon || cosM <= 0f then BsdfSample.Absorbed
+    if o.z < Hemisphere.Horizon || cosM <= 0f then out.absorb()
     else
       val fresnel = Fresnel.dielectric(cosM, relative)
       val p = reflects(fresnel)
-      if p.isNaN then BsdfSample.Absorbed
+      if p.isNaN then out.absorb()
       else if choice < p then
         val i = Hemisphere.reflected(o, m, cosM)
-        if i.z < Hemisphere.Horizon then BsdfSample.Absorbed
-        else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f)
+        if i.z < Hemisphere.Horizon then out.absorb()
+        else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
       else
         val cosT = Fresnel.cosRefracted(cosM, relative)
-        if cosT <= 0f then BsdfSample.Absorbed
+        if cosT <= 0f then out.absorb()
         else
           val i = Fresnel.refracted(o, m, cosM, cosT, relative)
           val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
-          if i.z > -Hemisphere.Horizon then BsdfSample.Absorbed
-          else leave(wo, o, i, m, passed, relative, relative)
+          if i.z > -Hemisphere.Horizon then out.absorb()
+          else leave(wo, o, i, m, passed, relative, relative, out)
 
   private def leave(
       wo: Vec3,
@@ -94,13 +94,14 @@ final class RoughDielectric(
       m: Vec3,
       weight: Rgb,
       relative: Float,
-      sampleEta: Float
-  ): BsdfSample =
+      sampleEta: Float,
+      out: Bounce
+  ): Unit =
     val pdf = density(o, i, m, relative)
     if pdf > 0f && java.lang.Float.isFinite(pdf) then
       val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
-      BsdfSample(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
-    else BsdfSample.Absorbed
+      out.set(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
+    else out.absorb()
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack

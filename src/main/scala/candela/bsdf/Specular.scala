@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.math.*
 
 /** What perfectly specular scattering has in common: only `sample` can find its directions. */
-sealed abstract class Specular extends Bsdf:
+sealed abstract class Specular extends LeanBsdf:
   final def f(wo: Vec3, wi: Vec3): Rgb = Rgb.Black
   final def pdf(wo: Vec3, wi: Vec3): Float = 0f
   final def isSpecular: Boolean = true
@@ -14,10 +14,10 @@ sealed abstract class Specular extends Bsdf:
   * @param scale multiplies what `curve` says is reflected
   */
 final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extends Specular:
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val weight = scale * curve(wo.z)
-    if weight.isBlack then BsdfSample.Absorbed
-    else BsdfSample(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
+    if weight.isBlack then out.absorb()
+    else out.set(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
 
   def isTransmissive: Boolean = false
 
@@ -37,22 +37,22 @@ final class SmoothDielectric(
     compresses: Boolean = true
 ) extends Specular:
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val reflected = Fresnel.dielectric(wo.z, eta)
     val reflects = reflected * reflectance.max
     val transmits = (1f - reflected) * transmittance.max
     val total = reflects + transmits
-    if total <= 0f then BsdfSample.Absorbed
+    if total <= 0f then out.absorb()
     else if choice * total < reflects then
       val weight = reflectance * (reflected * total / reflects)
-      BsdfSample(Hemisphere.mirrored(wo), weight, reflects / total, isSpecular = true)
-    else refract(wo, (1f - reflected) * total / transmits, transmits / total)
+      out.set(Hemisphere.mirrored(wo), weight, reflects / total, isSpecular = true)
+    else refract(wo, (1f - reflected) * total / transmits, transmits / total, out)
 
-  private def refract(wo: Vec3, weight: Float, probability: Float): BsdfSample =
+  private def refract(wo: Vec3, weight: Float, probability: Float, out: Bounce): Unit =
     val relative = if wo.z < 0f then 1f / eta else eta
     val cosT = Fresnel.cosRefracted(Math.abs(wo.z), relative)
     // Rounding in Double and Float may put the critical angle one ulp apart.
-    if cosT <= 0f then BsdfSample.Absorbed
+    if cosT <= 0f then out.absorb()
     else
       // From a cosine near 1 the sine, and what becomes of it, has half the digits
       val x = -wo.x.toDouble / relative
@@ -61,7 +61,7 @@ final class SmoothDielectric(
       val depth = if sin2 < 0.5 then Math.sqrt(1.0 - sin2).toFloat else cosT
       val wi = Vec3(x.toFloat, y.toFloat, if wo.z < 0f then depth else -depth).normalized
       val scale = if compresses then weight / (relative * relative) else weight
-      BsdfSample(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
+      out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 
   def isTransmissive: Boolean = !transmittance.isBlack
 
@@ -74,19 +74,19 @@ final class SmoothDielectric(
   * plates", Proc. Royal Society 11, 1862; PBRT 4th ed., §9.5.
   */
 final class ThinDielectric(eta: Float) extends Specular:
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val once = Fresnel.dielectric(Math.abs(wo.z), eta)
     val reflected = 2f * once / (1f + once) // the geometric series of inner reflections
     if choice < reflected then
-      BsdfSample(Hemisphere.mirrored(wo), Rgb.White, reflected, isSpecular = true)
-    else BsdfSample(-wo, Rgb.White, 1f - reflected, isSpecular = true)
+      out.set(Hemisphere.mirrored(wo), Rgb.White, reflected, isSpecular = true)
+    else out.set(-wo, Rgb.White, 1f - reflected, isSpecular = true)
 
   def isTransmissive: Boolean = true
 
 /** Lets a part of the light go straight on, as if there were no surface. */
 final class Passthrough(transmittance: Rgb) extends Specular:
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    if transmittance.isBlack then BsdfSample.Absorbed
-    else BsdfSample(-wo, transmittance, 1f, isSpecular = true)
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    if transmittance.isBlack then out.absorb()
+    else out.set(-wo, transmittance, 1f, isSpecular = true)
 
   def isTransmissive: Boolean = true

@@ -73,26 +73,26 @@ abstract class Camera:
       ray: Ray,
       scratch: Ray
   ): Unit =
-    val o = ray.origin
-    val d = ray.direction
     val neighbours = ray.differential
     val across = reaches(x + step, y, lensU, lensV, scratch)
     val alongX =
       if across || reaches(x - step, y, lensU, lensV, scratch) then
         val share = if across then scale / step else -scale / step
-        neighbours.xOrigin = o + (scratch.origin - o) * share
-        neighbours.xDirection = d + (scratch.direction - d) * share
+        neighbours.xOrigin = between(ray.origin, scratch.origin, share)
+        neighbours.xDirection = between(ray.direction, scratch.direction, share)
         true
       else false
     val down = reaches(x, y + step, lensU, lensV, scratch)
     val alongY =
       if down || reaches(x, y - step, lensU, lensV, scratch) then
         val share = if down then scale / step else -scale / step
-        neighbours.yOrigin = o + (scratch.origin - o) * share
-        neighbours.yDirection = d + (scratch.direction - d) * share
+        neighbours.yOrigin = between(ray.origin, scratch.origin, share)
+        neighbours.yDirection = between(ray.direction, scratch.direction, share)
         true
       else false
     neighbours.isKnown = alongX && alongY
+
+  private def between(a: Vec3, b: Vec3, share: Float): Vec3 = a + (b - a) * share
 
   /** Generates a ray; false if the lenses let none through. */
   private def reaches(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Boolean =

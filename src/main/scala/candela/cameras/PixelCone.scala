@@ -27,7 +27,11 @@ final class PixelCone(
   def meet(at: ShadingPoint): Unit =
     val along = at.p - eye
     val distance = along.length
-    val frame = Frame.around(if distance > 0f then along * (1f / distance) else Vec3.Z)
+    val isApart = distance > 0f
+    val inverse = if isApart then 1f / distance else 0f
+    // One Vec3 whatever the case: the compiler keeps only such off the heap
+    val axis = Vec3(along.x * inverse, along.y * inverse, if isApart then along.z * inverse else 1f)
+    val frame = Frame.around(axis)
     val n = frame.toLocal(at.geometricNormal)
     at.dpdx = frame.toWorld(meeting(Vec3(stepX, 0f, 0f), directionX, n, distance)) * scale
     at.dpdy = frame.toWorld(meeting(Vec3(0f, stepY, 0f), directionY, n, distance)) * scale
@@ -36,7 +40,9 @@ final class PixelCone(
   private def meeting(o: Vec3, d: Vec3, n: Vec3, distance: Float): Vec3 =
     val p = Vec3(0f, 0f, distance)
     val t = ((p - o) dot n) / (d dot n)
-    if java.lang.Float.isFinite(t) then o + d * t - p else Vec3.Zero
+    val meets = java.lang.Float.isFinite(t)
+    val v = o + d * t - p
+    Vec3(if meets then v.x else 0f, if meets then v.y else 0f, if meets then v.z else 0f)
 
 object PixelCone:
   /** Rays along the image's diagonal, of which the closest neighbours count. */

@@ -2,8 +2,25 @@ package candela.geometry
 
 import candela.math.*
 
-/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. */
+/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. Like [[Vec3]]
+  * a value, but for those that a record owns.
+  */
 final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
+  def copy: Frame = Frame(s.copy, t.copy, n.copy)
+
+  /** Takes the values of `f`; for the owner alone, who owns its vectors, too. */
+  private[candela] def become(f: Frame): Unit =
+    s.become(f.s)
+    t.become(f.t)
+    n.become(f.n)
+
+  /** Becomes a basis around the unit vector `axis`, as [[Frame.around]] makes it; for the owner. */
+  private[candela] def becomeAround(axis: Vec3): Unit =
+    val around = Frame.around(axis)
+    s.become(around.s)
+    t.become(around.t)
+    n.become(axis)
+
   def toLocal(v: Vec3): Vec3 = Vec3(v dot s, v dot t, v dot n)
   def toWorld(v: Vec3): Vec3 = Vec3(
     s.x * v.x + t.x * v.y + n.x * v.z,

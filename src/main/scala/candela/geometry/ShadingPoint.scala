@@ -4,25 +4,40 @@ import candela.math.*
 
 /** Where a ray met a surface, with all that textures, materials and lights ask about it.
   *
-  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit.
+  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit. It owns its
+  * vectors: setting one copies the values, and the next hit changes them. So a hit makes no
+  * garbage, and whoever keeps a vector for longer keeps its `copy`.
   *
   * @param wantsPartials are the partial derivatives asked for? Decided once for a scene: a shape
   *                      fills them in only then, by `setPartials`
   */
 final class ShadingPoint(val wantsPartials: Boolean = false):
+  private val ownP, ownPError = Vec3(0f, 0f, 0f)
+  private val ownGeometricNormal = Vec3.Z.copy
+  private val ownFrame = Frame.around(Vec3.Z).copy
+  private val ownDpdu, ownDpdv, ownDndu, ownDndv = Vec3(0f, 0f, 0f)
+  private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = Vec3(0f, 0f, 0f)
+
+  /** Work space of triangles. */
+  private[candela] val firstEdge, secondEdge = Vec3(0f, 0f, 0f)
+
   /** World space. */
-  var p: Vec3 = Vec3.Zero
+  def p: Vec3 = ownP
+  def p_=(v: Vec3): Unit = ownP.become(v)
 
   /** Conservative bound of the absolute error of `p`, per component. */
-  var pError: Vec3 = Vec3.Zero
+  def pError: Vec3 = ownPError
+  def pError_=(v: Vec3): Unit = ownPError.become(v)
 
   /** Unit normal of the true surface, on the side that the shape calls its outside. */
-  var geometricNormal: Vec3 = Vec3.Z
+  def geometricNormal: Vec3 = ownGeometricNormal
+  def geometricNormal_=(v: Vec3): Unit = ownGeometricNormal.become(v)
 
   /** Orthonormal; `frame.n` is the (interpolated) shading normal, in the hemisphere of
     * `geometricNormal`, and `frame.s` follows ∂p/∂u.
     */
-  var frame: Frame = Frame.around(Vec3.Z)
+  def frame: Frame = ownFrame
+  def frame_=(f: Frame): Unit = ownFrame.become(f)
 
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
@@ -30,13 +45,22 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** How the point moves with `u` and `v`, and how the normal `frame.n` turns; of meshes
     * with normals, how these change that are interpolated, whatever their length.
     */
-  var dpdu, dpdv: Vec3 = Vec3.Zero
-  var dndu, dndv: Vec3 = Vec3.Zero
+  def dpdu: Vec3 = ownDpdu
+  def dpdu_=(v: Vec3): Unit = ownDpdu.become(v)
+  def dpdv: Vec3 = ownDpdv
+  def dpdv_=(v: Vec3): Unit = ownDpdv.become(v)
+  def dndu: Vec3 = ownDndu
+  def dndu_=(v: Vec3): Unit = ownDndu.become(v)
+  def dndv: Vec3 = ownDndv
+  def dndv_=(v: Vec3): Unit = ownDndv.become(v)
 
   /** What displacements are added to: `dpdu` and `dpdv`, but tangent to `frame.n` on meshes with
     * interpolated normals.
     */
-  var tangentU, tangentV: Vec3 = Vec3.Zero
+  def tangentU: Vec3 = ownTangentU
+  def tangentU_=(v: Vec3): Unit = ownTangentU.become(v)
+  def tangentV: Vec3 = ownTangentV
+  def tangentV_=(v: Vec3): Unit = ownTangentV.become(v)
 
   /** 1 if displacements rise along `frame.n`, −1 if they sink. */
   var bumpSide: Float = 1f
@@ -45,7 +69,10 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
     * unknown, or not wanted: textures then show their finest detail.
     */
-  var dpdx, dpdy: Vec3 = Vec3.Zero
+  def dpdx: Vec3 = ownDpdx
+  def dpdx_=(v: Vec3): Unit = ownDpdx.become(v)
+  def dpdy: Vec3 = ownDpdy
+  def dpdy_=(v: Vec3): Unit = ownDpdy.become(v)
   var dudx, dvdx, dudy, dvdy: Float = 0f
 
   def setPartials(dpdu: Vec3, dpdv: Vec3, dndu: Vec3, dndv: Vec3): Unit =
@@ -53,6 +80,10 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     this.dpdv = dpdv
     this.dndu = dndu
     this.dndv = dndv
+    takeTangents()
+
+  /** Displacements follow the partial derivatives, once these are set. */
+  private[candela] def takeTangents(): Unit =
     tangentU = dpdu
     tangentV = dpdv
     bumpSide = 1f

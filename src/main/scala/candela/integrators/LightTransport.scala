@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.{Bsdf, BsdfSample}
+import candela.bsdf.{Bounce, Bsdf, BsdfSample}
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, LightChoice, LightSample}
@@ -26,6 +26,20 @@ abstract class LightTransport(
   protected val lightSample = LightSample()
   protected var rays = 0L
 
+  protected val bounce = Bounce()
+
+  // Work space of `sampleLight`: owned, so that no light sample makes garbage
+  private val localWo, localTowards, localWi = Vec3(0f, 0f, 0f)
+  protected val arrived = Rgb.Black.copy
+
+  /** Where a direction was chosen last, on a surface with this normal (zero: in a medium). */
+  protected val lastP, lastN = Vec3(0f, 0f, 0f)
+
+  /** Takes it from `at`. */
+  protected final def keepPlace(): Unit =
+    lastP.become(at.p)
+    lastN.become(at.frame.n)
+
   def raysTraced: Long =
     val march = volumes
     if march == null then rays else rays + march.raysTraced
@@ -41,7 +55,7 @@ abstract class LightTransport(
   protected def stepsToLights: Float = VolumeMarch.StepsToLights
 
   /** Radiance of the surroundings along a ray that left the scene, each light weighted by `weight`
-    * of its index and itself.
+    * of its index and itself; to be used before the next is asked for.
     */
   protected inline def escaped(
       ray: Ray,
@@ -49,21 +63,20 @@ abstract class LightTransport(
   ): Rgb =
     val origin = ray.origin
     val direction = ray.direction
-    var sum = Rgb.Black
+    arrived.become(Rgb.Black)
     var i = 0
     while i < scene.environments.length do
       val light = scene.environments(i)
       val w = weight(scene.environmentIndex(i), light)
-      sum += light.radiance(origin, direction) * w
+      arrived.become(arrived + light.radiance(origin, direction) * w)
       i += 1
-    sum
+    arrived
 
   /** The same where light sampling competes with the direction of the ray.
     *
-    * @param lastPdf of that direction; 0: light sampling was no choice
-    * @param lastP   where it was chosen, on a surface with normal `lastN`
+    * @param lastPdf of that direction, chosen at `lastP`; 0: light sampling was no choice
     */
-  protected final def escaped(ray: Ray, lastPdf: Float, lastP: Vec3, lastN: Vec3): Rgb =
+  protected final def escaped(ray: Ray, lastPdf: Float): Rgb =
     escaped(
       ray,
       (i, source) =>
@@ -76,13 +89,7 @@ abstract class LightTransport(
   /** What the surface at `at` emits to `wo` and adds to a path of this throughput, weighted in the
     * same way; black if it is no light.
     */
-  protected final def metLight(
-      throughput: Rgb,
-      wo: Vec3,
-      lastPdf: Float,
-      lastP: Vec3,
-      lastN: Vec3
-  ): Rgb =
+  protected final def metLight(throughput: Rgb, wo: Vec3, lastPdf: Float): Rgb =
     if at.areaLight < 0 then Rgb.Black
     else
       val source = scene.surfaceLight(at)
@@ -99,6 +106,7 @@ abstract class LightTransport(
     *
     * @param selected probability with which this light was chosen
     * @param combined weight by the power heuristic, because BSDF sampling finds this light too
+    * @return         to be used before the next is asked for
     */
   protected def sampleLight(
       light: Int,
@@ -112,9 +120,12 @@ abstract class LightTransport(
     source.sample(at.p, sampler.x, sampler.y, lightSample)
     if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
     else
-      val local = at.frame.toLocal(wo)
-      val towards = at.frame.toLocal(lightSample.wi)
-      val wi = onSide(towards, local, bsdf)
+      val local = localWo
+      local.become(at.frame.toLocal(wo))
+      val towards = localTowards
+      towards.become(at.frame.toLocal(lightSample.wi))
+      val wi = localWi
+      wi.become(onSide(towards, local, bsdf))
       val isPossible = isOpenSide(lightSample.wi, wo, bsdf)
       val f = if isPossible then bsdf.f(local, wi) else Rgb.Black
       if f.isBlack || isBlocked() then Rgb.Black
@@ -122,11 +133,10 @@ abstract class LightTransport(
         val pdf = selected * lightSample.pdf
         val weight =
           if combined && !source.isDelta then lightWeight(pdf, bsdf, local, towards) else 1f
+        arrived.becomeProduct(f, lightSample.radiance, Math.abs(wi.z) * weight / pdf)
         val march = volumes
-        val arriving =
-          if march == null then lightSample.radiance
-          else lightSample.radiance * march.dimming(shadowRay, stepsToLights)
-        f * arriving * (Math.abs(wi.z) * weight / pdf)
+        if march != null then arrived.scaleBy(march.dimming(shadowRay, stepsToLights))
+        arrived
 
   /** Light of one of the sources, chosen by `choice`; the point on it is the sampler's last. */
   protected final def oneLight(choice: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
@@ -141,6 +151,12 @@ abstract class LightTransport(
       val choice = sampler.next1D()
       sampler.next2D()
       oneLight(choice, bsdf, wo, sampler)
+
+  /** Draws a direction from a BSDF into `bounce`. */
+  protected final def draw(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Unit =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    bsdf.draw(wo, choice, sampler.x, sampler.y, bounce)
 
   /** A direction drawn from a BSDF. */
   protected final def drawn(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
@@ -209,12 +225,10 @@ object LightTransport:
   def metWeight(sampled: Float, pdf: Float): Float =
     if sampled > 0f then powerHeuristic(sampled, pdf) else 1f
 
-  /** Russian roulette: the throughput of a path that goes on, black if it ends.
+  /** Russian roulette: what the throughput of a path that goes on is multiplied by; 0: it ends.
     *
     * @param etaScale what refraction has made of radiance, which is no reason to end
     */
-  def roulette(throughput: Rgb, etaScale: Float, threshold: Float, sampler: Sampler): Rgb =
+  def roulette(throughput: Rgb, etaScale: Float, threshold: Float, sampler: Sampler): Float =
     val q = throughput.largest * etaScale
-    if q >= threshold then throughput
-    else if sampler.next1D() < q then throughput * (1f / q)
-    else Rgb.Black
+    if q >= threshold then 1f else if sampler.next1D() < q then 1f / q else 0f

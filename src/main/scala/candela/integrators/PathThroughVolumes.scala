@@ -33,17 +33,15 @@ final class PathThroughVolumes(
     var depth = 0
     var etaScale = 1f
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
-    var lastP = Vec3.Zero
-    var lastN = Vec3.Zero
     var alive = true
     while alive do
       if !met then
-        light += throughput * escaped(ray, lastPdf, lastP, lastN)
+        light += throughput * escaped(ray, lastPdf)
         alive = false
       else
         scene.surface(ray, hit, at)
         val wo = -ray.direction
-        light += metLight(throughput, wo, lastPdf, lastP, lastN)
+        light += metLight(throughput, wo, lastPdf)
         if depth == maxDepth then alive = false
         else
           depth += 1
@@ -55,15 +53,14 @@ final class PathThroughVolumes(
           val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            throughput =
+            throughput = throughput *
               LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
             alive = !throughput.isBlack
           if alive then

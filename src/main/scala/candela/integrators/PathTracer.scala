@@ -29,6 +29,11 @@ final class PathTracer(
 
   private val dispersion: Dispersion | Null = wavelengths.map(Dispersion(_)).orNull
 
+  // Owned, so that a path makes no garbage: what it has brought so far and what more will count
+  // for, and the directions at the last surface, in the world and in its frame
+  private val light, throughput = Rgb.Black.copy
+  private val wo, wi, local = Vec3(0f, 0f, 0f)
+
   override def splitsLight: Boolean = wavelengths.isDefined
 
   protected def over(scene: Scene): PathTracer =
@@ -37,24 +42,22 @@ final class PathTracer(
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
     if dispersion != null then dispersion.begin()
-    var light = Rgb.Black
-    var throughput = Rgb.White
+    light.become(Rgb.Black)
+    throughput.become(Rgb.White)
     var depth = 0
     var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
-    var lastP = Vec3.Zero
-    var lastN = Vec3.Zero
     var isSpread = false
     var alive = true
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray, lastPdf, lastP, lastN)
+        light.addProduct(throughput, escaped(ray, lastPdf))
         alive = false
       else
         scene.surface(ray, hit, at)
-        val wo = -ray.direction
-        light += metLight(throughput, wo, lastPdf, lastP, lastN)
+        wo.become(-ray.direction)
+        if at.areaLight >= 0 then light.become(light + metLight(throughput, wo, lastPdf))
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
@@ -63,21 +66,22 @@ final class PathTracer(
           depth += 1
           val met = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
           val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
-          if dispersion != null then throughput = throughput * dispersion.weight
-          light += throughput * anyLight(bsdf, wo, sampler)
-          val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
-          throughput = throughput * bounce.weight
+          if dispersion != null then throughput.scaleBy(dispersion.weight)
+          light.addProduct(throughput, anyLight(bsdf, wo, sampler))
+          local.become(at.frame.toLocal(wo))
+          draw(bsdf, local, sampler)
+          throughput.scaleBy(bounce.weight)
           isSpread ||= regularizes && !bounce.isSpecular
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
           etaScale *= square(bounce.eta)
-          val wi = at.frame.toWorld(bounce.wi)
+          wi.become(at.frame.toWorld(bounce.wi))
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, wo, wi, bounce)
+          scene.scattered(ray, at, wo, wi, bounce.isSpecular, bounce.eta)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            throughput =
+            throughput.scaleBy(
               LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
+            )
             alive = !throughput.isBlack
-    light
+    light.copy

@@ -42,19 +42,17 @@ final class SubsurfacePathTracer(
     var depth = 0
     var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
-    var lastP = Vec3.Zero
-    var lastN = Vec3.Zero
     var isSpread = false
     var alive = true
     while alive do
       rays += 1
       if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray, lastPdf, lastP, lastN)
+        light += throughput * escaped(ray, lastPdf)
         alive = false
       else
         scene.surface(ray, hit, at)
         var wo = -ray.direction
-        light += metLight(throughput, wo, lastPdf, lastP, lastN)
+        light += metLight(throughput, wo, lastPdf)
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
@@ -82,14 +80,13 @@ final class SubsurfacePathTracer(
               throughput = throughput * bounce.weight
           isSpread ||= regularizes && !bounce.isSpecular
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
           scene.scattered(ray, at, wo, wi, bounce)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
-            throughput =
+            throughput = throughput *
               LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
             alive = !throughput.isBlack
     light

@@ -40,8 +40,6 @@ final class VolumePathTracer(
   private var atBoundary = false
 
   // Where the last direction was chosen, for the density with which light sampling would have
-  private var lastP = Vec3.Zero
-  private var lastN = Vec3.Zero
 
   protected def over(scene: Scene): VolumePathTracer =
     VolumePathTracer(scene, media, maxDepth, rouletteAfter, rouletteThreshold, seesThrough,
@@ -115,8 +113,7 @@ final class VolumePathTracer(
               weights.scale(bounce.weight)
           isSpread ||= regularizes && !bounce.isSpecular
           weights.turn(if bounce.isSpecular then 0f else bounce.pdf)
-          lastP = at.p
-          lastN = at.frame.n
+          keepPlace()
           val wi = at.frame.toWorld(bounce.wi)
           medium = media.beyond(at, wi, medium)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
@@ -141,8 +138,8 @@ final class VolumePathTracer(
     sampler.next2D()
     val wi = phase.sample(wo, sampler.x, sampler.y)
     weights.turn(phase.value(wo, wi))
-    lastP = p
-    lastN = Vec3.Zero
+    lastP.become(p)
+    lastN.become(Vec3.Zero)
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     light

@@ -48,10 +48,13 @@ abstract class Light:
     */
   def meetingPdf(from: Vec3, ray: EmittedRay): Float
 
-/** What [[Light.sample]] chose; mutable, one per worker. */
+/** What [[Light.sample]] chose; mutable, one per worker. It owns its vectors. */
 final class LightSample:
+  private val ownWi = Vec3.Z.copy
+
   /** Unit vector towards the light. */
-  var wi: Vec3 = Vec3.Z
+  def wi: Vec3 = ownWi
+  def wi_=(v: Vec3): Unit = ownWi.become(v)
 
   /** Radiance that would arrive if nothing is in the way; for delta lights the irradiance on a
     * plane facing the light, with `pdf` 1.

@@ -18,11 +18,14 @@ object Warp:
   def concentricDisk(u1: Float, u2: Float): Vec3 =
     val a = 2f * u1 - 1f
     val b = 2f * u2 - 1f
-    if a == 0f && b == 0f then Vec3.Zero
-    else if abs(a) > abs(b) then polar(a, (Pi / 4f) * (b / a))
-    else polar(b, Pi / 2f - (Pi / 4f) * (a / b))
-
-  private def polar(r: Float, phi: Float): Vec3 = Vec3(r * cos(phi), r * sin(phi), 0f)
+    // One Vec3 at the end, whatever the branch: the compiler keeps only such off the heap
+    val isWide = abs(a) > abs(b)
+    val r = if isWide then a else b
+    val phi =
+      if isWide then (Pi / 4f) * (b / a)
+      else if b == 0f then 0f
+      else Pi / 2f - (Pi / 4f) * (a / b)
+    Vec3(r * cos(phi), r * sin(phi), 0f)
 
   /** Directions with z ≥ 0, as dense as the cosine of their angle to +z.
     *

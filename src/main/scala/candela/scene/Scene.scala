@@ -72,8 +72,18 @@ final class Scene(
 
   /** Tells a ray that was just set on its way from `at` what became of its neighbours. */
   def scattered(ray: Ray, at: ShadingPoint, wo: Vec3, wi: Vec3, sample: BsdfSample): Unit =
+    scattered(ray, at, wo, wi, sample.isSpecular, sample.eta)
+
+  def scattered(
+      ray: Ray,
+      at: ShadingPoint,
+      wo: Vec3,
+      wi: Vec3,
+      isSpecular: Boolean,
+      eta: Float
+  ): Unit =
     val rule = footprintRule
-    if rule != null then rule.scattered(ray, at, wo, wi, sample.isSpecular, sample.eta)
+    if rule != null then rule.scattered(ray, at, wo, wi, isSpecular, eta)
 
   /** Tells a ray that it goes straight on through an interface. */
   def passed(ray: Ray): Unit =

@@ -54,15 +54,21 @@ abstract class SurfaceSampler:
   /** Is there a hit in (0, `ray.tMax`)? Then `at` gets its geometry. */
   def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
 
-/** A point on a surface; mutable, one per worker. */
+/** A point on a surface; mutable, one per worker. It owns its vectors, as [[ShadingPoint]] does. */
 final class SurfaceSample:
-  var p: Vec3 = Vec3.Zero
+  private val ownP, ownPError = Vec3(0f, 0f, 0f)
+  private val ownN = Vec3.Z.copy
+
+  def p: Vec3 = ownP
+  def p_=(v: Vec3): Unit = ownP.become(v)
 
   /** Conservative bound of the error of `p`, per component. */
-  var pError: Vec3 = Vec3.Zero
+  def pError: Vec3 = ownPError
+  def pError_=(v: Vec3): Unit = ownPError.become(v)
 
   /** Unit normal on the outside. */
-  var n: Vec3 = Vec3.Z
+  def n: Vec3 = ownN
+  def n_=(v: Vec3): Unit = ownN.become(v)
 
   /** Per solid angle at the point that asked, or per area. */
   var pdf: Float = 0f

@@ -40,17 +40,19 @@ private[shapes] object TrianglePartials:
       at.setPartials(any.s, any.t, Vec3.Zero, Vec3.Zero)
     else
       val inverse = 1f / determinant
-      val dpdu = (e1 * v2 - e2 * v1) * inverse
-      val dpdv = (e2 * u1 - e1 * u2) * inverse
-      if n.length == 0 then at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
+      at.dpdu = (e1 * v2 - e2 * v1) * inverse
+      at.dpdv = (e2 * u1 - e1 * u2) * inverse
+      if n.length == 0 then
+        at.dndu = Vec3.Zero
+        at.dndv = Vec3.Zero
       else
         // Of the interpolated normal as it is, not of the unit vector made of it: so in pbrt
         val n0 = normal(n, k0)
         val d1 = normal(n, k1) - n0
         val d2 = normal(n, k2) - n0
-        val dndu = (d1 * v2 - d2 * v1) * inverse
-        val dndv = (d2 * u1 - d1 * u2) * inverse
-        at.setPartials(dpdu, dpdv, dndu, dndv)
+        at.dndu = (d1 * v2 - d2 * v1) * inverse
+        at.dndv = (d2 * u1 - d1 * u2) * inverse
+      at.takeTangents()
     if n.length > 0 then tangents(at, mesh.bumps)
 
   private def tangents(at: ShadingPoint, bumps: BumpTangents): Unit =

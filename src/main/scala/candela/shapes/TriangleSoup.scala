@@ -64,19 +64,22 @@ final class TriangleSoup(
     val b1 = hit.u.toFloat
     val b2 = hit.v.toFloat
     place(3 * i0, 3 * i1, 3 * i2, hit.u, hit.v, at)
-    val outside = facet(3 * i0, 3 * i1, 3 * i2, if mesh.flipped then -1.0 else 1.0)
-    val n =
-      if mesh.normals.length == 0 then outside
-      else shadingNormal(mesh, i0, i1, i2, b1, b2, outside)
-    at.geometricNormal = if mesh.normals.length == 0 then outside else outside.facing(n)
+    facet(3 * i0, 3 * i1, 3 * i2, if mesh.flipped then -1.0 else 1.0, at)
+    val n = at.frame.n
+    n.become(at.geometricNormal)
+    if mesh.normals.length > 0 then
+      shadingNormal(mesh, i0, i1, i2, b1, b2, n)
+      if (at.geometricNormal dot n) < 0f then at.geometricNormal = -at.geometricNormal
     uv(mesh, i0, i1, i2, b1, b2, at)
-    if !tangents && !at.wantsPartials then at.frame = Frame.around(n)
+    if !tangents && !at.wantsPartials then at.frame.becomeAround(n)
     else
       val p0 = vertex(triangle, 0)
-      val e1 = vertex(triangle, 1) - p0
-      val e2 = vertex(triangle, 2) - p0
-      at.frame =
-        if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
+      val e1 = at.firstEdge
+      val e2 = at.secondEdge
+      e1.become(vertex(triangle, 1) - p0)
+      e2.become(vertex(triangle, 2) - p0)
+      if tangents then at.frame = Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2))
+      else at.frame.becomeAround(n)
       if at.wantsPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
@@ -97,7 +100,7 @@ final class TriangleSoup(
     )
 
   /** The unit normal, times `side`; any across the longer side if the triangle has no area. */
-  private def facet(j0: Int, j1: Int, j2: Int, side: Double): Vec3 =
+  private def facet(j0: Int, j1: Int, j2: Int, side: Double, at: ShadingPoint): Unit =
     val p = positions
     val ax = p(j1).toDouble - p(j0)
     val ay = p(j1 + 1).toDouble - p(j0 + 1)
@@ -111,14 +114,16 @@ final class TriangleSoup(
     val length = Math.sqrt(x * x + y * y + z * z)
     if length > 0.0 then
       val s = side / length
-      Vec3((x * s).toFloat, (y * s).toFloat, (z * s).toFloat)
+      at.geometricNormal = Vec3((x * s).toFloat, (y * s).toFloat, (z * s).toFloat)
     else
       val isFirst = ax == 0.0 && ay == 0.0 && az == 0.0
       val along =
         if isFirst then Vec3(bx.toFloat, by.toFloat, bz.toFloat)
         else Vec3(ax.toFloat, ay.toFloat, az.toFloat)
-      if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
+      at.geometricNormal =
+        if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
 
+  /** The mean of the corners' normals; `mean` stays as it is if they cancel. */
   private def shadingNormal(
       mesh: Mesh,
       i0: Int,
@@ -126,8 +131,8 @@ final class TriangleSoup(
       i2: Int,
       b1: Float,
       b2: Float,
-      facet: Vec3
-  ): Vec3 =
+      mean: Vec3
+  ): Unit =
     val n = mesh.normals
     val b0 = 1f - b1 - b2
     val j0 = (i0 - mesh.firstVertex) * 3
@@ -139,7 +144,7 @@ final class TriangleSoup(
       b0 * n(j0 + 2) + b1 * n(j1 + 2) + b2 * n(j2 + 2)
     )
     val length2 = sum.lengthSquared
-    if length2 > 0f && length2 < Float.PositiveInfinity then sum * (1f / sqrt(length2)) else facet
+    if length2 > 0f && length2 < Float.PositiveInfinity then mean.become(sum * (1f / sqrt(length2)))
 
   private def uv(
       mesh: Mesh,
