@@ -6,9 +6,11 @@ package candela.accel
   * the two others are tried, too: in meshes this is rare and so costs little, yet the trees are
   * better than if it is never done (docs/decisions/0012).
   *
+  * @param shift see [[Sweep]]
   * @param binOf for each axis the bin of each record, if it was filled last
   */
-private[accel] class BinnedCut(records: Array[Int], binOf: Array[Array[Byte]]) extends Cut:
+private[accel] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Array[Byte]])
+    extends Cut:
   private var best = Sweep(Bins.Count)
   private var trial = Sweep(Bins.Count)
   protected val bins: Bins = Bins()
@@ -26,7 +28,7 @@ private[accel] class BinnedCut(records: Array[Int], binOf: Array[Array[Byte]]) e
       levels.measure(depth, records, first, end)
       attemptWidest(first, end, levels, depth)
     val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
-    if best.cost > BinnedCut.Poor * (end - first) * area then
+    if best.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
       val widest = axis
       var k = 0
       while k < 3 do
@@ -55,7 +57,7 @@ private[accel] class BinnedCut(records: Array[Int], binOf: Array[Array[Byte]]) e
     // A point, or one so small that its inverse overflows, has no slabs; nor has infinity
     if scale > 0f && scale < Float.PositiveInfinity then
       fill(first, end, axis, low, scale)
-      trial.run(bins.boxes, bins.counts, Bins.Count, end - first)
+      trial.run(bins.boxes, bins.counts, Bins.Count, end - first, shift)
       levels.clip(depth, axis, low + bins.firstUsed / scale, low + (bins.lastUsed + 1) / scale)
       lows(axis) = low
       scales(axis) = scale

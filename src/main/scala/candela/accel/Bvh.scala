@@ -19,7 +19,7 @@ final class Bvh(
     maxLeaf: Int = 4,
     parallel: Parallel = Parallel.Alone
 ) extends Accelerator:
-  private val tree = BvhBuilder.of(primitives, maxLeaf, parallel)
+  private val tree = BvhBuilder.of(primitives, LeafSize.single(maxLeaf), parallel)
   private val packed = primitives.packed(tree.order, parallel)
   private val nodes = tree.nodes
   parallel.ranges(tree.nodeCount): (from, until) =>

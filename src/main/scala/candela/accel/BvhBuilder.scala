@@ -60,29 +60,30 @@ private[accel] object BvhBuilder:
         bounds(b + 4),
         bounds(b + 5)
       )
-    ofRecords(records, maxLeaf, parallel)
+    ofRecords(records, LeafSize.single(maxLeaf), parallel)
 
-  def of(primitives: Primitives, maxLeaf: Int, parallel: Parallel): BvhBuilder =
-    ofRecords(primitives.records(parallel), maxLeaf, parallel)
+  def of(primitives: Primitives, size: LeafSize, parallel: Parallel): BvhBuilder =
+    ofRecords(primitives.records(parallel), size, parallel)
 
   /** Sorts the records on the way. */
-  private def ofRecords(records: Array[Int], maxLeaf: Int, parallel: Parallel): BvhBuilder =
+  private def ofRecords(records: Array[Int], size: LeafSize, parallel: Parallel): BvhBuilder =
     val count = records.length / BoxRecord.Ints
     val levels = Levels()
     levels.open(0)
     union(records, parallel, levels.boxes)
     val bounds = boundsOf(levels.boxes)
     val binOf = Array.fill(3)(new Array[Byte](count))
-    val together = SharedCut(records, binOf, parallel)
+    val together = SharedCut(records, size.shift, binOf, parallel)
     val deferred = Math.max(LeastDeferred, count / DeferredParts)
-    val top = SubtreeBuilder(records, together, levels, maxLeaf, deferred)
+    val top = SubtreeBuilder(records, together, levels, size, deferred)
     val topRoot = top.build(0, count, 0)
     val topSize = top.leafSize
     val later = top.later.toArray
     val parts = new Array[Subtree](later.length)
     parallel.each(later.length): i =>
       val part = later(i)
-      val builder = SubtreeBuilder(records, BinnedCut(records, binOf), part.levels, maxLeaf)
+      val builder =
+        SubtreeBuilder(records, BinnedCut(records, size.shift, binOf), part.levels, size)
       val root = builder.build(part.first, part.end, part.depth)
       parts(i) = Subtree(root, builder.leafSize, builder.trimmedNodes)
     val order = new Array[Int](count)

@@ -34,7 +34,7 @@ private[accel] abstract class Cut:
 /** Divides few records, between any two neighbours in the order of centres along the longest
   * side.
   */
-private[accel] final class FewCut(records: Array[Int]) extends Cut:
+private[accel] final class FewCut(records: Array[Int], shift: Int) extends Cut:
   import FewCut.Most
 
   protected val sweep: Sweep = Sweep(Most)
@@ -61,7 +61,7 @@ private[accel] final class FewCut(records: Array[Int]) extends Cut:
       val from = (first + keys(i).toInt) * BoxRecord.Ints
       BoxRecord.copy(records, from, sorted, i * BoxRecord.Ints)
       i += 1
-    sweep.run(sorted, ones, n, n)
+    sweep.run(sorted, ones, n, n, shift)
     // Of boxes without an area all cuts are as good; halves are as good and shallow
     sweep.cost > 0f && sweep.cost < Float.PositiveInfinity
 

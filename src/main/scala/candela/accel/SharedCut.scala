@@ -5,9 +5,10 @@ import candela.base.Parallel
 /** As [[BinnedCut]], with several threads for each division; the same comes out. */
 private[accel] final class SharedCut(
     records: Array[Int],
+    shift: Int,
     binOf: Array[Array[Byte]],
     parallel: Parallel
-) extends BinnedCut(records, binOf):
+) extends BinnedCut(records, shift, binOf):
 
   override protected def fill(first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =
     bins.clear()

@@ -5,19 +5,20 @@ package candela.accel
   * @param records  see [[BoxRecord]]
   * @param cut      for more than a few records
   * @param levels   know the box of the range that is built
-  * @param maxLeaf  most primitives in a leaf
+  * @param size     of leaves
   * @param deferred ranges of at most so many records are left for later; 0: none
   */
 private[accel] final class SubtreeBuilder(
     records: Array[Int],
     cut: Cut,
     levels: Levels,
-    maxLeaf: Int,
+    size: LeafSize,
     deferred: Int = 0
 ):
   import BvhBuilder.NodeFloats
 
-  private val few = FewCut(records)
+  /** No more of what is in blocks than one of them is ever cut: it is other things. */
+  private val few = FewCut(records, if size.block < FewCut.Most then size.shift else 0)
 
   private var nodes = new Array[Float](NodeFloats * 64)
   private var length = 0
@@ -36,12 +37,12 @@ private[accel] final class SubtreeBuilder(
   def build(first: Int, end: Int, depth: Int): Int =
     val n = end - first
     if n <= deferred then leave(first, end, depth)
-    else if n <= 1 then leaf(first, end)
+    else if n <= 1 || size.isBlock(records, first, end) then leaf(first, end)
     else
       val how = if n <= FewCut.Most then few else cut
       val isCut = depth < BvhBuilder.MaxSahDepth && how.find(first, end, levels, depth)
-      if !isCut then if n <= maxLeaf then leaf(first, end) else halve(first, end, depth)
-      else if n <= maxLeaf && n <= costOf(how, depth) then leaf(first, end)
+      if !isCut then if n <= size.most then leaf(first, end) else halve(first, end, depth)
+      else if n <= size.most && n <= costOf(how, depth) then leaf(first, end)
       else
         val node = newNode()
         val middle = first + how.left

@@ -14,7 +14,7 @@ private[accel] final class Sweep(most: Int):
   private val from = new Array[Int](BoxRecord.Ints * most)
   private val areas = new Array[Float](most)
 
-  /** Σ half area · weight of both parts; infinite if there is no cut. */
+  /** Σ half area · blocks of both parts; infinite if there is no cut. */
   var cost: Float = Float.PositiveInfinity
 
   /** The last item of the left part, and the weight of that part. */
@@ -27,10 +27,13 @@ private[accel] final class Sweep(most: Int):
   def rightBox(to: Array[Int], at: Int): Unit =
     BoxRecord.copy(from, (cut + 1) * BoxRecord.Ints, to, at)
 
-  /** Looks at the boxes of `n` items, which weigh `total` together. */
-  def run(items: Array[Int], weights: Array[Int], n: Int, total: Int): Unit =
+  /** Looks at the boxes of `n` items, which weigh `total` together.
+    *
+    * @param shift weights are paid for in blocks of 1 << shift, begun ones as whole ones
+    */
+  def run(items: Array[Int], weights: Array[Int], n: Int, total: Int, shift: Int): Unit =
     backwards(items, n)
-    forwards(items, weights, n, total)
+    forwards(items, weights, n, total, shift)
 
   private def backwards(items: Array[Int], n: Int): Unit =
     val from = this.from
@@ -49,7 +52,13 @@ private[accel] final class Sweep(most: Int):
       areas(i) = BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ)
       i -= 1
 
-  private def forwards(items: Array[Int], weights: Array[Int], n: Int, total: Int): Unit =
+  private def forwards(
+      items: Array[Int],
+      weights: Array[Int],
+      n: Int,
+      total: Int,
+      shift: Int
+  ): Unit =
     val upTo = this.upTo
     val areas = this.areas
     var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.Least
@@ -67,11 +76,15 @@ private[accel] final class Sweep(most: Int):
       BoxRecord.set(upTo, at, lowX, lowY, lowZ, highX, highY, highZ)
       weight += weights(i)
       if weight > 0 && weight < total then
-        val here = BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ) * weight +
-          areas(i + 1) * (total - weight)
+        val here =
+          BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ) * Sweep.blocks(weight, shift) +
+            areas(i + 1) * Sweep.blocks(total - weight, shift)
         if here < bestCost then
           bestCost = here
           cut = i
           left = weight
       i += 1
     cost = bestCost
+
+private[accel] object Sweep:
+  inline def blocks(weight: Int, shift: Int): Int = (weight + (1 << shift) - 1) >> shift

@@ -37,7 +37,7 @@ private[accel] final class WideTree(
   def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
 private[accel] object WideTree:
-  /** @param maxLeaf of the binary tree that it is made of */
+  /** @param maxLeaf of the binary tree that it is made of, but for triangles */
   def of(
       primitives: Primitives,
       width: Int,
@@ -45,7 +45,8 @@ private[accel] object WideTree:
       maxLeaf: Int,
       parallel: Parallel
   ): WideTree =
-    val built = BvhBuilder.of(primitives, maxLeaf, parallel)
+    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
+    val built = BvhBuilder.of(primitives, size, parallel)
     val wide = WideBuilder(
       width,
       lanes,

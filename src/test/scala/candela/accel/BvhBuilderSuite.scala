@@ -73,7 +73,7 @@ class BvhBuilderSuite extends AnyFunSuite:
   ):
     def ratio(primitives: Primitives): Double =
       val boxes = boxesOf(primitives)
-      val built = SlowTree.of(BvhBuilder.of(primitives, maxLeaf = 4, Parallel.Alone))
+      val built = SlowTree.of(BvhBuilder.of(primitives, LeafSize.single(4), Parallel.Alone))
       val slow = SlowTree.build(boxes, maxLeaf = 4)
       assert(built.primitivesInside.sorted == slow.primitivesInside.sorted)
       built.cost / slow.cost

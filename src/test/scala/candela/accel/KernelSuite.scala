@@ -146,9 +146,17 @@ class KernelSuite extends AnyFunSuite:
 
   test("a tree is deep enough for no stack to overflow"):
     for (scene, primitives) <- scenes; (width, lanes) <- Seq((4, 4), (8, 8), (16, 8), (16, 16)) do
-      val built = BvhBuilder.of(primitives, 4, Parallel.Alone)
+      val size = LeafSize(4, lanes, primitives.isSolidTriangle)
+      val built = BvhBuilder.of(primitives, size, Parallel.Alone)
       val wide = WideBuilder(width, lanes, built.nodes, built.nodeCount, built.order, built.root,
         built.rootCount, primitives.isSolidTriangle)
       assert(wide.stackNeed <= Ray.StackSize, scene)
       val owners = wide.owners.toArray.filter(_ >= 0)
       assert(owners.sorted.sameElements(Array.range(0, primitives.count)), scene)
+
+  test("blocks of a mesh's triangles are nearly full"):
+    val mesh = Primitives(Soups.icosphere(4, Transform.translate(0f, 0f, 0f)), Array.empty)
+    for lanes <- Seq(4, 8) do
+      val tree = WideTree.of(mesh, 16, lanes, 4, Parallel.Alone)
+      val full = mesh.count.toDouble / (tree.blockCount * lanes)
+      assert(full > 0.75 && full <= 1.0, s"$lanes lanes")
