@@ -22,6 +22,7 @@ private[accel] object VectorKernel extends WideKernel:
   private val HasMaskBits = Runtime.version.feature >= 19
   private val LaneBits: IntVector = IntVector.fromArray(I, Array.tabulate(W)(1 << _), 0)
   private val Zeros: IntVector = IntVector.zero(I)
+  private val Infinities: IntVector = IntVector.broadcast(I, WideWalk.Infinity)
 
   /** Two vectors of children, or one of sixteen: a mask of theirs is then as many. */
   private val N: Int = Math.min(16, 2 * W)
@@ -102,10 +103,11 @@ private[accel] object VectorKernel extends WideKernel:
         val e0 = x1.mul(y2).sub(y1.mul(x2))
         val e1 = x2.mul(y0).sub(y2.mul(x0))
         val e2 = x0.mul(y1).sub(y0.mul(x1))
-        val zero = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue).sub(1)
         val s0 = e0.reinterpretAsInts()
         val s1 = e1.reinterpretAsInts()
         val s2 = e2.reinterpretAsInts()
-        // No sign, or all signs, or a zero
+        val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
+        val zero = all.sub(1).or(Infinities.sub(all))
+        // No sign, or all signs, or a zero: then the product is one, too, or no number
         bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))
     )

@@ -127,3 +127,6 @@ private[accel] object WideWalk:
     Math.min(java.lang.Float.floatToRawIntBits(tMax) + Slack, Largest)
 
   private final val Largest = 0x7f7fffff
+
+  /** The bits of infinity: what is above is no number. */
+  final val Infinity = 0x7f800000

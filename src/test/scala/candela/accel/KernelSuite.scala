@@ -36,6 +36,8 @@ class KernelSuite extends AnyFunSuite:
         (a, a + Vec3(3f, 0f, 0f), a + Vec3(1.5f, 1e-6f, draws.between(-1e-7f, 1e-7f)))),
       "parallel to the axes" -> of(flat),
       "parallel to the axes, far away" -> of(flat.map((a, b, c) => (a + far, b + far, c + far))),
+      "parallel to the axes, edges' products overflow" ->
+        of(flat.map((a, b, c) => (a * 1e12f, b * 1e12f, c * 1e12f))),
       "the same ones again and again" -> of(Seq.fill(4)(flat.take(60)).flatten),
       "edges and corners in common" -> Primitives(
         Soups.icosphere(3, Transform.translate(0.3f, 7f, -2f)),
