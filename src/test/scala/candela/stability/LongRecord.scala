@@ -38,7 +38,7 @@ private final class LongRecord(file: Path):
           all,
           powers(each.min.toDouble),
           powers(each.sum.toDouble),
-          f"${done.map(_.seconds).sum}%.0f",
+          f"${done.map(_.seconds).sum}%.1f",
           result
         ).mkString("| ", " | ", " |")
     (Head ++ rows).map(_ + "\n").mkString
