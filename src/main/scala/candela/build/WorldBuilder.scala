@@ -72,7 +72,7 @@ final class WorldBuilder(
     val instanced = instances(objects, uses.shared.map(_.places))
     val accelerator = accelerate(surfaces, instanced.instances)
     val sources = lights.toArray
-    val selection = LightSelection.of(sources)
+    val selection = LightSelection.of(sources, integratorPlan.lights, accelerator.bounds)
     val scene = Scene(
       surfaces,
       instanced,

@@ -1,5 +1,6 @@
 package candela.lights
 
+import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 
 /** Which light to sample at a point. Immutable. */
@@ -147,3 +148,11 @@ object LightSelection:
   /** The plainest that serves these lights. */
   def of(lights: Array[Light]): LightSelection =
     if lights.length == 1 then SingleLight() else LightTree(lights)
+
+  /** @param scene holds all surfaces */
+  def of(lights: Array[Light], strategy: LightStrategy, scene: Bounds3): LightSelection =
+    strategy match
+      case LightStrategy.Importance => of(lights)
+      case _ if lights.length == 1 => of(lights)
+      case LightStrategy.Power => FixedSelection.byPower(lights, Ball.around(scene))
+      case LightStrategy.Uniform => FixedSelection.uniform(lights)

@@ -3,6 +3,7 @@ package candela.lights
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.color.Rgb
+import candela.geometry.Bounds3
 import candela.math.*
 import candela.shapes.Disk
 import candela.testing.Draws
@@ -34,8 +35,11 @@ final class LightSelectionSuite extends AnyFunSuite:
       "all kinds" -> (Seq(sky) ++ points(draws, 3) ++ Seq(sun, unused) ++ disks(draws, 6))
     )
 
-  for (name, lights) <- sets do
-    val selection = LightSelection.of(lights.toArray)
+  private val around = Bounds3(Vec3(-6, -6, -6), Vec3(6, 6, 6))
+
+  for (set, lights) <- sets; strategy <- LightStrategy.values do
+    val name = s"$set, $strategy"
+    val selection = LightSelection.of(lights.toArray, strategy, around)
 
     test(s"$name: probabilities are those with which lights are chosen"):
       val draws = Draws(22)
@@ -73,6 +77,19 @@ final class LightSelectionSuite extends AnyFunSuite:
     val selection = LightSelection.of(lights.toArray)
     val sum = lights.indices.map(selection.probability(Vec3(1, 2, 3), Vec3.Zero, _)).sum
     assert(Math.abs(sum - 1f) < 1e-5f) // rounding
+
+  test("by power: a light with twice the power is chosen twice as often; all alike: as often"):
+    val lights = Array[Light](PointLight(Vec3.X, Rgb.White), PointLight(Vec3.Y, Rgb.gray(2f)))
+    val byPower = LightSelection.of(lights, LightStrategy.Power, around)
+    val alike = LightSelection.of(lights, LightStrategy.Uniform, around)
+    for p <- Seq(Vec3.Zero, Vec3(5, 5, 5)) do
+      assert(Math.abs(byPower.probability(p, Vec3.Z, 1) - 2f / 3) < 1e-6f): Unit
+      assert(alike.probability(p, Vec3.Z, 1) == 0.5f)
+
+  test("lights without power: none is chosen by it"):
+    val black = Array[Light](PointLight(Vec3.X, Rgb.Black), PointLight(Vec3.Y, Rgb.Black))
+    val selection = LightSelection.of(black, LightStrategy.Power, around)
+    assert(selection.choose(Vec3.Zero, Vec3.Z, 0.5f) == -1)
 
   test("no lights: none is chosen"):
     assert(LightSelection.of(Array.empty[Light]).choose(Vec3.Zero, Vec3.Z, 0.5f) == -1)

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.integrators.*
+import candela.lights.LightStrategy
 import candela.media.SceneMedia
 import candela.render.PixelBounds
 import candela.scene.Scene
@@ -14,6 +15,7 @@ import candela.scenefile.Dialect
   * @param regularizes  does it ask for [[Scene.widenedBsdf]]?
   * @param window       of the full image that is rendered, if not all of it is
   * @param samples      of each pixel, if the integrator and not the sampler says how many
+  * @param lights       how the light to sample is chosen
   * @param isLit        do lights matter? Else a scene without them is no mistake
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
   * @param throughMedia   makes the integrator where there are media, if it sees them
@@ -25,6 +27,7 @@ final case class IntegratorPlan(
     describe: String,
     followsSpecular: Boolean = true,
     goesBeneath: Boolean = false,
+    lights: LightStrategy = LightStrategy.Importance,
     isLit: Boolean = true,
     samples: Option[Int] = None,
     regularizes: Boolean = false,
@@ -52,6 +55,31 @@ trait Windowed extends Recipe[IntegratorPlan]:
     else
       site.error("`pixelbounds` takes x0 x1 y0 y1")
       plan
+
+/** Those that choose one light of all at each point can be told how. */
+trait Choosing extends Recipe[IntegratorPlan]:
+  private val sampler = oneOf(
+    "lightsampler",
+    "how lights are chosen (bvh and exhaustive: by a tree of importance)",
+    Vector("bvh", "exhaustive", "power", "uniform"),
+    onlyV4
+  )("bvh")
+  private val strategy = oneOf(
+    "lightsamplestrategy",
+    "how lights are chosen (spatial: by a tree of importance)",
+    Vector("spatial", "power", "uniform"),
+    onlyV3
+  )("spatial")
+
+  protected final def lightStrategy()(using site: Site): LightStrategy =
+    val asked = site.dialect match
+      case Dialect.V4 => sampler()
+      case Dialect.V3 => strategy()
+      case _ => ""
+    asked match
+      case "power" => LightStrategy.Power
+      case "uniform" => LightStrategy.Uniform
+      case _ => LightStrategy.Importance
 
 /** v4's can roughen what a path meets late. */
 trait Regularizing extends Recipe[IntegratorPlan]:

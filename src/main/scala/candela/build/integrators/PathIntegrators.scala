@@ -6,15 +6,10 @@ import candela.scenefile.Dialect
 final class Path(name: String, meaning: String, dialects: Set[Dialect])
     extends IntegratorRecipe(name, meaning, dialects)
     with Windowed
+    with Choosing
     with Regularizing:
   private val threshold =
     float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
-  noMeaning("all of them have the same mean; Candela's tree of lights serves for each")(
-    string("lightsampler", "how lights are chosen: uniform, power, bvh, exhaustive", onlyV4)("bvh"),
-    string("lightsamplestrategy", "how lights are chosen: uniform, power, spatial", onlyV3)(
-      "spatial"
-    )
-  )
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 lights one vertex more than it counts
@@ -36,6 +31,7 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
       s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),
       followsSpecular = site.dialect == Dialect.V4,
       goesBeneath = goesBeneath,
+      lights = lightStrategy(),
       throughMedia = Option.when(name == "volpath")((scene, media) =>
         VolumePathTracer(scene, media, depth, patience, threshold(), seesThrough, widens)
       ),
