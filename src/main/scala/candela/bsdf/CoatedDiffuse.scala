@@ -35,9 +35,10 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
         val o = Hemisphere.above(wo)
         val i = Hemisphere.above(wi)
         val m = (o + i).normalized
-        val reflected =
-          Fresnel.dielectric(o dot m, eta) * top.d(m) * top.visibility(o, i, m)
-        under + Rgb.gray(reflected)
+        val cosM = o dot m
+        // As in MicrofacetReflection
+        if cosM <= 0f then under
+        else under + Rgb.gray(Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
 
   /** The probability of sampling the outer side: its share of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =

@@ -23,8 +23,12 @@ final class MicrofacetReflection(
       val i = Hemisphere.above(wi)
       val m = (o + i).normalized
       val cosM = o dot m
-      val value = distribution.d(m) * distribution.visibility(o, i, m)
-      scale * curve(oriented(cosM, wo)) * value
+      // Both nearly level and opposite: rounding has put the facet's normal beside them, and no
+      // such direction is drawn either
+      if cosM <= 0f then Rgb.Black
+      else
+        val value = distribution.d(m) * distribution.visibility(o, i, m)
+        scale * curve(oriented(cosM, wo)) * value
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     if !Hemisphere.same(wo, wi) then 0f
