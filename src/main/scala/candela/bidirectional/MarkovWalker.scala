@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.geometry.Ray
+import candela.cameras.CameraRays
 import candela.integrators.{ChainWalker, View}
 
 /** Takes chains on by the rule of Metropolis et al. ("Equation of State Calculations by Fast
@@ -19,12 +19,7 @@ private[bidirectional] final class MarkovWalker(
 ) extends ChainWalker:
   private var proposed = Contribution(view)
   private val camera = view.camera
-  private val weighs = camera.weighs
-  private val moves = view.shutter.isDefined
-  private val shutter = view.shutter.getOrElse(candela.cameras.Shutter(0f, 0f))
-  private val scale = view.differentialScale
-  private val ray = Ray()
-  private val scratch = Ray()
+  private val rays = CameraRays(camera, view.shutter, view.differentialScale)
 
   /** Camera paths are chosen on a part of the film, or on more than the film. */
   private val share =
@@ -83,15 +78,9 @@ private[bidirectional] final class MarkovWalker(
     s.next2D()
     filmX = view.x0 + s.x * (view.x1 - view.x0)
     filmY = view.y0 + s.y * (view.y1 - view.y0)
-    s.next2D()
-    if moves then
-      ray.time = shutter.at(s.next1D())
-      scratch.time = ray.time
-    camera.generate(filmX, filmY, s.x, s.y, ray)
-    val weight = if weighs then ray.weight else 1f
+    val weight = rays.next(filmX, filmY, s)
     if weight > 0f then
-      if scale > 0f then camera.differential(filmX, filmY, s.x, s.y, scale, ray, scratch)
       paths.aim(camera, out)
-      val light = paths.radiance(ray, samples.light, samples.joins, s)
+      val light = paths.radiance(rays.ray, samples.light, samples.joins, s)
       if light.isFinite then out.add(filmX, filmY, light * (weight * share))
       else refused += 1

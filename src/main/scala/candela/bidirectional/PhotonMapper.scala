@@ -82,13 +82,13 @@ final class PhotonMapper private (
           if !vertex.bsdf.isSpecular then
             light += throughput * anyLight(vertex.bsdf, vertex.wo, sampler)
             light += throughput * photons.gather(vertex, Sharp)
-          val bounce = drawn(vertex.bsdf, vertex.local, sampler)
+          draw(vertex.bsdf, vertex.local, sampler)
           val wi = at.frame.toWorld(bounce.wi)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           keepPlace()
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, vertex.wo, wi, bounce)
+          scene.scattered(ray, at, vertex.wo, wi, bounce.isSpecular, bounce.eta)
           alive = !throughput.isBlack &&
             (bounce.isSpecular || (bounce.pdf > Sharp && vertex.isOpen(wi)))
     light

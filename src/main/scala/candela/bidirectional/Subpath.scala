@@ -39,7 +39,7 @@ private[bidirectional] final class Subpath(
       if bounce.isSpecular then weights.turnSpecular(cosine)
       else weights.turn(cosine, bounce.pdf, vertex.bsdf.pdf(bounce.wi, vertex.local))
       ray.set(vertex.at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-      scene.scattered(ray, vertex.at, vertex.wo, wi, bounce)
+      scene.scattered(ray, vertex.at, vertex.wo, wi, bounce.isSpecular, bounce.eta)
       cosine > 0f && !throughput.isBlack && survives(vertex.edges, kept.largest, sampler)
 
   /** For shading normals, as in [[PathVertex.sentCosine]]. */

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.{Bounce, Bsdf, BsdfSample}
+import candela.bsdf.{Bounce, Bsdf}
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, LightChoice, LightSample}
@@ -157,12 +157,6 @@ abstract class LightTransport(
     val choice = sampler.next1D()
     sampler.next2D()
     bsdf.draw(wo, choice, sampler.x, sampler.y, bounce)
-
-  /** A direction drawn from a BSDF. */
-  protected final def drawn(bsdf: Bsdf, wo: Vec3, sampler: Sampler): BsdfSample =
-    val choice = sampler.next1D()
-    sampler.next2D()
-    bsdf.sample(wo, choice, sampler.x, sampler.y)
 
   /** Weight of a light sample of density `pdf` where BSDF sampling finds this light, too. */
   protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =

@@ -50,14 +50,14 @@ final class PathThroughVolumes(
           sampler.next2D()
           if !bsdf.isSpecular && scene.lights.length > 0 then
             light += throughput * oneLight(choice, bsdf, wo, sampler)
-          val bounce = drawn(bsdf, at.frame.toLocal(wo), sampler)
+          draw(bsdf, at.frame.toLocal(wo), sampler)
           throughput = throughput * bounce.weight
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           keepPlace()
           etaScale *= square(bounce.eta)
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, wo, wi, bounce)
+          scene.scattered(ray, at, wo, wi, bounce.isSpecular, bounce.eta)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
             throughput = throughput *

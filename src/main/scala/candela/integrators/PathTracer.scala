@@ -57,7 +57,7 @@ final class PathTracer(
       else
         scene.surface(ray, hit, at)
         wo.become(-ray.direction)
-        if at.areaLight >= 0 then light.become(light + metLight(throughput, wo, lastPdf))
+        light.become(light + metLight(throughput, wo, lastPdf))
         if depth == maxDepth then alive = false
         else if scene.isInterface(at) then
           ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)

@@ -61,5 +61,5 @@ abstract class SpecularWalk(scene: Scene, maxDepth: Int, volumes: VolumeMarch | 
             alive = !throughput.isBlack
             val wi = at.frame.toWorld(bounce.wi)
             ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-            scene.scattered(ray, at, wo, wi, bounce)
+            scene.scattered(ray, at, wo, wi, bounce.isSpecular, bounce.eta)
     light

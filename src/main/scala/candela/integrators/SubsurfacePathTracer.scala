@@ -63,7 +63,7 @@ final class SubsurfacePathTracer(
           atBoundary = scene.isSubsurface(at.material)
           light += throughput * anyLight(bsdf, wo, sampler)
           var local = at.frame.toLocal(wo)
-          var bounce = drawn(bsdf, local, sampler)
+          draw(bsdf, local, sampler)
           throughput = throughput * bounce.weight
           val inside = if local.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
           if inside == null then etaScale *= square(bounce.eta)
@@ -76,14 +76,14 @@ final class SubsurfacePathTracer(
               wo = at.frame.n
               local = Vec3.Z
               light += throughput * anyLight(bsdf, wo, sampler)
-              bounce = drawn(bsdf, local, sampler)
+              draw(bsdf, local, sampler)
               throughput = throughput * bounce.weight
           isSpread ||= regularizes && !bounce.isSpecular
           lastPdf = if bounce.isSpecular then 0f else bounce.pdf
           keepPlace()
           val wi = at.frame.toWorld(bounce.wi)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, wo, wi, bounce)
+          scene.scattered(ray, at, wo, wi, bounce.isSpecular, bounce.eta)
           alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
           if alive && depth > rouletteAfter then
             throughput = throughput *

@@ -39,8 +39,6 @@ final class VolumePathTracer(
   /** Is the point that is being lit a surface beneath which light travels? */
   private var atBoundary = false
 
-  // Where the last direction was chosen, for the density with which light sampling would have
-
   protected def over(scene: Scene): VolumePathTracer =
     VolumePathTracer(scene, media, maxDepth, rouletteAfter, rouletteThreshold, seesThrough,
       regularizes)
@@ -96,7 +94,7 @@ final class VolumePathTracer(
           atBoundary = scene.isSubsurface(at.material)
           light += lightOnSurface(bsdf, towards, medium, sampler)
           var local = at.frame.toLocal(towards)
-          var bounce = drawn(bsdf, local, sampler)
+          draw(bsdf, local, sampler)
           weights.scale(bounce.weight)
           val inside = if local.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
           if inside == null then etaScale *= square(bounce.eta)
@@ -109,7 +107,7 @@ final class VolumePathTracer(
               towards = at.frame.n
               local = Vec3.Z
               light += lightOnSurface(bsdf, towards, medium, sampler)
-              bounce = drawn(bsdf, local, sampler)
+              draw(bsdf, local, sampler)
               weights.scale(bounce.weight)
           isSpread ||= regularizes && !bounce.isSpecular
           weights.turn(if bounce.isSpecular then 0f else bounce.pdf)
@@ -117,7 +115,7 @@ final class VolumePathTracer(
           val wi = at.frame.toWorld(bounce.wi)
           medium = media.beyond(at, wi, medium)
           ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, towards, wi, bounce)
+          scene.scattered(ray, at, towards, wi, bounce.isSpecular, bounce.eta)
           val goesOn = bounce.isSpecular || isOpenSide(wi, towards, bsdf)
           alive = goesOn && survives(depth, etaScale, sampler)
     light + Rgb(work.glowR, work.glowG, work.glowB)

@@ -1,9 +1,8 @@
 package candela.render
 
-import candela.cameras.Shutter
+import candela.cameras.{CameraRays, Shutter}
 import candela.color.Rgb
 import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
-import candela.geometry.Ray
 import candela.integrators.{Splatting, Stepping, SurfaceProbe}
 import candela.scene.PathReport
 
@@ -27,10 +26,8 @@ private[render] final class TileWorker(
   private val stepping: Stepping | Null = integrator match
     case i: Stepping => i
     case _ => null
-  private val ray = Ray()
-  private val scratch = Ray()
-  private val hasDifferentials = plan.differentialScale > 0f
-  private val moves = plan.shutter.isDefined
+  private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
+  private val ray = rays.ray
   private val weighs = camera.weighs
   private val weighsLast = weighs && !plan.weighsFirst
   private val limit: SampleLimit | Null = plan.limit.orNull
@@ -82,21 +79,13 @@ private[render] final class TileWorker(
     sampler.start(x, y, sample)
     sampler.next2D()
     filterSampler.sample(sampler.x, sampler.y)
-    sampler.next2D()
     val filmX = x + 0.5f + filterSampler.dx
     val filmY = y + 0.5f + filterSampler.dy
-    if moves then
-      ray.time = shutter.at(sampler.next1D()) // leaves x and y as they are
-      scratch.time = ray.time
-    camera.generate(filmX, filmY, sampler.x, sampler.y, ray)
-    val weight = if weighs then ray.weight else 1f
+    val weight = rays.next(filmX, filmY, sampler)
     if weight == 0f then
       film.add(x, y, 0f, 0f, 0f, filterSampler.weight)
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
-      if hasDifferentials then
-        val scale = plan.differentialScale
-        camera.differential(filmX, filmY, sampler.x, sampler.y, scale, ray, scratch)
       if probe != null then probe.look(ray)
       if stepping != null then stepping.step(sample, plan.crop.pixels, shutter)
       val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))

@@ -1,7 +1,7 @@
 package candela.scene
 
 import candela.accel.Accelerator
-import candela.bsdf.{Bsdf, BsdfSample, Bssrdf, InterfaceMaterial, Material}
+import candela.bsdf.{Bsdf, Bssrdf, InterfaceMaterial, Material}
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
 import candela.math.Vec3
@@ -71,9 +71,6 @@ final class Scene(
   def newPoint(): ShadingPoint = ShadingPoint(wantsPartials = hasFootprints)
 
   /** Tells a ray that was just set on its way from `at` what became of its neighbours. */
-  def scattered(ray: Ray, at: ShadingPoint, wo: Vec3, wi: Vec3, sample: BsdfSample): Unit =
-    scattered(ray, at, wo, wi, sample.isSpecular, sample.eta)
-
   def scattered(
       ray: Ray,
       at: ShadingPoint,

@@ -1,8 +1,8 @@
 package candela.bench
 
 import candela.build.{BuildOptions, SceneBuilder}
+import candela.cameras.CameraRays
 import candela.film.FilterSampler
-import candela.geometry.Ray
 import candela.render.RenderPlan
 import candela.scenefile.Parser
 
@@ -36,8 +36,7 @@ object Garbage:
     private val sampler = plan.sampler.copy()
     private val integrator = plan.integrator.copy()
     private val filter = new FilterSampler(plan.filter)
-    private val ray = Ray()
-    private val scratch = Ray()
+    private val rays = CameraRays(plan.camera, plan.shutter, plan.differentialScale)
     private var sum = 0.0 // so that nothing is left out as unused
 
     def take(sample: Int): Unit =
@@ -53,14 +52,8 @@ object Garbage:
       sampler.start(x, y, sample)
       sampler.next2D()
       filter.sample(sampler.x, sampler.y)
-      sampler.next2D()
-      val fx = x + 0.5f + filter.dx
-      val fy = y + 0.5f + filter.dy
-      plan.camera.generate(fx, fy, sampler.x, sampler.y, ray)
-      if plan.differentialScale > 0f then
-        val scale = plan.differentialScale
-        plan.camera.differential(fx, fy, sampler.x, sampler.y, scale, ray, scratch)
-      sum += integrator.radiance(ray, sampler).average
+      if rays.next(x + 0.5f + filter.dx, y + 0.5f + filter.dy, sampler) != 0f then
+        sum += integrator.radiance(rays.ray, sampler).average
 
   private def allocated(): Long =
     ManagementFactory.getThreadMXBean match
