@@ -37,11 +37,11 @@ object Hierarchies:
 
   private inline val MaxLeaf = 4
 
-  /** Vectors cost about 0.9 s until they are compiled, and then half as much a ray as scalars: the
-    * time that scalars take for this many rays, so that at worst a rendering takes that much longer
-    * (docs/decisions/0010-ray-kernels.md).
+  /** Until vectors are compiled they cost about half a second of a thread that tries them and of the
+    * compiler, and then half as much a ray as scalars: about the time that scalars take for this
+    * many rays of each thread and kind (docs/decisions/0010-ray-kernels.md).
     */
-  private inline val Patience = 250000
+  private inline val Patience = 100000
 
   /** A tree of fewer has too few nodes for vectors to make up for being compiled: a room of 36
     * triangles took 2.4 s more of processor time for 4 million samples.
