@@ -37,9 +37,9 @@ object Hierarchies:
 
   private inline val MaxLeaf = 4
 
-  /** Until vectors are compiled they cost about half a second of a thread that tries them and of the
-    * compiler, and then half as much a ray as scalars: about the time that scalars take for this
-    * many rays of each thread and kind (docs/decisions/0010-ray-kernels.md).
+  /** Until vectors are compiled they cost about half a second of a thread that tries them and of
+    * the compiler, and then half as much a ray as scalars: about the time that scalars take for
+    * this many rays of each thread and kind (docs/decisions/0010-ray-kernels.md).
     */
   private inline val Patience = 100000
 

@@ -2,8 +2,8 @@ package candela.accel
 
 import java.util.concurrent.atomic.AtomicBoolean
 
-/** When walks by a kernel that is slow until the JVM has compiled it begin to pay: as soon as it has
-  * been seen to be faster than the scalar one, on the same rays.
+/** When walks by a kernel that is slow until the JVM has compiled it begin to pay: as soon as it
+  * has been seen to be faster than the scalar one, on the same rays.
   *
   * Code with vectors takes a hundred times as long before. So one thread at a time tries it, a
   * [[WarmUp.Batch]] of rays by both kernels, while the others walk on with scalars. The first
@@ -22,7 +22,7 @@ private[accel] final class WarmUp:
   private var tries = 0
   private var scalarNanos, fastNanos = 0L
 
-  /** Walks until the next try: written by all threads without order, as it is only about how many. */
+  /** Walks until the next try: written by all threads without order, as many or few more do. */
   private var pause = 0
 
   /** Is it the caller's turn? Then it has to [[tell]]. */
