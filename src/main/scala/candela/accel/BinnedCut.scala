@@ -11,34 +11,33 @@ package candela.accel
   */
 private[accel] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Array[Byte]])
     extends Cut:
-  private var best = Sweep(Bins.Count)
-  private var trial = Sweep(Bins.Count)
-  protected val bins: Bins = Bins()
-  private val lows = new Array[Float](3)
-  private val scales = new Array[Float](3)
+  private var best = Slabs()
+  private var trial = Slabs()
   private var axis = 0
 
-  protected def sweep: Sweep = best
+  protected def sweep: Sweep = best.sweep
 
   def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
     levels.tighten(depth)
     attemptWidest(first, end, levels, depth)
-    if best.cost == Float.PositiveInfinity then
+    if best.sweep.cost == Float.PositiveInfinity then
       // All centres may be in one bin of a range that was taken too wide
       levels.measure(depth, records, first, end)
       attemptWidest(first, end, levels, depth)
     val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
-    if best.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
+    if best.sweep.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
       val widest = axis
+      val step = (end - first) / BinnedCut.Sample
+      val least = if step > 1 then sampled(first, end, widest, step, levels, depth) else 0f
       var k = 0
       while k < 3 do
-        if k != widest then
+        if k != widest && (step <= 1 || sampled(first, end, k, step, levels, depth) < least) then
           attempt(first, end, k, levels, depth)
-          if trial.cost < best.cost then
+          if trial.sweep.cost < best.sweep.cost then
             swap()
             axis = k
         k += 1
-    best.cost < Float.PositiveInfinity
+    best.sweep.cost < Float.PositiveInfinity
 
   private def attemptWidest(first: Int, end: Int, levels: Levels, depth: Int): Unit =
     axis = levels.widest(depth)
@@ -53,21 +52,39 @@ private[accel] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Arr
   private def attempt(first: Int, end: Int, axis: Int, levels: Levels, depth: Int): Unit =
     val low = levels.low(depth, axis)
     val scale = Bins.Count / levels.extent(depth, axis)
-    trial.cost = Float.PositiveInfinity
+    trial.low = low
+    trial.scale = scale
+    trial.sweep.cost = Float.PositiveInfinity
     // A point, or one so small that its inverse overflows, has no slabs; nor has infinity
     if scale > 0f && scale < Float.PositiveInfinity then
-      fill(first, end, axis, low, scale)
-      trial.run(bins.boxes, bins.counts, Bins.Count, end - first, shift)
+      val bins = trial.bins
+      fill(bins, first, end, axis, low, scale)
+      trial.sweep.run(Bins.Count, end - first, shift)
       levels.clip(depth, axis, low + bins.firstUsed / scale, low + (bins.lastUsed + 1) / scale)
-      lows(axis) = low
-      scales(axis) = scale
+
+  /** What a cut across that axis costs if every `step`th record is looked at. */
+  private def sampled(
+      first: Int,
+      end: Int,
+      axis: Int,
+      step: Int,
+      levels: Levels,
+      depth: Int
+  ): Float =
+    val low = levels.low(depth, axis)
+    val scale = Bins.Count / levels.extent(depth, axis)
+    if scale > 0f && scale < Float.PositiveInfinity then
+      trial.bins.sample(records, first, end, step, axis, low, scale)
+      trial.sweep.run(Bins.Count, (end - first + step - 1) / step, shift)
+      trial.sweep.cost
+    else Float.PositiveInfinity
 
   /** Fills the bins. */
-  protected def fill(first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =
+  protected def fill(bins: Bins, first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =
     bins.fill(records, binOf(axis), first, end, axis, low, scale)
 
   def divide(first: Int, end: Int): Unit =
-    partition(binOf(axis), best.cut, first, first + best.left, end)
+    partition(binOf(axis), best.sweep.cut, first, first + best.sweep.left, end)
 
   /** Exchanges the records left of `middle` that belong to its right with those right of it that
     * belong to its left: the first with the first, and so on.
@@ -78,8 +95,21 @@ private[accel] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Arr
   private val partitioner = Partitioner(records)
 
   protected def narrow(levels: Levels, depth: Int): Unit =
-    levels.part(depth, axis, lows(axis) + (best.cut + 1) / scales(axis))
+    levels.part(depth, axis, best.low + (best.sweep.cut + 1) / best.scale)
+
+/** The slabs of one attempt, and the best cut between them.
+  *
+  * `low` is where the first one begins, in twice the coordinate, `scale` slabs per unit of that.
+  */
+private[accel] final class Slabs:
+  val bins: Bins = Bins()
+  val sweep: Sweep = Sweep(bins.boxes, bins.counts)
+  var low = 0f
+  var scale = 0f
 
 private[accel] object BinnedCut:
   /** Of the cost of a node that isn't divided: a cut in half through a plane mesh leaves 0.5. */
   inline val Poor = 0.6f
+
+  /** Of more records than twice this, so many are looked at to choose between axes. */
+  inline val Sample = 512

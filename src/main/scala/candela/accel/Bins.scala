@@ -23,18 +23,73 @@ private[accel] final class Bins:
       low: Float,
       scale: Float
   ): Unit =
-    val boxes = this.boxes
-    val counts = this.counts
     clear()
+    // A few at a time: first where they are, then their boxes, while they are still at hand
+    val isLong = end - first >= Bins.Long
+    var from = first
+    while from < end do
+      val until = Math.min(end, from + Bins.Chunk)
+      place(records, binOf, from, until, axis, low, scale)
+      if isLong then growRarely(records, binOf, from, until)
+      else grow(records, binOf, from, until)
+      from = until
+
+  /** Fills them with every `step`th record. */
+  def sample(
+      records: Array[Int],
+      first: Int,
+      end: Int,
+      step: Int,
+      axis: Int,
+      low: Float,
+      scale: Float
+  ): Unit =
+    clear()
+    var i = first
+    while i < end do
+      val at = i * BoxRecord.Ints
+      val bin = Bins.place(BoxRecord.middle(records, at, axis), low, scale)
+      counts(bin) += 1
+      BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, at)
+      i += step
+
+  private def place(
+      records: Array[Int],
+      binOf: Array[Byte],
+      first: Int,
+      end: Int,
+      axis: Int,
+      low: Float,
+      scale: Float
+  ): Unit =
     var i = first
     var at = first * BoxRecord.Ints
     while i < end do
-      val place = ((BoxRecord.middle(records, at, axis) - low) * scale).toInt
-      // Rounding may place the outermost just outside
-      val bin = Math.max(0, Math.min(place, Bins.Count - 1))
-      binOf(i) = bin.toByte
+      binOf(i) = Bins.place(BoxRecord.middle(records, at, axis), low, scale).toByte
+      i += 1
+      at += BoxRecord.Ints
+
+  private def grow(records: Array[Int], binOf: Array[Byte], first: Int, end: Int): Unit =
+    val boxes = this.boxes
+    val counts = this.counts
+    var i = first
+    var at = first * BoxRecord.Ints
+    while i < end do
+      val bin = binOf(i)
       counts(bin) += 1
       BoxRecord.grow(boxes, bin * BoxRecord.Ints, records, at)
+      i += 1
+      at += BoxRecord.Ints
+
+  private def growRarely(records: Array[Int], binOf: Array[Byte], first: Int, end: Int): Unit =
+    val boxes = this.boxes
+    val counts = this.counts
+    var i = first
+    var at = first * BoxRecord.Ints
+    while i < end do
+      val bin = binOf(i)
+      counts(bin) += 1
+      BoxRecord.growRarely(boxes, bin * BoxRecord.Ints, records, at)
       i += 1
       at += BoxRecord.Ints
 
@@ -63,3 +118,12 @@ private[accel] final class Bins:
 
 private[accel] object Bins:
   inline val Count = 16
+
+  private inline val Chunk = 64
+
+  /** So many records fill the bins' boxes soon, which then hardly grow. */
+  private inline val Long = 2048
+
+  /** Rounding may place the outermost just outside. */
+  inline def place(middle: Float, low: Float, scale: Float): Int =
+    Math.max(0, Math.min(((middle - low) * scale).toInt, Count - 1))

@@ -10,12 +10,12 @@ private[accel] final class IntBuffer(capacity: Int):
     all(length) = x
     length += 1
 
-  def toArray: Array[Int] = java.util.Arrays.copyOf(all, length)
+  def copyTo(to: Array[Int], at: Int): Unit = System.arraycopy(all, 0, to, at, length)
 
 /** Floats one after the other. */
 private[accel] final class FloatBuffer(capacity: Int):
   private var all = new Array[Float](Math.max(16, capacity))
-  private var length = 0
+  var length = 0
 
   /** Makes room for `n` more and answers where they are. */
   def grow(n: Int): Int =
@@ -30,7 +30,7 @@ private[accel] final class FloatBuffer(capacity: Int):
   /** The array itself, until the next call of `grow`. */
   def floats: Array[Float] = all
 
-  def toArray: Array[Float] = java.util.Arrays.copyOf(all, length)
+  def copyTo(to: Array[Float], at: Int): Unit = System.arraycopy(all, 0, to, at, length)
 
 private[accel] object FloatBuffer:
   /** Half as much again, as long as arrays can be. */

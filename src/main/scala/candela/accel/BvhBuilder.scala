@@ -20,6 +20,38 @@ private[accel] final class BvhBuilder private (
 ):
   def nodeCount: Int = nodes.length / BvhBuilder.NodeFloats
 
+  /** Subtrees of at most so many primitives are one thread's work. */
+  def partSize: Int = BvhBuilder.partSize(order.length)
+
+  private def bits(at: Int): Int = java.lang.Float.floatToRawIntBits(nodes(at))
+  def child(node: Int, side: Int): Int = bits(node + 12 + side)
+  def leafSize(node: Int, side: Int): Int = bits(node + 14 + side)
+
+  /** Slots of `order` from here on are in the subtree. */
+  def firstSlot(node: Int): Int =
+    val left = child(node, 0)
+    if left < 0 then ~left else firstSlot(left)
+
+  def endSlot(node: Int): Int =
+    val right = child(node, 1)
+    if right < 0 then ~right + leafSize(node, 1) else endSlot(right)
+
+  /** How many primitives are in the subtree. */
+  def count(node: Int): Int = endSlot(node) - firstSlot(node)
+
+  /** Half the surface of the box that begins there in `nodes`. */
+  def area(at: Int): Float =
+    val x = nodes(at + 3) - nodes(at)
+    val y = nodes(at + 4) - nodes(at + 1)
+    val z = nodes(at + 5) - nodes(at + 2)
+    x * y + y * z + z * x
+
+  def rootArea: Float =
+    def side(k: Int) =
+      Math.max(nodes(root + 3 + k), nodes(root + 9 + k)) -
+        Math.min(nodes(root + k), nodes(root + 6 + k))
+    side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
+
 /** Builds hierarchies top-down by the surface area heuristic; [[Cut]] says how a range of
   * primitives is divided.
   *
@@ -43,6 +75,8 @@ private[accel] object BvhBuilder:
     */
   private val LeastDeferred = 1 << 15
   private val DeferredParts = 64
+
+  private def partSize(count: Int): Int = Math.max(LeastDeferred, count / DeferredParts)
 
   /** @param bounds six Floats a primitive */
   def apply(bounds: Array[Float], maxLeaf: Int, parallel: Parallel = Parallel.Alone): BvhBuilder =
@@ -74,7 +108,7 @@ private[accel] object BvhBuilder:
     val bounds = boundsOf(levels.boxes)
     val binOf = Array.fill(3)(new Array[Byte](count))
     val together = SharedCut(records, size.shift, binOf, parallel)
-    val deferred = Math.max(LeastDeferred, count / DeferredParts)
+    val deferred = partSize(count)
     val top = SubtreeBuilder(records, together, levels, size, deferred)
     val topRoot = top.build(0, count, 0)
     val topSize = top.leafSize
@@ -99,11 +133,7 @@ private[accel] object BvhBuilder:
     BoxRecord.clear(to, 0)
     parallel.ranges(records.length / BoxRecord.Ints): (from, until) =>
       val box = new Array[Int](BoxRecord.Ints)
-      BoxRecord.clear(box, 0)
-      var i = from
-      while i < until do
-        BoxRecord.grow(box, 0, records, i * BoxRecord.Ints)
-        i += 1
+      BoxRecord.uniteInto(box, 0, records, from, until)
       to.synchronized(BoxRecord.grow(to, 0, box, 0))
 
   private def boundsOf(box: Array[Int]): Bounds3 =

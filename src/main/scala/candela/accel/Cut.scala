@@ -37,10 +37,9 @@ private[accel] abstract class Cut:
 private[accel] final class FewCut(records: Array[Int], shift: Int) extends Cut:
   import FewCut.Most
 
-  protected val sweep: Sweep = Sweep(Most)
   private val keys = new Array[Long](Most)
   private val sorted = new Array[Int](BoxRecord.Ints * Most)
-  private val ones = Array.fill(Most)(1)
+  protected val sweep: Sweep = Sweep(sorted, Array.fill(Most)(1))
 
   def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
     val n = end - first
@@ -61,7 +60,7 @@ private[accel] final class FewCut(records: Array[Int], shift: Int) extends Cut:
       val from = (first + keys(i).toInt) * BoxRecord.Ints
       BoxRecord.copy(records, from, sorted, i * BoxRecord.Ints)
       i += 1
-    sweep.run(sorted, ones, n, n, shift)
+    sweep.run(n, n, shift)
     // Of boxes without an area all cuts are as good; halves are as good and shallow
     sweep.cost > 0f && sweep.cost < Float.PositiveInfinity
 

@@ -10,7 +10,14 @@ private[accel] final class SharedCut(
     parallel: Parallel
 ) extends BinnedCut(records, shift, binOf):
 
-  override protected def fill(first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =
+  override protected def fill(
+      bins: Bins,
+      first: Int,
+      end: Int,
+      axis: Int,
+      low: Float,
+      scale: Float
+  ): Unit =
     bins.clear()
     parallel.ranges(end - first): (from, until) =>
       val some = Bins()

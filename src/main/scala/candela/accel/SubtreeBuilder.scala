@@ -82,11 +82,7 @@ private[accel] final class SubtreeBuilder(
   private def half(node: Int, side: Int, first: Int, end: Int, depth: Int): Unit =
     levels.descend(depth)
     val at = (depth + 1) * BoxRecord.Ints
-    BoxRecord.clear(levels.boxes, at)
-    var i = first
-    while i < end do
-      BoxRecord.grow(levels.boxes, at, records, i * BoxRecord.Ints)
-      i += 1
+    BoxRecord.uniteInto(levels.boxes, at, records, first, end)
     BoxRecord.read(levels.boxes, at, nodes, node + 6 * side)
     setChild(node, side, build(first, end, depth + 1))
 

@@ -4,15 +4,17 @@ package candela.accel
   * Goldsmith and Salmon, "Automatic Creation of Object Hierarchies", CG&A 7(5), 1987.
   *
   * The union so far is in local variables: in an array each step would wait for the last one's
-  * writing.
+  * writing. Both parts' boxes are made when they are asked for, as few of the cuts are taken.
   *
-  * @param most items
+  * @param items   their boxes: see [[BoxRecord]]
+  * @param weights of the items
   */
-private[accel] final class Sweep(most: Int):
-  /** The union of each item's box with all before it, and with all after it. */
-  private val upTo = new Array[Int](BoxRecord.Ints * most)
-  private val from = new Array[Int](BoxRecord.Ints * most)
-  private val areas = new Array[Float](most)
+private[accel] final class Sweep(items: Array[Int], weights: Array[Int]):
+  /** Half the area of the union of each item with all after it. */
+  private val areas = new Array[Float](weights.length)
+
+  /** How many items there are. */
+  private var length = 0
 
   /** Σ half area · blocks of both parts; infinite if there is no cut. */
   var cost: Float = Float.PositiveInfinity
@@ -21,22 +23,23 @@ private[accel] final class Sweep(most: Int):
   var cut = 0
   var left = 0
 
-  def leftBox(to: Array[Int], at: Int): Unit =
-    BoxRecord.copy(upTo, cut * BoxRecord.Ints, to, at)
+  def leftBox(to: Array[Int], at: Int): Unit = union(0, cut + 1, to, at)
+  def rightBox(to: Array[Int], at: Int): Unit = union(cut + 1, length, to, at)
 
-  def rightBox(to: Array[Int], at: Int): Unit =
-    BoxRecord.copy(from, (cut + 1) * BoxRecord.Ints, to, at)
+  private def union(first: Int, end: Int, to: Array[Int], at: Int): Unit =
+    BoxRecord.uniteInto(to, at, items, first, end)
 
-  /** Looks at the boxes of `n` items, which weigh `total` together.
+  /** Looks at the first `n` items, which weigh `total` together.
     *
     * @param shift weights are paid for in blocks of 1 << shift, begun ones as whole ones
     */
-  def run(items: Array[Int], weights: Array[Int], n: Int, total: Int, shift: Int): Unit =
-    backwards(items, n)
-    forwards(items, weights, n, total, shift)
+  def run(n: Int, total: Int, shift: Int): Unit =
+    length = n
+    backwards(n)
+    forwards(n, total, shift)
 
-  private def backwards(items: Array[Int], n: Int): Unit =
-    val from = this.from
+  private def backwards(n: Int): Unit =
+    val items = this.items
     val areas = this.areas
     var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.Least
     var i = n - 1
@@ -48,21 +51,16 @@ private[accel] final class Sweep(most: Int):
       highX = Math.max(highX, items(at + 4))
       highY = Math.max(highY, items(at + 5))
       highZ = Math.max(highZ, items(at + 6))
-      BoxRecord.set(from, at, lowX, lowY, lowZ, highX, highY, highZ)
       areas(i) = BoxRecord.halfArea(lowX, lowY, lowZ, highX, highY, highZ)
       i -= 1
 
-  private def forwards(
-      items: Array[Int],
-      weights: Array[Int],
-      n: Int,
-      total: Int,
-      shift: Int
-  ): Unit =
-    val upTo = this.upTo
+  private def forwards(n: Int, total: Int, shift: Int): Unit =
+    val items = this.items
+    val weights = this.weights
     val areas = this.areas
     var lowX, lowY, lowZ, highX, highY, highZ = BoxRecord.Least
     var bestCost = Float.PositiveInfinity
+    var bestCut, bestLeft = 0
     var weight = 0
     var i = 0
     while i < n - 1 do
@@ -73,7 +71,6 @@ private[accel] final class Sweep(most: Int):
       highX = Math.max(highX, items(at + 4))
       highY = Math.max(highY, items(at + 5))
       highZ = Math.max(highZ, items(at + 6))
-      BoxRecord.set(upTo, at, lowX, lowY, lowZ, highX, highY, highZ)
       weight += weights(i)
       if weight > 0 && weight < total then
         val here =
@@ -81,10 +78,12 @@ private[accel] final class Sweep(most: Int):
             areas(i + 1) * Sweep.blocks(total - weight, shift)
         if here < bestCost then
           bestCost = here
-          cut = i
-          left = weight
+          bestCut = i
+          bestLeft = weight
       i += 1
     cost = bestCost
+    cut = bestCut
+    left = bestLeft
 
 private[accel] object Sweep:
   inline def blocks(weight: Int, shift: Int): Int = (weight + (1 << shift) - 1) >> shift

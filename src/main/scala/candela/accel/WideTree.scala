@@ -47,25 +47,16 @@ private[accel] object WideTree:
   ): WideTree =
     val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
     val built = BvhBuilder.of(primitives, size, parallel)
-    val wide = WideBuilder(
-      width,
-      lanes,
-      built.nodes,
-      built.nodeCount,
-      built.order,
-      built.root,
-      built.rootCount,
-      primitives.isSolidTriangle
-    )
+    val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
     WideTree(
       width,
       lanes,
       primitives.count,
       built.bounds,
-      wide.wideNodes,
+      wide.nodes,
       wide.rootCode,
-      blocks(primitives.soup, wide.owners.toArray, lanes, parallel),
-      primitives.packed(wide.others.toArray, parallel)
+      blocks(primitives.soup, wide.owners, lanes, parallel),
+      primitives.packed(wide.others, parallel)
     )
 
   private def blocks(

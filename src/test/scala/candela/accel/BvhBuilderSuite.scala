@@ -3,7 +3,7 @@ package candela.accel
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{loop, Parallel}
-import candela.geometry.Bounds3
+import candela.geometry.{Bounds3, Hit, Ray}
 import candela.math.*
 import candela.render.Crew
 import candela.testing.{Draws, Soups}
@@ -127,6 +127,30 @@ class BvhBuilderSuite extends AnyFunSuite:
           alone.rootCount,
           alone.bounds
         ))
+
+  test("the wide tree is the same for any number of threads"):
+    val draws = Draws(10)
+    val spheres = Soups.shapes(draws, 40_000, 1e-3f)(draws.vec(-1, 1)).toArray
+    val mixed = Primitives(torus(200).soup, spheres)
+    for primitives <- Seq(torus(240), mixed); (width, lanes) <- Seq((16, 8), (4, 4)) do
+      def build(parallel: Parallel) = WideTree.of(primitives, width, lanes, 4, parallel)
+      val alone = build(Parallel.Alone)
+      assert(alone.count > 65536)
+      for parallel <- Seq(Crew(2), Crew(7), Backwards) do
+        val other = build(parallel)
+        assert(other.root == alone.root)
+        assert(other.nodes.map(bits).sameElements(alone.nodes.map(bits)))
+        assert(other.blocks.map(bits).sameElements(alone.blocks.map(bits)))
+      val wide = Hierarchies.scalar(primitives, width, Crew(3))
+      val (ray, hit) = (Ray(), Hit())
+      val reference = Bvh(primitives)
+      loop(3000): _ =>
+        val (from, to) = (draws.vec(-2, 2), draws.vec(-1, 1))
+        ray.set(from, to - from, Float.PositiveInfinity)
+        val found = reference.closest(ray, hit)
+        val (primitive, t) = (hit.primitive, ray.tMax)
+        ray.set(from, to - from, Float.PositiveInfinity)
+        assert(wide.closest(ray, hit) == found && hit.primitive == primitive && ray.tMax == t): Unit
 
   test("infinite and undefined boxes do no harm"):
     for odd <- Seq(Float.PositiveInfinity, Float.NegativeInfinity, Float.NaN, Float.MaxValue) do

@@ -150,10 +150,9 @@ class KernelSuite extends AnyFunSuite:
     for (scene, primitives) <- scenes; (width, lanes) <- Seq((4, 4), (8, 8), (16, 8), (16, 16)) do
       val size = LeafSize(4, lanes, primitives.isSolidTriangle)
       val built = BvhBuilder.of(primitives, size, Parallel.Alone)
-      val wide = WideBuilder(width, lanes, built.nodes, built.nodeCount, built.order, built.root,
-        built.rootCount, primitives.isSolidTriangle)
+      val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, Parallel.Alone)
       assert(wide.stackNeed <= Ray.StackSize, scene)
-      val owners = wide.owners.toArray.filter(_ >= 0)
+      val owners = wide.owners.filter(_ >= 0)
       assert(owners.sorted.sameElements(Array.range(0, primitives.count)), scene)
 
   test("blocks of a mesh's triangles are nearly full"):
