@@ -3,8 +3,8 @@ package candela.build
 import candela.base.{Parallel, Problem, SceneError, Severity}
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
-import candela.film.{Layer, SpectralBands}
-import candela.integrators.{Chained, Splatting, SurfaceProbe}
+import candela.film.{FilterReach, Layer, SpectralBands}
+import candela.integrators.{Chained, Splatting, Stepping, SurfaceProbe}
 import candela.math.*
 import candela.render.{LayerPlan, PixelBounds, RenderPlan}
 import candela.sampling.IndependentSampler
@@ -102,6 +102,11 @@ object SceneBuilder:
     if isChained && layers.nonEmpty then
       for at <- description.integrator.orElse(description.renderer).map(_.at) do
         problems.warn(at, "chains of paths find no layers: the image has its colours alone")
+    // Layers and paths from lights belong to the pixel that they were begun for
+    val shares = layers.isEmpty && !isChained && FilterReach.isUseful(filter) &&
+      (world.integrator match
+        case _: Splatting | _: Stepping => false
+        case _ => true)
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -119,7 +124,8 @@ object SceneBuilder:
       features = ("dialect", description.dialect.toString.toLowerCase) +:
         ("integrator", integrator.describe) +: world.features :+
         ("motion", moving(motions.camera.isDefined, world.moves, shutter)) :+
-        ("layers", layersOf(layers, film.development.bands)),
+        ("layers", layersOf(layers, film.development.bands)) :+
+        ("samples", if shares then "in all pixels of the filter" else "in one pixel each"),
       differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
       shutter = Option.when(motions.camera.isDefined || world.moves)(shutter),
       weighsFirst = isV4,
@@ -128,6 +134,8 @@ object SceneBuilder:
           if film.layersInWorld then Still(Transform.Identity)
           else motions.camera.fold(Still(description.worldToCamera.start))(InverseMotion(_))
         LayerPlan(layers, SurfaceProbe(world.scene, space, basis, layers.contains(Layer.Albedo)))
+      ,
+      sharesSamples = shares
     )
     (plan, problems.result)
 

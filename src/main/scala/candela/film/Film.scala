@@ -11,13 +11,15 @@ import java.util.concurrent.atomic.AtomicLong
   * pixel's value does not drift however many samples it gets.
   *
   * @param splats what paths from the lights add, if there are such
+  * @param shares takes the samples instead, if each counts in several pixels
   */
 final class Film(
     val x0: Int,
     val y0: Int,
     val x1: Int,
     val y1: Int,
-    val splats: Option[SplatFilm] = None
+    val splats: Option[SplatFilm] = None,
+    val shares: Option[SampleShares] = None
 ):
   require(x1 > x0 && y1 > y0, s"empty film [$x0, $x1) × [$y0, $y1)")
 
@@ -25,7 +27,9 @@ final class Film(
   val height: Int = y1 - y0
 
   // For each pixel, row by row: weighted red, green, blue, sum of weights.
-  private val sums = new Array[Double](Math.multiplyExact(4, Math.multiplyExact(width, height)))
+  private val sums = new Array[Double](
+    if shares.isDefined then 0 else Math.multiplyExact(4, Math.multiplyExact(width, height))
+  )
 
   private val refusals = AtomicLong(0)
   private val firstRefusal = AtomicLong(Long.MaxValue)
@@ -60,13 +64,20 @@ final class Film(
 
   /** A copy of what there is, to see later what was added. */
   def copy(): Film =
-    val film = Film(x0, y0, x1, y1, splats.map(_.copy()))
+    val film = Film(x0, y0, x1, y1, splats.map(_.copy()), shares.map(_.copy()))
     System.arraycopy(sums, 0, film.sums, 0, sums.length)
     film
 
   /** The samples alone that were added since `earlier` was copied. */
   def since(earlier: Film): Film =
-    val added = Film(x0, y0, x1, y1, splats.zip(earlier.splats).map(_.since(_)))
+    val added = Film(
+      x0,
+      y0,
+      x1,
+      y1,
+      splats.zip(earlier.splats).map(_.since(_)),
+      shares.zip(earlier.shares).map(_.since(_))
+    )
     System.arraycopy(sums, 0, added.sums, 0, sums.length)
     loop(sums.length)(i => added.sums(i) -= earlier.sums(i))
     added
@@ -76,10 +87,11 @@ final class Film(
     */
   def toImage(scale: Float): Image =
     val image = Image.rgb(width, height)
+    val all = shares.fold(sums)(_.sums)
     loop(width * height): pixel =>
-      val weight = sums(4 * pixel + 3)
+      val weight = all(4 * pixel + 3)
       if weight != 0 then
         loop(3): c =>
-          image.data(3 * pixel + c) = (sums(4 * pixel + c) / weight * scale).toFloat
+          image.data(3 * pixel + c) = (all(4 * pixel + c) / weight * scale).toFloat
     splats.foreach(_.addTo(image.data, scale))
     image

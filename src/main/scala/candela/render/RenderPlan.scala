@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
-import candela.film.{Development, Filter, Layer, SampleLimit}
+import candela.film.{Development, Filter, FilterReach, Layer, SampleLimit}
 import candela.integrators.{Integrator, SurfaceProbe}
 import candela.sampling.Sampler
 
@@ -23,6 +23,8 @@ final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
   * @param shutter      when it is open, if anything moves; else all rays have the same time
   * @param weighsFirst  is the limit one of the light as the camera weighs it, not as it arrives?
   * @param layers       what else the image holds, if anything
+  * @param sharesSamples does a sample count in all pixels that the filter reaches? Else it counts
+  *                      in one, and is placed as the filter says
   */
 final class RenderPlan(
     val width: Int,
@@ -40,8 +42,20 @@ final class RenderPlan(
     val differentialScale: Float = 0f,
     val shutter: Option[Shutter] = None,
     val weighsFirst: Boolean = true,
-    val layers: Option[LayerPlan] = None
-)
+    val layers: Option[LayerPlan] = None,
+    val sharesSamples: Boolean = false
+):
+  /** The pixels whose samples count in those of `crop`: these and some around them, if shared. */
+  def sampled: PixelBounds =
+    if !sharesSamples then crop
+    else
+      val reach = FilterReach(filter)
+      PixelBounds(
+        crop.x0 - reach.beyondX,
+        crop.y0 - reach.beyondY,
+        crop.x1 + reach.beyondX,
+        crop.y1 + reach.beyondY
+      )
 
 /** Layers of an image, and what looks for them. */
 final case class LayerPlan(layers: Vector[Layer], probe: SurfaceProbe)

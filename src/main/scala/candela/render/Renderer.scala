@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.color.Rgb
-import candela.film.{Film, FilterSampler, LayerFilm, SplatFilm}
+import candela.film.{Film, FilterReach, FilterSampler, LayerFilm, SampleShares, SplatFilm}
 import candela.integrators.{Chained, Splatting, Stepping, View}
 import candela.scene.PathReport
 
@@ -44,11 +44,12 @@ object Renderer:
           )
         )
       case _ => None
-    val film = Film(x0, y0, x1, y1, splats)
+    val shared = Option.when(plan.sharesSamples)(Schedule(plan.sampled, samplesPerPixel))
+    val film = Film(x0, y0, x1, y1, splats, shared.map(s => shares(plan, plan.crop, s)))
     val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     val (schedule, board, workers) = crew(plan, threads, cancellation, film, layers)
 
-    val total = plan.crop.pixels * samplesPerPixel
+    val total = plan.sampled.pixels * samplesPerPixel
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
     for end <- witness.fold(Vector(schedule.waves))(_ => schedule.passes) if !board.isStopped do
       board.openUntil(end)
@@ -93,8 +94,15 @@ object Renderer:
           case _: Stepping => 1
           case _ => Waves.Largest
         val filterSampler = new FilterSampler(plan.filter)
-        val schedule = Schedule(plan.crop, samples, largest)
+        val schedule = Schedule(plan.sampled, samples, largest)
         workers(schedule)(TileWorker(plan, schedule, _, film, layers, filterSampler.copy()))
+
+  /** Where the samples of the schedule's tiles are shared by the pixels of `film`. */
+  private def shares(plan: RenderPlan, film: PixelBounds, schedule: Schedule): SampleShares =
+    val tiles = Vector.tabulate(schedule.pieces): i =>
+      val PixelBounds(x0, y0, x1, y1) = schedule.tile(i)
+      SampleShares.Tile(x0, y0, x1, y1)
+    SampleShares(film.x0, film.y0, film.x1, film.y1, FilterReach(plan.filter), tiles)
 
   /** All places of the film that can add to a pixel. */
   private def view(plan: RenderPlan, splats: SplatFilm): View =
@@ -119,7 +127,8 @@ object Renderer:
   def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
     val bounds = PixelBounds(x, y, x + 1, y + 1)
     val schedule = Schedule(bounds, plan.sampler.samplesPerPixel)
-    val film = Film(x, y, x + 1, y + 1)
+    val shared = Option.when(plan.sharesSamples)(shares(plan, bounds, schedule))
+    val film = Film(x, y, x + 1, y + 1, shares = shared)
     val layers = None
     val worker = TileWorker(
       plan,

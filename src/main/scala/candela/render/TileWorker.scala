@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.{CameraRays, Shutter}
 import candela.color.Rgb
-import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit}
+import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit, SampleShares, SharedBlock}
 import candela.integrators.{Splatting, Stepping, SurfaceProbe}
 import candela.scene.PathReport
 
@@ -35,6 +35,11 @@ private[render] final class TileWorker(
   private val probe: SurfaceProbe | Null = plan.layers.map(_.probe.copy()).orNull
   private val shutter = plan.shutter.getOrElse(Shutter(0f, 0f))
 
+  // Where samples go that several pixels share: the block of the tile
+  private val shares: SampleShares | Null = film.shares.orNull
+  private var block: SharedBlock | Null = null
+  private var filmX, filmY = 0f
+
   // Where the worker is, for the message if something fails.
   private var x, y, sample = 0
 
@@ -52,11 +57,16 @@ private[render] final class TileWorker(
     this.x = x
     this.y = y
     this.sample = sample
+    turnTo(0)
     takeSample()
 
   protected def failure(cause: Throwable): RenderFailure = RenderFailure(x, y, sample, cause)
 
-  protected def work(tile: Int, wave: Int): Boolean = renderTile(schedule.tile(tile), wave)
+  protected def work(tile: Int, wave: Int): Boolean =
+    turnTo(tile)
+    renderTile(schedule.tile(tile), wave)
+
+  private def turnTo(tile: Int): Unit = if shares != null then block = shares.block(tile)
 
   /** False if it was told to stop on the way. */
   private def renderTile(tile: PixelBounds, wave: Int): Boolean =
@@ -76,14 +86,27 @@ private[render] final class TileWorker(
     y == tile.y1
 
   private def takeSample(): Unit =
-    sampler.start(x, y, sample)
-    sampler.next2D()
-    filterSampler.sample(sampler.x, sampler.y)
-    val filmX = x + 0.5f + filterSampler.dx
-    val filmY = y + 0.5f + filterSampler.dy
+    val shared = block
+    if shared == null then
+      sampler.start(x, y, sample)
+      sampler.next2D()
+      filterSampler.sample(sampler.x, sampler.y)
+      filmX = x + 0.5f + filterSampler.dx
+      filmY = y + 0.5f + filterSampler.dy
+      follow()
+    else
+      // Samplers know the image's own pixels; those around it take the numbers of the far side
+      sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)
+      sampler.next2D()
+      filmX = x + sampler.x
+      filmY = y + sampler.y
+      if shared.reaches(filmX, filmY) then follow()
+
+  /** What comes to the chosen place of the film, by the sampler's next numbers. */
+  private def follow(): Unit =
     val weight = rays.next(filmX, filmY, sampler)
     if weight == 0f then
-      film.add(x, y, 0f, 0f, 0f, filterSampler.weight)
+      add(Rgb.Black)
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
       if probe != null then probe.look(ray)
@@ -94,9 +117,15 @@ private[render] final class TileWorker(
 
   private def record(radiance: Rgb): Unit =
     val light = if limit != null && !weighsLast then radiance * limit.scale(radiance) else radiance
-    film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
+    add(light)
     if layerFilm != null && probe != null then
       layerFilm.add(x, y, light, filterSampler.weight, probe.seen)
+
+  private def add(light: Rgb): Unit =
+    val shared = block
+    if shared == null then film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
+    else if light.isFinite then shared.add(filmX, filmY, light.r, light.g, light.b)
+    else refuse()
 
   private def weighed(radiance: Rgb, weight: Float): Rgb =
     if limit != null && weighsLast then radiance * (limit.scale(radiance) * weight)

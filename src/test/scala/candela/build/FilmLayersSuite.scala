@@ -67,7 +67,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     assert(z > 4.2f && z < 5.8f)
 
   test("any scene can be asked for layers, which cost nothing where they are not"):
-    val text = s"$view\n${film("rgb")}\n$world"
+    val text = s"PixelFilter \"box\"\n$view\n${film("rgb")}\n$world"
     val asked = BuildOptions(layers = Vector(Layer.Depth, Layer.Samples))
     val image = render(text, asked)
     assert(image.channelNames == Image.RgbNames ++ Vector("Z", "samples"))
@@ -79,6 +79,15 @@ final class FilmLayersSuite extends AnyFunSuite:
     assert(colors == plain.data.toSeq)
     val plan = SceneTexts.plan(text, Dialect.V4)
     assert(plan.layers.isEmpty && plan.differentialScale == 0f)
+
+  test("samples are shared where a filter reaches beyond the pixel, but for images with layers"):
+    def shares(filter: String, film: String, integrator: String = "volpath") =
+      val text = s"Integrator \"$integrator\" PixelFilter $filter $view $film\n$world"
+      SceneTexts.plan(text, Dialect.V4).sharesSamples
+    val wide = "\"triangle\" \"float xradius\" 1 \"float yradius\" 1"
+    assert(shares(wide, film("rgb")) && shares("\"gaussian\"", film("rgb"), "path"))
+    assert(!shares("\"box\"", film("rgb")) && !shares(wide, film("gbuffer")))
+    assert(!shares(wide, film("rgb"), "bdpt") && !shares(wide, film("rgb"), "sppm"))
 
   test("the sensors of cameras are known by name, and what they see is said"):
     def said(name: String) =

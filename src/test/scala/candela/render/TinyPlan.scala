@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.Camera
 import candela.color.Rgb
-import candela.film.{BoxFilter, Development, SampleLimit}
+import candela.film.{BoxFilter, Development, Filter, SampleLimit}
 import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.math.Vec3
@@ -21,7 +21,9 @@ object TinyPlan:
       spp: Int = 5,
       crop: Option[PixelBounds] = None,
       limit: Option[SampleLimit] = None,
-      filename: String = "pbrt.exr"
+      filename: String = "pbrt.exr",
+      filter: Filter = BoxFilter(0.5f, 0.5f),
+      sharesSamples: Boolean = false
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
     RenderPlan(
@@ -29,20 +31,23 @@ object TinyPlan:
       height,
       bounds,
       FlatCamera,
-      BoxFilter(0.5f, 0.5f),
+      filter,
       HashSampler(spp),
       Formula(radiance),
       candela.color.ColorBasis.Srgb,
       limit,
       Development(),
       filename,
-      Vector("integrator" -> "formula")
+      Vector("integrator" -> "formula"),
+      sharesSamples = sharesSamples
     )
 
   /** Rays start at the place on the film. */
   private object FlatCamera extends Camera:
     def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
       ray.set(Vec3(x, y, 0f), Vec3(0f, 0f, 1f), Float.PositiveInfinity)
+
+  private def floor(v: Float): Int = Math.floor(v).toInt
 
   private final class Formula(radiance: (Where, Sampler) => Rgb) extends Integrator:
     private var rays = 0L
@@ -51,9 +56,10 @@ object TinyPlan:
     def reported(report: PathReport): Formula = copy()
     def radiance(ray: Ray, sampler: Sampler): Rgb =
       rays += 1
-      // A box filter of radius one half leaves samples in their pixel.
+      // A box filter of radius one half leaves samples in their pixel, as sharing does.
       sampler match
-        case hash: HashSampler => radiance(Where(ray.ox.toInt, ray.oy.toInt, hash.sample), sampler)
+        case hash: HashSampler =>
+          radiance(Where(floor(ray.ox), floor(ray.oy), hash.sample), sampler)
 
 /** Independent samples that know their number. */
 final class HashSampler(val samplesPerPixel: Int) extends Sampler:

@@ -7,8 +7,10 @@ import candela.scenefile.Dialect
 /** How [[BidirectionalPathTracer]] is made, for all that is rendered by it. */
 private[build] object BidirectionalPlans:
 
-  /** Scattering events before a path may end by chance. */
-  private val Patience = 4
+  /** Scattering events before a path may end by chance. As in pbrt-v2 and v3; v4 has 1 for paths,
+    * which costs more in noise than it saves in time: docs/SPEED.md.
+    */
+  private[build] val Patience = 4
 
   /** @param name by which the scene asked for it */
   def plan(name: String, depth: Int, widens: Boolean = false)(using site: Site): IntegratorPlan =
@@ -26,8 +28,7 @@ private[build] object BidirectionalPlans:
         site.warn(
           s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
         )
-        val patience = if dialect == Dialect.V4 then 1 else Patience
-        VolumePathTracer(scene, media, most, patience, 1f, dialect == Dialect.V3, widens)
+        VolumePathTracer(scene, media, most, Patience, 1f, dialect == Dialect.V3, widens)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")

@@ -14,7 +14,7 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
   protected def make()(using site: Site): IntegratorPlan =
     // v2 lights one vertex more than it counts
     val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
-    val patience = if site.dialect == Dialect.V4 then 1 else 4
+    val patience = BidirectionalPlans.Patience
     // v2's path and v4's take such a surface for glass, or see its reflection alone
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val widens = regularize()
