@@ -1,5 +1,6 @@
 package candela.render
 
+import candela.film.Filter
 import candela.image.Image
 import candela.testing.IncompleteGamma
 
@@ -26,11 +27,19 @@ final case class Disagreement(what: String, pValue: Double)
   *
   * @param noise     variance of the reference's pixel values, mean over pixels and channels
   * @param allowance relative systematic error that is no fault
+  * @param alike     sum of a pixel's correlations with all pixels of its rendering, its own 1
+  *                  included: so much more variance a block has than its pixels
   *
   * Sources: Welch, "The generalization of Student's problem", Biometrika 34, 1947; Satterthwaite,
   * "An approximate distribution of estimates of variance components", Biometrics Bulletin 2, 1946.
   */
-final class Agreement(renders: Vector[Image], reference: Image, noise: Double, allowance: Double):
+final class Agreement(
+    renders: Vector[Image],
+    reference: Image,
+    noise: Double,
+    allowance: Double,
+    alike: Double = 1
+):
   require(renders.size >= 2, "noise shows only between renderings")
   require(renders.forall(r => r.width == reference.width && r.height == reference.height))
 
@@ -90,7 +99,7 @@ final class Agreement(renders: Vector[Image], reference: Image, noise: Double, a
     val wanted = at.map(expected(_).toDouble).sum / n
     val found = at.map(mean).sum / n
     val sum = at.map(variance).sum
-    val total = sum / n / n + referenceVariance(sum / n) / n
+    val total = alike * sum / n / n + referenceVariance(sum / n) / n
     val excess = Math.max(0.0, Math.abs(found - wanted) - tolerated * Math.abs(wanted))
     val t = if excess == 0 then 0.0 else excess / Math.sqrt(total)
     val p = Agreement.twoSided(t, freedom(sum, at.map(i => variance(i) * variance(i)).sum))
@@ -108,10 +117,11 @@ final class Agreement(renders: Vector[Image], reference: Image, noise: Double, a
     */
   private def freedom(sum: Double, squares: Double): Double =
     val k = count - 1.0
-    if squares > 0 then Math.max(k, k * (1 + 2 / k) * sum * sum / squares) else k
+    if squares > 0 then Math.max(k, k * (1 + 2 / k) * sum * sum / squares / alike) else k
 
   /** The relative mean squared error against its prediction. The excess of each pixel over it has a
-    * mean of 0, so their sum is judged by their own spread; errors of neighbours are independent.
+    * mean of 0, so their sum is judged by their own spread; squares of errors are at most as
+    * alike as the errors.
     */
   private def error: Disagreement =
     val found = new Array[Double](values)
@@ -123,13 +133,22 @@ final class Agreement(renders: Vector[Image], reference: Image, noise: Double, a
       predicted(i) = (variance(i) + referenceVariance(variance(i)) + systematic) / scale
     val excesses = Array.tabulate(width * height): pixel =>
       (3 * pixel until 3 * pixel + 3).map(i => found(i) - predicted(i)).sum
-    val spread = Math.sqrt(excesses.map(e => e * e).sum)
+    val spread = Math.sqrt(alike * excesses.map(e => e * e).sum)
     val t = if spread > 0 then Math.max(0.0, excesses.sum / spread) else 0.0
     val p = Agreement.twoSided(t, excesses.length - 1.0)
     val numbers = f"${found.sum / values}%.3g, predicted ${predicted.sum / values}%.3g (t = $t%.1f)"
     Disagreement(s"relative mean squared error: $numbers", p)
 
 object Agreement:
+  /** How alike pixels are that share samples: all that a sample counts is ∫f of the filter f, and
+    * the variance of one pixel has ∫f² of it.
+    */
+  def alike(filter: Filter): Double =
+    def along(radius: Float, value: Float => Float): Double =
+      val values = (0 until 1000).map(i => value(((2 * i + 1) / 1000f - 1f) * radius).toDouble)
+      values.sum * values.sum / values.map(v => v * v).sum * 2 * radius / 1000
+    along(filter.radiusX, filter.x) * along(filter.radiusY, filter.y)
+
   /** Pixels along the side of a block, beside the whole image. */
   val BlockSizes: Vector[Int] = Vector(8, 32)
 

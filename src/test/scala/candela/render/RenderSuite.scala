@@ -95,7 +95,9 @@ object RenderSuite:
   private def compare(scene: ReferenceScene, text: String): Agreement =
     val renders = Vector.tabulate(Seeds): seed =>
       render(scene, text, seed + 1, SamplesPerPixel, Runtime.getRuntime.availableProcessors)
-    Agreement(renders, scene.image, scene.noise, scene.allowance)
+    val plan = planned(scene, text, seed = 1, SamplesPerPixel)
+    val alike = if plan.sharesSamples then Agreement.alike(plan.filter) else 1.0
+    Agreement(renders, scene.image, scene.noise, scene.allowance, alike)
 
   private def render(
       scene: ReferenceScene,
@@ -104,11 +106,14 @@ object RenderSuite:
       spp: Int,
       threads: Int
   ): Image =
-    val description = Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
-    val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(spp), seed = seed))
+    val plan = planned(scene, text, seed, spp)
     val rendering = Renderer.render(plan, threads)
     assert(rendering.refused.isEmpty, s"not a number: ${rendering.refused}")
     rendering.image(plan.development)
+
+  private def planned(scene: ReferenceScene, text: String, seed: Int, spp: Int): RenderPlan =
+    val description = Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
+    SceneBuilder.build(description, BuildOptions(spp = Some(spp), seed = seed))._1
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =
