@@ -6,21 +6,31 @@ import candela.geometry.{Hit, Ray}
   * overflow on the way. In Double, where they don't; slow, and rare.
   */
 private[accel] object CarefulKernel extends WideKernel:
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
-  def name: String = "careful"
-
-  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
-    isFinite(ray) && WideWalk.walk(
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    isFinite(ray) && WideWalk.closest(
       tree,
       tree.width,
       tree.lanes,
       ray,
       hit,
-      anyHit,
       (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
-      _ => -1
+      _ => AnyLane
     )
+
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    isFinite(ray) && WideWalk.occluded(
+      tree,
+      tree.width,
+      tree.lanes,
+      ray,
+      hit,
+      (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
+      _ => AnyLane
+    )
+
+  def name: String = "careful"
+
+  private inline val AnyLane = 0xffff
 
   private def isFinite(ray: Ray): Boolean =
     java.lang.Float.isFinite(ray.ox) && java.lang.Float.isFinite(ray.oy) &&

@@ -10,41 +10,63 @@ import candela.geometry.{Hit, Ray}
   */
 private[accel] object ScalarKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, false)
-    else walk(tree, tree.width, tree.lanes, ray, hit, false)
+    if isNarrow(tree) then closest(tree, 4, 4, ray, hit)
+    else closest(tree, tree.width, tree.lanes, ray, hit)
 
   def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, true)
-    else walk(tree, tree.width, tree.lanes, ray, hit, true)
+    if isNarrow(tree) then occluded(tree, 4, 4, ray, hit)
+    else occluded(tree, tree.width, tree.lanes, ray, hit)
 
   def name: String = "scalar"
 
   /** Where the sizes are constants, the JVM's compiler unrolls the loops. */
   private def isNarrow(tree: WideTree): Boolean = tree.width == 4 && tree.lanes == 4
 
-  private inline def walk(
+  private inline def closest(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
       ray: Ray,
-      hit: Hit,
-      inline anyHit: Boolean
+      hit: Hit
   ): Boolean =
-    WideWalk.walk(
+    WideWalk.closest(
       tree,
       width,
       lanes,
       ray,
       hit,
-      anyHit,
-      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack),
+      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, false),
+      corners => through(tree.blocks, corners, lanes, ray)
+    )
+
+  private inline def occluded(
+      tree: WideTree,
+      inline width: Int,
+      inline lanes: Int,
+      ray: Ray,
+      hit: Hit
+  ): Boolean =
+    WideWalk.occluded(
+      tree,
+      width,
+      lanes,
+      ray,
+      hit,
+      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, true),
       corners => through(tree.blocks, corners, lanes, ray)
     )
 
   /** Bits of the children that the ray meets. Of a slab's two distances the lesser one, as an Int,
     * is the near one: but where both are negative, and all is behind.
     */
-  private inline def met(b: Array[Float], node: Int, inline width: Int, ray: Ray, end: Int): Int =
+  private inline def met(
+      b: Array[Float],
+      node: Int,
+      inline width: Int,
+      ray: Ray,
+      end: Int,
+      inline anyHit: Boolean
+  ): Int =
     var missed = 0
     var k = 0
     while k < width do
@@ -62,7 +84,7 @@ private[accel] object ScalarKernel extends WideKernel:
         Math.min(Math.max(lowX, highX), Math.max(lowY, highY)),
         Math.min(Math.max(lowZ, highZ), end)
       )
-      ray.lanes(k) = near
+      inline if !anyHit then ray.lanes(k) = near
       // Is far + Slack before near? The difference must not overflow where far is negative
       missed |= ((Math.max(far, Behind) + WideWalk.Slack - near) >>> 31) << k
       k += 1

@@ -32,8 +32,37 @@ private[accel] object VectorKernel extends WideKernel:
   def isWorthIt: Boolean = W >= 4
   def name: String = s"vectors of $W"
 
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    val b = tree.nodes
+    val t = tree.blocks
+    WideWalk.closest(
+      tree,
+      N,
+      W,
+      ray,
+      hit,
+      (node, limit) =>
+        val low = met(b, node, limit, ray, 0, false)
+        if N == W then low else low | (met(b, node + W, limit, ray, W, false) << W)
+      ,
+      corners => through(t, corners, ray)
+    )
+
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    val b = tree.nodes
+    val t = tree.blocks
+    WideWalk.occluded(
+      tree,
+      N,
+      W,
+      ray,
+      hit,
+      (node, limit) =>
+        val low = met(b, node, limit, ray, 0, true)
+        if N == W then low else low | (met(b, node + W, limit, ray, W, true) << W)
+      ,
+      corners => through(t, corners, ray)
+    )
 
   /** One bit for each lane that is set. */
   private inline def bits(m: VectorMask[Integer]): Int =
@@ -52,7 +81,8 @@ private[accel] object VectorKernel extends WideKernel:
       node: Int,
       limit: Int,
       ray: Ray,
-      lane: Int
+      inline lane: Int,
+      inline anyHit: Boolean
   ): Int =
     val lowX = plane(b, node, ray.ox, ray.invX)
     val highX = plane(b, node + 3 * N, ray.ox, ray.invX)
@@ -67,47 +97,32 @@ private[accel] object VectorKernel extends WideKernel:
       .min(lowZ.max(highZ))
       .add(WideWalk.Slack)
       .min(limit)
-    near.intoArray(ray.lanes, lane)
+    inline if !anyHit then near.intoArray(ray.lanes, lane)
     bits(near.compare(VectorOperators.LE, far))
 
   // No vector is kept for longer than a node or a block: the JVM would write it to memory again and
   // again, for the case that it has to leave compiled code
-  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
-    val b = tree.nodes
-    val t = tree.blocks
-    WideWalk.walk(
-      tree,
-      N,
-      W,
-      ray,
-      hit,
-      anyHit,
-      (node, limit) =>
-        val low = met(b, node, limit, ray, 0)
-        if N == W then low else low | (met(b, node + W, limit, ray, W) << W)
-      ,
-      corners =>
-        // The Float part of TriangleTest, operation by operation
-        val x = corners + ray.kx * W
-        val y = corners + ray.ky * W
-        val z = corners + ray.kz * W
-        val z0 = FloatVector.fromArray(F, t, z).sub(ray.oAlongZ)
-        val z1 = FloatVector.fromArray(F, t, z + 3 * W).sub(ray.oAlongZ)
-        val z2 = FloatVector.fromArray(F, t, z + 6 * W).sub(ray.oAlongZ)
-        val x0 = FloatVector.fromArray(F, t, x).sub(ray.oAlongX).add(z0.mul(ray.shearX))
-        val x1 = FloatVector.fromArray(F, t, x + 3 * W).sub(ray.oAlongX).add(z1.mul(ray.shearX))
-        val x2 = FloatVector.fromArray(F, t, x + 6 * W).sub(ray.oAlongX).add(z2.mul(ray.shearX))
-        val y0 = FloatVector.fromArray(F, t, y).sub(ray.oAlongY).add(z0.mul(ray.shearY))
-        val y1 = FloatVector.fromArray(F, t, y + 3 * W).sub(ray.oAlongY).add(z1.mul(ray.shearY))
-        val y2 = FloatVector.fromArray(F, t, y + 6 * W).sub(ray.oAlongY).add(z2.mul(ray.shearY))
-        val e0 = x1.mul(y2).sub(y1.mul(x2))
-        val e1 = x2.mul(y0).sub(y2.mul(x0))
-        val e2 = x0.mul(y1).sub(y0.mul(x1))
-        val s0 = e0.reinterpretAsInts()
-        val s1 = e1.reinterpretAsInts()
-        val s2 = e2.reinterpretAsInts()
-        val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
-        val zero = all.sub(1).or(Infinities.sub(all))
-        // No sign, or all signs, or a zero: then the product is one, too, or no number
-        bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))
-    )
+  private inline def through(t: Array[Float], corners: Int, ray: Ray): Int =
+    // The Float part of TriangleTest, operation by operation
+    val x = corners + ray.kx * W
+    val y = corners + ray.ky * W
+    val z = corners + ray.kz * W
+    val z0 = FloatVector.fromArray(F, t, z).sub(ray.oAlongZ)
+    val z1 = FloatVector.fromArray(F, t, z + 3 * W).sub(ray.oAlongZ)
+    val z2 = FloatVector.fromArray(F, t, z + 6 * W).sub(ray.oAlongZ)
+    val x0 = FloatVector.fromArray(F, t, x).sub(ray.oAlongX).add(z0.mul(ray.shearX))
+    val x1 = FloatVector.fromArray(F, t, x + 3 * W).sub(ray.oAlongX).add(z1.mul(ray.shearX))
+    val x2 = FloatVector.fromArray(F, t, x + 6 * W).sub(ray.oAlongX).add(z2.mul(ray.shearX))
+    val y0 = FloatVector.fromArray(F, t, y).sub(ray.oAlongY).add(z0.mul(ray.shearY))
+    val y1 = FloatVector.fromArray(F, t, y + 3 * W).sub(ray.oAlongY).add(z1.mul(ray.shearY))
+    val y2 = FloatVector.fromArray(F, t, y + 6 * W).sub(ray.oAlongY).add(z2.mul(ray.shearY))
+    val e0 = x1.mul(y2).sub(y1.mul(x2))
+    val e1 = x2.mul(y0).sub(y2.mul(x0))
+    val e2 = x0.mul(y1).sub(y0.mul(x1))
+    val s0 = e0.reinterpretAsInts()
+    val s1 = e1.reinterpretAsInts()
+    val s2 = e2.reinterpretAsInts()
+    val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
+    val zero = all.sub(1).or(Infinities.sub(all))
+    // No sign, or all signs, or a zero: then the product is one, too, or no number
+    bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))

@@ -3,13 +3,16 @@ package candela.accel
 import candela.geometry.{Hit, Ray}
 import candela.shapes.TriangleTest
 
-/** The walk through a [[WideTree]], made into a kernel by its two questions. All of it is inlined:
-  * each kernel has a loop of its own, without calls through interfaces.
+/** The walks through a [[WideTree]], made into kernels by their two questions. All of it is
+  * inlined: each kernel has loops of its own, without calls through interfaces.
   *
-  * A walk goes to the nearest child first and keeps the others on a stack of Longs, each its
-  * distance's bits over its code, sorted as it is put there. Distances are never negative, and
-  * such Floats are ordered as their bits are: comparing Ints is cheaper than comparing Floats,
-  * which have NaN and −0 to look after.
+  * The walk to the closest hit goes to the nearest child first and keeps the others on a stack of
+  * Longs, each its distance's bits over its code, sorted as it is put there. Distances are never
+  * negative, and such Floats are ordered as their bits are: comparing Ints is cheaper than
+  * comparing Floats, which have NaN and −0 to look after.
+  *
+  * The walk to any hit has no order: in that of the distances it would see as many nodes. An entry
+  * of its stack is a node under the bits of those of its children that are still to be visited.
   */
 private[accel] object WideWalk:
 
@@ -19,13 +22,12 @@ private[accel] object WideWalk:
     * @param triangles (block's first Float): bits of the lanes whose triangles may be hit; none
     *                  that [[TriangleTest]] accepts is missing
     */
-  inline def walk(
+  inline def closest(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
       ray: Ray,
       hit: Hit,
-      inline anyHit: Boolean,
       inline boxes: (Int, Int) => Int,
       inline triangles: Int => Int
   ): Boolean =
@@ -81,26 +83,17 @@ private[accel] object WideWalk:
           while may != 0 do
             val k = Integer.numberOfTrailingZeros(may)
             may &= may - 1
-            inline if anyHit then
-              if TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit) then
-                found = true
-                may = 0
-            else
-              val owner =
-                java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
-              if TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit) then
-                hit.primitive = owner
-                found = true
+            val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
+            if TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit) then
+              hit.primitive = owner
+              found = true
         else
           val first = WideTree.first(node)
-          inline if anyHit then
-            found = tree.others.isHit(first, first + WideTree.size(node), ray, hit)
-          else if tree.others.intersect(first, first + WideTree.size(node), ray, hit) then
+          if tree.others.intersect(first, first + WideTree.size(node), ray, hit) then
             found = true
         limit = limitOf(ray.tMax)
         node = WideTree.Nothing
       if node == WideTree.Nothing then
-        inline if anyHit then if found then top = 0
         // The next subtree that begins before the closest hit
         var going = top > 0
         while going do
@@ -112,8 +105,55 @@ private[accel] object WideWalk:
           else going = top > 0
     found
 
-  private inline def entry(begin: Int, node: Int): Long =
-    (begin.toLong << 32) | (node & 0xffffffffL)
+  /** As [[closest]], but `boxes` writes nothing. */
+  inline def occluded(
+      tree: WideTree,
+      inline width: Int,
+      inline lanes: Int,
+      ray: Ray,
+      hit: Hit,
+      inline boxes: (Int, Int) => Int,
+      inline triangles: Int => Int
+  ): Boolean =
+    val nodes = tree.nodes
+    val stack = ray.stack
+    val limit = limitOf(ray.tMax)
+    var found = false
+    var top = 0
+    var node = tree.root
+    while node != WideTree.Nothing do
+      var from = node
+      var hits = 0
+      if node >= 0 then hits = boxes(node, limit)
+      else if WideTree.isBlock(node) then
+        val corners = WideTree.first(node) * WideTree.blockFloats(lanes)
+        var may = triangles(corners) & ((1 << WideTree.size(node)) - 1)
+        while may != 0 do
+          val k = Integer.numberOfTrailingZeros(may)
+          may &= may - 1
+          if TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit) then
+            found = true
+            may = 0
+      else
+        val first = WideTree.first(node)
+        found = tree.others.isHit(first, first + WideTree.size(node), ray, hit)
+      if hits == 0 && top > 0 then
+        top -= 1
+        val next = stack(top)
+        hits = (next >>> 32).toInt
+        from = next.toInt
+      if found || hits == 0 then node = WideTree.Nothing
+      else
+        // What is left of the node stays on the stack, or is overwritten if it is nothing
+        val rest = hits & (hits - 1)
+        stack(top) = entry(rest, from)
+        top += -rest >>> 31
+        val k = Integer.numberOfTrailingZeros(hits)
+        node = java.lang.Float.floatToRawIntBits(nodes(from + 6 * width + k))
+    found
+
+  private inline def entry(high: Int, node: Int): Long =
+    (high.toLong << 32) | (node & 0xffffffffL)
 
   /** By how many Floats a box's distances may be off: its three operations' rounding, that of the
     * Float triangle test and of the hit's distance, 12 half units in the last place in all.

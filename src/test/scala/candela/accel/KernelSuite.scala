@@ -130,6 +130,33 @@ class KernelSuite extends AnyFunSuite:
         val tooFew = if name == "binary" && scene.startsWith("beyond") then 0 else 20
         assert(hits > tooFew, s"$scene: too few hits to tell")
 
+  test("shadow rays that end or begin within some Floats of a triangle, or pass its edges"):
+    if hasVectors then
+      for (scene, primitives) <- scenes do
+        val (kernel, reference) = (Hierarchies.vector(primitives, 0), BruteForce(primitives))
+        val draws = Draws(scene.length)
+        val (ray, hit) = (Ray(), Hit())
+        def agree(o: Vec3, d: Vec3, end: Float): Unit =
+          ray.set(o, d, end)
+          val expected = reference.isOccluded(ray, hit)
+          ray.set(o, d, end)
+          assert(kernel.isOccluded(ray, hit) == expected, s"$scene: $o along $d to $end"): Unit
+        for _ <- 0 until (if primitives.count > 1000 then 30 else 200) do
+          val to = target(draws, primitives)
+          val away = draws.direction() * draws.magnitude(1e-4, 1e4)
+          val o = to + away
+          val d = if draws.coin() then to - o else (to - o).normalized
+          ray.set(o, d, Float.PositiveInfinity)
+          if reference.closest(ray, hit) then
+            val t = ray.tMax
+            for ulps <- -3 to 3 do
+              val near = java.lang.Float.intBitsToFloat(
+                java.lang.Float.floatToRawIntBits(t) + ulps * (1 << draws.below(6))
+              )
+              agree(o, d, near)
+              agree(o + d * near, d, Float.PositiveInfinity)
+              agree(o + d * near, -d, near)
+
   test("a ray changes to vectors after some walks, and finds the same"):
     if hasVectors then
       val (_, primitives) = scenes.head
