@@ -6,29 +6,21 @@ import candela.geometry.{Hit, Ray}
   * overflow on the way. In Double, where they don't; slow, and rare.
   */
 private[accel] object CarefulKernel extends WideKernel:
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    isFinite(ray) && WideWalk.closest(
-      tree,
-      tree.width,
-      tree.lanes,
-      ray,
-      hit,
-      (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
-      _ => AnyLane
-    )
-
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    isFinite(ray) && WideWalk.occluded(
-      tree,
-      tree.width,
-      tree.lanes,
-      ray,
-      hit,
-      (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
-      _ => AnyLane
-    )
-
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
   def name: String = "careful"
+
+  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+    isFinite(ray) && WideWalk.walk(
+      tree,
+      tree.width,
+      tree.lanes,
+      ray,
+      hit,
+      anyHit,
+      (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
+      _ => AnyLane
+    )
 
   private inline val AnyLane = 0xffff
 

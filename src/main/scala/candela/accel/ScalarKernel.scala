@@ -10,49 +10,34 @@ import candela.geometry.{Hit, Ray}
   */
 private[accel] object ScalarKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then closest(tree, 4, 4, ray, hit)
-    else closest(tree, tree.width, tree.lanes, ray, hit)
+    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, false)
+    else walk(tree, tree.width, tree.lanes, ray, hit, false)
 
   def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then occluded(tree, 4, 4, ray, hit)
-    else occluded(tree, tree.width, tree.lanes, ray, hit)
+    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, true)
+    else walk(tree, tree.width, tree.lanes, ray, hit, true)
 
   def name: String = "scalar"
 
   /** Where the sizes are constants, the JVM's compiler unrolls the loops. */
   private def isNarrow(tree: WideTree): Boolean = tree.width == 4 && tree.lanes == 4
 
-  private inline def closest(
+  private inline def walk(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
       ray: Ray,
-      hit: Hit
+      hit: Hit,
+      inline anyHit: Boolean
   ): Boolean =
-    WideWalk.closest(
+    WideWalk.walk(
       tree,
       width,
       lanes,
       ray,
       hit,
-      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, false),
-      corners => through(tree.blocks, corners, lanes, ray)
-    )
-
-  private inline def occluded(
-      tree: WideTree,
-      inline width: Int,
-      inline lanes: Int,
-      ray: Ray,
-      hit: Hit
-  ): Boolean =
-    WideWalk.occluded(
-      tree,
-      width,
-      lanes,
-      ray,
-      hit,
-      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, true),
+      anyHit,
+      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
       corners => through(tree.blocks, corners, lanes, ray)
     )
 

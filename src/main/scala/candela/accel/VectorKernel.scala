@@ -32,34 +32,22 @@ private[accel] object VectorKernel extends WideKernel:
   def isWorthIt: Boolean = W >= 4
   def name: String = s"vectors of $W"
 
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    val b = tree.nodes
-    val t = tree.blocks
-    WideWalk.closest(
-      tree,
-      N,
-      W,
-      ray,
-      hit,
-      (node, limit) =>
-        val low = met(b, node, limit, ray, 0, false)
-        if N == W then low else low | (met(b, node + W, limit, ray, W, false) << W)
-      ,
-      corners => through(t, corners, ray)
-    )
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
 
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = tree.nodes
     val t = tree.blocks
-    WideWalk.occluded(
+    WideWalk.walk(
       tree,
       N,
       W,
       ray,
       hit,
+      anyHit,
       (node, limit) =>
-        val low = met(b, node, limit, ray, 0, true)
-        if N == W then low else low | (met(b, node + W, limit, ray, W, true) << W)
+        val low = met(b, node, limit, ray, 0, anyHit)
+        if N == W then low else low | (met(b, node + W, limit, ray, W, anyHit) << W)
       ,
       corners => through(t, corners, ray)
     )

@@ -24,38 +24,44 @@ final class WideBvh private[accel] (tree: WideTree, fast: WideKernel, patience: 
 
   def closest(ray: Ray, hit: Hit): Boolean =
     hit.primitive = -1
-    if !(isTame && WideKernel.isTame(ray)) then CarefulKernel.closest(tree, ray, hit)
-    else if isAlwaysFast || WarmUp.closest.isOver then fast.closest(tree, ray, hit)
-    else if ray.walks < patience then
-      ray.walks += 1
-      ScalarKernel.closest(tree, ray, hit)
-    else if WarmUp.closest.turn() then tryClosest(ray, hit)
-    else ScalarKernel.closest(tree, ray, hit)
+    walk(ray, WarmUp.closest, _.closest(tree, ray, hit), tryClosest(ray, hit))
 
   def isOccluded(ray: Ray, hit: Hit): Boolean =
-    if !(isTame && WideKernel.isTame(ray)) then CarefulKernel.isOccluded(tree, ray, hit)
-    else if isAlwaysFast || WarmUp.occluded.isOver then fast.isOccluded(tree, ray, hit)
+    walk(ray, WarmUp.occluded, _.isOccluded(tree, ray, hit), tryOccluded(ray, hit))
+
+  private inline def walk(
+      ray: Ray,
+      warmUp: WarmUp,
+      inline by: WideKernel => Boolean,
+      inline attempt: => Boolean
+  ): Boolean =
+    if !(isTame && WideKernel.isTame(ray)) then by(CarefulKernel)
+    else if isAlwaysFast || warmUp.isOver then by(fast)
     else if ray.walks < patience then
       ray.walks += 1
-      ScalarKernel.isOccluded(tree, ray, hit)
-    else if WarmUp.occluded.turn() then tryOccluded(ray, hit)
-    else ScalarKernel.isOccluded(tree, ray, hit)
+      by(ScalarKernel)
+    else if warmUp.turn() then attempt
+    else by(ScalarKernel)
 
   private def tryClosest(ray: Ray, hit: Hit): Boolean =
+    compare(ray, hit, WarmUp.closest, _.closest(tree, ray, hit))
+
+  private def tryOccluded(ray: Ray, hit: Hit): Boolean =
+    compare(ray, hit, WarmUp.occluded, _.isOccluded(tree, ray, hit))
+
+  /** The same walk by both kernels, and how long each took. */
+  private inline def compare(
+      ray: Ray,
+      hit: Hit,
+      warmUp: WarmUp,
+      inline by: WideKernel => Boolean
+  ): Boolean =
     val end = ray.tMax
     val begin = System.nanoTime
-    ScalarKernel.closest(tree, ray, hit): Unit
+    by(ScalarKernel): Unit
     val middle = System.nanoTime
     ray.tMax = end
     hit.primitive = -1
-    val found = fast.closest(tree, ray, hit)
-    WarmUp.closest.tell(middle - begin, System.nanoTime - middle)
-    found
-
-  private def tryOccluded(ray: Ray, hit: Hit): Boolean =
-    val begin = System.nanoTime
-    ScalarKernel.isOccluded(tree, ray, hit): Unit
-    val middle = System.nanoTime
-    val found = fast.isOccluded(tree, ray, hit)
-    WarmUp.occluded.tell(middle - begin, System.nanoTime - middle)
+    val found = by(fast)
+    warmUp.tell(middle - begin, System.nanoTime - middle)
     found

@@ -16,13 +16,27 @@ import candela.shapes.TriangleTest
   */
 private[accel] object WideWalk:
 
+  /** The walk to any hit or to the closest one: see [[occluded]] and [[closest]]. */
+  inline def walk(
+      tree: WideTree,
+      inline width: Int,
+      inline lanes: Int,
+      ray: Ray,
+      hit: Hit,
+      inline anyHit: Boolean,
+      inline boxes: (Int, Int) => Int,
+      inline triangles: Int => Int
+  ): Boolean =
+    inline if anyHit then occluded(tree, width, lanes, ray, hit, boxes, triangles)
+    else closest(tree, width, lanes, ray, hit, boxes, triangles)
+
   /** @param width, lanes those of the tree, as constants if the kernel has any
     * @param boxes     (node, limit): bits of the children that begin before `limit`, the bits of a
     *                  distance; writes where they begin to `ray.lanes`, as bits too
     * @param triangles (block's first Float): bits of the lanes whose triangles may be hit; none
     *                  that [[TriangleTest]] accepts is missing
     */
-  inline def closest(
+  private inline def closest(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
@@ -106,7 +120,7 @@ private[accel] object WideWalk:
     found
 
   /** As [[closest]], but `boxes` writes nothing. */
-  inline def occluded(
+  private inline def occluded(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,

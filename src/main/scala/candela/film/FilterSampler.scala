@@ -92,10 +92,8 @@ private object FilterSampler:
     private val Intervals = 8
 
     def of(radius: Float, filter: Float => Float): Axis =
-      // A multiple of four: filters have kinks at the centre and half radius, now cell ends.
-      val cells = Math.max(MinCells, (2 * radius * CellsPerPixel).ceil.toInt + 3 & ~3)
-      def place(i: Double): Float =
-        Math.max(-radius, Math.min(radius, (radius * (2 * i / cells - 1)).toFloat))
+      val cells = Math.max(MinCells, FilterTable.cells(radius, CellsPerPixel))
+      def place(i: Double): Float = FilterTable.place(radius, cells, i)
 
       val heights = Array.tabulate(cells + 1)(i => Math.abs(filter(place(i))))
       val cumulative = new Array[Double](cells + 1)

@@ -6,11 +6,10 @@ package candela.film
   * Box and triangle filters it follows exactly, as they have their kinks at points of the table.
   */
 final class FilterTable(radius: Float, filter: Float => Float):
-  // A multiple of four: filters have kinks at the centre and half radius
-  private val cells = (2 * radius * FilterTable.CellsPerPixel).ceil.toInt + 3 & ~3
+  private val cells = FilterTable.cells(radius, FilterTable.CellsPerPixel)
   private val perPixel = cells / (2f * radius)
-  private val values = Array.tabulate(cells + 1): i =>
-    filter(Math.max(-radius, Math.min(radius, (radius * (2.0 * i / cells - 1)).toFloat)))
+  private val values =
+    Array.tabulate(cells + 1)(i => filter(FilterTable.place(radius, cells, i)))
 
   /** The filter `d` pixels from a pixel's centre; 0 beyond the radius. */
   def apply(d: Float): Float =
@@ -21,5 +20,14 @@ final class FilterTable(radius: Float, filter: Float => Float):
       val low = values(cell)
       low + (at - cell) * (values(cell + 1) - low)
 
-private object FilterTable:
+private[film] object FilterTable:
   private val CellsPerPixel = 64
+
+  /** Cells of [−radius, radius]: a multiple of four, so that the kinks that filters have at the
+    * centre and half radius are ends of cells.
+    */
+  def cells(radius: Float, perPixel: Int): Int = (2 * radius * perPixel).ceil.toInt + 3 & ~3
+
+  /** Where cell `i` of so many begins. */
+  def place(radius: Float, cells: Int, i: Double): Float =
+    Math.max(-radius, Math.min(radius, (radius * (2 * i / cells - 1)).toFloat))

@@ -179,6 +179,11 @@ abstract class LightTransport(
     scene.isOccluded(shadowRay, shadowHit)
 
 object LightTransport:
+  /** Scattering events before which no path ends by chance. As in pbrt-v2 and v3; v4 has 1 for
+    * paths, which costs more in noise than it saves in time: docs/SPEED.md.
+    */
+  inline val RouletteAfter = 4
+
   /** Where a shadow ray ends, as a part of the way to the light: the rounding of the difference of
     * its two ends, 2⁻²³ of its length at most, must not reach the light's own surface. The more
     * slanted that is, the sooner it does. What covers a light as closely is lost.

@@ -44,8 +44,7 @@ object Renderer:
           )
         )
       case _ => None
-    val shared = Option.when(plan.sharesSamples)(Schedule(plan.sampled, samplesPerPixel))
-    val film = Film(x0, y0, x1, y1, splats, shared.map(s => shares(plan, plan.crop, s)))
+    val film = Film(x0, y0, x1, y1, splats, shares(plan, plan.crop, plan.sampled))
     val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     val (schedule, board, workers) = crew(plan, threads, cancellation, film, layers)
 
@@ -97,12 +96,15 @@ object Renderer:
         val schedule = Schedule(plan.sampled, samples, largest)
         workers(schedule)(TileWorker(plan, schedule, _, film, layers, filterSampler.copy()))
 
-  /** Where the samples of the schedule's tiles are shared by the pixels of `film`. */
-  private def shares(plan: RenderPlan, film: PixelBounds, schedule: Schedule): SampleShares =
-    val tiles = Vector.tabulate(schedule.pieces): i =>
-      val PixelBounds(x0, y0, x1, y1) = schedule.tile(i)
-      SampleShares.Tile(x0, y0, x1, y1)
-    SampleShares(film.x0, film.y0, film.x1, film.y1, FilterReach(plan.filter), tiles)
+  /** Where samples of the pixels `sampled` are shared by those of `film`, if the plan shares any. */
+  private def shares(
+      plan: RenderPlan,
+      film: PixelBounds,
+      sampled: PixelBounds
+  ): Option[SampleShares] =
+    Option.when(plan.sharesSamples):
+      val tiles = Schedule.tilesOf(sampled).map(t => SampleShares.Tile(t.x0, t.y0, t.x1, t.y1))
+      SampleShares(film.x0, film.y0, film.x1, film.y1, FilterReach(plan.filter), tiles)
 
   /** All places of the film that can add to a pixel. */
   private def view(plan: RenderPlan, splats: SplatFilm): View =
@@ -127,8 +129,7 @@ object Renderer:
   def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
     val bounds = PixelBounds(x, y, x + 1, y + 1)
     val schedule = Schedule(bounds, plan.sampler.samplesPerPixel)
-    val shared = Option.when(plan.sharesSamples)(shares(plan, bounds, schedule))
-    val film = Film(x, y, x + 1, y + 1, shares = shared)
+    val film = Film(x, y, x + 1, y + 1, shares = shares(plan, bounds, bounds))
     val layers = None
     val worker = TileWorker(
       plan,

@@ -6,7 +6,6 @@ import java.nio.file.{Files, Path}
 import java.nio.{ByteBuffer, ByteOrder}
 
 import candela.accel.{Accelerator, BruteForce, Bvh, Grid, Hierarchies, Primitives}
-import candela.geometry.{Hit, Ray}
 import candela.shapes.TriangleSoup
 
 /** How many rays a second each kernel answers on one thread, in seconds of processor time.
@@ -35,7 +34,7 @@ object RayKernels:
       val m = measure(accelerator, set, number("seconds", "3"))
       println(f"java $java\t$name\t${set.name}\t${m.rate}%.3f\t${m.hits}\t${m.sum}%.1f\t${m.bytes}%.2f")
 
-  private def kernels(primitives: Primitives): Seq[(String, () => Accelerator)] =
+  def kernels(primitives: Primitives): Seq[(String, () => Accelerator)] =
     val vector =
       if Hierarchies.hasVectors then
         Seq("vector" -> (() => Hierarchies.vector(primitives, patience = 0)))
@@ -54,9 +53,12 @@ object RayKernels:
 
   /** The best pass of those within `seconds`, after as long a time to warm up. */
   private def measure(a: Accelerator, set: RaySet, seconds: Double): Measured =
-    val pass = Pass(a, set)
+    val pass = RayPass(a, set)
+    def run() =
+      pass.clear()
+      pass.run(0, set.count)
     val begin = cpu()
-    while cpu() - begin < seconds * 1e9 do pass.run()
+    while cpu() - begin < seconds * 1e9 do run()
     var best = Double.PositiveInfinity
     val start = cpu()
     val beans = ManagementFactory.getThreadMXBean.asInstanceOf[com.sun.management.ThreadMXBean]
@@ -65,30 +67,11 @@ object RayKernels:
     var passes = 0
     while cpu() - start < seconds * 1e9 do
       val from = cpu()
-      pass.run()
+      run()
       passes += 1
       best = Math.min(best, (cpu() - from) * 1e-9)
     val bytes = (beans.getThreadAllocatedBytes(thread) - before).toDouble / passes / set.count
     Measured(set.count / best * 1e-6, pass.hits, pass.sum, bytes)
-
-  private final class Pass(a: Accelerator, set: RaySet):
-    private val ray = Ray()
-    private val hit = Hit()
-    var hits = 0
-    var sum = 0.0
-
-    def run(): Unit =
-      hits = 0
-      sum = 0.0
-      val f = set.floats
-      var i = 0
-      while i < f.length do
-        ray.set(f(i), f(i + 1), f(i + 2), f(i + 3), f(i + 4), f(i + 5), f(i + 6))
-        if set.anyHit then { if a.isOccluded(ray, hit) then hits += 1 }
-        else if a.closest(ray, hit) then
-          hits += 1
-          sum += ray.tMax
-        i += 7
 
   private def write(folder: Path, soup: TriangleSoup, sets: Seq[RaySet]): Unit =
     Files.createDirectories(folder): Unit

@@ -14,6 +14,31 @@ import candela.shapes.TriangleSoup
 final class RaySet(val name: String, val anyHit: Boolean, val floats: Array[Float]):
   def count: Int = floats.length / 7
 
+/** What an accelerator answers to a set of rays. */
+final class RayPass(a: Accelerator, set: RaySet):
+  private val ray = Ray()
+  private val hit = Hit()
+  var hits = 0
+
+  /** Of the distances to what was met. */
+  var sum = 0.0
+
+  def clear(): Unit =
+    hits = 0
+    sum = 0.0
+
+  /** Asks for the rays first ≤ i < end. */
+  def run(first: Int, end: Int): Unit =
+    val f = set.floats
+    var i = 7 * first
+    while i < 7 * end do
+      ray.set(f(i), f(i + 1), f(i + 2), f(i + 3), f(i + 4), f(i + 5), f(i + 6))
+      if set.anyHit then { if a.isOccluded(ray, hit) then hits += 1 }
+      else if a.closest(ray, hit) then
+        hits += 1
+        sum += ray.tMax
+      i += 7
+
 object RaySet:
   /** What a path tracer asks for: rays of a pinhole camera row by row, a diffuse bounce of each that
     * hits, and its shadow ray to a lamp of some size.

@@ -1,16 +1,12 @@
 package candela.build
 
 import candela.bidirectional.*
+import candela.integrators.LightTransport.RouletteAfter
 import candela.integrators.{PathThroughVolumes, VolumePathTracer}
 import candela.scenefile.Dialect
 
 /** How [[BidirectionalPathTracer]] is made, for all that is rendered by it. */
 private[build] object BidirectionalPlans:
-
-  /** Scattering events before a path may end by chance. As in pbrt-v2 and v3; v4 has 1 for paths,
-    * which costs more in noise than it saves in time: docs/SPEED.md.
-    */
-  private[build] val Patience = 4
 
   /** @param name by which the scene asked for it */
   def plan(name: String, depth: Int, widens: Boolean = false)(using site: Site): IntegratorPlan =
@@ -19,7 +15,7 @@ private[build] object BidirectionalPlans:
     val shown = if name == "bdpt" then name else s"bdpt for $name"
     IntegratorPlan(
       (scene, _) =>
-        BidirectionalPathTracer(scene, most, Patience, dialect != Dialect.V2, widens),
+        BidirectionalPathTracer(scene, most, RouletteAfter, dialect != Dialect.V2, widens),
       samplesBsdf = false,
       s"$shown, up to $most scattering events" + (if widens then ", regularized" else ""),
       regularizes = widens,
@@ -28,11 +24,11 @@ private[build] object BidirectionalPlans:
         site.warn(
           s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
         )
-        VolumePathTracer(scene, media, most, Patience, 1f, dialect == Dialect.V3, widens)
+        VolumePathTracer(scene, media, most, RouletteAfter, 1f, dialect == Dialect.V3, widens)
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
-        PathThroughVolumes(scene, march, most, Patience, 1f)
+        PathThroughVolumes(scene, march, most, RouletteAfter, 1f)
     )
 
   /** Of [[Metropolis]]: where there are media or volumes, as above.
@@ -61,7 +57,7 @@ private[build] object BidirectionalPlans:
     val compresses = site.dialect != Dialect.V2
     plan(name, depth, widens).copy(
       make = (scene, _) =>
-        Metropolis(BidirectionalPathTracer(scene, most, Patience, compresses, widens), seeded),
+        Metropolis(BidirectionalPathTracer(scene, most, RouletteAfter, compresses, widens), seeded),
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))
     )

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.integrators.*
+import candela.integrators.LightTransport.RouletteAfter
 import candela.scenefile.Dialect
 
 final class Path(name: String, meaning: String, dialects: Set[Dialect])
@@ -14,7 +15,6 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
   protected def make()(using site: Site): IntegratorPlan =
     // v2 lights one vertex more than it counts
     val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
-    val patience = BidirectionalPlans.Patience
     // v2's path and v4's take such a surface for glass, or see its reflection alone
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val widens = regularize()
@@ -22,10 +22,10 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
     windowed(IntegratorPlan(
       (scene, _) =>
         if goesBeneath && scene.hasSubsurface then
-          SubsurfacePathTracer(scene, depth, patience, threshold(), seesThrough, widens)
+          SubsurfacePathTracer(scene, depth, RouletteAfter, threshold(), seesThrough, widens)
         else
           val wavelengths = Dispersions.wavelengths(scene)
-          PathTracer(scene, depth, patience, threshold(), wavelengths, widens)
+          PathTracer(scene, depth, RouletteAfter, threshold(), wavelengths, widens)
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),
@@ -33,11 +33,11 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
       throughMedia = Option.when(name == "volpath")((scene, media) =>
-        VolumePathTracer(scene, media, depth, patience, threshold(), seesThrough, widens)
+        VolumePathTracer(scene, media, depth, RouletteAfter, threshold(), seesThrough, widens)
       ),
       regularizes = widens,
       throughVolumes = Some((scene, _, march) =>
-        PathThroughVolumes(scene, march, depth, patience, threshold())
+        PathThroughVolumes(scene, march, depth, RouletteAfter, threshold())
       )
     ))
 
