@@ -162,7 +162,7 @@ final class WorldBuilder(
           addSolids(shapes, material, light.filter(_ => emits), false, here, to)
         case ShapeGeometry.Several(parts) => parts.foreach(place)
 
-      place(geometry)
+      if light.isDefined || !media.isNothing(materials(material)) then place(geometry)
 
   private def addSolids(
       shapes: Vector[Shape],

@@ -25,16 +25,20 @@ final class PathThroughVolumes(
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
     march.start(ray, sampler)
-    var met = scene.closest(ray, hit)
-    rays += 1
-    march.march(ray, sampler)
-    var light = march.light
-    var throughput = march.transmitted
+    var light = Rgb.Black
+    var throughput = Rgb.White
     var depth = 0
     var etaScale = 1f
     var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
     var alive = true
     while alive do
+      rays += 1
+      val met = scene.closest(ray, hit)
+      if depth == 0 then
+        march.march(ray, sampler)
+        light += throughput * march.light
+        throughput = throughput * march.transmitted
+      else throughput = throughput * march.dimming(ray, stepsToLights)
       if !met then
         light += throughput * escaped(ray, lastPdf)
         alive = false
@@ -42,7 +46,11 @@ final class PathThroughVolumes(
         scene.surface(ray, hit, at)
         val wo = -ray.direction
         light += metLight(throughput, wo, lastPdf)
-        if depth == maxDepth then alive = false
+        if scene.isInterface(at) then
+          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
+          scene.passed(ray)
+          lastPdf = 0f // shadow rays end here
+        else if depth == maxDepth then alive = false
         else
           depth += 1
           val bsdf = scene.bsdf(at)
@@ -63,8 +71,4 @@ final class PathThroughVolumes(
             throughput = throughput *
               LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
             alive = !throughput.isBlack
-          if alive then
-            met = scene.closest(ray, hit)
-            rays += 1
-            throughput = throughput * march.dimming(ray, stepsToLights)
     light

@@ -1,6 +1,7 @@
 package candela.build
 
 import candela.base.Suggest
+import candela.bsdf.{InterfaceMaterial, Material}
 import candela.integrators.{Integrator, VolumeMarch}
 import candela.media.{Medium, MediumBorder, Region, Regions, SceneMedia}
 import candela.scene.Scene
@@ -45,6 +46,10 @@ private[build] final class MediaBuilder(
       seen(index(s.insideMedium, s.shape.at)),
       seen(index(s.outsideMedium, s.shape.at))
     )
+
+  /** Volumes of pbrt-v2 have no borders: a surface that all light passes is no surface there. */
+  def isNothing(material: Material): Boolean =
+    description.dialect == Dialect.V2 && (material eq InterfaceMaterial)
 
   private def seen(medium: Int): Int =
     isUsed ||= medium >= 0
