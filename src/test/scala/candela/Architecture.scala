@@ -16,8 +16,9 @@ final case class SourceText(path: String, text: String):
   /** The lines without comments and literals: what the rules are about. */
   lazy val code: Vector[String] = SourceText.withoutProse(text).linesIterator.toVector
 
-  /** The folder right under the root; files outside any have none. */
-  def folder: Option[String] = Option.when(path.contains('/'))(path.takeWhile(_ != '/'))
+  /** Its folders, written as a package: `accel.building`; files outside any have none. */
+  def folder: Option[String] =
+    Option.when(path.contains('/'))(path.take(path.lastIndexOf('/')).replace('/', '.'))
 
 object SourceText:
 
@@ -49,7 +50,7 @@ object Architecture:
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf lights media cameras accel " +
-      "scene integrators bidirectional film render"
+      "accel.building accel.tracing scene integrators bidirectional film render"
   )
   val file: Vector[String] = floors("base math scenefile")
 
@@ -78,12 +79,18 @@ object Architecture:
     "scalatags" -> Set("report"),
     "ujson" -> Set("report"),
     "com" -> Set("suite"),
-    "jdk" -> Set("accel")
+    "jdk" -> Set("accel.tracing")
   )
   private val language = Set("candela", "java", "javax", "scala")
 
-  private val use = raw"\bcandela\s*\.\s*(\w+)".r
+  private val use = raw"\bcandela\s*\.\s*(\w+(?:\s*\.\s*[a-z]\w*)*)".r
   private val vague = raw"\bimport\s+(?:_root_\.)?candela(?:\s*\.\s*[{*]|\s+as\b)".r
+
+  /** A package within another, by its last name alone. */
+  private val nested =
+    val names = allowed.keys.filter(_.contains('.')).map(_.split('.').last).mkString("|")
+    raw"(?<![\w.])(?:$names)(?:\s*\.\s*[A-Z{*]|\s+as\b)".r
+
   private val imported = raw"^(?:import|export)\s+(?:_root_\.)?([a-z]\w*)\.".r
   private val fullName = raw"(?<![\w.])(org|com|jdk|scopt|sun)\.\w".r // within code, too
   private val print = (raw"\b(?:println|printf|printStackTrace|Console)\b|\bprint\(|" +
@@ -92,31 +99,40 @@ object Architecture:
     raw"\b(?:Executors?|ExecutionContext|ForkJoinPool|CompletableFuture|Future|Timer)\b|" +
     raw"\bThreadPoolExecutor\b|\bThreadLocal\b|\.par\b|\bparallelStream\b|\.parallel\b").r
 
+  /** The package within which a name lies: the longest beginning that has a floor. */
+  private def packageOf(name: String): Option[String] =
+    val parts = name.split(raw"\s*\.\s*")
+    parts.indices.reverse.map(i => parts.take(i + 1).mkString(".")).find(allowed.contains)
+
+  /** The package of a file: that of its folder, or of one around it. */
+  def home(source: SourceText): Option[String] = source.folder.flatMap(packageOf)
+
   /** Every file lies in the folder of a package that has its floor, and says so once, on top. */
   def packages(sources: Vector[SourceText]): Vector[String] =
     sources.flatMap: source =>
       val said = source.code.zipWithIndex.filter(_._1.startsWith("package "))
-      source.folder match
-        case Some(home) if !allowed.contains(home) =>
-          Vector(s"${source.path}:1: `$home` has no floor in docs/ARCHITECTURE.md")
-        case Some(home) if said.map(_._1.trim) == Vector(s"package candela.$home") => Vector.empty
-        case _ =>
+      (source.folder, home(source)) match
+        case (Some(folder), None) =>
+          Vector(s"${source.path}:1: `$folder` has no floor in docs/ARCHITECTURE.md")
+        case (_, Some(home)) if said.map(_._1.trim) == Vector(s"package candela.$home") =>
+          Vector.empty
+        case (_, home) =>
           val line = said.headOption.fold(1)(_._2 + 1)
-          Vector(s"${source.path}:$line: must say `package candela.<its folder>`, once")
+          val name = home.getOrElse("<its folder>")
+          Vector(s"${source.path}:$line: must say `package candela.$name`, once")
 
   /** Uses point down: by import or by full name, at places that say which package they mean. */
   def floors(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
       val wrong =
         for
-          used <- use.findAllMatchIn(line).map(_.group(1)).toVector.distinct
-          if used != home && !allowed.getOrElse(
-            home,
-            Set.empty
-          )(used) && !line.startsWith("package ")
+          name <- use.findAllMatchIn(line).map(_.group(1)).toVector
+          used = packageOf(name).getOrElse(name.takeWhile(_ != '.'))
+          if used != home && !allowed(home)(used) && !line.startsWith("package ")
         yield s"$home may not use $used"
-      val hidden = vague.findFirstIn(line).map(_ => "import a package of candela by its name")
-      wrong ++ hidden
+      val hidden = (vague.findFirstIn(line) ++ nested.findFirstIn(line)).headOption
+        .map(_ => "name a package of candela in full")
+      wrong.distinct ++ hidden
 
   /** `base` needs but Java and Scala; other libraries stay behind the package they serve. */
   def foreign(sources: Vector[SourceText]): Vector[String] =
@@ -135,7 +151,7 @@ object Architecture:
 
   /** Only `render` makes threads. A shutdown hook must be one, and is `cli`'s business. */
   def threads(sources: Vector[SourceText]): Vector[String] =
-    code(sources.filterNot(s => s.folder.contains("render") || s.path == "cli/Interrupts.scala")):
+    code(sources.filterNot(s => home(s).contains("render") || s.path == "cli/Interrupts.scala")):
       (_, line) =>
         thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
 
@@ -163,7 +179,7 @@ object Architecture:
   ): Vector[String] =
     for
       source <- sources
-      home <- source.folder.toVector
+      home <- home(source).toVector
       (line, i) <- source.code.zipWithIndex
       wrong <- rule(home, line).iterator
     yield s"${source.path}:${i + 1}: $wrong"

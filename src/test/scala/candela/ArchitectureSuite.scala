@@ -18,7 +18,7 @@ class ArchitectureSuite extends AnyFunSuite:
 
   test("every package has its floor, and every floor its package"):
     holds(Architecture.packages(main))
-    assert(main.flatMap(_.folder).toSet == Architecture.allowed.keySet)
+    assert(main.flatMap(Architecture.home).toSet == Architecture.allowed.keySet)
 
   test("every use points to a lower floor"):
     holds(Architecture.floors(main))
@@ -48,7 +48,7 @@ class ArchitectureSuite extends AnyFunSuite:
     for text <- Vector("package candela.accel", "package candela\npackage bsdf", "class Lambert") do
       assert(
         Architecture.packages(planted("bsdf/Lambert.scala", text)) ==
-          Vector("bsdf/Lambert.scala:1: must say `package candela.<its folder>`, once"),
+          Vector("bsdf/Lambert.scala:1: must say `package candela.bsdf`, once"),
         text
       )
     val loose = Architecture.packages(planted("Loose.scala", "package candela"))
@@ -66,6 +66,34 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(bsdf("import candela.unheard.Of") == wrong("unheard"))
     assert(bsdf("import candela.math.*") == Vector.empty)
 
+  test("a package within another has a floor of its own"):
+    def wrong(path: String, line: String) =
+      val name = "candela." + path.take(path.lastIndexOf('/')).replace('/', '.')
+      val source = planted(path, s"package $name", line)
+      Architecture.packages(source) ++ Architecture.floors(source)
+    val bins = "accel/building/Bins.scala"
+    assert(wrong(bins, "import candela.accel.{BinaryTree, Primitives}") == Vector.empty)
+    assert(wrong("accel/tracing/Bvh.scala", "import candela.accel.building.Bins") == Vector.empty)
+    assert(
+      wrong(bins, "import candela.accel.tracing.{Bvh, Grid}") ==
+        Vector(s"$bins:2: accel.building may not use accel.tracing")
+    )
+    assert(
+      wrong("accel/Mask.scala", "val bins = candela.accel.building.Bins()") ==
+        Vector("accel/Mask.scala:2: accel may not use accel.building")
+    )
+    for line <- Vector("building.Bins()", "import building.{Bins}", "import building as b") do
+      assert(
+        wrong("accel/Mask.scala", line) ==
+          Vector("accel/Mask.scala:2: name a package of candela in full"),
+        line
+      )
+    assert(wrong("accel/Mask.scala", "val tracing = (building.size, x.building.Y)").isEmpty)
+    assert(
+      Architecture.packages(planted(bins, "package candela.accel")) ==
+        Vector(s"$bins:1: must say `package candela.accel.building`, once")
+    )
+
   test("a use by full name is found"):
     val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")
     assert(
@@ -76,7 +104,7 @@ class ArchitectureSuite extends AnyFunSuite:
     for line <- Vector("import candela.*", "import candela.{math, cli}", "import candela as c") do
       assert(
         Architecture.floors(planted("color/Rgb.scala", line)) ==
-          Vector("color/Rgb.scala:1: import a package of candela by its name")
+          Vector("color/Rgb.scala:1: name a package of candela in full")
       )
 
   test("measure may use images but no renderer"):
@@ -91,6 +119,10 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(
       foreign("base/Loop.scala", lwjgl) ==
         Vector("base/Loop.scala:1: base may not use the library `org`")
+    )
+    assert(
+      foreign("accel/building/B.scala", "import jdk.incubator.vector.FloatVector") ==
+        Vector("accel/building/B.scala:1: accel.building may not use the library `jdk`")
     )
     assert(
       foreign("render/R.scala", "import com.example.Json") ==

@@ -26,38 +26,7 @@ final class Primitives(
     loop(count)(i => write(all, 6 * i, boundsOf(i)))
     all
 
-  /** The same, as the builder of hierarchies sorts them: see [[BoxRecord]]. */
-  private[accel] def records(parallel: Parallel): Array[Int] =
-    val all = new Array[Int](Math.multiplyExact(BoxRecord.Ints, count))
-    parallel.ranges(count): (from, until) =>
-      var i = from
-      while i < until do
-        val at = BoxRecord.Ints * i
-        if i < soup.count then writeTriangle(all, at, i)
-        else
-          val b = boundsOf(i)
-          BoxRecord.write(all, at, i, b.min.x, b.min.y, b.min.z, b.max.x, b.max.y, b.max.z)
-        i += 1
-    all
-
-  private def writeTriangle(to: Array[Int], at: Int, triangle: Int): Unit =
-    val p = soup.positions
-    val a = 3 * soup.indices(3 * triangle)
-    val b = 3 * soup.indices(3 * triangle + 1)
-    val c = 3 * soup.indices(3 * triangle + 2)
-    var axis = 0
-    while axis < 3 do
-      val x = p(a + axis)
-      val y = p(b + axis)
-      val z = p(c + axis)
-      val low = if x < y then if x < z then x else z else if y < z then y else z
-      val high = if x > y then if x > z then x else z else if y > z then y else z
-      to(at + axis) = BoxRecord.encode(-low)
-      to(at + BoxRecord.High + axis) = BoxRecord.encode(high)
-      axis += 1
-    to(at + BoxRecord.Number) = triangle
-
-  private def boundsOf(i: Int): Bounds3 =
+  private[accel] def boundsOf(i: Int): Bounds3 =
     if i < soup.count then soup.bounds(i)
     else if i < firstInstance then shapes(i - soup.count).bounds
     else instances.bounds(i - firstInstance)

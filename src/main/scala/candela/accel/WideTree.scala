@@ -1,8 +1,6 @@
 package candela.accel
 
-import candela.base.Parallel
 import candela.geometry.Bounds3
-import candela.shapes.TriangleSoup
 
 /** A hierarchy of many children a node, made for vectors, all in flat arrays.
   *
@@ -13,7 +11,7 @@ import candela.shapes.TriangleSoup
   *
   * A block is nine rows of `lanes` Floats, x, y, z of the triangles' three corners, and a row of
   * raw bits, their numbers. All boxes are somewhat larger than what is in them: see
-  * [[WideBuilder]].
+  * [[WideTree.pad]].
   *
   * Source of the layout: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
   *
@@ -37,49 +35,6 @@ private[accel] final class WideTree(
   def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
 private[accel] object WideTree:
-  /** @param maxLeaf of the binary tree that it is made of, but for triangles */
-  def of(
-      primitives: Primitives,
-      width: Int,
-      lanes: Int,
-      maxLeaf: Int,
-      parallel: Parallel
-  ): WideTree =
-    val size = LeafSize(maxLeaf, lanes, primitives.isSolidTriangle)
-    val built = BvhBuilder.of(primitives, size, parallel)
-    val wide = WideBuilder(width, lanes, built, primitives.isSolidTriangle, parallel)
-    WideTree(
-      width,
-      lanes,
-      primitives.count,
-      built.bounds,
-      wide.nodes,
-      wide.rootCode,
-      blocks(primitives.soup, wide.owners, lanes, parallel),
-      primitives.packed(wide.others, parallel)
-    )
-
-  private def blocks(
-      soup: TriangleSoup,
-      owners: Array[Int],
-      lanes: Int,
-      parallel: Parallel
-  ): Array[Float] =
-    val all = new Array[Float](Math.multiplyExact(10, owners.length))
-    parallel.ranges(owners.length): (from, until) =>
-      var i = from
-      while i < until do
-        val triangle = owners(i)
-        val at = i / lanes * blockFloats(lanes) + i % lanes
-        all(at + 9 * lanes) = java.lang.Float.intBitsToFloat(triangle)
-        if triangle >= 0 then
-          var c = 0
-          while c < 9 do
-            all(at + c * lanes) = soup.positions(3 * soup.indices(3 * triangle + c / 3) + c % 3)
-            c += 1
-        i += 1
-    all
-
   /** Widens a box, six Floats that are `stride` apart: to as far beside it as hits may be, and one
     * Float more, so that no corner is on its planes: there, a ray along the plane has no distance.
     */

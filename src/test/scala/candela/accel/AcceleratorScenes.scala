@@ -1,5 +1,6 @@
 package candela.accel
 
+import candela.accel.tracing.{Bvh, Grid}
 import candela.math.*
 import candela.shapes.{Shape, TriangleSoup}
 import candela.testing.{Draws, Soups}
@@ -95,3 +96,53 @@ object AcceleratorScenes:
   private def flatten(t: Soups.Triangle): Soups.Triangle =
     def down(p: Vec3) = Vec3(p.x, p.y, 0.25f)
     (down(t._1), down(t._2), down(t._3))
+
+  /** Sets of triangles alone: each hard in its own way. */
+  def triangles: Seq[(String, Primitives)] =
+    val draws = Draws(11)
+    def anywhere = draws.vec(-1, 1)
+    def of(triangles: Seq[Soups.Triangle]) = Primitives(Soups.of(triangles), Array.empty)
+    def sliver(length: Float, width: Float) =
+      val (a, d) = (anywhere, draws.direction() * length)
+      (a, a + d, a + d * draws.unit() + draws.direction() * width)
+    val far = Vec3(3e4f, -5e3f, 1e4f)
+    val flat = Soups.latticeQuads(draws, 200, 6)(draws.below(3))
+    Seq(
+      "slivers" -> of(Seq.fill(300)(sliver(2f, draws.magnitude(1e-7, 1e-2)))),
+      "needles in one direction" -> of(Seq.fill(200):
+        val a = anywhere
+        (a, a + Vec3(3f, 0f, 0f), a + Vec3(1.5f, 1e-6f, draws.between(-1e-7f, 1e-7f)))),
+      "parallel to the axes" -> of(flat),
+      "parallel to the axes, far away" -> of(flat.map((a, b, c) => (a + far, b + far, c + far))),
+      "parallel to the axes, edges' products overflow" ->
+        of(flat.map((a, b, c) => (a * 1e12f, b * 1e12f, c * 1e12f))),
+      "the same ones again and again" -> of(Seq.fill(4)(flat.take(60)).flatten),
+      "edges and corners in common" -> Primitives(
+        Soups.icosphere(3, Transform.translate(0.3f, 7f, -2f)),
+        Array.empty
+      ),
+      "points and lines" -> of(Seq.fill(100):
+        val (a, b) = (anywhere, anywhere)
+        if draws.coin() then (a, a, a) else (a, b, a * 0.5f + b * 0.5f)),
+      "of all sizes" -> of(Seq.fill(300):
+        val size = draws.magnitude(1e-6, 1e4)
+        val c = anywhere * draws.magnitude(1e-3, 1e3)
+        (c + draws.vec(-size, size), c + draws.vec(-size, size), c + draws.vec(-size, size))),
+      "beyond the squares of Floats" -> of(Soups.around(draws, 50, 3e24f)(anywhere * 1e25f)),
+      "tiny" -> of(Soups.around(draws, 50, 3e-18f)(anywhere * 1e-17f)),
+      "one" -> of(Soups.around(draws, 1, 1f)(Vec3.Zero))
+    ) ++ all.filter(s => s._2.shapes.isEmpty && s._2.instances.count == 0)
+
+  /** A torus with bumps: 2·`sides`² triangles in the order of a mesh. */
+  def torus(sides: Int): Primitives =
+    val positions = (for v <- 0 until sides; u <- 0 until sides yield
+      val (a, b) = (2 * Math.PI * u / sides, 2 * Math.PI * v / sides)
+      val r = 0.4 + 0.05 * Math.sin(9 * a) * Math.sin(13 * b)
+      val out = 1 + r * Math.cos(b)
+      Seq(out * Math.cos(a), out * Math.sin(a), r * Math.sin(b)).map(_.toFloat)
+    ).flatten.toArray
+    val indices = (for v <- 0 until sides; u <- 0 until sides yield
+      def at(i: Int, j: Int) = (v + j) % sides * sides + (u + i) % sides
+      Seq(at(0, 0), at(1, 0), at(1, 1), at(0, 0), at(1, 1), at(0, 1))
+    ).flatten.toArray
+    Primitives(Soups.indexed(positions, indices), Array.empty)

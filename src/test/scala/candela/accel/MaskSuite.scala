@@ -2,6 +2,7 @@ package candela.accel
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.accel.tracing.{Bvh, Grid}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.{Disk, TriangleSoup}

@@ -2,7 +2,8 @@ package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.accel.{Bvh, Instances}
+import candela.accel.Instances
+import candela.accel.tracing.Bvh
 import candela.bsdf.{ConstantMaterial, Lambert}
 import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}

@@ -2,7 +2,8 @@ package candela.lights
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.accel.{Bvh, Primitives}
+import candela.accel.Primitives
+import candela.accel.tracing.Bvh
 import candela.color.Rgb
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*

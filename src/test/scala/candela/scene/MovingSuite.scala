@@ -3,6 +3,7 @@ package candela.scene
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.accel.*
+import candela.accel.tracing.Bvh
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.TriangleSoup

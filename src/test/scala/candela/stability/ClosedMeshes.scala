@@ -1,6 +1,7 @@
 package candela.stability
 
 import candela.accel.*
+import candela.accel.tracing.{Bvh, Grid, Hierarchies}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.shapes.TriangleSoup

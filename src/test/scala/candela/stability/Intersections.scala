@@ -1,6 +1,7 @@
 package candela.stability
 
 import candela.accel.*
+import candela.accel.tracing.{Bvh, Grid}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.*

@@ -5,7 +5,8 @@ import java.lang.management.ManagementFactory
 import java.nio.file.{Files, Path}
 import java.nio.{ByteBuffer, ByteOrder}
 
-import candela.accel.{Accelerator, BruteForce, Bvh, Grid, Hierarchies, Primitives}
+import candela.accel.{Accelerator, BruteForce, Primitives}
+import candela.accel.tracing.{Bvh, Grid, Hierarchies}
 import candela.shapes.TriangleSoup
 
 /** How many rays a second each kernel answers on one thread, in seconds of processor time.

@@ -1,6 +1,7 @@
 package candela.bench
 
-import candela.accel.{Accelerator, BruteForce, Grid, Primitives}
+import candela.accel.{Accelerator, BruteForce, Primitives}
+import candela.accel.tracing.Grid
 import candela.build.{BvhRecipe, Resources}
 import candela.color.ColorBasis
 import candela.geometry.{Hit, Ray}

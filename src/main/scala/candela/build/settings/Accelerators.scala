@@ -1,6 +1,7 @@
 package candela.build
 
-import candela.accel.{Accelerator, Grid, Hierarchies, Primitives}
+import candela.accel.{Accelerator, Primitives}
+import candela.accel.tracing.{Grid, Hierarchies}
 
 /** Recipes of accelerators: the picture is the same with each. */
 object Accelerators:

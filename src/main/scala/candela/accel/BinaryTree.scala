@@ -1,0 +1,56 @@
+package candela.accel
+
+import candela.geometry.Bounds3
+
+/** A hierarchy of two children a node, in flat arrays.
+  *
+  * A node is 16 Floats (one cache line): the left child's box (min x y z, max x y z), the right
+  * one's, then as raw bits left child, right child, and their sizes if they are leaves. A child ≥ 0
+  * is the index of its node's first Float; below 0 it is a leaf whose first slot is its complement.
+  * With both boxes in the parent a walk tests them from one line, and visits no node in vain.
+  *
+  * @param order     the primitives as the leaves hold them
+  * @param root      encoded as a child is
+  * @param rootCount how many primitives are in the root, if it is a leaf
+  * @param bounds    the box around all primitives
+  */
+private[accel] final class BinaryTree(
+    val order: Array[Int],
+    val nodes: Array[Float],
+    val root: Int,
+    val rootCount: Int,
+    val bounds: Bounds3
+):
+  def nodeCount: Int = nodes.length / BinaryTree.NodeFloats
+
+  private def bits(at: Int): Int = java.lang.Float.floatToRawIntBits(nodes(at))
+  def child(node: Int, side: Int): Int = bits(node + 12 + side)
+  def leafSize(node: Int, side: Int): Int = bits(node + 14 + side)
+
+  /** Slots of `order` from here on are in the subtree. */
+  def firstSlot(node: Int): Int =
+    val left = child(node, 0)
+    if left < 0 then ~left else firstSlot(left)
+
+  def endSlot(node: Int): Int =
+    val right = child(node, 1)
+    if right < 0 then ~right + leafSize(node, 1) else endSlot(right)
+
+  /** How many primitives are in the subtree. */
+  def count(node: Int): Int = endSlot(node) - firstSlot(node)
+
+  /** Half the surface of the box that begins there in `nodes`. */
+  def area(at: Int): Float =
+    val x = nodes(at + 3) - nodes(at)
+    val y = nodes(at + 4) - nodes(at + 1)
+    val z = nodes(at + 5) - nodes(at + 2)
+    x * y + y * z + z * x
+
+  def rootArea: Float =
+    def side(k: Int) =
+      Math.max(nodes(root + 3 + k), nodes(root + 9 + k)) -
+        Math.min(nodes(root + k), nodes(root + 6 + k))
+    side(0) * side(1) + side(1) * side(2) + side(2) * side(0)
+
+private[accel] object BinaryTree:
+  inline val NodeFloats = 16

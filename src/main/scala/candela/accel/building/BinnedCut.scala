@@ -1,0 +1,204 @@
+package candela.accel.building
+
+import candela.base.Parallel
+
+/** Divides many records, between two of sixteen slabs.
+  *
+  * It is a cut across the axis along which centres are spread widest. Only if that is a poor one,
+  * the two others are tried, too: in meshes this is rare and so costs little, yet the trees are
+  * better than if it is never done (docs/decisions/0012).
+  *
+  * @param shift see [[Sweep]]
+  * @param binOf for each axis the bin of each record, if it was filled last
+  */
+private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Array[Byte]])
+    extends Cut:
+  private var best = Slabs()
+  private var trial = Slabs()
+  private var axis = 0
+
+  protected def sweep: Sweep = best.sweep
+
+  def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean =
+    levels.tighten(depth)
+    attemptWidest(first, end, levels, depth)
+    if best.sweep.cost == Float.PositiveInfinity then
+      // All centres may be in one bin of a range that was taken too wide
+      levels.measure(depth, records, first, end)
+      attemptWidest(first, end, levels, depth)
+    val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
+    if best.sweep.cost > BinnedCut.Poor * Sweep.blocks(end - first, shift) * area then
+      val widest = axis
+      val step = (end - first) / BinnedCut.Sample
+      val least = if step > 1 then sampled(first, end, widest, step, levels, depth) else 0f
+      var k = 0
+      while k < 3 do
+        if k != widest && (step <= 1 || sampled(first, end, k, step, levels, depth) < least) then
+          attempt(first, end, k, levels, depth)
+          if trial.sweep.cost < best.sweep.cost then
+            swap()
+            axis = k
+        k += 1
+    best.sweep.cost < Float.PositiveInfinity
+
+  private def attemptWidest(first: Int, end: Int, levels: Levels, depth: Int): Unit =
+    axis = levels.widest(depth)
+    attempt(first, end, axis, levels, depth)
+    swap()
+
+  private def swap(): Unit =
+    val was = best
+    best = trial
+    trial = was
+
+  private def attempt(first: Int, end: Int, axis: Int, levels: Levels, depth: Int): Unit =
+    val low = levels.low(depth, axis)
+    val scale = Bins.Count / levels.extent(depth, axis)
+    trial.low = low
+    trial.scale = scale
+    trial.sweep.cost = Float.PositiveInfinity
+    // A point, or one so small that its inverse overflows, has no slabs; nor has infinity
+    if scale > 0f && scale < Float.PositiveInfinity then
+      val bins = trial.bins
+      fill(bins, first, end, axis, low, scale)
+      trial.sweep.run(Bins.Count, end - first, shift)
+      levels.clip(depth, axis, low + bins.firstUsed / scale, low + (bins.lastUsed + 1) / scale)
+
+  /** What a cut across that axis costs if every `step`th record is looked at. */
+  private def sampled(
+      first: Int,
+      end: Int,
+      axis: Int,
+      step: Int,
+      levels: Levels,
+      depth: Int
+  ): Float =
+    val low = levels.low(depth, axis)
+    val scale = Bins.Count / levels.extent(depth, axis)
+    if scale > 0f && scale < Float.PositiveInfinity then
+      trial.bins.sample(records, first, end, step, axis, low, scale)
+      trial.sweep.run(Bins.Count, (end - first + step - 1) / step, shift)
+      trial.sweep.cost
+    else Float.PositiveInfinity
+
+  /** Fills the bins. */
+  protected def fill(bins: Bins, first: Int, end: Int, axis: Int, low: Float, scale: Float): Unit =
+    bins.fill(records, binOf(axis), first, end, axis, low, scale)
+
+  def divide(first: Int, end: Int): Unit =
+    partition(binOf(axis), best.sweep.cut, first, first + best.sweep.left, end)
+
+  /** Exchanges the records left of `middle` that belong to its right with those right of it that
+    * belong to its left: the first with the first, and so on.
+    */
+  protected def partition(bins: Array[Byte], cut: Int, first: Int, middle: Int, end: Int): Unit =
+    partitioner.run(bins, cut, first, middle, end)
+
+  private val partitioner = Partitioner(records)
+
+  protected def narrow(levels: Levels, depth: Int): Unit =
+    levels.part(depth, axis, best.low + (best.sweep.cut + 1) / best.scale)
+
+/** The slabs of one attempt, and the best cut between them.
+  *
+  * `low` is where the first one begins, in twice the coordinate, `scale` slabs per unit of that.
+  */
+private[building] final class Slabs:
+  val bins: Bins = Bins()
+  val sweep: Sweep = Sweep(bins.boxes, bins.counts)
+  var low = 0f
+  var scale = 0f
+
+private[building] object BinnedCut:
+  /** Of the cost of a node that isn't divided: a cut in half through a plane mesh leaves 0.5. */
+  inline val Poor = 0.6f
+
+  /** Of more records than twice this, so many are looked at to choose between axes. */
+  inline val Sample = 512
+
+/** As [[BinnedCut]], with several threads for each division; the same comes out. */
+private[building] final class SharedCut(
+    records: Array[Int],
+    shift: Int,
+    binOf: Array[Array[Byte]],
+    parallel: Parallel
+) extends BinnedCut(records, shift, binOf):
+
+  override protected def fill(
+      bins: Bins,
+      first: Int,
+      end: Int,
+      axis: Int,
+      low: Float,
+      scale: Float
+  ): Unit =
+    bins.clear()
+    parallel.ranges(end - first): (from, until) =>
+      val some = Bins()
+      some.fill(records, binOf(axis), first + from, first + until, axis, low, scale)
+      bins.synchronized(bins.add(some))
+
+  override protected def partition(
+      bins: Array[Byte],
+      cut: Int,
+      first: Int,
+      middle: Int,
+      end: Int
+  ): Unit =
+    val chunks = parallel.threads
+    if chunks == 1 then super.partition(bins, cut, first, middle, end)
+    else
+      // How many records are on the wrong side before each chunk of the left part, and of the right
+      val left = wrongBefore(bins, first, middle, bin => bin > cut)
+      val right = wrongBefore(bins, middle, end, bin => bin <= cut)
+      val pairs = left(chunks)
+      parallel.each(chunks): k =>
+        var pair = (pairs.toLong * k / chunks).toInt
+        val stop = (pairs.toLong * (k + 1) / chunks).toInt
+        if pair < stop then
+          var i = find(bins, first, middle, left, pair, bin => bin > cut)
+          var j = find(bins, middle, end, right, pair, bin => bin <= cut)
+          while pair < stop do
+            while bins(i) <= cut do i += 1
+            while bins(j) > cut do j += 1
+            Partitioner.exchange(records, i, j)
+            i += 1
+            j += 1
+            pair += 1
+
+  private def chunkStart(first: Int, end: Int, k: Int): Int =
+    first + ((end - first).toLong * k / parallel.threads).toInt
+
+  private inline def wrongBefore(
+      bins: Array[Byte],
+      first: Int,
+      end: Int,
+      inline isWrong: Byte => Boolean
+  ): Array[Int] =
+    val counts = new Array[Int](parallel.threads + 1)
+    parallel.each(parallel.threads): k =>
+      var count = 0
+      var i = chunkStart(first, end, k)
+      val stop = chunkStart(first, end, k + 1)
+      while i < stop do
+        if isWrong(bins(i)) then count += 1
+        i += 1
+      counts(k + 1) = count
+    counts.scanLeft(0)(_ + _).tail
+
+  /** Where the wrong record of that number is. */
+  private inline def find(
+      bins: Array[Byte],
+      first: Int,
+      end: Int,
+      before: Array[Int],
+      number: Int,
+      inline isWrong: Byte => Boolean
+  ): Int =
+    val chunk = before.lastIndexWhere(_ <= number)
+    var left = number - before(chunk)
+    var i = chunkStart(first, end, chunk)
+    while left > 0 || !isWrong(bins(i)) do
+      if isWrong(bins(i)) then left -= 1
+      i += 1
+    i

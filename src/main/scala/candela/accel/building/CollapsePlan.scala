@@ -1,0 +1,155 @@
+package candela.accel.building
+
+import candela.accel.BinaryTree
+import candela.base.{loop, Parallel}
+
+/** Decides which subtrees of a binary tree become leaves of a [[candela.accel.WideTree]] and which nodes vanish
+  * into those above, so that the expected cost of a ray is least.
+  *
+  * Each subtree is asked what it costs at least to hang it up as 1, 2, … `width` children. The
+  * answer for k is the best division of k among its two halves, the answer for 1 a leaf or a node
+  * of `width` children. Source: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs
+  * Through Compressed Wide BVHs", HPG 2017, §3.1.
+  *
+  * Lower parts of the tree are priced side by side, each by one thread, then the rest above them.
+  *
+  * @param width      children a node
+  * @param lanes      triangles a block
+  * @param isTriangle may this primitive be tested in a block?
+  */
+private[building] final class CollapsePlan(
+    width: Int,
+    lanes: Int,
+    tree: BinaryTree,
+    isTriangle: Int => Boolean,
+    parallel: Parallel
+):
+  import CollapsePlan.*
+
+  /** For each binary node and k children: 0, as for k − 1 (or a leaf, if k is 1); otherwise how
+    * many of the k go to its left half.
+    */
+  private val choices = new Array[Byte](Math.multiplyExact(tree.nodeCount, width))
+
+  def choice(node: Int, k: Int): Int = choices(node / BinaryTree.NodeFloats * width + k - 1)
+
+  /** May these slots of the tree's order be one block? */
+  def isBlock(first: Int, end: Int): Boolean =
+    var i = first
+    while i < end && isTriangle(tree.order(i)) do i += 1
+    i == end && end - first <= lanes
+
+  if tree.root >= 0 then
+    val parts = partsBelow(tree.root, tree.rootArea)
+    val priced = new Array[Priced](parts.length)
+    parallel.each(parts.length): i =>
+      val pricer = Pricer(Vector.empty)
+      val count = pricer.price(parts(i).node, parts(i).area, 0)
+      priced(i) = Priced(parts(i).node, count, Array.tabulate(width + 1)(pricer.cost(0, _)))
+    Pricer(priced.toVector).price(tree.root, tree.rootArea, 0): Unit
+
+  private def partSize = BvhBuilder.partSize(tree.order.length)
+
+  /** Subtrees for one thread each, in the order of a walk. */
+  private def partsBelow(node: Int, area: Float): Vector[Part] =
+    if tree.count(node) <= partSize then Vector(Part(node, area))
+    else
+      Vector(0, 1).flatMap: side =>
+        val child = tree.child(node, side)
+        if child < 0 then Vector.empty else partsBelow(child, tree.area(node + 6 * side))
+
+  /** @param done what is priced already, in the order of a walk */
+  private final class Pricer(done: Vector[Priced]):
+    private var next = 0
+
+    /** The costs of a subtree as 1, 2, … children, for each level of the recursion. */
+    private val costs = FloatStack(width)
+
+    def cost(level: Int, k: Int): Float = costs(level, k)
+
+    /** Fills level `level` of `costs` and the choices of the subtree; answers how many triangles
+      * are in it, or very many if there is anything else.
+      */
+    def price(node: Int, area: Float, level: Int): Int =
+      if next < done.length && done(next).node == node then
+        val known = done(next)
+        next += 1
+        loop(width)(i => costs(level, i + 1) = known.costs(i + 1))
+        known.count
+      else
+        val left = priceChild(node, 0, level + 1)
+        costs.keep(level + 1, level)
+        val right = priceChild(node, 1, level + 1)
+        val count = if left >= Many || right >= Many then Many else left + right
+        choose(node, area, level, count)
+        count
+
+    /** Level `level` holds the left half's costs, the next one the right half's. */
+    private def choose(node: Int, area: Float, level: Int, count: Int): Unit =
+      val at = node / BinaryTree.NodeFloats * width
+      var split = 0
+      var k = 2
+      while k <= width do
+        var best = Float.PositiveInfinity
+        split = 0
+        var i = 1
+        while i < k do
+          val cost = costs(level, i) + costs(level + 1, k - i)
+          if cost < best || split == 0 then // also where all costs are infinite
+            best = cost
+            split = i
+          i += 1
+        costs.found(k) = best
+        choices(at + k - 1) = split.toByte
+        k += 1
+      val asNode = area * NodeCost + costs.found(width)
+      val asLeaf = area * BlockCost
+      val isLeaf = count <= lanes && asLeaf <= asNode
+      choices(at) = if isLeaf then 0 else split.toByte
+      costs(level, 1) = if isLeaf then asLeaf else asNode
+      k = 2
+      while k <= width do
+        if costs.found(k) < costs(level, k - 1) then costs(level, k) = costs.found(k)
+        else
+          costs(level, k) = costs(level, k - 1)
+          choices(at + k - 1) = 0
+        k += 1
+
+    private def priceChild(node: Int, side: Int, level: Int): Int =
+      val child = tree.child(node, side)
+      val area = tree.area(node + 6 * side)
+      if child >= 0 then price(child, area, level)
+      else
+        val count = tree.leafSize(node, side)
+        val isOne = isBlock(~child, ~child + count)
+        costs.fill(level, area * (if isOne then BlockCost else count * OtherCost))
+        if isOne then count else Many
+
+private[building] object CollapsePlan:
+  /** What a node costs, a block of triangles, and each other primitive: only ratios count. */
+  inline val NodeCost = 1f
+  inline val BlockCost = 1f
+  inline val OtherCost = 2f
+
+  private final val Many = 1000000000
+
+  private final class Part(val node: Int, val area: Float)
+
+  /** @param count of triangles, or very many
+    * @param costs as 1, 2, … children
+    */
+  private final class Priced(val node: Int, val count: Int, val costs: Array[Float])
+
+/** Rows of Floats numbered from 1, one for each level of a recursion. */
+private[building] final class FloatStack(width: Int):
+  private val rows = new Array[Float](130 * (width + 1))
+
+  /** A row for what is not decided yet. */
+  val found = new Array[Float](width + 1)
+
+  def apply(level: Int, k: Int): Float = rows(level * (width + 1) + k)
+  def update(level: Int, k: Int, x: Float): Unit = rows(level * (width + 1) + k) = x
+  def keep(from: Int, to: Int): Unit =
+    System.arraycopy(rows, from * (width + 1), rows, to * (width + 1), width + 1)
+  def fill(level: Int, x: Float): Unit =
+    java.util.Arrays.fill(rows, level * (width + 1), (level + 1) * (width + 1), x)

@@ -1,0 +1,190 @@
+package candela.accel.building
+
+import candela.accel.BinaryTree
+import candela.base.{loop, Parallel}
+
+/** Builds a subtree over a range of records, which it sorts in place. Belongs to one worker.
+  *
+  * @param records  see [[BoxRecord]]
+  * @param cut      for more than a few records
+  * @param levels   know the box of the range that is built
+  * @param size     of leaves
+  * @param deferred ranges of at most so many records are left for later; 0: none
+  */
+private[building] final class SubtreeBuilder(
+    records: Array[Int],
+    cut: Cut,
+    levels: Levels,
+    size: LeafSize,
+    deferred: Int = 0
+):
+  import BinaryTree.NodeFloats
+
+  /** No more of what is in blocks than one of them is ever cut: it is other things. */
+  private val few = FewCut(records, if size.block < FewCut.Most then size.shift else 0)
+
+  private var nodes = new Array[Float](NodeFloats * 64)
+  private var length = 0
+
+  /** What was left for later: a child that seems a leaf of −k primitives is the kth of these. */
+  val later = scala.collection.mutable.ArrayBuffer.empty[Later]
+
+  def trimmedNodes: Array[Float] = java.util.Arrays.copyOf(nodes, length)
+
+  /** How many are in the leaf that [[build]] made last; 0: it made a node. */
+  var leafSize = 0
+
+  /** Makes the subtree over records[first, end), whose box and range are at `depth`; answers its
+    * code as a child.
+    */
+  def build(first: Int, end: Int, depth: Int): Int =
+    val n = end - first
+    if n <= deferred then leave(first, end, depth)
+    else if n <= 1 || size.isBlock(records, first, end) then leaf(first, end)
+    else
+      val how = if n <= FewCut.Most then few else cut
+      val isCut = depth < BvhBuilder.MaxSahDepth && how.find(first, end, levels, depth)
+      if !isCut then if n <= size.most then leaf(first, end) else halve(first, end, depth)
+      else if n <= size.most && n <= costOf(how, depth) then leaf(first, end)
+      else
+        val node = newNode()
+        val middle = first + how.left
+        how.divide(first, end)
+        how.descend(levels, depth)
+        val here = depth * BoxRecord.Ints
+        BoxRecord.read(levels.boxes, here + BoxRecord.Ints, nodes, node)
+        BoxRecord.read(levels.boxes, here, nodes, node + 6)
+        setChild(node, 0, build(first, middle, depth + 1))
+        levels.descend(depth)
+        setChild(node, 1, build(middle, end, depth + 1))
+        leafSize = 0
+        node
+
+  private def costOf(how: Cut, depth: Int): Float =
+    val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
+    BvhBuilder.TraversalCost + how.cost / Math.max(area, Float.MinPositiveValue)
+
+  private def leaf(first: Int, end: Int): Int =
+    leafSize = end - first
+    ~first
+
+  private def leave(first: Int, end: Int, depth: Int): Int =
+    later += Later(first, end, depth, levels.copy(depth))
+    leafSize = -later.length
+    ~first
+
+  /** Two parts of as many records, wherever they are. */
+  private def halve(first: Int, end: Int, depth: Int): Int =
+    val node = newNode()
+    val middle = (first + end) >>> 1
+    half(node, 0, first, middle, depth)
+    half(node, 1, middle, end, depth)
+    leafSize = 0
+    node
+
+  private def half(node: Int, side: Int, first: Int, end: Int, depth: Int): Unit =
+    levels.descend(depth)
+    val at = (depth + 1) * BoxRecord.Ints
+    BoxRecord.uniteInto(levels.boxes, at, records, first, end)
+    BoxRecord.read(levels.boxes, at, nodes, node + 6 * side)
+    setChild(node, side, build(first, end, depth + 1))
+
+  private def setChild(node: Int, side: Int, code: Int): Unit =
+    nodes(node + 12 + side) = java.lang.Float.intBitsToFloat(code)
+    nodes(node + 14 + side) = java.lang.Float.intBitsToFloat(leafSize)
+
+  private def newNode(): Int =
+    val at = length
+    length += NodeFloats
+    if length > nodes.length then
+      nodes = java.util.Arrays.copyOf(nodes, SubtreeBuilder.more(nodes.length))
+    at
+
+private[building] object SubtreeBuilder:
+
+  /** Twice as much room, as long as there can be. */
+  private def more(length: Int): Int =
+    val most = Int.MaxValue / BinaryTree.NodeFloats * BinaryTree.NodeFloats
+    if length == most then throw IllegalStateException("a hierarchy has no place in an array")
+    Math.min(2L * length, most.toLong).toInt
+
+/** A range of records whose subtree is still to be built.
+  *
+  * @param levels know it at `depth`
+  */
+private[building] final class Later(val first: Int, val end: Int, val depth: Int, val levels: Levels)
+
+/** A part of a tree, laid out as a [[BinaryTree]]; its nodes count from its own first Float.
+  *
+  * @param leafSize of the root, if it is a leaf; −k: it is the kth of the parts that were left for
+  *                 later
+  */
+private[building] final class Subtree(val root: Int, val leafSize: Int, val nodes: Array[Float])
+
+private[building] object Subtree:
+  import BinaryTree.NodeFloats
+
+  /** The tree of which `top` is the upper part, and `parts` what it left for later. */
+  def join(top: Subtree, parts: Array[Subtree], parallel: Parallel): Subtree =
+    val starts = parts.scanLeft(top.nodes.length.toLong)(_ + _.nodes.length)
+    if starts.last > Int.MaxValue - 8 then
+      val count = starts.last / NodeFloats
+      throw IllegalStateException(s"a hierarchy of $count nodes has no place in an array")
+    val all = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
+    parallel.each(parts.length): i =>
+      val start = starts(i).toInt
+      System.arraycopy(parts(i).nodes, 0, all, start, parts(i).nodes.length)
+      children(all, start, starts(i + 1).toInt): (at, code, _) =>
+        setBits(all, at, moved(code, start))
+    def rootOf(k: Int) = moved(parts(k).root, starts(k).toInt)
+    children(all, 0, top.nodes.length): (at, _, size) =>
+      if size < 0 then
+        setBits(all, at, rootOf(-size - 1))
+        setBits(all, at + 2, parts(-size - 1).leafSize)
+    val size = top.leafSize
+    if size < 0 then Subtree(rootOf(-size - 1), parts(-size - 1).leafSize, all)
+    else Subtree(top.root, size, all)
+
+  private def moved(code: Int, start: Int): Int = if code < 0 then code else code + start
+
+  /** For each child: where its code is, the code, and its size. */
+  private inline def children(nodes: Array[Float], from: Int, until: Int)(
+      inline use: (Int, Int, Int) => Unit
+  ): Unit =
+    var node = from
+    while node < until do
+      loop(2): side =>
+        val at = node + 12 + side
+        use(at, bits(nodes, at), bits(nodes, at + 2))
+      node += NodeFloats
+
+  private def bits(nodes: Array[Float], at: Int): Int =
+    java.lang.Float.floatToRawIntBits(nodes(at))
+
+  private def setBits(nodes: Array[Float], at: Int, value: Int): Unit =
+    nodes(at) = java.lang.Float.intBitsToFloat(value)
+
+/** How many primitives a leaf of the binary tree may have.
+  *
+  * Triangles of one block are tested at the cost of one, so a range that fits into a block is not
+  * divided, and cuts are priced by the blocks that they leave, as in Wald, Woop, Benthin, Johnson,
+  * Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", TOG 33(4), 2014.
+  *
+  * @param most    primitives of any kind, if that is cheaper than to divide them
+  * @param block   triangles of a block, a power of two; 1: there are none
+  * @param isPlain may this primitive be in a block?
+  */
+private[accel] final class LeafSize(val most: Int, val block: Int, isPlain: Int => Boolean):
+  /** For what [[Sweep]] prices a cut by: log2 of `block`. */
+  val shift: Int = Integer.numberOfTrailingZeros(block)
+
+  /** Are these records no more than a block? */
+  def isBlock(records: Array[Int], first: Int, end: Int): Boolean =
+    var i = first
+    if end - first <= block then
+      while i < end && isPlain(records(i * BoxRecord.Ints + BoxRecord.Number)) do i += 1
+    i == end
+
+private[accel] object LeafSize:
+  /** Each primitive is tested for itself. */
+  def single(most: Int): LeafSize = LeafSize(most, 1, _ => true)

@@ -1,0 +1,144 @@
+package candela.accel.tracing
+
+import candela.accel.{Accelerator, BinaryTree, Primitives, WideTree}
+import candela.accel.building.{BvhBuilder, LeafSize}
+import candela.base.Parallel
+import candela.geometry.{Bounds3, Hit, Ray}
+
+/** A bounding volume hierarchy of two children a node: the plain twin of [[WideBvh]], and for sets
+  * of primitives that are too large for that.
+  *
+  * Source of the walk: Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG
+  * 2009.
+  */
+final class Bvh(
+    primitives: Primitives,
+    maxLeaf: Int = 4,
+    parallel: Parallel = Parallel.Alone
+) extends Accelerator:
+  private val tree = BvhBuilder.of(primitives, LeafSize.single(maxLeaf), parallel)
+  private val packed = primitives.packed(tree.order, parallel)
+  private val nodes = tree.nodes
+  parallel.ranges(tree.nodeCount): (from, until) =>
+    for i <- from until until; side <- 0 until 2 do
+      WideTree.pad(nodes, BinaryTree.NodeFloats * i + 6 * side, 1)
+  private val root = tree.root
+  private val rootCount = tree.rootCount
+  val bounds: Bounds3 = tree.bounds
+
+  def describe: String =
+    s"bvh: ${primitives.count} primitives, ${nodes.length / BinaryTree.NodeFloats} nodes"
+
+  def closest(ray: Ray, hit: Hit): Boolean =
+    hit.primitive = -1
+    walk(ray, hit, anyHit = false)
+
+  def isOccluded(ray: Ray, hit: Hit): Boolean = walk(ray, hit, anyHit = true)
+
+  private inline def bits(at: Int): Int = java.lang.Float.floatToRawIntBits(nodes(at))
+
+  private inline def walk(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+    val b = nodes
+    val stack = ray.stack
+    val ox = ray.ox
+    val oy = ray.oy
+    val oz = ray.oz
+    val ix = ray.invX
+    val iy = ray.invY
+    val iz = ray.invZ
+    // Where in a box the near plane of each axis stands, and the far one
+    val nx = if ix < 0f then 3 else 0
+    val ny = if iy < 0f then 4 else 1
+    val nz = if iz < 0f then 5 else 2
+    val fx = 3 - nx
+    val fy = 5 - ny
+    val fz = 7 - nz
+    var found = false
+    var top = 0
+    var node = root
+    var leafSize = rootCount
+    var going = primitives.count > 0
+    while going do
+      if node >= 0 then
+        // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): such a slab is
+        // passed
+        var near = 0f
+        var far = ray.tMax * Bvh.FarSlack
+        var t = (b(node + nx) - ox) * ix
+        if t > near then near = t
+        t = (b(node + ny) - oy) * iy
+        if t > near then near = t
+        t = (b(node + nz) - oz) * iz
+        if t > near then near = t
+        t = (b(node + fx) - ox) * ix * Bvh.FarSlack
+        if t < far then far = t
+        t = (b(node + fy) - oy) * iy * Bvh.FarSlack
+        if t < far then far = t
+        t = (b(node + fz) - oz) * iz * Bvh.FarSlack
+        if t < far then far = t
+        val hitsLeft = near <= far
+        val nearLeft = near
+        near = 0f
+        far = ray.tMax * Bvh.FarSlack
+        t = (b(node + 6 + nx) - ox) * ix
+        if t > near then near = t
+        t = (b(node + 6 + ny) - oy) * iy
+        if t > near then near = t
+        t = (b(node + 6 + nz) - oz) * iz
+        if t > near then near = t
+        t = (b(node + 6 + fx) - ox) * ix * Bvh.FarSlack
+        if t < far then far = t
+        t = (b(node + 6 + fy) - oy) * iy * Bvh.FarSlack
+        if t < far then far = t
+        t = (b(node + 6 + fz) - oz) * iz * Bvh.FarSlack
+        if t < far then far = t
+        val hitsRight = near <= far
+        if hitsLeft && hitsRight then
+          val leftFirst = nearLeft <= near
+          val other = if leftFirst then 1 else 0
+          stack(top) = ((if leftFirst then near else nearLeft).toRawBits.toLong << 32) |
+            (node + other)
+          top += 1
+          val here = 1 - other
+          leafSize = bits(node + 14 + here)
+          node = bits(node + 12 + here)
+        else if hitsLeft then
+          leafSize = bits(node + 14)
+          node = bits(node + 12)
+        else if hitsRight then
+          leafSize = bits(node + 15)
+          node = bits(node + 13)
+        else node = Bvh.Pop
+      else if node != Bvh.Pop then
+        val first = ~node
+        inline if anyHit then
+          if packed.isHit(first, first + leafSize, ray, hit) then
+            found = true
+            going = false
+        else if packed.intersect(first, first + leafSize, ray, hit) then found = true
+        node = Bvh.Pop
+      if going && node == Bvh.Pop then
+        // Take the next subtree that begins before the closest hit
+        going = false
+        while !going && top > 0 do
+          top -= 1
+          val entry = stack(top)
+          if java.lang.Float.intBitsToFloat((entry >>> 32).toInt) <= ray.tMax * Bvh.FarSlack then
+            val slot = entry.toInt
+            leafSize = bits(slot + 14)
+            node = bits(slot + 12)
+            going = true
+    found
+
+  extension (x: Float)
+    private inline def toRawBits: Int = java.lang.Float.floatToRawIntBits(x)
+
+object Bvh:
+  /** More than 1 + 12 round-offs: keeps the rounding of slab distances, of hits and of the Float
+    * triangle test from missing a box that is grazed (Ize, "Robust BVH Ray Traversal", JCGT 2(2),
+    * 2013).
+    */
+  private inline val FarSlack = 1.000001f
+
+  /** A node code for "nothing here": no leaf can start at that slot. */
+  private inline val Pop = Int.MinValue

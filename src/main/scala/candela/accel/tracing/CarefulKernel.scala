@@ -1,0 +1,62 @@
+package candela.accel.tracing
+
+import candela.accel.WideTree
+import candela.geometry.{Hit, Ray}
+
+/** Walks a [[WideTree]] with rays that are not tame: so long, short or far away that Floats
+  * overflow on the way. In Double, where they don't; slow, and rare.
+  */
+private[tracing] object CarefulKernel extends WideKernel:
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
+  def name: String = "careful"
+
+  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+    isFinite(ray) && WideWalk.walk(
+      tree,
+      tree.width,
+      tree.lanes,
+      ray,
+      hit,
+      anyHit,
+      (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
+      _ => AnyLane
+    )
+
+  private inline val AnyLane = 0xffff
+
+  private def isFinite(ray: Ray): Boolean =
+    java.lang.Float.isFinite(ray.ox) && java.lang.Float.isFinite(ray.oy) &&
+      java.lang.Float.isFinite(ray.oz) && java.lang.Float.isFinite(ray.dx) &&
+      java.lang.Float.isFinite(ray.dy) && java.lang.Float.isFinite(ray.dz)
+
+  private def boxes(tree: WideTree, node: Int, limit: Float, ray: Ray): Int =
+    val width = tree.width
+    var hits = 0
+    var k = 0
+    while k < width do
+      var near = 0.0
+      var far = limit.toDouble
+      var axis = 0
+      while axis < 3 do
+        val o = ray.along(axis).toDouble
+        val d = if axis == 0 then ray.dx else if axis == 1 then ray.dy else ray.dz
+        val low = tree.nodes(node + axis * width + k)
+        val high = tree.nodes(node + (3 + axis) * width + k)
+        if low == Float.PositiveInfinity then far = -1.0 // no child
+        else if d == 0f then
+          if !(low <= o && o <= high) then far = -1.0
+        else
+          val a = (low - o) / d
+          val b = (high - o) / d
+          near = Math.max(near, Math.min(a, b))
+          far = Math.min(far, Math.max(a, b))
+        axis += 1
+      if near <= far * Slack then
+        // Rounded down, as what begins later may be passed over
+        ray.lanes(k) = java.lang.Float.floatToRawIntBits((near * (2.0 - Slack)).toFloat)
+        hits |= 1 << k
+      k += 1
+    hits
+
+  private final val Slack = 1.000001

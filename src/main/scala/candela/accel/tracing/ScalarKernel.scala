@@ -1,0 +1,121 @@
+package candela.accel.tracing
+
+import candela.accel.WideTree
+import candela.geometry.{Hit, Ray}
+
+/** Walks a [[WideTree]] in plain Scala: for JVMs without the Vector API, and as long as the vectors
+  * of [[VectorKernel]] are not compiled.
+  *
+  * Minima and maxima are those of Ints, and what decides is made of signs: branches that depend on
+  * boxes and triangles can't be foreseen (docs/decisions/0010-ray-kernels.md).
+  */
+private[tracing] object ScalarKernel extends WideKernel:
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, false)
+    else walk(tree, tree.width, tree.lanes, ray, hit, false)
+
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
+    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, true)
+    else walk(tree, tree.width, tree.lanes, ray, hit, true)
+
+  def name: String = "scalar"
+
+  /** Where the sizes are constants, the JVM's compiler unrolls the loops. */
+  private def isNarrow(tree: WideTree): Boolean = tree.width == 4 && tree.lanes == 4
+
+  private inline def walk(
+      tree: WideTree,
+      inline width: Int,
+      inline lanes: Int,
+      ray: Ray,
+      hit: Hit,
+      inline anyHit: Boolean
+  ): Boolean =
+    WideWalk.walk(
+      tree,
+      width,
+      lanes,
+      ray,
+      hit,
+      anyHit,
+      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
+      corners => through(tree.blocks, corners, lanes, ray)
+    )
+
+  /** Bits of the children that the ray meets. Of a slab's two distances the lesser one, as an Int,
+    * is the near one: but where both are negative, and all is behind.
+    */
+  private inline def met(
+      b: Array[Float],
+      node: Int,
+      inline width: Int,
+      ray: Ray,
+      end: Int,
+      inline anyHit: Boolean
+  ): Int =
+    var missed = 0
+    var k = 0
+    while k < width do
+      val lowX = plane(b(node + k), ray.ox, ray.invX)
+      val highX = plane(b(node + 3 * width + k), ray.ox, ray.invX)
+      val lowY = plane(b(node + width + k), ray.oy, ray.invY)
+      val highY = plane(b(node + 4 * width + k), ray.oy, ray.invY)
+      val lowZ = plane(b(node + 2 * width + k), ray.oz, ray.invZ)
+      val highZ = plane(b(node + 5 * width + k), ray.oz, ray.invZ)
+      val near = Math.max(
+        Math.max(Math.min(lowX, highX), Math.min(lowY, highY)),
+        Math.max(Math.min(lowZ, highZ), 0)
+      )
+      val far = Math.min(
+        Math.min(Math.max(lowX, highX), Math.max(lowY, highY)),
+        Math.min(Math.max(lowZ, highZ), end)
+      )
+      inline if !anyHit then ray.lanes(k) = near
+      // Is far + Slack before near? The difference must not overflow where far is negative
+      missed |= ((Math.max(far, Behind) + WideWalk.Slack - near) >>> 31) << k
+      k += 1
+    missed ^ ((1 << width) - 1)
+
+  /** Less than any distance by more than the slack. */
+  private inline val Behind = -100
+
+  private inline def plane(x: Float, o: Float, i: Float): Int = bits((x - o) * i)
+
+  /** Bits of the block's lanes whose triangles may be hit: the Float part of
+    * [[candela.shapes.TriangleTest]], operation by operation.
+    */
+  private inline def through(v: Array[Float], corners: Int, inline lanes: Int, ray: Ray): Int =
+    val x = corners + ray.kx * lanes
+    val y = corners + ray.ky * lanes
+    val z = corners + ray.kz * lanes
+    val ox = ray.oAlongX
+    val oy = ray.oAlongY
+    val oz = ray.oAlongZ
+    val shearX = ray.shearX
+    val shearY = ray.shearY
+    var may = 0
+    var k = 0
+    while k < lanes do
+      val z0 = v(z + k) - oz
+      val z1 = v(z + 3 * lanes + k) - oz
+      val z2 = v(z + 6 * lanes + k) - oz
+      val x0 = v(x + k) - ox + shearX * z0
+      val y0 = v(y + k) - oy + shearY * z0
+      val x1 = v(x + 3 * lanes + k) - ox + shearX * z1
+      val y1 = v(y + 3 * lanes + k) - oy + shearY * z1
+      val x2 = v(x + 6 * lanes + k) - ox + shearX * z2
+      val y2 = v(y + 6 * lanes + k) - oy + shearY * z2
+      val e0 = x1 * y2 - y1 * x2
+      val e1 = x2 * y0 - y2 * x0
+      val e2 = x0 * y1 - y0 * x1
+      val s0 = bits(e0)
+      val s1 = bits(e1)
+      val s2 = bits(e2)
+      val all = bits(e0 * e1 * e2) & Int.MaxValue
+      // No sign, or all signs, or a zero: then the product is one, too, or no number
+      val zero = (all - 1) | (WideWalk.Infinity - all)
+      may |= ((~(s0 | s1 | s2) | (s0 & s1 & s2) | zero) >>> 31) << k
+      k += 1
+    may
+
+  private inline def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)

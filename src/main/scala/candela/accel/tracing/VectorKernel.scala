@@ -1,0 +1,117 @@
+package candela.accel.tracing
+
+import jdk.incubator.vector.{FloatVector, IntVector, VectorMask, VectorOperators, VectorSpecies}
+
+import candela.accel.WideTree
+import candela.geometry.{Hit, Ray}
+
+/** Walks a [[WideTree]] by the JDK's Vector API, a node or a block of triangles in one go. The tree
+  * has blocks of as many triangles as this machine's vectors have lanes.
+  *
+  * To be touched only where the module jdk.incubator.vector is there.
+  */
+private[tracing] object VectorKernel extends WideKernel:
+  // Static and final once compiled, so that the JVM's compiler knows them
+  private val isHuge = FloatVector.SPECIES_PREFERRED.length > 16
+  private val F: VectorSpecies[java.lang.Float] =
+    if isHuge then FloatVector.SPECIES_512 else FloatVector.SPECIES_PREFERRED
+  private val I: VectorSpecies[Integer] =
+    if isHuge then IntVector.SPECIES_512 else IntVector.SPECIES_PREFERRED
+  private val W: Int = F.length
+
+  /** Before, asking a mask for its bits made an object. */
+  private val HasMaskBits = Runtime.version.feature >= 19
+  private val LaneBits: IntVector = IntVector.fromArray(I, Array.tabulate(W)(1 << _), 0)
+  private val Zeros: IntVector = IntVector.zero(I)
+  private val Infinities: IntVector = IntVector.broadcast(I, WideWalk.Infinity)
+
+  /** Two vectors of children, or one of sixteen: a mask of theirs is then as many. */
+  private val N: Int = Math.min(16, 2 * W)
+
+  def width: Int = N
+  def lanes: Int = W
+  def isWorthIt: Boolean = W >= 4
+  def name: String = s"vectors of $W"
+
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
+
+  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+    val b = tree.nodes
+    val t = tree.blocks
+    WideWalk.walk(
+      tree,
+      N,
+      W,
+      ray,
+      hit,
+      anyHit,
+      (node, limit) =>
+        val low = met(b, node, limit, ray, 0, anyHit)
+        if N == W then low else low | (met(b, node + W, limit, ray, W, anyHit) << W)
+      ,
+      corners => through(t, corners, ray)
+    )
+
+  /** One bit for each lane that is set. */
+  private inline def bits(m: VectorMask[Integer]): Int =
+    if HasMaskBits then m.toLong.toInt
+    else Zeros.blend(LaneBits, m).reduceLanes(VectorOperators.OR)
+
+  private inline def plane(b: Array[Float], at: Int, o: Float, i: Float): IntVector =
+    FloatVector.fromArray(F, b, at).sub(o).mul(i).reinterpretAsInts()
+
+  /** As many children as a vector has lanes, from `node` on: which ones the ray meets. Of a slab's
+    * two distances the lesser one, as an Int, is the near one: but where both are negative,
+    * and all is behind.
+    */
+  private inline def met(
+      b: Array[Float],
+      node: Int,
+      limit: Int,
+      ray: Ray,
+      inline lane: Int,
+      inline anyHit: Boolean
+  ): Int =
+    val lowX = plane(b, node, ray.ox, ray.invX)
+    val highX = plane(b, node + 3 * N, ray.ox, ray.invX)
+    val lowY = plane(b, node + N, ray.oy, ray.invY)
+    val highY = plane(b, node + 4 * N, ray.oy, ray.invY)
+    val lowZ = plane(b, node + 2 * N, ray.oz, ray.invZ)
+    val highZ = plane(b, node + 5 * N, ray.oz, ray.invZ)
+    val near = lowX.min(highX).max(lowY.min(highY)).max(lowZ.min(highZ)).max(0)
+    val far = lowX
+      .max(highX)
+      .min(lowY.max(highY))
+      .min(lowZ.max(highZ))
+      .add(WideWalk.Slack)
+      .min(limit)
+    inline if !anyHit then near.intoArray(ray.lanes, lane)
+    bits(near.compare(VectorOperators.LE, far))
+
+  // No vector is kept for longer than a node or a block: the JVM would write it to memory again and
+  // again, for the case that it has to leave compiled code
+  private inline def through(t: Array[Float], corners: Int, ray: Ray): Int =
+    // The Float part of TriangleTest, operation by operation
+    val x = corners + ray.kx * W
+    val y = corners + ray.ky * W
+    val z = corners + ray.kz * W
+    val z0 = FloatVector.fromArray(F, t, z).sub(ray.oAlongZ)
+    val z1 = FloatVector.fromArray(F, t, z + 3 * W).sub(ray.oAlongZ)
+    val z2 = FloatVector.fromArray(F, t, z + 6 * W).sub(ray.oAlongZ)
+    val x0 = FloatVector.fromArray(F, t, x).sub(ray.oAlongX).add(z0.mul(ray.shearX))
+    val x1 = FloatVector.fromArray(F, t, x + 3 * W).sub(ray.oAlongX).add(z1.mul(ray.shearX))
+    val x2 = FloatVector.fromArray(F, t, x + 6 * W).sub(ray.oAlongX).add(z2.mul(ray.shearX))
+    val y0 = FloatVector.fromArray(F, t, y).sub(ray.oAlongY).add(z0.mul(ray.shearY))
+    val y1 = FloatVector.fromArray(F, t, y + 3 * W).sub(ray.oAlongY).add(z1.mul(ray.shearY))
+    val y2 = FloatVector.fromArray(F, t, y + 6 * W).sub(ray.oAlongY).add(z2.mul(ray.shearY))
+    val e0 = x1.mul(y2).sub(y1.mul(x2))
+    val e1 = x2.mul(y0).sub(y2.mul(x0))
+    val e2 = x0.mul(y1).sub(y0.mul(x1))
+    val s0 = e0.reinterpretAsInts()
+    val s1 = e1.reinterpretAsInts()
+    val s2 = e2.reinterpretAsInts()
+    val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
+    val zero = all.sub(1).or(Infinities.sub(all))
+    // No sign, or all signs, or a zero: then the product is one, too, or no number
+    bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))

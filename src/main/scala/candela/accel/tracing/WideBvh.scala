@@ -1,0 +1,98 @@
+package candela.accel.tracing
+
+import candela.accel.{Accelerator, WideTree}
+import candela.geometry.{Bounds3, Hit, Ray}
+
+/** A bounding volume hierarchy whose nodes have as many children as vectors test in one go.
+  *
+  * A ray's first walks are done in plain Scala: a small picture is finished before the JVM has
+  * compiled code with vectors. After that many, vectors are tried until they are faster (see
+  * [[WarmUp]]). Which kernel walks is never seen in a picture: all find the same hits, bit by bit.
+  *
+  * @param fast     for all rays once it is faster
+  * @param patience after how many walks of a ray object it is tried; 0: it is taken at once
+  */
+final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience: Int)
+    extends Accelerator:
+  val bounds: Bounds3 = tree.bounds
+  private val isTame = WideKernel.isTame(bounds)
+  private val isAlwaysFast = patience == 0
+
+  def describe: String =
+    s"bvh: ${tree.count} primitives, ${tree.nodeCount} nodes of ${tree.width} children, " +
+      s"${tree.blockCount} blocks of ${tree.lanes} triangles; ${fast.name}" +
+      (if fast eq ScalarKernel then "" else s", for the first $patience rays scalar")
+
+  def closest(ray: Ray, hit: Hit): Boolean =
+    hit.primitive = -1
+    walk(ray, WarmUp.closest, _.closest(tree, ray, hit), tryClosest(ray, hit))
+
+  def isOccluded(ray: Ray, hit: Hit): Boolean =
+    walk(ray, WarmUp.occluded, _.isOccluded(tree, ray, hit), tryOccluded(ray, hit))
+
+  private inline def walk(
+      ray: Ray,
+      warmUp: WarmUp,
+      inline by: WideKernel => Boolean,
+      inline attempt: => Boolean
+  ): Boolean =
+    if !(isTame && WideKernel.isTame(ray)) then by(CarefulKernel)
+    else if isAlwaysFast || warmUp.isOver then by(fast)
+    else if ray.walks < patience then
+      ray.walks += 1
+      by(ScalarKernel)
+    else if warmUp.turn() then attempt
+    else by(ScalarKernel)
+
+  private def tryClosest(ray: Ray, hit: Hit): Boolean =
+    compare(ray, hit, WarmUp.closest, _.closest(tree, ray, hit))
+
+  private def tryOccluded(ray: Ray, hit: Hit): Boolean =
+    compare(ray, hit, WarmUp.occluded, _.isOccluded(tree, ray, hit))
+
+  /** The same walk by both kernels, and how long each took. */
+  private inline def compare(
+      ray: Ray,
+      hit: Hit,
+      warmUp: WarmUp,
+      inline by: WideKernel => Boolean
+  ): Boolean =
+    val end = ray.tMax
+    val begin = System.nanoTime
+    by(ScalarKernel): Unit
+    val middle = System.nanoTime
+    ray.tMax = end
+    hit.primitive = -1
+    val found = by(fast)
+    warmUp.tell(middle - begin, System.nanoTime - middle)
+    found
+
+/** A way to walk a [[WideTree]]. All find the same hits, bit by bit; rays and tree must be tame. */
+private[tracing] abstract class WideKernel:
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean
+  def name: String
+
+private[tracing] object WideKernel:
+  /** Neither products of coordinates nor those with inverse directions leave the range of Floats:
+    * then a box's distances are off by no more than [[WideWalk.Slack]], and the edge functions of
+    * [[candela.shapes.TriangleTest]] are numbers.
+    */
+  def isTame(ray: Ray): Boolean =
+    isTame(ray.ox) && isTame(ray.oy) && isTame(ray.oz) &&
+      isTameDirection(ray.dx) && isTameDirection(ray.dy) && isTameDirection(ray.dz)
+
+  def isTame(box: Bounds3): Boolean =
+    box.isEmpty || (isTame(box.min.x) && isTame(box.min.y) && isTame(box.min.z) &&
+      isTame(box.max.x) && isTame(box.max.y) && isTame(box.max.z))
+
+  /** False for NaN, too. */
+  private inline def isTame(x: Float): Boolean = Math.abs(x) < Far
+
+  /** Zeros are: a box beside the ray then begins at infinity. */
+  private inline def isTameDirection(x: Float): Boolean =
+    x == 0f || (Math.abs(x) > Small && Math.abs(x) < Large)
+
+  private final val Far = 1e18f
+  private final val Large = 1e30f
+  private final val Small = 1e-30f
