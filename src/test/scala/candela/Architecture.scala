@@ -166,7 +166,7 @@ object Architecture:
         case (line, i) if width(line) > MaxColumns =>
           s"${source.path}:${i + 1}: ${width(line)} columns are more than $MaxColumns"
 
-  val MaxLines = 250
+  val MaxLines = 400
   val MaxColumns = 100
 
   private def width(line: String): Int = line.codePointCount(0, line.length)

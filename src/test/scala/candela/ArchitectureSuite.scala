@@ -192,7 +192,7 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(
       Architecture.sizes(planted("math/A.scala", exact :+ ("x" * 101)*)) ==
         Vector(
-          "math/A.scala:251: 251 lines are more than 250",
-          "math/A.scala:251: 101 columns are more than 100"
+          "math/A.scala:401: 401 lines are more than 400",
+          "math/A.scala:401: 101 columns are more than 100"
         )
     )

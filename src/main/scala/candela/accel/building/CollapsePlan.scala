@@ -3,8 +3,8 @@ package candela.accel.building
 import candela.accel.BinaryTree
 import candela.base.{loop, Parallel}
 
-/** Decides which subtrees of a binary tree become leaves of a [[candela.accel.WideTree]] and which nodes vanish
-  * into those above, so that the expected cost of a ray is least.
+/** Decides which subtrees of a binary tree become leaves of a [[candela.accel.WideTree]] and which
+  * nodes vanish into those above, so that the expected cost of a ray is least.
   *
   * Each subtree is asked what it costs at least to hang it up as 1, 2, … `width` children. The
   * answer for k is the best division of k among its two halves, the answer for 1 a leaf or a node

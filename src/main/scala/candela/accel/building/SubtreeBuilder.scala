@@ -112,7 +112,12 @@ private[building] object SubtreeBuilder:
   *
   * @param levels know it at `depth`
   */
-private[building] final class Later(val first: Int, val end: Int, val depth: Int, val levels: Levels)
+private[building] final class Later(
+    val first: Int,
+    val end: Int,
+    val depth: Int,
+    val levels: Levels
+)
 
 /** A part of a tree, laid out as a [[BinaryTree]]; its nodes count from its own first Float.
   *
