@@ -54,21 +54,27 @@ object Architecture:
   )
   val file: Vector[String] = floors("base math scenefile")
 
+  /** Between the towers: each may use both of them, too. */
+  val bridge: Vector[String] = floors(
+    "build.recipe build.sampling build.film build.cameras build.textures build.media " +
+      "build.shapes build.lights build.materials build.integrators build.settings build"
+  )
+
   private val measure = Set("base", "math", "color", "image")
   private val report = measure + "measure"
   private val convert = measure ++ Set("bsdf", "lights", "scenefile")
-  private val bridge = (runtime ++ file).toSet
+  private val towers = (runtime ++ file).toSet
 
   /** What each package may use beside itself. */
   val allowed: Map[String, Set[String]] =
     def below(tower: Vector[String]) = tower.indices.map(i => tower(i) -> tower.take(i).toSet)
-    below(runtime).toMap ++ below(file) ++ Map(
+    val rooms = below(bridge).map((room, lower) => room -> (towers ++ lower))
+    below(runtime).toMap ++ below(file) ++ rooms ++ Map(
       "measure" -> measure,
       "convert" -> convert,
-      "build" -> bridge,
       "report" -> report,
       "suite" -> (report + "report"),
-      "cli" -> (bridge ++ Set("measure", "convert", "build", "report", "suite"))
+      "cli" -> (towers ++ bridge ++ Set("measure", "convert", "report", "suite"))
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */

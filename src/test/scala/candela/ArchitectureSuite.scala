@@ -37,7 +37,7 @@ class ArchitectureSuite extends AnyFunSuite:
 
   test("docs/ARCHITECTURE.md names the same floors in the same order"):
     val page = Files.readString(Path.of("docs/ARCHITECTURE.md")).split("\\s+").mkString(" ")
-    for tower <- Vector(Architecture.runtime, Architecture.file) do
+    for tower <- Vector(Architecture.runtime, Architecture.file, Architecture.bridge) do
       assert(page.contains(tower.mkString(" ")), tower)
 
   test("a package without a floor, and one that lies about its name, are found"):
@@ -93,6 +93,18 @@ class ArchitectureSuite extends AnyFunSuite:
       Architecture.packages(planted(bins, "package candela.accel")) ==
         Vector(s"$bins:1: must say `package candela.accel.building`, once")
     )
+
+  test("a use of a higher room of the bridge is found"):
+    def lights(line: String) = Architecture.floors(planted("build/lights/A.scala", line))
+    def wrong(used: String) = Vector(s"build/lights/A.scala:1: build.lights may not use $used")
+    assert(lights("import candela.build.materials.Materials") == wrong("build.materials"))
+    assert(lights("val p: candela.build.integrators.Plan") == wrong("build.integrators"))
+    assert(lights("import candela.build.{SceneBuilder, materials}") == wrong("build"))
+    assert(lights("import candela.build.*") == wrong("build"))
+    assert(lights("import candela.cli.Main") == wrong("cli"))
+    assert(lights("import candela.build.shapes.Shapes, candela.lights.Light").isEmpty)
+    val bsdf = planted("bsdf/A.scala", "import candela.build.recipe.Recipe")
+    assert(Architecture.floors(bsdf) == Vector("bsdf/A.scala:1: bsdf may not use build.recipe"))
 
   test("a use by full name is found"):
     val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")

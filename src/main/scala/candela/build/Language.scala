@@ -1,5 +1,17 @@
 package candela.build
 
+import candela.build.cameras.Cameras
+import candela.build.film.{Films, Filters}
+import candela.build.integrators.{Integrators, Renderers, VolumeIntegrators}
+import candela.build.lights.{AreaLights, Lights}
+import candela.build.materials.Materials
+import candela.build.media.{Media, Volumes}
+import candela.build.recipe.*
+import candela.build.sampling.Samplers
+import candela.build.settings.{Accelerators, ColorSpaces, SceneOptionRecipes}
+import candela.build.shapes.Shapes
+import candela.build.textures.Textures
+
 /** A kind of statement, and all types that it can name.
   *
   * @param name    as the statement is called, with what tells it from others of the same name

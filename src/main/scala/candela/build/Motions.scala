@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.build.recipe.*
 import candela.cameras.Shutter
 import candela.math.{Interpolation, InverseMotion, Motion, Still, Transform, Vec3}
 import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}

@@ -3,6 +3,7 @@ package candela.build
 import scala.collection.mutable.ArrayBuffer
 
 import candela.base.Suggest
+import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct}
 import candela.scenefile.*
 

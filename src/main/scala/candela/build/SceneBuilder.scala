@@ -1,6 +1,12 @@
 package candela.build
 
 import candela.base.{Parallel, Problem, SceneError, Severity}
+import candela.build.cameras.Cameras
+import candela.build.film.{FilmSettings, Films, Filters}
+import candela.build.integrators.{Integrators, Renderers}
+import candela.build.recipe.*
+import candela.build.sampling.{SamplerRequest, Samplers}
+import candela.build.settings.SceneOptionRecipe
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.film.{FilterReach, Layer, SpectralBands}

@@ -3,6 +3,7 @@ package candela.build
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks}
+import candela.build.shapes.SoupBuilder
 import candela.scene.{ShapeInstance, Surfaces}
 
 /** Collects the surfaces of the world, or those of an object that instances place in it. */

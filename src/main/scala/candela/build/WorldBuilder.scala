@@ -5,6 +5,13 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Accelerator, Instances, Primitives}
 import candela.bsdf.{InterfaceMaterial, Material}
+import candela.build.integrators.{Dispersions, IntegratorPlan}
+import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights, MeshLights}
+import candela.build.materials.{Materials, ShapeMaterials}
+import candela.build.recipe.*
+import candela.build.settings.{Accelerators, BvhRecipe}
+import candela.build.shapes.{Alpha, ShapeGeometry, Shapes}
+import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}

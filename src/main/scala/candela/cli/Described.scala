@@ -1,6 +1,7 @@
 package candela.cli
 
-import candela.build.{Category, Dialects, Field, Recipe, Support}
+import candela.build.Category
+import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.scenefile.Dialect
 
 /** A parameter in words. */

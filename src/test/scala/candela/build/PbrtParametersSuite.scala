@@ -2,6 +2,8 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.recipe.*
+import candela.build.settings.SceneOptionRecipe
 import candela.scenefile.{Dialect, SceneOptions}
 
 /** The recipes against what pbrt's sources read. */

@@ -5,6 +5,7 @@ import java.nio.file.Path
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{Severity, SourcePos}
+import candela.build.recipe.*
 import candela.color.ColorBasis
 import candela.scenefile.{Declaration, Dialect}
 

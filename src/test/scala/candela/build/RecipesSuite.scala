@@ -1,6 +1,18 @@
 package candela.build
 
 import candela.bsdf.Material
+import candela.build.cameras.{CameraPlan, Cameras}
+import candela.build.film.{FilmSettings, Films, Filters}
+import candela.build.integrators.{
+  IntegratorPlan, Integrators, Renderers, VolumeIntegrators, VolumeMethod
+}
+import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
+import candela.build.materials.Materials
+import candela.build.media.{Media, Volumes}
+import candela.build.sampling.{SamplerRequest, Samplers}
+import candela.build.settings.{SceneOptionRecipes, SceneSettings}
+import candela.build.shapes.{ShapeGeometry, Shapes}
+import candela.build.textures.Textures
 import candela.film.Filter
 import candela.math.Transform
 import candela.media.{Medium, Region}

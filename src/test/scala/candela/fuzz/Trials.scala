@@ -8,7 +8,8 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Random
 
 import candela.base.{SceneError, Severity}
-import candela.build.{BuildOptions, PlyFile, SceneBuilder}
+import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.scenefile.Parser
 

@@ -1,6 +1,7 @@
 package candela.gallery
 
-import candela.build.{Category, Language, Recipe}
+import candela.build.{Category, Language}
+import candela.build.recipe.Recipe
 import candela.scenefile.Dialect
 
 /** How a type is shown in the gallery. */

@@ -3,7 +3,8 @@ package candela.gallery
 import java.nio.file.{Files, Path}
 
 import candela.base.Problem
-import candela.build.{BuildOptions, Category, Recipe, SceneBuilder}
+import candela.build.{BuildOptions, Category, SceneBuilder}
+import candela.build.recipe.Recipe
 import candela.image.{Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}

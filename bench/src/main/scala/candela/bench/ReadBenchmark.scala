@@ -3,7 +3,7 @@ package candela.bench
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
-import candela.build.{PlyFile, PlyMesh}
+import candela.build.shapes.{PlyFile, PlyMesh}
 import candela.scenefile.{Parser, SceneDescription}
 
 import org.openjdk.jmh.annotations.*

@@ -2,7 +2,8 @@ package candela.bench
 
 import candela.accel.{Accelerator, BruteForce, Primitives}
 import candela.accel.tracing.Grid
-import candela.build.{BvhRecipe, Resources}
+import candela.build.recipe.Resources
+import candela.build.settings.BvhRecipe
 import candela.color.ColorBasis
 import candela.geometry.{Hit, Ray}
 import candela.math.Vec3

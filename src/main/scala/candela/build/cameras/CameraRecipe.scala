@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.cameras
 
+import candela.build.recipe.*
 import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup}
 import candela.math.Transform
 import candela.scenefile.Dialect

@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.cameras
+
+import candela.build.recipe.*
 
 /** Recipes of cameras. */
 object Cameras:

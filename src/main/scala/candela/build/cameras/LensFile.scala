@@ -1,4 +1,4 @@
-package candela.build
+package candela.build.cameras
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.cameras
 
+import candela.build.recipe.*
 import candela.cameras.{OrthographicCamera, PerspectiveCamera}
 
 object Perspective extends ProjectiveRecipe("perspective", "things far away look smaller"):

@@ -1,7 +1,8 @@
-package candela.build
+package candela.build.cameras
 
 import java.nio.file.Path
 
+import candela.build.recipe.*
 import candela.cameras.*
 import candela.image.Image
 import candela.math.Transform

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.cameras
 
+import candela.build.recipe.*
 import candela.cameras.SphericalCamera
 import candela.lights.{EqualAreaMap, LatLongMap}
 import candela.scenefile.Dialect

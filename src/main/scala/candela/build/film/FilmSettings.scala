@@ -1,4 +1,4 @@
-package candela.build
+package candela.build.film
 
 import candela.film.{Development, Layer, SampleLimit}
 

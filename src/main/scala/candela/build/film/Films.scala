@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.film
+
+import candela.build.recipe.*
 
 /** Recipes of the film. */
 object Films:

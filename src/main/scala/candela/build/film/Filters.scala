@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.film
 
+import candela.build.recipe.*
 import candela.film.*
 import candela.scenefile.Dialect
 

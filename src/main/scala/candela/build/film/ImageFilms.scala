@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.film
 
+import candela.build.recipe.*
 import candela.film.{Development, Layer, SampleLimit, SpectralBands}
 
 object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", untilV3):

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.film
 
 import candela.base.Suggest
+import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, SampleLimit}
 

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.integrators
 
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.integrators.{AmbientOcclusion, Occlusion}
 import candela.math.*

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.integrators
 
 import candela.bidirectional.*
+import candela.build.recipe.*
 import candela.integrators.LightTransport.RouletteAfter
 import candela.integrators.{PathThroughVolumes, VolumePathTracer}
 import candela.scenefile.Dialect

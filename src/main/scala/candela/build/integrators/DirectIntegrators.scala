@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.integrators
 
+import candela.build.recipe.*
 import candela.integrators.{DirectLighting, Whitted}
 
 object Direct

@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.integrators
+
+import candela.build.recipe.*
 
 /** Recipes of integrators; v2 calls them surface integrators. */
 object Integrators:

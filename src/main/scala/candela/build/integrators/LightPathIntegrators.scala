@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.integrators
 
 import candela.bidirectional.{MetropolisSettings, PhotonSettings}
+import candela.build.recipe.*
 import candela.scenefile.Dialect
 
 /** Integrators whose paths start at lights, too. */

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.integrators
 
 import candela.bidirectional.PhotonSettings
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 

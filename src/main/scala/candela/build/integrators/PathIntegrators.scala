@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.integrators
 
+import candela.build.recipe.*
 import candela.integrators.*
 import candela.integrators.LightTransport.RouletteAfter
 import candela.scenefile.Dialect

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.lights
 
+import candela.build.recipe.*
 import candela.color.{ColorBasis, Rgb}
 import candela.geometry.Bounds3
 import candela.lights.*

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.lights
 
 import candela.base.loop
+import candela.build.recipe.*
 import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, ImageError}
 import candela.scenefile.Dialect

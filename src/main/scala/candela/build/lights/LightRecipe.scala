@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.lights
 
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.lights.Light
 import candela.math.Transform

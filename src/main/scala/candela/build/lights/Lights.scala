@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.lights
+
+import candela.build.recipe.*
 
 /** Recipes of lights that are no surfaces. */
 object Lights:

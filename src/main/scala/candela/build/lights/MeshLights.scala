@@ -1,5 +1,7 @@
-package candela.build
+package candela.build.lights
 
+import candela.build.recipe.*
+import candela.build.shapes.Emission
 import candela.lights.Light
 import candela.shapes.{TriangleSampler, TriangleSoup}
 

@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.lights
+
+import candela.build.recipe.*
 
 /** The parameters that say how often v2's and v3's direct lighting samples a light. */
 trait SampleCounts extends Fields:

@@ -1,4 +1,4 @@
-package candela.build
+package candela.build.materials
 
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}

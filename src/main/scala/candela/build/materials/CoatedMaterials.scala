@@ -1,8 +1,9 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{
   Fresnel, LayerMedium, Material, MaterialFactory as Make, Roughness, RoughnessModel
 }
+import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Upsampling}
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture}

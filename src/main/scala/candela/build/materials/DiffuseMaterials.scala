@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{Material, MaterialFactory as Make}
+import candela.build.recipe.*
 import candela.color.Rgb
 
 object Matte extends MaterialRecipe("matte", "diffuse, with Oren–Nayar's roughness", untilV3):

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{DisneyParameters, Material, MaterialFactory as Make}
+import candela.build.recipe.*
 import candela.color.Rgb
 
 object Disney extends MaterialRecipe("disney", "the material of Burley 2012 and 2015", onlyV3):

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{Material, MaterialFactory as Make, Roughness, RoughnessModel}
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 

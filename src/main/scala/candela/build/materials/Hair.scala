@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{HairMaterial, Material, Pigment}
+import candela.build.recipe.*
 import candela.color.Rgb
 
 object Hair

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.materials
 
+import candela.build.recipe.*
 import candela.color.{Rgb, Upsampling}
 
 /** Indices of refraction that may come as spectra. */

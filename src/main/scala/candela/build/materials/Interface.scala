@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{InterfaceMaterial, Material}
+import candela.build.recipe.*
 import candela.scenefile.Dialect
 
 /** The edge of a medium. */

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{BumpMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel}
+import candela.build.recipe.*
 import candela.scenefile.Dialect
 import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
 

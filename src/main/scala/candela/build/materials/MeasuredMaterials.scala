@@ -1,8 +1,9 @@
-package candela.build
+package candela.build.materials
 
 import java.nio.file.Path
 
 import candela.bsdf.{Bsdf, ConstantMaterial, FourierBsdf, Material}
+import candela.build.recipe.*
 import candela.color.{Rgb, Spectrum}
 import candela.scenefile.Dialect
 

@@ -1,9 +1,10 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{
   Fresnel, IndexedMetal, Material, MaterialFactory as Make, MetalTexture,
   TabulatedReflectance, TintedMetal, UniformMetal
 }
+import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb}
 import candela.math.*
 import candela.scenefile.Dialect

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.materials
 
 import candela.bsdf.{InterfaceMaterial, Material, MaterialFactory}
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.{GrayTexture, RgbTexture}

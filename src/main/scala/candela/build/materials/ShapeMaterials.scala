@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.materials
 
+import candela.build.shapes.Shapes
 import candela.scenefile.{Declaration, Dialect, MaterialRef}
 
 /** In v2 and v3 a `Shape` statement can give parameters of its material, too, which then replace

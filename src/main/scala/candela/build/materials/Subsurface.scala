@@ -1,4 +1,4 @@
-package candela.build
+package candela.build.materials
 
 import candela.base.Suggest
 import candela.bsdf.{
@@ -6,6 +6,8 @@ import candela.bsdf.{
   MaterialFactory as Make, ProfileTable, ReflectanceInterior, Roughness, RoughnessModel,
   SubsurfaceMaterial
 }
+import candela.build.media.{MeasuredMedia, MediumCoefficients}
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}

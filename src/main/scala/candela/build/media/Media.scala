@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.media
 
+import candela.build.recipe.*
 import candela.media.{Medium, Region}
 
 /** Recipes of participating media: v3's and v4's. They make none where there would be nothing. */

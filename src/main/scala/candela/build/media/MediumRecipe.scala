@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.media
 
 import candela.base.Suggest
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.math.*

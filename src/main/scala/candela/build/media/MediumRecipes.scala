@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.media
 
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.media.*

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.media
 
+import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.media.ThermalColors

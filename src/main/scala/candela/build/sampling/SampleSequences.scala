@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.sampling
 
+import candela.build.recipe.*
 import candela.sampling.*
 import candela.scenefile.Dialect
 

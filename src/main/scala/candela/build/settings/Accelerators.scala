@@ -1,7 +1,8 @@
-package candela.build
+package candela.build.settings
 
 import candela.accel.{Accelerator, Primitives}
 import candela.accel.tracing.{Grid, Hierarchies}
+import candela.build.recipe.*
 
 /** Recipes of accelerators: the picture is the same with each. */
 object Accelerators:

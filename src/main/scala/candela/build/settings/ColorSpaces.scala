@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.settings
+
+import candela.build.recipe.*
 
 /** The names that v4's `ColorSpace` knows. */
 object ColorSpaces:

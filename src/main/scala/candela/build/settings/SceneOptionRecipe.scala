@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.settings
+
+import candela.build.recipe.*
 
 /** What v4's `Option` statements say, all together. */
 final case class SceneSettings(seed: Int)

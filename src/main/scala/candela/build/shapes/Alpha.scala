@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.shapes
 
 import candela.accel.{HoleMask, Mask, SolidMask, StochasticMask}
+import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.scenefile.Dialect
 import candela.shapes.SurfaceSampler

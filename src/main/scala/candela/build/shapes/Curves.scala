@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.shapes
 
+import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{BezierCurve, CurveBuilder, CurveKind, CurveSegment}

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.shapes
 
 import candela.base.loop
+import candela.build.recipe.*
 
 object HeightFieldRecipe
     extends ShapeRecipe("heightfield", "heights above a grid over the unit square", untilV3):

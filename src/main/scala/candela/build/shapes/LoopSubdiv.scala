@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.shapes
 
+import candela.build.recipe.*
 import candela.shapes.{LoopSubdivision, MeshError}
 
 object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop's subdivision surface"):

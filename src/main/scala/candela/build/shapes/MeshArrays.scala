@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.shapes
 
+import candela.build.recipe.*
 import candela.scenefile.ParamType
 import candela.shapes.{BilinearMesh, BilinearPatch}
 

@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.shapes
 
 import candela.base.SceneError
+import candela.build.recipe.*
 import candela.scenefile.Dialect
 
 object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "triangles that share vertices"):

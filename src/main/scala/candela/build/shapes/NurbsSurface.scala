@@ -1,6 +1,7 @@
-package candela.build
+package candela.build.shapes
 
 import candela.base.loop
+import candela.build.recipe.*
 import candela.shapes.{KnotVector, Nurbs}
 
 /** What a NURBS surface says of one of its directions. */

@@ -1,4 +1,4 @@
-package candela.build
+package candela.build.shapes
 
 import candela.math.Transform
 import candela.shapes.Shape

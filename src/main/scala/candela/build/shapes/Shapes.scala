@@ -1,4 +1,6 @@
-package candela.build
+package candela.build.shapes
+
+import candela.build.recipe.*
 
 /** Recipes of shapes. */
 object Shapes:

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.textures
 
+import candela.build.recipe.*
 import candela.color.Encoding
 import candela.image.{ByteImage, Image, StoredImage}
 import candela.math.*

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.textures
 
+import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.*

@@ -1,5 +1,6 @@
-package candela.build
+package candela.build.textures
 
+import candela.build.recipe.*
 import candela.textures.{FloatTexture, RgbTexture}
 
 /** Textures by face, without texture coordinates. */

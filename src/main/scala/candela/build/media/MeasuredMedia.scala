@@ -1,0 +1,51 @@
+package candela.build.media
+
+import scala.io.{Codec, Source}
+
+import candela.color.Rgb
+import candela.scenefile.Dialect
+
+/** How much a medium absorbs and scatters, for each unit of length, as linear sRGB.
+  *
+  * @param absorption coefficient
+  * @param scattering coefficient, reduced: as if scattering were isotropic
+  */
+final case class MediumCoefficients(absorption: Rgb, scattering: Rgb)
+
+/** Media that were measured, by the names that pbrt gives them; in 1/mm.
+  *
+  * Sources: Jensen et al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001;
+  * Narasimhan et al., "Acquiring Scattering Properties of Participating Media by Dilution",
+  * SIGGRAPH 2006.
+  */
+private[build] object MeasuredMedia:
+
+  def find(name: String, dialect: Dialect): Option[MediumCoefficients] = table(dialect).get(name)
+
+  def names(dialect: Dialect): Vector[String] = table(dialect).keys.toVector.sorted
+
+  private def table(dialect: Dialect) = if dialect == Dialect.V2 then old else current
+
+  private lazy val samples = read("samples")
+  private lazy val current = samples ++ read("liquids")
+
+  /** pbrt-v2 takes the extinction that was measured for scattering. */
+  private lazy val old = samples ++ read("liquids-v2")
+
+  /** Rows of a name, three numbers and three numbers; lines that begin with # are remarks. */
+  private def read(file: String): Map[String, MediumCoefficients] =
+    val stream = getClass.getResourceAsStream(s"/candela/scattering/$file.txt")
+    val source = Source.fromInputStream(stream)(using Codec.UTF8)
+    try
+      source
+        .getLines()
+        .filterNot(_.startsWith("#"))
+        .map: line =>
+          val Array(name, scattering, absorption) = line.split('|').map(_.trim): @unchecked
+          name -> MediumCoefficients(color(absorption), color(scattering))
+        .toMap
+    finally source.close()
+
+  private def color(text: String): Rgb =
+    val Array(r, g, b) = text.split(' ').map(_.toFloat): @unchecked
+    Rgb(r, g, b)

@@ -1,0 +1,26 @@
+package candela.build.recipe
+
+import candela.scenefile.Dialect
+
+// Which dialects have a parameter or a recipe
+private[build] val every: Set[Dialect] = Dialect.values.toSet
+private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
+private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
+private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
+private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
+private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
+private[build] val notV3: Set[Dialect] = Set(Dialect.V2, Dialect.V4)
+
+/** Dialects in words. */
+object Dialects:
+  def name(dialect: Dialect): String = dialect.toString.toLowerCase
+
+  /** `v2`, `v2 and v3`, `v2, v3 and v4`. */
+  def list(dialects: Set[Dialect]): String =
+    val names = Dialect.values.toVector.filter(dialects).map(name)
+    if names.size < 2 then names.mkString
+    else names.init.mkString(", ") + " and " + names.last
+
+  /** Of the dialects given, the one that is nearest to `wanted`; of equals the older. */
+  def nearest(wanted: Dialect, dialects: Set[Dialect]): Dialect =
+    Dialect.values.filter(dialects).minBy(d => Math.abs(d.ordinal - wanted.ordinal))

@@ -1,0 +1,248 @@
+package candela.build.recipe
+
+import candela.base.Suggest
+import candela.color.Rgb
+import candela.math.Vec3
+import candela.scenefile.{Dialect, Param, ParamType}
+import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
+
+/** The kinds of parameters that a recipe can declare. A default may depend on the dialect:
+  * `float("xradius", "…")(if v4 then 1.5f else 2f)`.
+  */
+trait Fields:
+  protected def register[T](field: Field[T]): Field[T]
+
+  protected final def v2(using d: Dialect): Boolean = d == Dialect.V2
+  protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
+  protected final def v4(using d: Dialect): Boolean = d == Dialect.V4
+
+  protected final def float(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Float): Field[Float] =
+    field(name, "float", doc, in, unit, shown, default)(DefaultText.number)(
+      floats(1, _, _).map(_(0))
+    )
+
+  protected final def integer(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Int): Field[Int] =
+    field(name, "integer", doc, in, unit, shown, default)(_.toString): (p, site) =>
+      if p.paramType == ParamType.Integer && p.ints.length == 1 then Some(p.ints(0))
+      else wrong(p, site, "one integer", "integer")
+
+  protected final def bool(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Boolean): Field[Boolean] =
+    field(name, "bool", doc, in, "", shown, default)(_.toString): (p, site) =>
+      if p.paramType == ParamType.Bool && p.bools.size == 1 then Some(p.bools(0))
+      else wrong(p, site, "one bool", "bool")
+
+  protected final def string(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> String): Field[String] =
+    field(name, "string", doc, in, "", shown, default)(DefaultText.quoted): (p, site) =>
+      if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
+      else wrong(p, site, "one string", "string")
+
+  /** A string out of a closed set. */
+  protected final def oneOf(
+      name: String,
+      doc: String,
+      values: Seq[String],
+      in: Set[Dialect] = every
+  )(default: Dialect ?=> String): Field[String] =
+    val words = s"$doc: ${values.mkString(", ")}"
+    field(name, "string", words, in, "", "", default)(DefaultText.quoted): (p, site) =>
+      if p.paramType != ParamType.String || p.strings.size != 1 then
+        wrong(p, site, "one string", "string")
+      else
+        p.strings.headOption.filter(values.contains).orElse {
+          val found = p.strings.headOption.getOrElse("")
+          site.problems.error(
+            p.valuesAt,
+            s"`$name` is one of ${values.mkString(", ")}; found `$found`",
+            Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
+          )
+          None
+        }
+
+  protected final def point(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("point3", name, doc, in, shown, default)
+
+  protected final def vector(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String = ""
+  )(default: Dialect ?=> Vec3): Field[Vec3] = triple("vector3", name, doc, in, shown, default)
+
+  private def triple(
+      typeName: String,
+      name: String,
+      doc: String,
+      in: Set[Dialect],
+      shown: String,
+      default: Dialect ?=> Vec3
+  ): Field[Vec3] =
+    field(name, typeName, doc, in, "", shown, default)(DefaultText.triple): (p, site) =>
+      floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
+
+  /** Any number of numbers; none if the scene gives none.
+    *
+    * @param typeName as scene files spell it, with `[]` and the count if there is a right one
+    */
+  protected final def numbers(
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = "none"
+  ): Field[Array[Float]] =
+    field(name, typeName, doc, in, unit, shown, Array.emptyFloatArray)(_ => ""): (p, site) =>
+      if p.paramType == ParamType.Integer then Some(p.ints.map(_.toFloat))
+      else if Fields.numeric(p.paramType) then Some(p.floats)
+      else wrong(p, site, "numbers", typeName)
+
+  protected final def integers(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      typeName: String = "integer[]",
+      shown: String = "none"
+  ): Field[Array[Int]] =
+    field(name, typeName, doc, in, "", shown, Array.emptyIntArray)(_ => ""): (p, site) =>
+      if p.paramType == ParamType.Integer then Some(p.ints)
+      else wrong(p, site, "integers", "integer")
+
+  /** Any number of strings; none if the scene gives none. */
+  protected final def strings(
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect] = every
+  ): Field[Vector[String]] =
+    field(name, typeName, doc, in, "", "none", Vector.empty[String])(_ => ""): (p, site) =>
+      if p.paramType == ParamType.String then Some(p.strings)
+      else wrong(p, site, "strings", "string")
+
+  /** A colour that is no texture: light, or an index of refraction. */
+  protected final def color(
+      name: String,
+      doc: String,
+      role: SpectrumRole,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Rgb): Field[Rgb] =
+    field(name, "spectrum", doc, in, unit, shown, default)(DefaultText.color)(
+      Spectra.rgb(_, role, _)
+    )
+
+  /** A function of wavelength, or a colour. */
+  protected final def spectrum(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = "",
+      typeName: String = "spectrum"
+  )(default: Dialect ?=> SpectralValue): Field[SpectralValue] =
+    field(name, typeName, doc, in, unit, shown, default)(DefaultText.spectrum)(
+      Spectra.value(_, _)
+    )
+
+  protected final def floatTexture(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Float): Field[FloatTexture] =
+    val text = (d: Dialect) => DefaultText.number(default(using d))
+    textured(name, "float texture", doc, in, unit, shown, text, ConstantFloat(default)):
+      (p, site) =>
+        if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
+        else floats(1, p, site).map(v => ConstantFloat(v(0)))
+
+  protected final def rgbTexture(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      unit: String = "",
+      shown: String = ""
+  )(default: Dialect ?=> Rgb): Field[RgbTexture] =
+    val text = (d: Dialect) => DefaultText.color(default(using d))
+    textured(name, "spectrum texture", doc, in, unit, shown, text, ConstantRgb(default)):
+      (p, site) =>
+        if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
+        else Spectra.rgb(p, SpectrumRole.Reflectance, site).map(ConstantRgb(_))
+
+  private def floats(count: Int, p: Param, site: Site): Option[Array[Float]] =
+    val values =
+      if p.paramType == ParamType.Integer then p.ints.map(_.toFloat)
+      else if Fields.numeric(p.paramType) then p.floats
+      else Array.emptyFloatArray
+    if values.length == count then Some(values)
+    else if count == 1 then wrong(p, site, "one number", "float")
+    else wrong(p, site, s"$count numbers", "point3")
+
+  private def wrong[T](p: Param, site: Site, expected: String, typeName: String): Option[T] =
+    val count = Seq(p.floats.length, p.ints.length, p.bools.size, p.strings.size).max
+    val plain = typeName.takeWhile(_ != '[')
+    site.problems.error(
+      p.at,
+      s"`${p.name}` of \"${site.declaration.name}\" takes $expected; found " +
+        s"$count of type ${p.paramType.spelling}",
+      Option.when(plain != p.paramType.spelling)(s"write \"$plain ${p.name}\"")
+    )
+    None
+
+  private def field[T](
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect],
+      unit: String,
+      shown: String,
+      default: Dialect ?=> T
+  )(text: T => String)(read: (Param, Site) => Option[T]): Field[T] =
+    val written = (d: Dialect) => if shown.nonEmpty then shown else text(default(using d))
+    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
+
+  private def textured[T](
+      name: String,
+      typeName: String,
+      doc: String,
+      in: Set[Dialect],
+      unit: String,
+      shown: String,
+      text: Dialect => String,
+      default: Dialect ?=> T
+  )(read: (Param, Site) => Option[T]): Field[T] =
+    val written = (d: Dialect) => if shown.nonEmpty then shown else text(d)
+    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
+
+object Fields:
+  private[build] val numeric: Set[ParamType] = Set(
+    ParamType.Float, ParamType.Point2, ParamType.Vector2, ParamType.Point3, ParamType.Vector3,
+    ParamType.Normal, ParamType.Rgb
+  )

@@ -1,0 +1,121 @@
+package candela.build.recipe
+
+import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.file.Files
+import scala.util.Try
+
+import candela.base.Suggest
+import candela.color.{Colorimetry, Rgb, Spectrum}
+import candela.color.Colorimetry.White
+import candela.scenefile.{Dialect, Param, ParamType}
+
+/** What a spectrum stands for: it decides how it becomes a colour. */
+enum SpectrumRole:
+  case Reflectance, Emission
+
+/** A parameter of type spectrum: a colour in linear sRGB, or still a function of wavelength. */
+enum SpectralValue:
+  case Color(rgb: Rgb)
+  case Wavelengths(spectrum: Spectrum)
+
+/** Reads the many ways to write a spectrum. */
+object Spectra:
+
+  /** As a colour in the basis of the scene. None after a problem was reported. */
+  def rgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
+    srgb(p, role, site).map(site.resources.basis.fromSrgb)
+
+  private def srgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
+    p.paramType match
+      case ParamType.Blackbody => blackbody(p, role, site)
+      case ParamType.Spectrum if p.strings.nonEmpty =>
+        val found = named(p, site, StandIns.Magentas)
+        Some(found.fold(StandIns.Magenta)(toRgb(_, role, site.dialect)))
+      case _ =>
+        value(p, site).map:
+          case SpectralValue.Color(c) => c
+          case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
+
+  /** pbrt-v2 and v3 weight all wavelengths alike; v4 sees reflectances under D65 and scales
+    * emission to luminance 1.
+    */
+  def toRgb(s: Spectrum, role: SpectrumRole, dialect: Dialect): Rgb =
+    if dialect != Dialect.V4 then Colorimetry.rgb(s(_), White.EqualEnergy)
+    else if role == SpectrumRole.Emission then Colorimetry.unitLuminance(s(_))
+    else Colorimetry.rgb(s(_), White.D65)
+
+  /** What a reflectance by cosine and wavelength looks like under white light. */
+  def underWhite(reflected: Float => Float => Float)(using site: Site): Float => Rgb =
+    cosTheta =>
+      site.resources.basis.fromSrgb(Colorimetry.rgb(reflected(cosTheta), White.D65))
+
+  def value(p: Param, site: Site): Option[SpectralValue] =
+    p.paramType match
+      case ParamType.Rgb if p.floats.length == 3 =>
+        Some(SpectralValue.Color(Rgb(p.floats(0), p.floats(1), p.floats(2))))
+      case ParamType.Xyz if p.floats.length == 3 =>
+        val Array(x, y, z) = p.floats.map(_.toDouble): @unchecked
+        Some(SpectralValue.Color(Colorimetry.fromXyz(x, y, z)))
+      case ParamType.Float if p.floats.length == 1 =>
+        // Older scenes write "float eta" where a spectrum is due; a constant is what they mean
+        Some(SpectralValue.Color(Rgb.gray(p.floats(0))))
+      case ParamType.Spectrum if p.strings.nonEmpty =>
+        named(p, site, StandIns.Default).map(SpectralValue.Wavelengths(_))
+      case ParamType.Spectrum if p.floats.length >= 2 && p.floats.length % 2 == 0 =>
+        pairs(p.floats, p, site).map(SpectralValue.Wavelengths(_))
+      case other =>
+        val count = Math.max(p.floats.length, p.strings.size)
+        site.problems.error(
+          p.at,
+          s"`${p.name}` takes a colour or a spectrum; found $count of type ${other.spelling}",
+          Some("write e.g. \"rgb " + p.name + "\" [ 0.5 0.5 0.5 ]")
+        )
+        None
+
+  private def blackbody(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
+    val scale = if p.floats.length >= 2 && site.dialect != Dialect.V4 then p.floats(1) else 1f
+    if p.floats.length == 0 || !(p.floats(0) > 0f) then
+      site.problems.error(p.valuesAt, s"`${p.name}` takes a temperature above 0 K")
+      None
+    else
+      // pbrt-v2 has a 1 where the eye is most sensitive, v3 and v4 at the maximum
+      val body =
+        if site.dialect == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
+        else Spectrum.blackbody(p.floats(0))
+      Some(toRgb(body, role, site.dialect) * scale)
+
+  private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
+    val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)
+    if sorted.map(_._1).distinct.length < sorted.length then
+      site.problems.error(p.valuesAt, s"`${p.name}` gives two values for one wavelength")
+      None
+    else
+      val outside =
+        if site.dialect == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
+      Some(Spectrum(sorted.map(_._1), sorted.map(_._2), outside))
+
+  private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
+    val name = p.strings.head
+    Colorimetry.named(name).orElse {
+      def path = site.declaration.folder.resolve(name.replace('\\', '/'))
+      // a name with a zero byte is no path's
+      val file = Try(path).getOrElse(site.declaration.folder)
+      if !Files.isRegularFile(file) then
+        val near = Suggest.nearest(name, Colorimetry.names).map(n => s"did you mean `$n`?")
+        site.problems.missing(
+          p.valuesAt,
+          s"no spectrum is named `$name`, and there is no such file",
+          standIn,
+          near.orElse(Suggest.file(file)).orElse(Suggest.help(name, Colorimetry.names))
+        )
+        None
+      else
+        val text = Files.readAllLines(file, ISO_8859_1).toArray(Array.empty[String])
+        val words = text.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
+        val numbers = words.flatMap(_.toFloatOption)
+        if numbers.length != words.length || numbers.length % 2 != 0 then
+          val message = s"`$name` should hold pairs of wavelength and value"
+          site.problems.missing(p.valuesAt, message, standIn)
+          None
+        else pairs(numbers, p, site)
+    }

@@ -1,0 +1,105 @@
+package candela.build.shapes
+
+import scala.collection.mutable.ArrayBuffer
+import scala.reflect.ClassTag
+
+import candela.base.loop
+import candela.math.Transform
+import candela.shapes.{BumpTangents, Mesh, TriangleSoup}
+
+/** Collects the meshes of a scene, in world space, for one [[TriangleSoup]]. */
+final class SoupBuilder:
+  private val positions = ArrayBuffer.empty[Array[Float]]
+  private val indices = ArrayBuffer.empty[Array[Int]]
+  private val meshes = ArrayBuffer.empty[Mesh]
+  private var vertices = 0
+  private var triangles = 0
+
+  def triangleCount: Int = triangles
+
+  /** Adds a mesh; answers the number of its first triangle.
+    *
+    * @param flipNormals turn the given shading normals around too (pbrt-v4 does with
+    *                    ReverseOrientation)
+    * @param firstLight  of its triangles' lights, −1: it does not emit
+    */
+  def add(
+      mesh: ShapeGeometry.Triangles,
+      toWorld: Transform,
+      reversed: Boolean,
+      flipNormals: Boolean,
+      material: Int,
+      firstLight: Int,
+      bumps: BumpTangents
+  ): Int =
+    val first = triangles
+    val base = vertices
+    positions += SoupBuilder.points(mesh.positions, toWorld)
+    indices += SoupBuilder.shifted(mesh.indices, base)
+    meshes += Mesh(
+      firstVertex = base,
+      firstTriangle = first,
+      triangles = mesh.indices.length / 3,
+      normals = SoupBuilder.normals(mesh.normals, toWorld, reversed && flipNormals),
+      uvs = mesh.uvs,
+      flipped = reversed != toWorld.swapsHandedness,
+      material = material,
+      firstLight = firstLight,
+      bumps = bumps
+    )
+    vertices += mesh.positions.length / 3
+    triangles += mesh.indices.length / 3
+    first
+
+  /** All of it, which is no longer here afterwards: large scenes need the memory. */
+  def result(tangents: Boolean): TriangleSoup =
+    val owners = new Array[Int](if meshes.length == 1 then 0 else triangles)
+    if meshes.length > 1 then
+      for (mesh, i) <- meshes.zipWithIndex do
+        java.util.Arrays.fill(owners, mesh.firstTriangle, mesh.firstTriangle + mesh.triangles, i)
+    def joined[A: ClassTag](pieces: ArrayBuffer[Array[A]]): Array[A] =
+      val all = if pieces.length == 1 then pieces.head else Array.concat(pieces.toSeq*)
+      pieces.clear()
+      all
+    val points = joined(positions)
+    TriangleSoup(points, joined(indices), owners, meshes.toArray, tangents)
+
+object SoupBuilder:
+  private def shifted(indices: Array[Int], by: Int): Array[Int] =
+    if by == 0 then indices
+    else
+      val out = new Array[Int](indices.length)
+      loop(out.length)(i => out(i) = indices(i) + by)
+      out
+
+  private[build] def points(p: Array[Float], toWorld: Transform): Array[Float] =
+    if toWorld.isIdentity then p
+    else
+      val m = toWorld.m
+      val out = new Array[Float](p.length)
+      loop(p.length / 3): i =>
+        val x = p(3 * i).toDouble
+        val y = p(3 * i + 1).toDouble
+        val z = p(3 * i + 2).toDouble
+        val w = m(12) * x + m(13) * y + m(14) * z + m(15)
+        loop(3): r =>
+          out(3 * i + r) =
+            ((m(4 * r) * x + m(4 * r + 1) * y + m(4 * r + 2) * z + m(4 * r + 3)) / w).toFloat
+      out
+
+  private[build] def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
+    if n.length == 0 || (toWorld.isIdentity && !flip) then n
+    else if toWorld.isFlat then Array.empty // the plane has normals of its own
+    else
+      val m = toWorld.inverseM
+      val sign = if flip then -1.0 else 1.0
+      val out = new Array[Float](n.length)
+      loop(n.length / 3): i =>
+        val x = n(3 * i) * sign
+        val y = n(3 * i + 1) * sign
+        val z = n(3 * i + 2) * sign
+        // Lengths stay different: they weigh the corners in the interpolation, as in pbrt
+        out(3 * i) = (m(0) * x + m(4) * y + m(8) * z).toFloat
+        out(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
+        out(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat
+      out

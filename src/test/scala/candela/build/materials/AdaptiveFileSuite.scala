@@ -1,0 +1,44 @@
+package candela.build.materials
+
+import java.nio.file.{Files, Path}
+
+import candela.bsdf.{Bsdf, BsdfLaws, Directions}
+import candela.color.{Colorimetry, Rgb, Spectrum}
+
+class AdaptiveFileSuite extends BsdfLaws:
+  private val folder = Path.of("scenes/measured")
+  private def toRgb(s: Spectrum): Rgb = Colorimetry.rgb(s(_), Colorimetry.White.D65)
+  private def read(name: String): Bsdf =
+    AdaptiveFile.read(folder.resolve(name), toRgb).fold(why => fail(why), identity)
+
+  obeysLaws("the same all around", read("glossy.bsdf"), isReciprocal = false)
+  obeysLaws("brushed", read("brushed.bsdf"), isReciprocal = false)
+
+  test("what is the same all around stays when turned, what is brushed does not"):
+    def apart(bsdf: Bsdf): Float =
+      val (a, b) = (
+        bsdf.f(Directions.at(40, 0), Directions.at(30, 130)),
+        bsdf.f(Directions.at(40, 90), Directions.at(30, 220))
+      )
+      Math.abs(a.g / b.g - 1)
+    assert(apart(read("glossy.bsdf")) < 1e-4f) // rounding
+    assert(apart(read("brushed.bsdf")) > 0.1f)
+
+  test("hostile files are refused with a reason"):
+    val whole = Files.readAllBytes(folder.resolve("glossy.bsdf"))
+    def problem(bytes: Array[Byte]): String =
+      val file = Files.createTempFile("hostile", ".bsdf")
+      try
+        val _ = Files.write(file, bytes)
+        AdaptiveFile.read(file, toRgb).fold(identity, _ => "")
+      finally Files.delete(file)
+    assert(problem(Array.empty) == "the file ends in the middle")
+    assert(problem("tensor_fool!".getBytes ++ whole.drop(12)) == "this is no tensor file")
+    assert(problem(whole.take(200)).contains("the end"))
+    val other = whole.clone
+    other(12) = 7
+    assert(problem(other) == "tensor files of version 7.0 are not known")
+    for at <- 14 until 250 do
+      val broken = whole.clone
+      broken(at) = (broken(at) ^ 0x55).toByte
+      val _ = problem(broken) // a reason or a file, no exception

@@ -1,0 +1,60 @@
+package candela.build.recipe
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.color.{ColorBasis, Rgb, Spectrum}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+final class SpectraSuite extends AnyFunSuite:
+
+  private def close(a: Rgb, b: Rgb, tolerance: Float): Boolean =
+    Seq(a.r - b.r, a.g - b.g, a.b - b.b).forall(d => Math.abs(d) <= tolerance)
+
+  /** The colour of an emission parameter of this text, in the scene's basis. */
+  private def emission(param: String, dialect: Dialect): Option[Rgb] =
+    val light = SceneTexts.parse(s"WorldBegin\nLightSource \"point\" $param\n", dialect).lights.head
+    val basis = if dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
+    val site = Site(light.light, dialect, Resources(basis), Findings())
+    Spectra.rgb(light.light.params.head, SpectrumRole.Emission, site)
+
+  test("an rgb value is itself in v2 and v3, and in v4 in the basis of the scene"):
+    val written = "\"rgb I\" [0.2 0.4 0.8]"
+    assert(emission(written, Dialect.V3).contains(Rgb(0.2f, 0.4f, 0.8f)))
+    val v4 = emission(written, Dialect.V4).get
+    assert(close(ColorBasis.Sharp.toSrgb(v4), Rgb(0.2f, 0.4f, 0.8f), 1e-6f)) // rounding
+
+  test("xyz is turned into sRGB: the white point of D65 is white"):
+    // Four digits of the white point
+    val white = emission("\"xyz I\" [0.9505 1 1.089]", Dialect.V3).get
+    assert(close(white, Rgb.White, 1e-3f))
+
+  test("a constant spectrum is equal-energy white in v3 and of luminance 1 in v4"):
+    val v3 = emission("\"spectrum I\" [300 1 900 1]", Dialect.V3).get
+    assert(v3.r > v3.b && Math.abs(v3.luminance - 1f) < 1e-3f) // six digits in the matrix
+    val v4 = ColorBasis.Sharp.toSrgb(emission("\"spectrum I\" [300 7 900 7]", Dialect.V4).get)
+    assert(Math.abs(v4.luminance - 1f) < 1e-3f)
+
+  test("a reflectance of 1 is white in v4"):
+    val c = Spectra.toRgb(Spectrum.constant(1f), SpectrumRole.Reflectance, Dialect.V4)
+    assert(close(c, Rgb.White, 1e-3f)) // see ColorimetrySuite
+
+  test("blackbody takes a scale after the temperature in v3"):
+    val (one, two) = (
+      emission("\"blackbody I\" [5000 1]", Dialect.V3).get,
+      emission("\"blackbody I\" [5000 2]", Dialect.V3).get
+    )
+    assert(close(one * 2f, two, 1e-5f)) // rounding
+    assert(one.r > one.b)
+
+  test("blackbody is scaled to 1 at 555 nm in v2, at its maximum in v3"):
+    val v2 = emission("\"blackbody I\" [3500 2]", Dialect.V2).get
+    val v3 = emission("\"blackbody I\" [3500 2]", Dialect.V3).get
+    // 3500 K has 0.6387 of its maximum (828 nm) there: Planck's law by hand, four digits
+    assert(close(v2 * 0.6387f, v3, 2e-4f * v3.r))
+
+  test("a name that is neither a spectrum nor a file is an error"):
+    val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D56\"\n"
+    val p = SceneTexts.problems(text, Dialect.V4).head
+    assert(p.message.contains("no spectrum is named `stdillum-D56`"))
+    assert(p.help.exists(_.contains("`stdillum-D65`")))
