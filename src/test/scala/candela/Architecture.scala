@@ -161,6 +161,19 @@ object Architecture:
       (_, line) =>
         thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
 
+  private val definition =
+    (raw"^(?:(?:private|protected)(?:\[\w+\])? |final |abstract |sealed |case |" +
+      raw"opaque )*(?:class|object|trait|enum|type) (\w+)").r
+
+  /** One name, one meaning: build calls nothing as the runtime does. */
+  def names(sources: Vector[SourceText]): Vector[String] =
+    def defined(line: String) = definition.findFirstMatchIn(line).map(_.group(1))
+    val taken =
+      sources.filter(home(_).exists(runtime.contains)).flatMap(_.code.flatMap(defined)).toSet
+    code(sources): (home, line) =>
+      defined(line).filter(name => bridge.contains(home) && taken(name))
+        .map(name => s"`$name` is the name of a class of the runtime, too")
+
   /** A file fits in the mind, a line on the screen. */
   def sizes(sources: Vector[SourceText]): Vector[String] =
     sources.flatMap: source =>

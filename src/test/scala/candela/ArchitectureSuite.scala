@@ -32,6 +32,9 @@ class ArchitectureSuite extends AnyFunSuite:
   test("only render makes threads"):
     holds(Architecture.threads(main))
 
+  test("no class of build has the name of one of the runtime"):
+    holds(Architecture.names(main))
+
   test("no file and no line is too long, in tests neither"):
     holds(Architecture.sizes(main) ++ Architecture.sizes(tests))
 
@@ -105,6 +108,15 @@ class ArchitectureSuite extends AnyFunSuite:
     assert(lights("import candela.build.shapes.Shapes, candela.lights.Light").isEmpty)
     val bsdf = planted("bsdf/A.scala", "import candela.build.recipe.Recipe")
     assert(Architecture.floors(bsdf) == Vector("bsdf/A.scala:1: bsdf may not use build.recipe"))
+
+  test("a name that build and the runtime both use is found"):
+    val mirror = planted("bsdf/Mirror.scala", "final class Mirror(r: Rgb)", "class Smooth")
+    def beside(line: String) =
+      Architecture.names(mirror ++ planted("build/materials/M.scala", "", line))
+    val wrong = "build/materials/M.scala:2: `Mirror` is the name of a class of the runtime, too"
+    assert(beside("object Mirror extends MaterialRecipe(1)") == Vector(wrong))
+    assert(beside("private[build] final case class Mirror(x: Int)") == Vector(wrong))
+    assert(beside("object MirrorRecipe // object Mirror").isEmpty)
 
   test("a use by full name is found"):
     val source = planted("scenefile/A.scala", "val s: candela.shapes.Shape = x // candela.render")

@@ -8,7 +8,7 @@ import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
 import candela.build.sampling.Samplers
-import candela.build.settings.{Accelerators, ColorSpaces, SceneOptionRecipes}
+import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.Shapes
 import candela.build.textures.Textures
 
@@ -59,5 +59,5 @@ object Language:
     Category("MakeNamedMedium", "fog, smoke and the like, v3 and v4", Media.all, Vector("Medium")),
     Category("Volume", "fog, smoke and the like, v2", Volumes.all),
     Category("ColorSpace", "what v4's colours mean", ColorSpaces.all),
-    Category("Option", "settings of the whole scene, v4", SceneOptionRecipes.all)
+    Category("Option", "settings of the whole scene, v4", OptionStatements.all)
   )

@@ -6,7 +6,7 @@ import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.{Integrators, Renderers}
 import candela.build.recipe.*
 import candela.build.sampling.{SamplerRequest, Samplers}
-import candela.build.settings.SceneOptionRecipe
+import candela.build.settings.OptionRecipe
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
 import candela.film.{FilterReach, Layer, SpectralBands}
@@ -56,7 +56,7 @@ object SceneBuilder:
       given_.flatMap(d => recipes.build(site(d))).getOrElse(recipes.build(site(fallback)).get)
 
     val defaults = Defaults(description.dialect)
-    val settings = SceneOptionRecipe.build(
+    val settings = OptionRecipe.build(
       site(Declaration("Option", "", description.options, NoPlace, NoFolder))
     )
     val film = view(description.film, Films.all, defaults.film)

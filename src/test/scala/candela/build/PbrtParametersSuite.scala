@@ -3,7 +3,7 @@ package candela.build
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.recipe.*
-import candela.build.settings.SceneOptionRecipe
+import candela.build.settings.OptionRecipe
 import candela.scenefile.{Dialect, SceneOptions}
 
 /** The recipes against what pbrt's sources read. */
@@ -54,6 +54,6 @@ final class PbrtParametersSuite extends AnyFunSuite:
     assert(beyond.toSet == cameras.toSet ++ forks + ((Dialect.V2, "sample", "visualizeobjectids")))
 
   test("the reader knows the names of v4's options, too"):
-    for f <- SceneOptionRecipe.fields do
+    for f <- OptionRecipe.fields do
       val at = candela.base.SourcePos("options.pbrt", 1, 1)
       assert(SceneOptions.typeOf(f.name, at).spelling == f.typeName, f.name)

@@ -62,3 +62,8 @@ abstract class RecipeLaws[A](
     for dialect <- Dialect.values do
       val names = recipes.all.filter(_.dialects(dialect)).map(_.name)
       assert(names.distinct == names)
+
+  test(s"${recipes.category}: recipes are named alike"):
+    for recipe <- recipes.all do
+      val name = recipe.getClass.getSimpleName.stripSuffix("$")
+      assert(name.endsWith("Recipe"), recipe.name)

@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.accel.{Accelerator, Primitives}
 import candela.bsdf.Material
 import candela.build.cameras.{CameraPlan, Cameras}
 import candela.build.film.{FilmSettings, Films, Filters}
@@ -10,7 +11,7 @@ import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerRequest, Samplers}
-import candela.build.settings.{SceneOptionRecipes, SceneSettings}
+import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements, SceneSettings}
 import candela.build.shapes.{ShapeGeometry, Shapes}
 import candela.build.textures.Textures
 import candela.film.Filter
@@ -79,4 +80,9 @@ final class RendererRecipesSuite extends RecipeLaws[Option[IntegratorPlan]](Rend
 
 final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](VolumeIntegrators.all)
 
-final class OptionRecipesSuite extends RecipeLaws[SceneSettings](SceneOptionRecipes.all)
+final class OptionRecipesSuite extends RecipeLaws[SceneSettings](OptionStatements.all)
+
+final class AcceleratorRecipesSuite
+    extends RecipeLaws[Primitives => Accelerator](Accelerators.all)
+
+final class ColorSpaceRecipesSuite extends RecipeLaws[Unit](ColorSpaces.all)

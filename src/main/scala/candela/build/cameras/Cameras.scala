@@ -7,5 +7,8 @@ object Cameras:
   val all: Recipes[CameraPlan] =
     Recipes(
       "camera",
-      Vector(Perspective, Orthographic, Environment, Spherical, Realistic, RealisticOfForks)
+      Vector(
+        PerspectiveRecipe, OrthographicRecipe, EnvironmentRecipe, SphericalRecipe, RealisticRecipe,
+        ForkedRealisticRecipe
+      )
     )

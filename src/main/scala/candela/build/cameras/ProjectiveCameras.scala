@@ -3,7 +3,7 @@ package candela.build.cameras
 import candela.build.recipe.*
 import candela.cameras.{OrthographicCamera, PerspectiveCamera}
 
-object Perspective extends ProjectiveRecipe("perspective", "things far away look smaller"):
+object PerspectiveRecipe extends ProjectiveRecipe("perspective", "things far away look smaller"):
   private val fov = float("fov", "angle of the shorter side of the view", unit = "degrees")(90f)
   private val half =
     float("halffov", "half of `fov`, instead of it", untilV3, "degrees", "none")(-1f)
@@ -17,7 +17,7 @@ object Perspective extends ProjectiveRecipe("perspective", "things far away look
       exposure()
     )
 
-object Orthographic extends ProjectiveRecipe("orthographic", "parallel lines stay parallel"):
+object OrthographicRecipe extends ProjectiveRecipe("orthographic", "parallel lines stay parallel"):
   protected def make()(using Site): CameraPlan = CameraPlan(
     (toWorld, frame) => OrthographicCamera(setup(toWorld, frame)),
     exposure()

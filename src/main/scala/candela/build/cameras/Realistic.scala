@@ -8,7 +8,7 @@ import candela.image.Image
 import candela.math.Transform
 import candela.scenefile.Dialect
 
-object Realistic extends CameraRecipe("realistic", "lenses of glass, from a table", sinceV3):
+object RealisticRecipe extends CameraRecipe("realistic", "lenses of glass, from a table", sinceV3):
   private val file =
     string("lensfile", "radius, thickness, index and diameter of each surface", shown = "none")("")
   private val diameter = float("aperturediameter", "of the stop", unit = "mm")(1f)
@@ -103,7 +103,7 @@ object Realistic extends CameraRecipe("realistic", "lenses of glass, from a tabl
     StopShape.asBrightAsDisc(image.width, image.height, values)
 
 /** Official pbrt-v2 has none, but some of its forks have. */
-object RealisticOfForks extends CameraRecipe("realistic", "lenses of glass", onlyV2):
+object ForkedRealisticRecipe extends CameraRecipe("realistic", "lenses of glass", onlyV2):
   override def pending: Option[String] =
     Some(s"pbrt-v2 has none, only some of its forks; ${StandInCamera.words}")
   protected def make()(using Site): CameraPlan = CameraPlan(StandInCamera.make, exposure())

@@ -24,7 +24,7 @@ abstract class PanoramaRecipe(name: String, meaning: String, dialects: Set[Diale
     float("focaldistance", "to the plane in focus", unit = "scene units")(1e30f)
   )
 
-object Environment
+object EnvironmentRecipe
     extends PanoramaRecipe(
       "environment",
       "looks to all sides, as an equirectangular map",
@@ -34,7 +34,7 @@ object Environment
     val step = if site.dialect == Dialect.V2 then 1f else 0.05f
     CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false, step), exposure())
 
-object Spherical extends PanoramaRecipe("spherical", "looks to all sides", onlyV4):
+object SphericalRecipe extends PanoramaRecipe("spherical", "looks to all sides", onlyV4):
   private val mapping =
     oneOf("mapping", "layout of the image", Vector("equalarea", "equirectangular"))("equalarea")
 

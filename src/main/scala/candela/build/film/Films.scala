@@ -5,4 +5,4 @@ import candela.build.recipe.*
 /** Recipes of the film. */
 object Films:
   val all: Recipes[FilmSettings] =
-    Recipes("film", Vector(ImageFilm, RgbFilm, GBufferFilm, SpectralFilm))
+    Recipes("film", Vector(ImageFilmRecipe, RgbFilmRecipe, GBufferFilmRecipe, SpectralFilmRecipe))

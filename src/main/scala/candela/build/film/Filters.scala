@@ -7,45 +7,13 @@ import candela.scenefile.Dialect
 /** Recipes of reconstruction filters. */
 object Filters:
   val all: Recipes[Filter] =
-    Recipes("pixel filter", Vector(Box, Triangle, Gaussian, Mitchell, Sinc))
-
-  object Box extends FilterRecipe("box", "all samples within weigh the same"):
-    private val size = extents(0.5f)
-    protected def make()(using Site): Filter =
-      val (x, y) = radii(size)
-      BoxFilter(x, y)
-
-  object Triangle extends FilterRecipe("triangle", "weights fall off evenly"):
-    private val size = extents(2f)
-    protected def make()(using Site): Filter =
-      val (x, y) = radii(size)
-      TriangleFilter(x, y)
-
-  object Gaussian extends FilterRecipe("gaussian", "weights fall off as a bell"):
-    private val size = extents(if v4 then 1.5f else 2f)
-    private val alpha = float("alpha", "falloff: exp(-alpha d²)", untilV3)(2f)
-    private val sigma = float("sigma", "standard deviation, pixels", onlyV4)(0.5f)
-    protected def make()(using site: Site): Filter =
-      val (x, y) = radii(size)
-      if site.dialect == Dialect.V4 then GaussianFilter.ofSigma(x, y, sigma())
-      else GaussianFilter.ofAlpha(x, y, alpha())
-
-  object Mitchell
-      extends FilterRecipe("mitchell", "sharpens edges a little, by Mitchell and Netravali"):
-    private val size = extents(2f)
-    private val b = float("B", "blur")(1f / 3f)
-    private val c = float("C", "ringing")(1f / 3f)
-    protected def make()(using Site): Filter =
-      val (x, y) = radii(size)
-      MitchellFilter(x, y, b(), c())
-
-  object Sinc extends FilterRecipe("sinc", "windowed sinc, by Lanczos"):
-    private val size = extents(4f)
-    private val tau = float("tau", "cycles before the window ends")(3f)
-    protected def make()(using site: Site): Filter =
-      val (x, y) = radii(size)
-      if site.dialect == Dialect.V2 then LanczosSincFilter.stretched(x, y, tau())
-      else LanczosSincFilter(x, y, tau())
+    Recipes(
+      "pixel filter",
+      Vector(
+        BoxFilterRecipe, TriangleFilterRecipe, GaussianFilterRecipe, MitchellFilterRecipe,
+        SincFilterRecipe
+      )
+    )
 
 /** What all filters have. */
 abstract class FilterRecipe(name: String, meaning: String)
@@ -63,3 +31,41 @@ abstract class FilterRecipe(name: String, meaning: String)
       Math.max(1e-3f, radius.given_().orElse(width.given_()).getOrElse(radius()))
     ): @unchecked
     (x, y)
+
+object BoxFilterRecipe extends FilterRecipe("box", "all samples within weigh the same"):
+  private val size = extents(0.5f)
+  protected def make()(using Site): Filter =
+    val (x, y) = radii(size)
+    BoxFilter(x, y)
+
+object TriangleFilterRecipe extends FilterRecipe("triangle", "weights fall off evenly"):
+  private val size = extents(2f)
+  protected def make()(using Site): Filter =
+    val (x, y) = radii(size)
+    TriangleFilter(x, y)
+
+object GaussianFilterRecipe extends FilterRecipe("gaussian", "weights fall off as a bell"):
+  private val size = extents(if v4 then 1.5f else 2f)
+  private val alpha = float("alpha", "falloff: exp(-alpha d²)", untilV3)(2f)
+  private val sigma = float("sigma", "standard deviation, pixels", onlyV4)(0.5f)
+  protected def make()(using site: Site): Filter =
+    val (x, y) = radii(size)
+    if site.dialect == Dialect.V4 then GaussianFilter.ofSigma(x, y, sigma())
+    else GaussianFilter.ofAlpha(x, y, alpha())
+
+object MitchellFilterRecipe
+    extends FilterRecipe("mitchell", "sharpens edges a little, by Mitchell and Netravali"):
+  private val size = extents(2f)
+  private val b = float("B", "blur")(1f / 3f)
+  private val c = float("C", "ringing")(1f / 3f)
+  protected def make()(using Site): Filter =
+    val (x, y) = radii(size)
+    MitchellFilter(x, y, b(), c())
+
+object SincFilterRecipe extends FilterRecipe("sinc", "windowed sinc, by Lanczos"):
+  private val size = extents(4f)
+  private val tau = float("tau", "cycles before the window ends")(3f)
+  protected def make()(using site: Site): Filter =
+    val (x, y) = radii(size)
+    if site.dialect == Dialect.V2 then LanczosSincFilter.stretched(x, y, tau())
+    else LanczosSincFilter(x, y, tau())

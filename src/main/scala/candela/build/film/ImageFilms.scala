@@ -3,7 +3,7 @@ package candela.build.film
 import candela.build.recipe.*
 import candela.film.{Development, Layer, SampleLimit, SpectralBands}
 
-object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", untilV3):
+object ImageFilmRecipe extends FilmRecipe("image", "an image of red, green and blue", untilV3):
   private val scale = float("scale", "factor of all pixel values", onlyV3)(1f)
   private val most =
     float("maxsampleluminance", "brighter samples are scaled down", onlyV3)(Float.PositiveInfinity)
@@ -16,10 +16,10 @@ object ImageFilm extends FilmRecipe("image", "an image of red, green and blue", 
       _ => SampleLimit.luminance(most())
     )
 
-object RgbFilm extends SensorFilm("rgb", "an image of red, green and blue")
+object RgbFilmRecipe extends SensorFilmRecipe("rgb", "an image of red, green and blue")
 
-object GBufferFilm
-    extends SensorFilm("gbuffer", "an image with positions, normals, albedo and more"):
+object GBufferFilmRecipe
+    extends SensorFilmRecipe("gbuffer", "an image with positions, normals, albedo and more"):
   private val space = oneOf(
     "coordinatesystem",
     "of positions and normals",
@@ -28,7 +28,7 @@ object GBufferFilm
   override protected def make()(using Site): FilmSettings =
     super.make().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
 
-object SpectralFilm extends SensorFilm("spectral", "an image of many wavelengths"):
+object SpectralFilmRecipe extends SensorFilmRecipe("spectral", "an image of many wavelengths"):
   private val buckets = integer("nbuckets", "bands of wavelengths")(16)
   private val shortest = float("lambdamin", "shortest wavelength", unit = "nm")(360f)
   private val longest = float("lambdamax", "longest wavelength", unit = "nm")(830f)

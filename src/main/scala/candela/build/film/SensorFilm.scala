@@ -6,7 +6,8 @@ import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, SampleLimit}
 
 /** v4's films: what a sensor makes of the light. */
-abstract class SensorFilm(name: String, meaning: String) extends FilmRecipe(name, meaning, onlyV4):
+abstract class SensorFilmRecipe(name: String, meaning: String)
+    extends FilmRecipe(name, meaning, onlyV4):
   private val iso = float("iso", "sensitivity; 100 leaves values as they are")(100f)
   private val sensor =
     string("sensor", "whose colour response: cie1931, or a camera's name")("cie1931")
@@ -29,13 +30,13 @@ abstract class SensorFilm(name: String, meaning: String) extends FilmRecipe(name
     val kelvin = Math.max(white(), 0f)
     camera() match
       case Some(found) =>
-        val balanced = if kelvin == 0f then SensorFilm.White else kelvin
+        val balanced = if kelvin == 0f then SensorFilmRecipe.White else kelvin
         settings(
           development.copy(
             sensor = Some(found.response),
             balance = Some(found.toSrgb(balanced))
           ),
-          exposure => SampleLimit.camera(largest(exposure), found.toSrgb(SensorFilm.White))
+          exposure => SampleLimit.camera(largest(exposure), found.toSrgb(SensorFilmRecipe.White))
         )
       case None =>
         val balance = Option.when(kelvin > 0f)(WhiteBalance.ofDaylight(kelvin))
@@ -63,6 +64,6 @@ abstract class SensorFilm(name: String, meaning: String) extends FilmRecipe(name
       )
     found
 
-private object SensorFilm:
+private object SensorFilmRecipe:
   /** To which cameras are balanced if nothing is said, in K. */
   val White = 6500f

@@ -3,7 +3,7 @@ package candela.build.integrators
 import candela.build.recipe.*
 import candela.integrators.{DirectLighting, Whitted}
 
-object Direct
+object DirectLightingRecipe
     extends IntegratorRecipe(
       "directlighting",
       "light that comes straight from lights, or by mirrors and glass",

@@ -5,7 +5,7 @@ import candela.build.recipe.*
 import candela.scenefile.Dialect
 
 /** Integrators whose paths start at lights, too. */
-object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
+object BdptRecipe extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
     with Windowed
     with Regularizing:
   notYet("the picture alone is written")(
@@ -20,7 +20,7 @@ object Bdpt extends IntegratorRecipe("bdpt", "paths from camera and lights, join
   protected def make()(using Site): IntegratorPlan =
     windowed(BidirectionalPlans.plan(name, maxDepth(), regularize()))
 
-object Mlt
+object MltRecipe
     extends IntegratorRecipe(
       "mlt",
       "Metropolis light transport: chains of paths from camera and lights",
@@ -37,7 +37,7 @@ object Mlt
     val settings = MetropolisSettings(bootstrap(), chains(), largeStep(), sigma())
     BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings, regularize())
 
-object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
+object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
   private val passes = integer("numiterations", "passes", onlyV3)(64)
   private val passesToo = integer(
     "iterations",
@@ -63,13 +63,13 @@ object Sppm extends IntegratorRecipe("sppm", "progressive photon mapping", since
       PhotonSettings(radius(), photons(), Math.max(0, maxDepth()), compresses = true, seed())
     PhotonPlans.plan(name, maxDepth(), settings, count)
 
-object LightPath
+object LightPathRecipe
     extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4):
   override def pending: Option[String] =
     Some("\"bdpt\" is used: the same light, and that which is seen by way of mirrors or glass")
   protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
-object FunctionIntegrator
+object FunctionRecipe
     extends Recipe[IntegratorPlan]("function", "no image: the error of samplers", onlyV4)
     with PathInstead:
   override def pending: Option[String] =

@@ -6,7 +6,7 @@ import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 
 /** By progressive photon mapping, which comes to the same picture without final gathering. */
-final class PhotonMap(name: String)
+final class PhotonMapRecipe(name: String)
     extends Recipe[IntegratorPlan](
       name,
       "photon mapping with final gathering: by progressive photon mapping, to the same picture",
@@ -42,7 +42,7 @@ final class PhotonMap(name: String)
     )
     PhotonPlans.plan(name, depth, settings, passes = None)
 
-object InstantGlobalIllumination
+object InstantGlobalIlluminationRecipe
     extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)
     with PathInstead:
   declare(
@@ -56,7 +56,7 @@ object InstantGlobalIllumination
     Some("the path integrator is used: the same light, without the pattern of point lights")
   override protected def depth()(using Site): Int = maxDepth()
 
-object IrradianceCache
+object IrradianceCacheRecipe
     extends Recipe[IntegratorPlan]("irradiancecache", "indirect light, interpolated", onlyV2)
     with PathInstead:
   override def pending: Option[String] =
@@ -74,7 +74,7 @@ object IrradianceCache
     integer("nsamples", "rays of each sample")(4096)
   )
 
-object DipoleSubsurface
+object DipoleSubsurfaceRecipe
     extends IntegratorRecipe("dipolesubsurface", "light under surfaces, by a dipole", onlyV2):
   noMeaning("no points are laid out on surfaces beforehand: each sample draws its own")(
     float("maxerror", "solid angle up to which points are taken together", unit = "sr")(0.05f),
@@ -109,7 +109,7 @@ trait DirectInstead extends Recipe[IntegratorPlan]:
     throughVolumes = Some(DirectLighting(_, 1, _, _))
   )
 
-object DiffusePrt
+object DiffusePrtRecipe
     extends Recipe[IntegratorPlan]("diffuseprt", "diffuse transfer, precomputed", onlyV2)
     with DirectInstead:
   override def pending: Option[String] =
@@ -122,7 +122,7 @@ object DiffusePrt
     integer("nsamples", "rays from each point")(4096)
   )
 
-object GlossyPrt
+object GlossyPrtRecipe
     extends Recipe[IntegratorPlan]("glossyprt", "glossy transfer, precomputed", onlyV2)
     with DirectInstead:
   override def pending: Option[String] =
@@ -138,7 +138,7 @@ object GlossyPrt
     float("roughness", "of all surfaces")(0.1f)
   )
 
-object UseProbes
+object UseProbesRecipe
     extends Recipe[IntegratorPlan]("useprobes", "light from precomputed probes", onlyV2)
     with PathInstead:
   override def pending: Option[String] =

@@ -5,7 +5,7 @@ import candela.integrators.*
 import candela.integrators.LightTransport.RouletteAfter
 import candela.scenefile.Dialect
 
-final class Path(name: String, meaning: String, dialects: Set[Dialect])
+final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends IntegratorRecipe(name, meaning, dialects)
     with Windowed
     with Choosing
@@ -42,7 +42,7 @@ final class Path(name: String, meaning: String, dialects: Set[Dialect])
       )
     ))
 
-object SimplePath
+object SimplePathRecipe
     extends IntegratorRecipe("simplepath", "path tracing, without its refinements", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
@@ -56,7 +56,7 @@ object SimplePath
   )
   override protected def depth()(using Site): Int = maxDepth()
 
-object SimpleVolPath
+object SimpleVolPathRecipe
     extends IntegratorRecipe("simplevolpath", "path tracing through media, without lights", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
@@ -64,7 +64,7 @@ object SimpleVolPath
   override protected def seesMedia: Boolean = true
   override protected def depth()(using Site): Int = maxDepth()
 
-object RandomWalk
+object RandomWalkRecipe
     extends IntegratorRecipe("randomwalk", "path tracing into random directions", onlyV4)
     with PathInstead:
   override def pending: Option[String] =

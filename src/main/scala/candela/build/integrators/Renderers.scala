@@ -10,8 +10,8 @@ object Renderers:
   val all: Recipes[Option[IntegratorPlan]] = Recipes(
     "renderer",
     Vector(
-      SamplerRenderer("sampler"), SamplerRenderer("sample"), Metropolis, CreateProbes,
-      SurfacePoints, AggregateTest
+      SamplerRendererRecipe("sampler"), SamplerRendererRecipe("sample"), MetropolisRecipe,
+      CreateProbesRecipe, SurfacePointsRecipe, AggregateTestRecipe
     )
   )
 
@@ -22,7 +22,7 @@ trait SamplerInstead extends Recipe[Option[IntegratorPlan]]:
   protected def make()(using Site): Option[IntegratorPlan] = None
 
 /** The usual one; "sample" is what some scenes call it. */
-final class SamplerRenderer(name: String)
+final class SamplerRendererRecipe(name: String)
     extends Recipe[Option[IntegratorPlan]](
       name,
       "an image by the surface and volume integrators",
@@ -34,7 +34,7 @@ final class SamplerRenderer(name: String)
   protected def make()(using Site): Option[IntegratorPlan] = None
 
 /** It names no surface integrator: its chains walk among paths that are joined to light paths. */
-object Metropolis
+object MetropolisRecipe
     extends Recipe[Option[IntegratorPlan]](
       "metropolis",
       "Metropolis light transport: chains of paths from camera and lights",
@@ -61,7 +61,7 @@ object Metropolis
   private val Chains = 1000
   private val Sigma = 0.01f
 
-object CreateProbes
+object CreateProbesRecipe
     extends Recipe[Option[IntegratorPlan]](
       "createprobes",
       "no image: a file of light probes",
@@ -79,7 +79,7 @@ object CreateProbes
     string("filename", "file of probes")("probes.out")
   )
 
-object SurfacePoints
+object SurfacePointsRecipe
     extends Recipe[Option[IntegratorPlan]](
       "surfacepoints",
       "no image: a file of points on surfaces",
@@ -91,7 +91,7 @@ object SurfacePoints
     string("filename", "file of points", shown = "none")("")
   )
 
-object AggregateTest
+object AggregateTestRecipe
     extends Recipe[Option[IntegratorPlan]](
       "aggregatetest",
       "no image: a test of accelerators",

@@ -20,12 +20,16 @@ object VolumeIntegrators:
   val all: Recipes[VolumeMethod] = Recipes(
     "volume integrator",
     Vector(
-      VolumeIntegrator("emission", "what volumes emit and absorb", scatters = false),
-      VolumeIntegrator("single", "the same, and light that is scattered once", scatters = true)
+      VolumeIntegratorRecipe("emission", "what volumes emit and absorb", scatters = false),
+      VolumeIntegratorRecipe(
+        "single",
+        "the same, and light that is scattered once",
+        scatters = true
+      )
     )
   )
 
-final class VolumeIntegrator(name: String, meaning: String, scatters: Boolean)
+final class VolumeIntegratorRecipe(name: String, meaning: String, scatters: Boolean)
     extends Recipe[VolumeMethod](name, meaning, onlyV2):
   private val stepSize = float("stepsize", "of a walk through a volume", unit = "scene units")(1f)
 

@@ -11,7 +11,10 @@ import candela.shapes.{Shape, SurfaceSampler, TriangleSampler}
 /** Recipes of lights that are surfaces. */
 object AreaLights:
   val all: Recipes[Option[AreaLightPlan]] =
-    Recipes("area light", Vector(DiffuseLight("diffuse", every), DiffuseLight("area", untilV3)))
+    Recipes(
+      "area light",
+      Vector(DiffuseLightRecipe("diffuse", every), DiffuseLightRecipe("area", untilV3))
+    )
 
 /** What an area light statement says; it applies to the shapes that follow.
   *
@@ -56,7 +59,7 @@ final class AreaLightPlan(
     picture.fold(plain)(PictureLight(plain, surface, _))
 
 /** Makes nothing where nothing would shine. */
-final class DiffuseLight(
+final class DiffuseLightRecipe(
     name: String,
     dialects: Set[Dialect]
 ) extends Recipe[Option[AreaLightPlan]](name, "a surface that emits evenly, or a picture", dialects)
@@ -83,13 +86,13 @@ final class DiffuseLight(
     val image = if isPicture then LightImages.read("filename") else None
     val picture = image.map(Picture(_, PictureLookup.Smooth))
     val emitted = radiance() * colored() * scale()
-    val perUnit = picture.fold(1f)(DiffuseLight.luminance(_, site.resources.basis))
+    val perUnit = picture.fold(1f)(DiffuseLightRecipe.luminance(_, site.resources.basis))
     if isPicture && picture.isEmpty then None
     else if !(emitted.isFinite && emitted.max > 0f && perUnit > 0f) then
       site.warn("it emits nothing: shapes that follow are no lights")
       None
     else Some(AreaLightPlan(emitted, picture, perUnit, power(), twoSided(), sampleCount()))
 
-private object DiffuseLight:
+private object DiffuseLightRecipe:
   def luminance(picture: Picture, basis: ColorBasis): Float =
     picture.mean((c, _, _) => basis.toSrgb(c).luminance)

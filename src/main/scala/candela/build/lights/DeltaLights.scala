@@ -6,7 +6,7 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
-object PointLights extends LightRecipe("point", "shines from a point to all sides"):
+object PointLightRecipe extends LightRecipe("point", "shines from a point to all sides"):
   private val intensity =
     color("I", "radiant intensity", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val from = point("from", "where it is")(Vec3.Zero)
@@ -20,7 +20,7 @@ object PointLights extends LightRecipe("point", "shines from a point to all side
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
 
-object SpotLights extends LightRecipe("spot", "a cone of light from a point"):
+object SpotLightRecipe extends LightRecipe("spot", "a cone of light from a point"):
   private val intensity =
     color("I", "radiant intensity along the axis", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val from = point("from", "where it is")(Vec3.Zero)
@@ -47,7 +47,7 @@ object SpotLights extends LightRecipe("spot", "a cone of light from a point"):
         samples = 1
       )
 
-object DistantLights extends LightRecipe("distant", "parallel light, as the sun's"):
+object DistantLightRecipe extends LightRecipe("distant", "parallel light, as the sun's"):
   private val radiance =
     color("L", "irradiance on a facing plane", SpectrumRole.Emission, unit = "W/m²")(Rgb.White)
   private val from = point("from", "with `to`: the direction of light")(Vec3.Zero)

@@ -6,7 +6,7 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
-object GoniometricLights
+object GoniometricLightRecipe
     extends LightRecipe("goniometric", "shines from a point, by an image of directions"):
   private val intensity =
     color("I", "factor of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
@@ -44,7 +44,7 @@ object GoniometricLights
         samples = 1
       )
 
-object ProjectionLights extends LightRecipe("projection", "a slide projector"):
+object ProjectionLightRecipe extends LightRecipe("projection", "a slide projector"):
   private val intensity =
     color("I", "factor of the image", SpectrumRole.Emission, untilV3, "W/sr")(Rgb.White)
   private val mapname = string("mapname", "the slide; none: white", untilV3, "none")("")

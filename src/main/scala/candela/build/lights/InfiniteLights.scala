@@ -8,7 +8,7 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
-final class InfiniteLights(name: String, dialects: Set[Dialect])
+final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     extends LightRecipe(name, "surrounds the scene, in one colour or as an image", dialects)
     with SampleCounts:
   private val radiance =

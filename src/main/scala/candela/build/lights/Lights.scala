@@ -7,12 +7,12 @@ object Lights:
   val all: Recipes[LightPlan] = Recipes(
     "light",
     Vector(
-      PointLights,
-      SpotLights,
-      GoniometricLights,
-      ProjectionLights,
-      DistantLights,
-      InfiniteLights("infinite", every),
-      InfiniteLights("exinfinite", untilV3)
+      PointLightRecipe,
+      SpotLightRecipe,
+      GoniometricLightRecipe,
+      ProjectionLightRecipe,
+      DistantLightRecipe,
+      InfiniteLightRecipe("infinite", every),
+      InfiniteLightRecipe("exinfinite", untilV3)
     )
   )

@@ -29,7 +29,7 @@ private[build] trait LayerFields extends Fields:
     integer("nsamples", "random walks that are averaged, where layers are walked at random")(1)
   )
 
-object CoatedDiffuse
+object CoatedDiffuseRecipe
     extends RoughRecipe("coateddiffuse", "diffuse under a dielectric coat", onlyV4, 0f)
     with LayerFields:
   private val reflectance = rgbTexture("reflectance", "of the base, 0 to 1")(Rgb.gray(0.5f))
@@ -52,7 +52,7 @@ object CoatedDiffuse
       )
       .getOrElse(Make.layeredDiffuse(reflectance(), roughness(), index, medium))
 
-object CoatedConductor
+object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "a metal under a dielectric coat", onlyV4)
     with LayerFields
     with MetalFields:

@@ -4,16 +4,16 @@ import candela.bsdf.{Material, MaterialFactory as Make}
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object Matte extends MaterialRecipe("matte", "diffuse, with Oren–Nayar's roughness", untilV3):
+object MatteRecipe extends MaterialRecipe("matte", "diffuse, with Oren–Nayar's roughness", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val sigma = floatTexture("sigma", "Oren–Nayar's spread of facets, degrees")(0f)
   protected def make()(using Site): Material = Make.matte(kd(), sigma())
 
-object Diffuse extends MaterialRecipe("diffuse", "scatters evenly to all sides", onlyV4):
+object DiffuseRecipe extends MaterialRecipe("diffuse", "scatters evenly to all sides", onlyV4):
   private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.5f))
   protected def make()(using Site): Material = Make.diffuse(reflectance())
 
-object DiffuseTransmission
+object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "scatters evenly, on both sides", onlyV4):
   private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.25f))
   private val transmittance = rgbTexture("transmittance", "0 to 1")(Rgb.gray(0.25f))

@@ -4,7 +4,8 @@ import candela.bsdf.{DisneyParameters, Material, MaterialFactory as Make}
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object Disney extends MaterialRecipe("disney", "the material of Burley 2012 and 2015", onlyV3):
+object DisneyRecipe
+    extends MaterialRecipe("disney", "the material of Burley 2012 and 2015", onlyV3):
   private val color = rgbTexture("color", "of the surface")(Rgb.gray(0.5f))
   private val metallic = floatTexture("metallic", "0: dielectric, 1: metal")(0f)
   private val eta = floatTexture("eta", "index of refraction")(1.5f)

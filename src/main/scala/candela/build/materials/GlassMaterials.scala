@@ -5,7 +5,8 @@ import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 
-object Glass extends MaterialRecipe("glass", "reflects and refracts, smooth or rough", untilV3):
+object GlassRecipe
+    extends MaterialRecipe("glass", "reflects and refracts, smooth or rough", untilV3):
   private val kr = rgbTexture("Kr", "factor of reflection")(Rgb.White)
   private val kt = rgbTexture("Kt", "factor of refraction")(Rgb.White)
   private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
@@ -20,7 +21,7 @@ object Glass extends MaterialRecipe("glass", "reflects and refracts, smooth or r
       val rough = Roughness(u(), v(), model, smoothAtZero = true)
       Make.dielectric(kr(), kt(), eta.given_().getOrElse(index()), rough)
 
-object Dielectric
+object DielectricRecipe
     extends RoughRecipe("dielectric", "glass and the like, smooth or rough", onlyV4, 0f):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
@@ -28,6 +29,7 @@ object Dielectric
       case Some((byWavelength, usual)) => Make.dispersive(byWavelength, usual, roughness())
       case None => Make.dielectric(Indices.one(eta()), roughness())
 
-object ThinDielectric extends MaterialRecipe("thindielectric", "a thin pane of glass", onlyV4):
+object ThinDielectricRecipe
+    extends MaterialRecipe("thindielectric", "a thin pane of glass", onlyV4):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material = Make.thinDielectric(Indices.one(eta()))

@@ -5,14 +5,14 @@ import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
 
-object Plastic
+object PlasticRecipe
     extends RoughRecipe("plastic", "diffuse with a glossy coat", untilV3, 0.1f, across = Set.empty):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
   protected def make()(using site: Site): Material =
     Make.plastic(kd(), ks(), roughness(), edition(site.dialect))
 
-object Uber extends RoughRecipe(
+object UberRecipe extends RoughRecipe(
       "uber",
       "diffuse, gloss, mirror and glass in one, with opacity",
       untilV3,
@@ -29,7 +29,7 @@ object Uber extends RoughRecipe(
     val n = eta.given_().getOrElse(index())
     Make.uber(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
 
-object Substrate extends MaterialRecipe(
+object SubstrateRecipe extends MaterialRecipe(
       "substrate",
       "diffuse under a glossy coat, by Ashikhmin and Shirley",
       untilV3

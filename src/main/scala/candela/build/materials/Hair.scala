@@ -4,7 +4,7 @@ import candela.bsdf.{HairMaterial, Material, Pigment}
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object Hair
+object HairRecipe
     extends MaterialRecipe("hair", "curves that scatter as hair does", sinceV3, bumps = false):
   private val sigmaA = rgbTexture(
     "sigma_a",

@@ -42,20 +42,20 @@ abstract class MeasuredRecipe(meaning: String, ending: String, dialects: Set[Dia
         made.getOrElse(StandIns.material(basis))
 
 /** pbrt-v2's measured reflectance. */
-object MeasuredTable
+object MeasuredTableRecipe
     extends MeasuredRecipe("a measured BRDF, as a table", ".brdf or .merl", onlyV2):
   protected def isIsotropic: Boolean = true
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     BrdfFile.read(path, toRgb)
 
 /** That of pbrt-v4. */
-object MeasuredBsdf
+object MeasuredBsdfRecipe
     extends MeasuredRecipe("a measured BRDF, by Dupuy and Jakob", ".bsdf", onlyV4):
   protected def isIsotropic: Boolean = false
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     AdaptiveFile.read(path, toRgb)
 
-object Fourier
+object FourierRecipe
     extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3):
   private val bsdffile = string("bsdffile", "a .bsdf file", shown = "none")("")
 

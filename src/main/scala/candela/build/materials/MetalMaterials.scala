@@ -78,11 +78,11 @@ private[build] trait MetalFields extends SpectrumFields:
             Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
           case _ => None
 
-object Mirror extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
+object MirrorRecipe extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))
   protected def make()(using Site): Material = Make.mirror(kr())
 
-object Metal
+object MetalRecipe
     extends RoughRecipe(
       "metal",
       "a conductor, by its index of refraction and absorption",
@@ -101,13 +101,13 @@ object Metal
     // pbrt-v2 has the approximation for strongly absorbing metals
     Make.conductor(IndexedMetal(eta, k, strong = site.dialect == Dialect.V2), roughness())
 
-object Conductor
+object ConductorRecipe
     extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f)
     with MetalFields:
   private val index = metalIndex(tint = true)
   protected def make()(using Site): Material = Make.conductor(metal(index), roughness())
 
-object ShinyMetal extends RoughRecipe(
+object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",
       "a metal by its colours",
       onlyV2,

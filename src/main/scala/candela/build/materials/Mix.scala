@@ -6,7 +6,8 @@ import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.{GrayTexture, RgbTexture}
 
-object Mix extends MaterialRecipe("mix", "a blend of two named materials", every, bumps = false):
+object MixRecipe
+    extends MaterialRecipe("mix", "a blend of two named materials", every, bumps = false):
   private val first = string("namedmaterial1", "where `amount` is 1", untilV3, "none")("")
   private val second = string("namedmaterial2", "where `amount` is 0", untilV3, "none")("")
   private val part = rgbTexture("amount", "of the first", untilV3)(Rgb.gray(0.5f))

@@ -13,7 +13,7 @@ import candela.scenefile.Dialect
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** The skin of materials that light enters. */
-abstract class SubsurfaceRecipe(
+abstract class BssrdfRecipe(
     name: String,
     meaning: String,
     dialects: Set[Dialect]
@@ -53,8 +53,8 @@ abstract class SubsurfaceRecipe(
 
   protected def fixed(textures: RgbTexture*): Boolean = textures.forall(_.constant.isDefined)
 
-object Subsurface
-    extends SubsurfaceRecipe("subsurface", "light scatters inside, by coefficients", every):
+object SubsurfaceRecipe
+    extends BssrdfRecipe("subsurface", "light scatters inside, by coefficients", every):
   private val measuredName =
     string("name", "of a measured material, instead of the coefficients", shown = "none")("")
   private val sigmaA =
@@ -133,8 +133,8 @@ object Subsurface
   private def coefficients(a: RgbTexture, s: RgbTexture, asymmetry: Float)(using Site): Interior =
     Interior.fold(CoefficientInterior(table(asymmetry), a, s, scale(), eta()), fixed(a, s))
 
-object KdSubsurface
-    extends SubsurfaceRecipe("kdsubsurface", "light scatters inside, by the colour", untilV3):
+object KdSubsurfaceRecipe
+    extends BssrdfRecipe("kdsubsurface", "light scatters inside, by the colour", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val path = floatTexture("meanfreepath", "inside", onlyV2, "mm")(1f)
   private val paths = rgbTexture("mfp", "mean free path", onlyV3, "mm")(Rgb.White)

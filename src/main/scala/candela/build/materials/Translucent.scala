@@ -4,7 +4,7 @@ import candela.bsdf.{Material, MaterialFactory}
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object Translucent
+object TranslucentRecipe
     extends RoughRecipe(
       "translucent",
       "reflects and transmits, diffuse and glossy",

@@ -7,10 +7,13 @@ import candela.media.{Medium, Region}
 object Media:
   val all: Recipes[Option[Medium]] = Recipes(
     "medium",
-    Vector(HomogeneousRecipe, Heterogeneous, UniformGrid, RgbGrid, Cloud, NanoVdb)
+    Vector(
+      HomogeneousRecipe, HeterogeneousRecipe, UniformGridRecipe, RgbGridRecipe, CloudRecipe,
+      NanoVdbRecipe
+    )
   )
 
 /** Recipes of v2's volumes, which fill a box. */
 object Volumes:
   val all: Recipes[Option[Region]] =
-    Recipes("volume", Vector(HomogeneousVolume, VolumeGrid, ExponentialVolume))
+    Recipes("volume", Vector(HomogeneousVolumeRecipe, VolumeGridRecipe, ExponentialVolumeRecipe))

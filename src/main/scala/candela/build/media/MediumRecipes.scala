@@ -20,7 +20,7 @@ object HomogeneousRecipe
       HomogeneousMedium(absorption, scattering, le, phase())
     )
 
-object Heterogeneous
+object HeterogeneousRecipe
     extends MediumRecipe("heterogeneous", "a grid of densities", onlyV3)
     with HasPreset
     with HasScale
@@ -41,7 +41,7 @@ object Heterogeneous
       grids <- samples("density", density())
     yield GridMedium(map, grids.head, absorption, scattering, None, phase())
 
-object UniformGrid
+object UniformGridRecipe
     extends MediumRecipe("uniformgrid", "a grid of densities", onlyV4)
     with HasScale
     with HasGrid
@@ -91,7 +91,7 @@ object UniformGrid
         Some(ThermalGlow(t.head, below, scaling(), Thermal.colors(hottest), s))
     else scale.map(s => Option.unless(le.isBlack)(ColoredGlow(le, s)))
 
-object RgbGrid
+object RgbGridRecipe
     extends MediumRecipe("rgbgrid", "a grid of coefficients", onlyV4)
     with HasGrid
     with HasBox:
@@ -146,7 +146,7 @@ object RgbGrid
     if values.isEmpty then Some(None)
     else samples(name, values, channels = 3).map(g => Some(ColorGrid(g(0), g(1), g(2))))
 
-object Cloud
+object CloudRecipe
     extends MediumRecipe("cloud", "a cloud of noise", onlyV4)
     with HasCoefficients
     with HasBox:
@@ -170,7 +170,7 @@ object Cloud
         phase()
       )
 
-object NanoVdb
+object NanoVdbRecipe
     extends MediumRecipe("nanovdb", "densities from a NanoVDB file", onlyV4)
     with HasScale:
   override def pending: Option[String] =

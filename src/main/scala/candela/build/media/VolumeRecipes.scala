@@ -31,11 +31,12 @@ abstract class VolumeRecipe(name: String, meaning: String)
       None
     else Some(Bounds3(low, high))
 
-object HomogeneousVolume extends VolumeRecipe("homogeneous", "the same everywhere in a box"):
+object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "the same everywhere in a box"):
   protected def make()(using site: Site): Option[Region] =
     box().map(UniformRegion(site.toWorld, _, filling()))
 
-object ExponentialVolume extends VolumeRecipe("exponential", "thinner with height: a exp(-b h)"):
+object ExponentialVolumeRecipe
+    extends VolumeRecipe("exponential", "thinner with height: a exp(-b h)"):
   private val ground = float("a", "density at height 0")(1f)
   private val fall = float("b", "how fast it falls", unit = PerUnit)(1f)
   private val up = vector("updir", "along which height is measured")(Vec3.Y)
@@ -56,7 +57,7 @@ object ExponentialVolume extends VolumeRecipe("exponential", "thinner with heigh
         fall()
       )
 
-object VolumeGrid extends VolumeRecipe("volumegrid", "a grid of densities") with HasGrid:
+object VolumeGridRecipe extends VolumeRecipe("volumegrid", "a grid of densities") with HasGrid:
   private val density = numbers("density", "float[]", "nx by ny by nz densities, x first")
 
   protected def make()(using site: Site): Option[Region] =

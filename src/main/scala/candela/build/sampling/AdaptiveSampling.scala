@@ -4,7 +4,7 @@ import candela.build.recipe.*
 import candela.sampling.*
 
 /** v2's sampler that takes more samples where neighbours differ. */
-object Adaptive
+object AdaptiveRecipe
     extends Recipe[SamplerRequest => Sampler]("adaptive", "more samples where it matters", onlyV2):
   private val most = integer("maxsamples", "samples of a pixel where it matters")(32)
   declare(

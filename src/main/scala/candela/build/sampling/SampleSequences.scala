@@ -5,14 +5,14 @@ import candela.sampling.*
 import candela.scenefile.Dialect
 
 /** Samples that know nothing of each other. */
-final class Independent(name: String, dialects: Set[Dialect])
+final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
   protected def make()(using Site): SamplerRequest => Sampler =
     val s = seed()
     request => IndependentSampler(count(request), request.seed ^ s)
 
 /** Scrambled (0,2)-sequences, under the many names of such samplers. */
-class ScrambledSobol(name: String, meaning: String, dialects: Set[Dialect])
+class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, meaning, dialects):
   if name == "sobol" || name == "paddedsobol" then
     noMeaning("Owen's scrambling is always used")(
@@ -28,13 +28,14 @@ class ScrambledSobol(name: String, meaning: String, dialects: Set[Dialect])
     request => OwenSobolSampler(count(request), request.seed ^ s)
 
 /** Points for which scrambled Sobol' points stand in. */
-final class Substituted(name: String, meaning: String, dialects: Set[Dialect])
-    extends ScrambledSobol(name, meaning, dialects):
+final class SubstitutedRecipe(name: String, meaning: String, dialects: Set[Dialect])
+    extends ScrambledSobolRecipe(name, meaning, dialects):
   override protected def make()(using site: Site): SamplerRequest => Sampler =
     site.warn(s"sampler \"$name\": scrambled Sobol' points are used, which are at least as even")
     super.make()
 
-object ZSobol extends SamplerRecipe("zsobol", "Sobol' points along a space-filling curve", onlyV4):
+object ZSobolRecipe
+    extends SamplerRecipe("zsobol", "Sobol' points along a space-filling curve", onlyV4):
   noMeaning("Owen's scrambling is always used")(
     string("randomization", "none, permutedigits, fastowen or owen")("fastowen")
   )
@@ -42,7 +43,7 @@ object ZSobol extends SamplerRecipe("zsobol", "Sobol' points along a space-filli
     val s = seed()
     request => ZSobolSampler(count(request), request.width, request.height, request.seed ^ s)
 
-object Halton extends SamplerRecipe("halton", "Halton points"):
+object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   noMeaning("digits are always scrambled")(
     string("randomization", "none, permutedigits or owen", onlyV4)("permutedigits")
   )

@@ -11,18 +11,22 @@ object Samplers:
   val all: Recipes[SamplerRequest => Sampler] = Recipes(
     "sampler",
     Vector(
-      Independent("independent", onlyV4),
-      Independent("random", untilV3),
-      Stratified,
-      Halton,
-      ScrambledSobol("sobol", "Sobol' points, scrambled", sinceV3),
-      ScrambledSobol("paddedsobol", "Sobol' points in pairs of dimensions, scrambled", onlyV4),
-      ZSobol,
-      ScrambledSobol("lowdiscrepancy", "(0,2)-sequences, scrambled", untilV3),
-      ScrambledSobol("02sequence", "(0,2)-sequences, scrambled", onlyV3),
-      Substituted("bestcandidate", "points that keep their distance", onlyV2),
-      Substituted("maxmindist", "points that keep their distance", onlyV3),
-      Substituted("pmj02bn", "multi-jittered points with blue noise", onlyV4),
-      Adaptive
+      IndependentRecipe("independent", onlyV4),
+      IndependentRecipe("random", untilV3),
+      StratifiedRecipe,
+      HaltonRecipe,
+      ScrambledSobolRecipe("sobol", "Sobol' points, scrambled", sinceV3),
+      ScrambledSobolRecipe(
+        "paddedsobol",
+        "Sobol' points in pairs of dimensions, scrambled",
+        onlyV4
+      ),
+      ZSobolRecipe,
+      ScrambledSobolRecipe("lowdiscrepancy", "(0,2)-sequences, scrambled", untilV3),
+      ScrambledSobolRecipe("02sequence", "(0,2)-sequences, scrambled", onlyV3),
+      SubstitutedRecipe("bestcandidate", "points that keep their distance", onlyV2),
+      SubstitutedRecipe("maxmindist", "points that keep their distance", onlyV3),
+      SubstitutedRecipe("pmj02bn", "multi-jittered points with blue noise", onlyV4),
+      AdaptiveRecipe
     )
   )

@@ -3,7 +3,7 @@ package candela.build.sampling
 import candela.build.recipe.*
 import candela.sampling.*
 
-object Stratified
+object StratifiedRecipe
     extends Recipe[SamplerRequest => Sampler]("stratified", "one sample in each cell of a grid"):
   private val x = integer("xsamples", "strata along x")(if v2 then 2 else 4)
   private val y = integer("ysamples", "strata along y")(if v2 then 2 else 4)

@@ -5,15 +5,15 @@ import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.*
 
-object FloatConstant extends Recipe[FloatTexture]("constant", "the same everywhere"):
+object FloatConstantRecipe extends Recipe[FloatTexture]("constant", "the same everywhere"):
   private val value = float("value", "the number")(1f)
   protected def make()(using Site): FloatTexture = ConstantFloat(value())
 
-object RgbConstant extends Recipe[RgbTexture]("constant", "the same everywhere"):
+object RgbConstantRecipe extends Recipe[RgbTexture]("constant", "the same everywhere"):
   private val value = color("value", "the colour", SpectrumRole.Reflectance)(Rgb.White)
   protected def make()(using Site): RgbTexture = ConstantRgb(value())
 
-object FloatScale extends Recipe[FloatTexture]("scale", "the product of two"):
+object FloatScaleRecipe extends Recipe[FloatTexture]("scale", "the product of two"):
   private val tex1 = floatTexture("tex1", "one factor", untilV3)(1f)
   private val tex2 = floatTexture("tex2", "the other", untilV3)(1f)
   private val tex = floatTexture("tex", "one factor", onlyV4)(1f)
@@ -22,7 +22,7 @@ object FloatScale extends Recipe[FloatTexture]("scale", "the product of two"):
     if site.dialect == Dialect.V4 then ScaledFloat.of(tex(), scale())
     else ScaledFloat.of(tex1(), tex2())
 
-object RgbScale extends Recipe[RgbTexture]("scale", "the product of two"):
+object RgbScaleRecipe extends Recipe[RgbTexture]("scale", "the product of two"):
   private val tex1 = rgbTexture("tex1", "one factor", untilV3)(Rgb.White)
   private val tex2 = rgbTexture("tex2", "the other", untilV3)(Rgb.White)
   private val tex = rgbTexture("tex", "the colour", onlyV4)(Rgb.White)
@@ -31,13 +31,13 @@ object RgbScale extends Recipe[RgbTexture]("scale", "the product of two"):
     if site.dialect == Dialect.V4 then ScaledRgb.of(tex(), scale())
     else ProductRgb.of(tex1(), tex2())
 
-object FloatMix extends Recipe[FloatTexture]("mix", "a blend of two"):
+object FloatMixRecipe extends Recipe[FloatTexture]("mix", "a blend of two"):
   private val tex1 = floatTexture("tex1", "where `amount` is 0")(0f)
   private val tex2 = floatTexture("tex2", "where `amount` is 1")(1f)
   private val amount = floatTexture("amount", "between the two, 0 to 1")(0.5f)
   protected def make()(using Site): FloatTexture = MixFloat.of(tex1(), tex2(), amount())
 
-object RgbMix extends Recipe[RgbTexture]("mix", "a blend of two"):
+object RgbMixRecipe extends Recipe[RgbTexture]("mix", "a blend of two"):
   private val tex1 =
     rgbTexture("tex1", "where `amount` is 0")(Rgb.Black)
   private val tex2 = rgbTexture("tex2", "where `amount` is 1")(Rgb.White)

@@ -7,10 +7,10 @@ import candela.math.*
 import candela.scenefile.{Dialect, ParamType}
 import candela.textures.*
 
-abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a picture"):
+abstract class ImageMapRecipe[A](standIn: String) extends MappedRecipe[A]("imagemap", "a picture"):
   private val filename = string("filename", "png, tga, jpg, exr or hdr", shown = "none")("")
   private val wrap =
-    oneOf("wrap", "beyond the image", ImageMap.Wraps)("repeat")
+    oneOf("wrap", "beyond the image", ImageMapRecipe.Wraps)("repeat")
   protected val scale = float("scale", "factor of the values")(1f)
   protected val invert = bool("invert", "1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
@@ -24,7 +24,7 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
       "\"sRGB\" for .png, else \"linear\""
     )("sRGB")
   private val filter =
-    oneOf("filter", "of the lookup", ImageMap.Filters, onlyV4)("bilinear")
+    oneOf("filter", "of the lookup", ImageMapRecipe.FilterNames, onlyV4)("bilinear")
   private val trilinear =
     bool("trilinear", "filter between levels of detail, not along the footprint", untilV3)(false)
   private val anisotropy = float("maxanisotropy", "longest footprint over its width")(8f)
@@ -101,18 +101,18 @@ abstract class ImageMap[A](standIn: String) extends Mapped[A]("imagemap", "a pic
   protected def outerScale(using site: Site): Float =
     if site.dialect == Dialect.V2 then 1f else scale()
 
-object FloatMap extends ImageMap[FloatTexture](StandIns.Ones):
+object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
   protected def make()(using site: Site): FloatTexture =
     val read = if site.dialect == Dialect.V4 then Texels.meanOrAlpha else Texels.luminance
     lookup(read).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
 
-object RgbMap extends ImageMap[RgbTexture](StandIns.Magentas):
+object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     lookup(Texels.color).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis)
 
-private object ImageMap:
+private object ImageMapRecipe:
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
-  val Filters: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
+  val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")

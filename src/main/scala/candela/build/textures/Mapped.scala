@@ -6,10 +6,10 @@ import candela.scenefile.Dialect
 import candela.textures.*
 
 /** The parameters of a two-dimensional mapping, which many textures share. */
-abstract class Mapped[A](name: String, meaning: String, dialects: Set[Dialect] = every)
+abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dialect] = every)
     extends Recipe[A](name, meaning, dialects):
   private val mapping =
-    oneOf("mapping", "how the surface gets coordinates", Mapped.Mappings)("uv")
+    oneOf("mapping", "how the surface gets coordinates", MappedRecipe.Mappings)("uv")
   private val uscale = float("uscale", "repetitions along u")(1f)
   private val vscale = float("vscale", "repetitions along v")(1f)
   private val udelta = float("udelta", "shift along u")(0f)
@@ -26,5 +26,5 @@ abstract class Mapped[A](name: String, meaning: String, dialects: Set[Dialect] =
       PlanarMapping(space, axis1(), axis2(), udelta(), vdelta())
     case _ => UvMapping(uscale(), vscale(), udelta(), vdelta())
 
-private object Mapped:
+private object MappedRecipe:
   val Mappings: Vector[String] = Vector("uv", "spherical", "cylindrical", "planar")

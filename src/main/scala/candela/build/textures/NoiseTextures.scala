@@ -18,25 +18,28 @@ abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Diale
     val last = if site.dialect == Dialect.V3 then 1 else 5
     MarbleTexture(Solid.filtered, octaves(), roughness(), scale, variation, last)
 
-object FloatFbm extends NoiseRecipe[FloatTexture]("fbm", "noise of many scales: clouds", every):
+object FloatFbmRecipe
+    extends NoiseRecipe[FloatTexture]("fbm", "noise of many scales: clouds", every):
   protected def make()(using Site): FloatTexture = fbm()
 
-object RgbFbm extends NoiseRecipe[RgbTexture]("fbm", "noise of many scales, as grey", untilV3):
+object RgbFbmRecipe
+    extends NoiseRecipe[RgbTexture]("fbm", "noise of many scales, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(fbm())
 
-object FloatWrinkled extends NoiseRecipe[FloatTexture]("wrinkled", "creases of many scales", every):
+object FloatWrinkledRecipe
+    extends NoiseRecipe[FloatTexture]("wrinkled", "creases of many scales", every):
   protected def make()(using Site): FloatTexture = wrinkled()
 
-object RgbWrinkled extends NoiseRecipe[RgbTexture]("wrinkled", "creases, as grey", untilV3):
+object RgbWrinkledRecipe extends NoiseRecipe[RgbTexture]("wrinkled", "creases, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(wrinkled())
 
-object FloatWindy extends Recipe[FloatTexture]("windy", "waves under gusts of wind"):
+object FloatWindyRecipe extends Recipe[FloatTexture]("windy", "waves under gusts of wind"):
   protected def make()(using Site): FloatTexture = WindyTexture(Solid.filtered)
 
-object RgbWindy extends Recipe[RgbTexture]("windy", "waves, as grey", untilV3):
+object RgbWindyRecipe extends Recipe[RgbTexture]("windy", "waves, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(WindyTexture(Solid.filtered))
 
-object RgbMarble extends NoiseRecipe[RgbTexture]("marble", "wavy layers of grey", every):
+object RgbMarbleRecipe extends NoiseRecipe[RgbTexture]("marble", "wavy layers of grey", every):
   private val scale = float("scale", "layers in a unit of length, about")(1f)
   private val variation = float("variation", "how far noise moves the layers")(0.2f)
   protected def make()(using site: Site): RgbTexture =

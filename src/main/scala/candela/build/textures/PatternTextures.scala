@@ -5,7 +5,8 @@ import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.*
 
-abstract class CheckerboardRecipe[A] extends Mapped[A]("checkerboard", "squares of two in turn"):
+abstract class CheckerboardRecipe[A]
+    extends MappedRecipe[A]("checkerboard", "squares of two in turn"):
   private val dimension = integer("dimension", "2, or 3 for cubes in space")(2)
   private val aamode =
     oneOf("aamode", "how edges are smoothed", Seq("closedform", "none"), untilV3)("closedform")
@@ -20,24 +21,26 @@ abstract class CheckerboardRecipe[A] extends Mapped[A]("checkerboard", "squares 
     if filter != CheckFilter.Point then site.resources.askForFootprints("checkerboards")
     if isSolid then Cubes(Solid.mapping, filter) else Squares(mapped(), filter)
 
-object FloatChecks extends CheckerboardRecipe[FloatTexture]:
+object FloatCheckerboardRecipe extends CheckerboardRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "of even squares")(1f)
   private val tex2 = floatTexture("tex2", "of odd squares")(0f)
   protected def make()(using Site): FloatTexture = CheckerboardFloat(checks(), tex1(), tex2())
 
-object RgbChecks extends CheckerboardRecipe[RgbTexture]:
+object RgbCheckerboardRecipe extends CheckerboardRecipe[RgbTexture]:
   private val tex1 = rgbTexture("tex1", "of even squares")(Rgb.White)
   private val tex2 = rgbTexture("tex2", "of odd squares")(Rgb.Black)
   protected def make()(using Site): RgbTexture = CheckerboardRgb(checks(), tex1(), tex2())
 
-object FloatBilerp extends Mapped[FloatTexture]("bilerp", "blends the values at four corners"):
+object FloatBilerpRecipe
+    extends MappedRecipe[FloatTexture]("bilerp", "blends the values at four corners"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       float(n, s"value at the corner $n")(d)
   protected def make()(using Site): FloatTexture =
     BilerpFloat(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
-object RgbBilerp extends Mapped[RgbTexture]("bilerp", "blends the values at four corners"):
+object RgbBilerpRecipe
+    extends MappedRecipe[RgbTexture]("bilerp", "blends the values at four corners"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))

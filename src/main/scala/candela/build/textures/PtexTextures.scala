@@ -12,5 +12,5 @@ abstract class PtexRecipe[A] extends Recipe[A]("ptex", "a picture for each face"
     float("scale", "factor of the values", onlyV4)(1f)
   )
 
-object FloatPtex extends PtexRecipe[FloatTexture] with HalfFloat
-object RgbPtex extends PtexRecipe[RgbTexture] with HalfRgb
+object FloatPtexRecipe extends PtexRecipe[FloatTexture] with HalfFloat
+object RgbPtexRecipe extends PtexRecipe[RgbTexture] with HalfRgb

@@ -10,16 +10,18 @@ object Textures:
   val floats: Recipes[FloatTexture] = Recipes(
     "float texture",
     Vector(
-      FloatConstant, FloatScale, FloatMix, FloatDirectionMix, FloatBilerp, FloatChecks, FloatDots,
-      FloatMap, FloatPtex, FloatFbm, FloatWrinkled, FloatWindy
+      FloatConstantRecipe, FloatScaleRecipe, FloatMixRecipe, FloatDirectionMixRecipe,
+      FloatBilerpRecipe, FloatCheckerboardRecipe, FloatDotsRecipe, FloatImageMapRecipe,
+      FloatPtexRecipe, FloatFbmRecipe, FloatWrinkledRecipe, FloatWindyRecipe
     )
   )
 
   val colors: Recipes[RgbTexture] = Recipes(
     "spectrum texture",
     Vector(
-      RgbConstant, RgbScale, RgbMix, RgbDirectionMix, RgbBilerp, RgbChecks, RgbDots, RgbMap,
-      RgbPtex, RgbFbm, RgbWrinkled, RgbWindy, RgbMarble, RgbUv
+      RgbConstantRecipe, RgbScaleRecipe, RgbMixRecipe, RgbDirectionMixRecipe, RgbBilerpRecipe,
+      RgbCheckerboardRecipe, RgbDotsRecipe, RgbImageMapRecipe, RgbPtexRecipe, RgbFbmRecipe,
+      RgbWrinkledRecipe, RgbWindyRecipe, RgbMarbleRecipe, RgbUvRecipe
     )
   )
 

@@ -6,7 +6,7 @@ import candela.build.recipe.*
 final case class SceneSettings(seed: Int)
 
 /** v4's options: each is a parameter here. The reader knows their names in lower case. */
-object SceneOptionRecipe extends Recipe[SceneSettings]("", "settings of the whole scene", onlyV4):
+object OptionRecipe extends Recipe[SceneSettings]("", "settings of the whole scene", onlyV4):
   private val seed = integer("seed", "of the random numbers, where the sampler says none")(0)
   notYet("samples lie anywhere in the pixel")(
     bool("disablepixeljitter", "sample the middle of each pixel")(false)
@@ -35,5 +35,5 @@ object SceneOptionRecipe extends Recipe[SceneSettings]("", "settings of the whol
 
   protected def make()(using Site): SceneSettings = SceneSettings(seed())
 
-object SceneOptionRecipes:
-  val all: Recipes[SceneSettings] = Recipes("option", Vector(SceneOptionRecipe))
+object OptionStatements:
+  val all: Recipes[SceneSettings] = Recipes("option", Vector(OptionRecipe))
