@@ -1,17 +1,19 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Version}
-import candela.convert.SideFiles
-import candela.render.Cancellation
-import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
-import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
-
 import java.lang.management.ManagementFactory
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
+
+import scopt.OParser
+
+import candela.base.{Problem, SceneError, Version}
+import candela.convert.SideFiles
+import candela.render.Cancellation
+import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
+import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
 
 /** `candela bench`: how fast programs come to which error. */
 final class BenchCommand(options: Options, terminal: Terminal, report: Report):
@@ -111,3 +113,57 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       // Links are deleted, not followed.
       Using.resource(Files.walk(scratch)): files =>
         files.iterator.asScala.toVector.reverse.foreach(Files.deleteIfExists(_))
+
+/** What `bench` is asked for beside the suite; empty or None is what the suite says.
+  *
+  * @param references where the references of a folder of scenes are, if not beside them
+  * @param pictures   whether the page has all images to look at
+  */
+final case class BenchOptions(
+    samples: Option[Vector[Int]] = None,
+    seeds: Option[Int] = None,
+    programs: Vector[String] = Vector.empty,
+    scenes: Vector[String] = Vector.empty,
+    references: Option[String] = None,
+    pictures: Boolean = true
+)
+
+/** The options of `bench`, one row each. */
+private[cli] object BenchTable:
+  private type Row = OParser[?, Options]
+
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private def change(o: Options)(f: BenchOptions => BenchOptions): Options =
+    o.copy(bench = f(o.bench))
+
+  val options: Vector[Row] = Vector(
+    opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
+      .text("where to write the results: .html, .json, .csv, .svg (default: SUITE.html)")
+      .action((f, o) => o.copy(reports = o.reports ++ f)),
+    opt[Seq[Int]]("samples").valueName("N,...")
+      .text("samples per pixel, instead of the suite's")
+      .validate(n => if n.forall(_ >= 1) then success else failure("--samples: expected from 1"))
+      .action((n, o) => change(o)(_.copy(samples = Some(n.toVector.distinct.sorted)))),
+    opt[Int]("seeds").valueName("N")
+      .text("independent images for each sample count, instead of the suite's")
+      .validate: n =>
+        if n >= 1 then success else failure(s"--seeds: expected a number from 1, found `$n`")
+      .action((n, o) => change(o)(_.copy(seeds = Some(n)))),
+    opt[Seq[String]]("programs").valueName("NAME,...")
+      .text("only these of the suite")
+      .action((p, o) => change(o)(_.copy(programs = p.toVector))),
+    opt[Seq[String]]("scenes").valueName("NAME,...")
+      .text("only these of the suite")
+      .action((s, o) => change(o)(_.copy(scenes = s.toVector))),
+    opt[String]("references").valueName("FOLDER")
+      .text("where the references of a folder of scenes are, if not beside them")
+      .action((f, o) => change(o)(_.copy(references = Some(f)))),
+    opt[Unit]("no-pictures")
+      .text("a page without the images: a tenth of the size")
+      .action((_, o) => change(o)(_.copy(pictures = false))),
+    opt[Unit]("quiet")
+      .text("print nothing but errors")
+      .action((_, o) => o.copy(quiet = true))
+  )

@@ -1,9 +1,14 @@
 package candela.cli
 
-import candela.image.{ImageError, ImageFiles}
-import candela.measure.{ErrorMap, HeatMap, ImagePair}
-
 import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+import scopt.{OParser, Read}
+
+import candela.image.{ImageError, ImageFiles}
+import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric, Metrics, PixelWindow}
 
 /** `candela compare`: how an image differs from its reference, or a folder of them from theirs. */
 final class CompareCommand(options: Options, terminal: Terminal, report: Report):
@@ -67,3 +72,227 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
       else asked.limits.flatMap(_.broken(comparison))
     wrong.foreach(text => terminal.err.println(name + text))
     if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput
+
+/** A picture beside its reference, and what `compare` says about them.
+  *
+  * @param flip only of colours
+  */
+final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Double]):
+
+  def lines: Vector[String] =
+    val m = metrics
+    val ratios = m.channels.zip(m.meanRatio).map((c, r) => s"$c ${Figures.fixed(r, 4)}")
+    val difference = Figures.scientific(m.largest.value)
+    val most = m.largest
+    Vector(
+      s"MSE           ${Figures.scientific(m.mse)}",
+      s"RMSE          ${Figures.scientific(m.rmse)}",
+      s"MAE           ${Figures.scientific(m.mae)}",
+      s"relative MSE  ${Figures.scientific(m.relativeMse)}",
+      s"PSNR          ${Comparison.decibels(m.psnr)}"
+    ) ++ flip.map(f => s"FLIP          ${Figures.scientific(f)}") ++ Vector(
+      s"mean ratio    ${ratios.mkString("  ")}",
+      s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
+    ) ++ Option.when(m.skipped > 0):
+      s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
+
+  /** A table of the channels. */
+  def perChannel: Vector[String] =
+    val head = Vector("channel", "MSE", "RMSE", "MAE", "relative MSE", "mean", "reference", "ratio")
+    val rows = metrics.perChannel.map: c =>
+      val figures = Vector(c.mse, c.rmse, c.mae, c.relativeMse, c.mean, c.referenceMean)
+      (c.name +: figures.map(Figures.scientific)) :+ Figures.fixed(c.meanRatio, 4)
+    Comparison.aligned(head +: rows)
+
+object Comparison:
+
+  def apply(pair: ImagePair): Comparison =
+    val metrics = Metrics.compare(pair.image, pair.reference)
+    val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
+    Comparison(pair, metrics, flip)
+
+  def decibels(psnr: Double): String =
+    if psnr.isInfinite then "infinite" else s"${Figures.fixed(psnr, 2)} dB"
+
+  /** Columns as wide as they need to be, numbers to the right. */
+  def aligned(rows: Vector[Vector[String]]): Vector[String] =
+    val widths = rows.head.indices.map(i => rows.map(_(i).length).max)
+    rows.map: row =>
+      val cells = row.zip(widths).tail.map((cell, width) => " " * (width - cell.length) + cell)
+      (row.head.padTo(widths.head, ' ') +: cells).mkString("  ")
+
+/** Images and what they are to be compared with.
+  *
+  * @param missing images without a reference
+  */
+final case class ReferenceSet(pairs: Vector[(Path, Path)], missing: Vector[Path])
+
+object ReferenceSet:
+  private val Endings = Vector("exr", "hdr", "png", "tga", "jpg", "jpeg")
+
+  /** References are a folder, with names that but for the ending are the same, or one image.
+    *
+    * @throws ImageError if there are no images
+    */
+  def of(images: Path, references: Path): ReferenceSet =
+    val found = files(images)
+    if found.isEmpty then throw ImageError(s"$images: there are no images in this folder")
+    if Files.isDirectory(references) then
+      val known = files(references).groupBy(stem)
+      val matched = found.map: image =>
+        // Of several the one of the same format; else EXR, as the order of endings has it.
+        val same = known.getOrElse(stem(image), Vector.empty)
+        image -> same.minByOption(r => (ending(r) != ending(image), Endings.indexOf(ending(r))))
+      ReferenceSet(
+        matched.collect { case (image, Some(reference)) => (image, reference) },
+        matched.collect { case (image, None) => image }
+      )
+    else
+      val one = references.toAbsolutePath.normalize
+      val others = found.filterNot(_.toAbsolutePath.normalize == one)
+      ReferenceSet(others.map(image => (image, references)), Vector.empty)
+
+  /** A line for each comparison, and their means. */
+  def table(comparisons: Vector[(Path, Comparison)]): Vector[String] =
+    val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias")
+    def row(name: String, c: Comparison) =
+      val m = c.metrics
+      Vector(m.mse, m.mae, m.relativeMse).map(Figures.scientific).prepended(name) ++
+        Vector(Comparison.decibels(m.psnr), c.flip.fold("-")(Figures.scientific)) :+
+        Figures.scientific(m.bias)
+    def mean(figure: Comparison => Double) =
+      Figures.scientific(comparisons.map((_, c) => figure(c)).sum / comparisons.size)
+    val means = Option.when(comparisons.sizeIs > 1):
+      val flip = if comparisons.forall(_._2.flip.isDefined) then mean(_.flip.get) else "-"
+      Vector("mean", mean(_.metrics.mse), mean(_.metrics.mae), mean(_.metrics.relativeMse), "") ++
+        Vector(flip, mean(_.metrics.bias))
+    Comparison.aligned(
+      head +: (comparisons.map((path, c) => row(path.getFileName.toString, c)) ++ means)
+    )
+
+  private def files(folder: Path): Vector[Path] =
+    Using.resource(Files.list(folder)): all =>
+      all.iterator.asScala.toVector.filter(f => Endings.contains(ending(f))).sorted
+
+  private def stem(path: Path): String =
+    val name = path.getFileName.toString
+    name.take(name.lastIndexOf('.'))
+
+  private def ending(path: Path): String =
+    val name = path.getFileName.toString
+    name.drop(name.lastIndexOf('.') + 1).toLowerCase
+
+/** What `compare` is asked for beside the pictures.
+  *
+  * @param channels   to compare, instead of R, G and B (or all, if a picture has no colours)
+  * @param difference where to write |a − b|
+  * @param heatMap    where to write the error of each pixel, as colours
+  * @param heatMapMax the error that gets the brightest colour
+  * @param limits     above which (PSNR: below which) the comparison fails
+  */
+final case class CompareOptions(
+    crop: Option[PixelWindow] = None,
+    channels: Option[Vector[String]] = None,
+    perChannel: Boolean = false,
+    difference: Option[String] = None,
+    heatMap: Option[String] = None,
+    heatMapMetric: Metric = Metric.Flip,
+    heatMapMax: Option[Double] = None,
+    limits: Vector[Limit] = Vector.empty
+):
+  /** FLIP takes longer than all other figures together. */
+  def writesPictures: Boolean = difference.isDefined || heatMap.isDefined
+
+/** What a comparison must not exceed.
+  *
+  * @param option as on the command line, without dashes
+  * @param figure in words
+  */
+final case class Limit(option: String, figure: String, value: Double):
+
+  /** What is wrong, if something is; a figure that isn't known is. */
+  def broken(c: Comparison): Option[String] = option match
+    case "min-psnr" => Option.unless(c.metrics.psnr >= value)(said(c.metrics.psnr, "below"))
+    case other =>
+      val found = Limit.figures(other)(c)
+      Option.unless(found.exists(_ <= value)):
+        found.fold(s"there is no $figure of these pictures")(said(_, "above"))
+
+  private def said(found: Double, where: String): String =
+    s"$figure ${Figures.scientific(found)} is $where --$option $value"
+
+object Limit:
+  private val figures: Map[String, Comparison => Option[Double]] = Map(
+    "max-mse" -> (c => Some(c.metrics.mse)),
+    "max-rmse" -> (c => Some(c.metrics.rmse)),
+    "max-mae" -> (c => Some(c.metrics.mae)),
+    "max-relmse" -> (c => Some(c.metrics.relativeMse)),
+    "max-bias" -> (c => Some(c.metrics.bias)),
+    "max-flip" -> (c => c.flip)
+  )
+
+  /** Option, figure, and the text of its help. */
+  val all: Vector[(String, String, String)] = Vector(
+    ("max-mse", "MSE", "the mean squared error"),
+    ("max-rmse", "RMSE", "its root"),
+    ("max-mae", "MAE", "the mean absolute error"),
+    ("max-relmse", "relative MSE", "the relative mean squared error"),
+    ("max-flip", "FLIP", "the mean of FLIP"),
+    ("max-bias", "bias", "the largest |mean ratio − 1| of a channel"),
+    ("min-psnr", "PSNR", "the peak signal-to-noise ratio in dB")
+  )
+
+/** The options of `compare`, one row each. */
+private[cli] object CompareTable:
+  private type Row = OParser[?, Options]
+
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private given Read[PixelWindow] = Read.reads: text =>
+    text.split(",", -1).map(_.trim.toIntOption) match
+      case Array(Some(x0), Some(x1), Some(y0), Some(y1)) if 0 <= x0 && 0 <= y0 && x1 != x0 =>
+        // As in imgtool: a negative end is a size.
+        PixelWindow(x0, if x1 < 0 then x0 - x1 else x1, y0, if y1 < 0 then y0 - y1 else y1)
+      case _ => throw IllegalArgumentException("expected x0,x1,y0,y1 in pixels, e.g. 0,64,0,32")
+
+  private given Read[Metric] = Read.reads: word =>
+    Metric.named(word).filter(_.hasMap).getOrElse:
+      val known = Metric.values.filter(_.hasMap).map(_.word).mkString(", ")
+      throw IllegalArgumentException(s"expected one of $known")
+
+  private def change(o: Options)(f: CompareOptions => CompareOptions): Options =
+    o.copy(compare = f(o.compare))
+
+  private def limit(option: String, figure: String, text: String): Row =
+    val where = if option.startsWith("min") then "below" else "above"
+    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $where")
+      .validate: x =>
+        if x >= 0 then success else failure(s"--$option: expected a number from 0, found `$x`")
+      .action: (x, o) =>
+        change(o)(c => c.copy(limits = c.limits :+ Limit(option, figure, x)))
+
+  val options: Vector[Row] = Vector[Row](
+    opt[PixelWindow]("crop").valueName("x0,x1,y0,y1")
+      .text("compare only these pixels, x1 and y1 excluded")
+      .action((w, o) => change(o)(_.copy(crop = Some(w)))),
+    opt[Seq[String]]("channels").valueName("NAME,...")
+      .text("compare these channels, instead of R,G,B")
+      .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
+    opt[Unit]("per-channel")
+      .text("print the figures of each channel, too")
+      .action((_, o) => change(o)(_.copy(perChannel = true))),
+    opt[String]("difference").valueName("FILE")
+      .text("write the absolute difference of each pixel, .exr or .png")
+      .action((f, o) => change(o)(_.copy(difference = Some(f)))),
+    opt[String]("heatmap").valueName("FILE")
+      .text("write the error of each pixel in colours (.png), or as numbers (.exr)")
+      .action((f, o) => change(o)(_.copy(heatMap = Some(f)))),
+    opt[Metric]("heatmap-metric").valueName("METRIC")
+      .text("of which error: mse, rmse, mae, relmse or flip (default flip)")
+      .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
+    opt[Double]("heatmap-max").valueName("X")
+      .text("the error with the brightest colour (default: 1 for flip, else the 99th percentile)")
+      .validate(x => if x > 0 then success else failure("--heatmap-max: expected more than 0"))
+      .action((x, o) => change(o)(_.copy(heatMapMax = Some(x))))
+  ) ++ Limit.all.map(limit)

@@ -1,11 +1,12 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Suggest}
-import candela.build.{Category, Language}
-import candela.scenefile.Dialect
-
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
+
+import candela.base.{Problem, SceneError, Suggest}
+import candela.build.{Category, Language}
+import candela.build.recipe.{Dialects, Field, Recipe, Support}
+import candela.scenefile.Dialect
 
 /** `candela describe`: what scene files can say, from the tables that scenes are built by. */
 final class DescribeCommand(options: Options, terminal: Terminal, report: Report):
@@ -63,3 +64,158 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
         help.orElse(Some("`candela describe` lists all categories"))
       )
     )
+
+/** A parameter in words. */
+final case class DescribedParameter(
+    name: String,
+    typeName: String,
+    default: String,
+    dialects: String,
+    meaning: String
+)
+
+/** A type of a category in words, with what the dialects asked for know of it. */
+final case class DescribedType(
+    category: Category,
+    name: String,
+    dialects: String,
+    meaning: String,
+    pending: Option[String],
+    parameters: Vector[DescribedParameter]
+):
+  /** As a scene file writes it; options have no name of their own. */
+  def title: String = category.name match
+    case s"Texture ($values)" => s"Texture \"…\" \"$values\" \"$name\""
+    case "Option" => "Option"
+    case "MakeNamedMedium" => s"MakeNamedMedium \"…\" \"string type\" \"$name\""
+    case statement => s"$statement \"$name\""
+
+/** Turns the tables of the bridge into words. */
+final class Described(asked: Set[Dialect]):
+
+  /** The types that the dialects know, in the order of the table. */
+  def types(category: Category): Vector[DescribedType] =
+    for recipe <- category.recipes.all if recipe.dialects.exists(asked)
+    yield DescribedType(
+      category,
+      recipe.name,
+      named(recipe.dialects),
+      recipe.meaning,
+      recipe.pending,
+      parameters(recipe)
+    )
+
+  private def parameters(recipe: Recipe[?]): Vector[DescribedParameter] =
+    val known = recipe.fields.filter(_.dialects.exists(d => recipe.dialects(d) && asked(d)))
+    // What changes the picture comes first
+    for field <- known.sortBy(recipe.support(_).ordinal)
+    yield DescribedParameter(
+      field.name,
+      field.typeName,
+      default(field, recipe),
+      named(field.dialects.intersect(recipe.dialects)),
+      meaning(field, recipe)
+    )
+
+  private def named(dialects: Set[Dialect]): String =
+    Dialect.values.filter(dialects).map(Dialects.name).mkString(" ")
+
+  /** One default, or each with its dialects: `80 (v2 v3), 5 (v4)`. */
+  private def default(field: Field[?], recipe: Recipe[?]): String =
+    val dialects =
+      Dialect.values.toVector.filter(d => field.dialects(d) && recipe.dialects(d) && asked(d))
+    val texts = dialects.map(field.shown).distinct
+    if texts.size == 1 then texts.head
+    else
+      texts
+        .map(t => s"$t (${named(dialects.filter(field.shown(_) == t).toSet)})")
+        .mkString(", ")
+
+  private def meaning(field: Field[?], recipe: Recipe[?]): String =
+    val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"
+    val support = recipe.support(field) match
+      case Support.Used => ""
+      case Support.NotYet(instead) => s"; not supported yet: $instead"
+      case Support.NoMeaning(reason) => s"; no effect: $reason"
+    s"${field.doc}$unit$support"
+
+/** The reference as it looks on a terminal. */
+final class ReferenceText(described: Described, columns: Int):
+  private val table = TextTable(columns)
+
+  /** All categories. */
+  def categories: Vector[String] =
+    val rows =
+      for c <- Language.categories; types = described.types(c) if types.nonEmpty
+      yield
+        val counted = types.map(_.name).distinct.size
+        Vector(c.name, if counted > 1 then s"$counted types" else "", c.meaning)
+    table.lines(rows, indent = 0) ++
+      Vector(
+        "",
+        "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters."
+      )
+
+  /** A category's types; the parameters themselves, if there is but one type. */
+  def category(c: Category): Vector[String] =
+    described.types(c) match
+      case Vector(only) => parameters(only)
+      case types =>
+        val rows = types.map: t =>
+          val later = t.pending.fold("")(instead => s"; not supported yet: $instead")
+          Vector(s"\"${t.name}\"", t.dialects, t.meaning + later)
+        s"${c.name}: ${c.meaning}" +: "" +: table.lines(rows)
+
+  def parameters(t: DescribedType): Vector[String] =
+    val head = TextTable.wrap(s"${t.title} (${t.dialects}): ${t.meaning}", columns)
+    val later = t.pending.toVector.flatMap: instead =>
+      TextTable.wrap(s"Not supported yet: $instead.", columns)
+    val names = Vector("name", "type", "default", "in", "meaning")
+    val rows = t.parameters.map(p => Vector(p.name, p.typeName, p.default, p.dialects, p.meaning))
+    val body =
+      if rows.isEmpty then Vector("  no parameters") else table.lines(names +: rows)
+    head ++ later ++ ("" +: body)
+
+/** The reference as a page of documentation. */
+final class ReferenceMarkdown(described: Described):
+
+  def page: Vector[String] =
+    ReferenceMarkdown.Introduction.linesIterator.toVector ++
+      Language.categories.filter(described.types(_).nonEmpty).flatMap(category)
+
+  private def category(c: Category): Vector[String] =
+    val types = described.types(c)
+    val rows = types.map: t =>
+      val name = if t.name.isEmpty then t.title else t.name
+      val support = t.pending.fold("")(instead => s"not yet: $instead")
+      row(s"`$name`", t.dialects, t.meaning, support)
+    val overview =
+      if types.size < 2 then Vector.empty
+      else "" +: row("type", "in", "meaning", "support") +: rule(4) +: rows
+    Vector("", s"## ${c.name}", "", c.meaning.capitalize + ".") ++ overview ++
+      types.filter(_.parameters.nonEmpty).flatMap(parameters)
+
+  private def parameters(t: DescribedType): Vector[String] =
+    val rows = t.parameters.map: p =>
+      row(s"`${p.name}`", p.typeName, p.default, p.dialects, p.meaning)
+    val support = t.pending.map(instead => s" Not supported yet: $instead.").getOrElse("")
+    Vector("", s"### ${t.title}, ${t.dialects}", "", s"${t.meaning.capitalize}.$support", "") ++
+      (row("name", "type", "default", "in", "meaning") +: rule(5) +: rows)
+
+  private def row(cells: String*): String =
+    cells.map(_.replace("|", "\\|")).mkString("| ", " | ", " |")
+
+  private def rule(cells: Int): String = "|" + "---|" * cells
+
+private object ReferenceMarkdown:
+  val Introduction: String =
+    """# What scene files can say
+      |
+      |Every type and parameter of pbrt-v2, v3 and v4, with what Candela makes of it. This page is
+      |printed by `candela describe --markdown`; `./sbt "run describe --markdown --outfile
+      |docs/REFERENCE.md"` makes it anew.
+      |
+      |A type of values is what stands before the parameter's name: `"float radius" 2`. `float
+      |texture` and `spectrum texture` are a value or `"texture NAME" "TEXTURE"`. A `spectrum` is
+      |written as `rgb`, `spectrum` or `blackbody`, in v2 and v3 also as `color` or `xyz`. Units are
+      |in brackets.""".stripMargin

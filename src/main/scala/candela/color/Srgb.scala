@@ -25,3 +25,17 @@ object Srgb:
 
   /** `decode(code / 255)` for the 256 codes of a byte. */
   val DecodeTable: IArray[Float] = IArray.tabulate(256)(code => decode(code / 255f))
+
+/** How the numbers of a picture stand for linear light. */
+enum Encoding:
+  case Linear
+  case Srgb
+
+  /** Light is the stored value to the power of `exponent`. */
+  case Gamma(exponent: Float)
+
+  def decode(stored: Float): Float = this match
+    case Encoding.Linear => stored
+    case Encoding.Srgb => candela.color.Srgb.decode(stored)
+    case Encoding.Gamma(exponent) =>
+      Math.pow(Math.max(stored, 0f).toDouble, exponent.toDouble).toFloat

@@ -1,9 +1,19 @@
 package candela.convert
 
-import java.nio.file.Path
+import java.nio.file.{Files, InvalidPathException, Path}
+
+import scala.collection.mutable
 
 import candela.base.{Problem, SceneError}
-import candela.scenefile.{Dialect, SceneDescription}
+import candela.scenefile.{
+  Declaration,
+  Dialect,
+  MaterialRef,
+  Param,
+  ParamType,
+  SceneDescription,
+  ShapeDescription
+}
 
 /** A scene in another dialect, and what was lost on the way. */
 final case class Converted(scene: SceneDescription, warnings: Vector[Problem])
@@ -39,3 +49,82 @@ object Converter:
     case _ =>
       val message = s"a ${from.toString.toLowerCase} scene can't be written as v2"
       throw SceneError(Problem.general(message, Some("--to v3 is the nearest")))
+
+/** Walks over a description. */
+object Declarations:
+
+  /** The scene with `change` applied to every declaration; what several shapes share is changed
+    * once, and still shared.
+    */
+  def map(scene: SceneDescription)(change: Declaration => Declaration): SceneDescription =
+    val materials = mutable.HashMap.empty[Declaration, Declaration]
+    def shared(d: Declaration) = materials.getOrElseUpdate(d, change(d))
+    def shape(s: ShapeDescription) = s.copy(
+      shape = change(s.shape),
+      material = s.material match
+        case MaterialRef.Inline(d) => MaterialRef.Inline(shared(d))
+        case other => other
+      ,
+      areaLight = s.areaLight.map(shared)
+    )
+    scene.copy(
+      camera = scene.camera.map(change),
+      film = scene.film.map(change),
+      sampler = scene.sampler.map(change),
+      filter = scene.filter.map(change),
+      integrator = scene.integrator.map(change),
+      accelerator = scene.accelerator.map(change),
+      renderer = scene.renderer.map(change),
+      volumeIntegrator = scene.volumeIntegrator.map(change),
+      textures = scene.textures.map(t => t.copy(texture = change(t.texture))),
+      namedMaterials = scene.namedMaterials.map((name, d) => (name, change(d))),
+      lights = scene.lights.map(l => l.copy(light = change(l.light))),
+      shapes = scene.shapes.map(shape),
+      objects = scene.objects.map((name, shapes) => name -> shapes.map(shape)),
+      media = scene.media.map(m => m.copy(medium = change(m.medium))),
+      volumes = scene.volumes.map(v => v.copy(light = change(v.light)))
+    )
+
+/** Names of files in parameters, which are relative to the folder of the scene: what they become
+  * for a scene in another folder.
+  */
+final class FileNames(to: Path):
+
+  private val target = to.toAbsolutePath.normalize
+
+  def moved(d: Declaration): Declaration =
+    val from = d.folder.toAbsolutePath.normalize
+    if from == target || !d.params.exists(FileNames.isFile(d, _)) then d.copy(folder = to)
+    else
+      val params = d.params.map: p =>
+        if FileNames.isFile(d, p) then p.withStrings(p.strings.map(name(from, _))) else p
+      d.copy(params = params, folder = to)
+
+  private def name(from: Path, written: String): String =
+    try
+      val file = Path.of(written.replace('\\', '/'))
+      if written.isEmpty || file.isAbsolute then written
+      else target.relativize(from.resolve(file).normalize).toString.replace('\\', '/')
+    catch
+      // such a name names nothing here, nor there; or the folders have no common root
+      case _: IllegalArgumentException => written
+
+object FileNames:
+  private val Names =
+    Set("filename", "mapname", "bsdffile", "lensfile", "emissionfilename", "normalmap", "aperture")
+
+  /** These write a file of that name, which goes where it is wanted. */
+  private val Outputs = Set("Film", "Integrator", "SurfaceIntegrator", "Renderer")
+
+  private def isFile(d: Declaration, p: Param): Boolean = p.paramType match
+    case ParamType.String => Names(p.name) && !Outputs(d.category) && isNoWord(p, d)
+    case ParamType.Spectrum => p.strings.exists(exists(d, _))
+    case _ => false
+
+  /** An aperture may also be called "star"; all else are files. */
+  private def isNoWord(p: Param, d: Declaration): Boolean =
+    p.name != "aperture" || p.strings.exists(exists(d, _))
+
+  private def exists(d: Declaration, name: String): Boolean =
+    try name.nonEmpty && Files.isRegularFile(d.folder.resolve(name.replace('\\', '/')))
+    catch case _: InvalidPathException => false

@@ -33,3 +33,77 @@ private[report] final class ChartLegend(series: Vector[Series], columns: Int, wi
         element("circle", "cx" -> px(x + 11), "cy" -> px(y - 4), "r" -> "4")(),
         text(x + 28, y, "legend", "start")(s.name)
       )
+
+/** Small charts side by side, with one legend for all.
+  *
+  * @param words below the title: what all of the charts show
+  */
+private[report] final class ChartGrid(
+    title: String,
+    words: String,
+    series: Vector[Series],
+    panels: Vector[LogLogChart]
+):
+  import ChartGrid.*
+  import Svg.*
+
+  private val columns = Math.min(Columns, Math.max(1, panels.size))
+  private val width = Columns * PanelWidth
+  private val legend = ChartLegend(series, LegendColumns, width - 2 * Margin)
+  private val top = 66 + legend.height
+  private val height = top + PanelHeight * ((panels.size + columns - 1) / columns)
+
+  def svg: Node = picture(width, height, title)(content*)
+
+  def standalone: String = Svg.standalone(width, height, title)(content)
+
+  private def content: Vector[Frag] =
+    val head = Vector(
+      text(Margin, 24, "charttitle", "start")(title),
+      text(Margin, 43, "axis", "start")(words)
+    )
+    val all = panels.zipWithIndex.map: (panel, i) =>
+      moved((i % columns) * PanelWidth, top + (i / columns) * PanelHeight)(panel.content)
+    head ++ legend.at(Margin, 68) ++ all
+
+private[report] object ChartGrid:
+  private val Columns = 3
+  private val LegendColumns = 4
+  private val PanelWidth = 310.0
+  private val PanelHeight = 250.0
+  private val Margin = 14.0
+
+  /** Of a chart in the grid. */
+  def frame(note: String): ChartFrame =
+    ChartFrame(PanelWidth, PanelHeight, isWhole = false, Some(note))
+
+/** A logarithmic axis from `low` to `high`, which is drawn from `start` to `end` pixels. */
+private[report] final class LogAxis(low: Double, high: Double, start: Double, end: Double):
+
+  def at(value: Double): Double =
+    val part = (Math.log(value) - Math.log(low)) / (Math.log(high) - Math.log(low))
+    start + part * (end - start)
+
+  /** Powers of ten; on a short axis also some of their multiples. */
+  def ticks: Vector[Double] =
+    val decades = Math.log10(high / low)
+    val steps =
+      if decades < 0.8 then Vector(1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 7.0)
+      else if decades < 2.2 then Vector(1.0, 2.0, 5.0)
+      else Vector(1.0)
+    for
+      exponent <- (Math.floor(Math.log10(low)).toInt to Math.ceil(Math.log10(high)).toInt).toVector
+      step <- steps
+      value = step * Math.pow(10, exponent)
+      if value >= low * 0.9999 && value <= high * 1.0001
+    yield value
+
+private[report] object LogAxis:
+
+  /** Some room beyond the outermost values; an axis of at least a half decade. */
+  def around(values: Vector[Double], start: Double, end: Double): LogAxis =
+    val logs = values.filter(_ > 0).map(Math.log10)
+    val (least, most) = if logs.isEmpty then (0.0, 1.0) else (logs.min, logs.max)
+    val middle = (least + most) / 2
+    val half = Math.max(0.25, (most - least) / 2 * 1.08)
+    LogAxis(Math.pow(10, middle - half), Math.pow(10, middle + half), start, end)

@@ -1,7 +1,7 @@
 package candela.report
 
 import candela.image.Image
-import candela.measure.MeasuredCurve
+import candela.measure.{Interval, MeasuredCurve, MeasuredPoint, Metric}
 
 /** What one program did with one scene.
   *
@@ -49,3 +49,74 @@ final case class SuiteReport(
     scenes: Vector[SceneResult],
     leftOut: Vector[(String, String)]
 )
+
+/** The results of a suite for machines: JSON with all runs, and one line a run as CSV. */
+object SuiteData:
+
+  def json(r: SuiteReport): String =
+    val all = ujson.Obj(
+      "title" -> r.title,
+      "version" -> r.version,
+      "begun" -> r.begun,
+      "seconds" -> r.seconds,
+      "seeds" -> r.seeds,
+      "machine" -> RenderData.machine(r.machine),
+      "scenes" -> ujson.Arr.from(r.scenes.map(scene)),
+      "leftOut" -> ujson.Arr.from(r.leftOut.map((what, why) => ujson.Arr(what, why)))
+    )
+    ujson.write(all, indent = 2) + "\n"
+
+  def csv(r: SuiteReport): String =
+    val head = "scene,program,samples,seed,seconds,relmse,mse,mae,psnr,flip"
+    val rows =
+      for
+        s <- r.scenes
+        p <- s.programs
+        point <- p.curve.points
+        run <- point.runs
+      yield
+        val figures = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Psnr, Metric.Flip)
+          .map(m => run.errors(m).fold("")(_.toString))
+        (Vector(s.name, p.name, run.samples, run.seed, run.seconds) ++ figures).mkString(",")
+    (head +: rows).map(_ + "\n").mkString
+
+  private def scene(s: SceneResult): ujson.Obj = ujson.Obj(
+    "name" -> s.name,
+    "reference" -> s.referenceName,
+    "target" -> RenderData.number(s.target),
+    "programs" -> ujson.Arr.from(s.programs.map(program(s, _)))
+  )
+
+  private def program(s: SceneResult, p: ProgramResult): ujson.Obj = ujson.Obj(
+    "name" -> p.name,
+    "title" -> p.title,
+    "command" -> p.command,
+    "points" -> ujson.Arr.from(p.curve.points.map(point)),
+    "slope" -> known(p.curve.slope),
+    "efficiency" -> known(p.curve.efficiency),
+    "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
+    "secondsToTarget" ->
+      p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number)
+  )
+
+  private def point(p: MeasuredPoint): ujson.Obj = ujson.Obj(
+    "samples" -> p.samples,
+    "seconds" -> p.seconds,
+    "relmse" -> known(p(Metric.RelativeMse)),
+    "mse" -> known(p(Metric.Mse)),
+    "flip" -> known(p(Metric.Flip)),
+    "runs" -> ujson.Arr.from(p.runs.map: run =>
+      ujson.Obj(
+        "seed" -> run.seed,
+        "seconds" -> run.seconds,
+        "relmse" -> RenderData.number(run.errors.relativeMse)
+      ))
+  )
+
+  private def known(interval: Option[Interval]): ujson.Value =
+    interval.fold(ujson.Null: ujson.Value): i =>
+      ujson.Obj(
+        "estimate" -> RenderData.number(i.estimate),
+        "low" -> RenderData.number(i.low),
+        "high" -> RenderData.number(i.high)
+      )

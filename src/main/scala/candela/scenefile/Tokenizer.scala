@@ -1,6 +1,7 @@
 package candela.scenefile
 
-import java.io.IOException
+import java.io.{ByteArrayOutputStream, IOException}
+import java.nio.charset.StandardCharsets.UTF_8
 
 import candela.base.{Problem, SceneError, SourcePos}
 
@@ -247,3 +248,58 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
 object Tokenizer:
   /** So many bytes hold almost every number and what ends it. */
   private val UsualNumber = 64
+
+/** What `\` and the byte after it mean in a quoted text. */
+private object Escapes:
+  private val Written = "nrtbf\\\"'"
+  private val Meant = "\n\r\t\b\f\\\"'"
+
+  /** The text between two places; or the place of a byte that has no meaning after `\`. */
+  def unescaped(bytes: Array[Byte], from: Int, until: Int): Either[Int, String] =
+    val out = ByteArrayOutputStream(until - from)
+    var i = from
+    var isKnown = true
+    while i < until && isKnown do
+      if bytes(i) != '\\' then out.write(bytes(i))
+      else
+        i += 1
+        val meaning = Written.indexOf(bytes(i))
+        isKnown = meaning >= 0
+        if isKnown then out.write(Meant.charAt(meaning))
+      if isKnown then i += 1
+    if isKnown then Right(out.toString(UTF_8)) else Left(i)
+
+/** Makes Strings of a file's words. The few names that occur again and again are made once, and
+  * know their hash.
+  */
+private final class NameCache:
+  private val known = new Array[String](NameCache.Slots)
+
+  /** The text of `source` between two places of its window. */
+  def of(source: Source, from: Int, until: Int): String =
+    val bytes = source.bytes
+    var hash = until - from
+    var i = from
+    while i < until do
+      hash = hash * 31 + bytes(i)
+      i += 1
+    val slot = (hash ^ (hash >>> 16)) & (NameCache.Slots - 1)
+    if !isSame(known(slot), bytes, from, until) then known(slot) = source.text(from, until)
+    known(slot)
+
+  /** Never so for texts with bytes beyond ASCII, which are no names. */
+  private def isSame(name: String, bytes: Array[Byte], from: Int, until: Int): Boolean =
+    name != null && name.length == until - from && {
+      var i = 0
+      while i < name.length && name.charAt(i) == bytes(from + i) do i += 1
+      i == name.length
+    }
+
+private object NameCache:
+  private val Slots = 256
+
+/** What a token can be: a bare word (directive, number, `true`), a quoted text, `[`, `]`, or the
+  * end.
+  */
+enum Token:
+  case Word, Text, Open, Close, End

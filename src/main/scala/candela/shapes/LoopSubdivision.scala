@@ -166,3 +166,100 @@ object LoopSubdivision:
 
   /** From the corner `at` with the number of `from` to the one with the number of `to`. */
   private inline def turned(at: Int, from: Int, to: Int): Int = at - from % 3 + to % 3
+
+/** Normals of a subdivision surface: products of two tangents, which are weighted sums of a
+  * vertex's neighbours. Conventions: see [[LoopSubdivision]].
+  *
+  * Source: Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH 1994, §4; PBRT 3rd
+  * ed., §3.8.3.
+  */
+private[shapes] object LoopNormals:
+
+  /** x, y, z for each vertex; the longest has length 1, all are zero if none has a length.
+    *
+    * @param ring work space for the neighbours of one vertex
+    */
+  def of(table: CornerTable, points: Array[Double], ring: Array[Int]): Array[Float] =
+    val normals = new Array[Double](3 * table.vertexCount)
+    val s, t = new Array[Double](3)
+    var longest = 0.0
+    loop(table.vertexCount): vertex =>
+      val found = table.ring(vertex, ring)
+      val inside = found > 0
+      val count = Math.abs(found)
+      java.util.Arrays.fill(s, 0)
+      java.util.Arrays.fill(t, 0)
+      loop(count): i =>
+        val angle = 2 * Math.PI * i / count
+        val alongS = if inside then Math.cos(angle) else edgeWeight(i, count)
+        val alongT = if inside then Math.sin(angle) else inwardWeight(i, count)
+        loop(3): axis =>
+          val neighbour = points(3 * ring(i) + axis) - points(3 * vertex + axis)
+          s(axis) += alongS * neighbour
+          t(axis) += alongT * neighbour
+      val x = s(1) * t(2) - s(2) * t(1)
+      val y = s(2) * t(0) - s(0) * t(2)
+      val z = s(0) * t(1) - s(1) * t(0)
+      normals(3 * vertex) = x
+      normals(3 * vertex + 1) = y
+      normals(3 * vertex + 2) = z
+      longest = Math.max(longest, Math.sqrt(x * x + y * y + z * z))
+    normals.map(x => if longest > 0 then (x / longest).toFloat else 0f)
+
+  /** In the tangent along the boundary: from its first to its last neighbour. */
+  private def edgeWeight(i: Int, count: Int): Double =
+    if i == 0 then -1 else if i == count - 1 then 1 else 0
+
+  /** The weight of neighbour `i` of `count` in the tangent that leads from the boundary into the
+    * surface. Neighbours count relative to the vertex, whose own weight so is minus the sum of
+    * theirs. That is pbrt's for up to four; for more it is 0, which is what their weights sum to.
+    */
+  private def inwardWeight(i: Int, count: Int): Double =
+    val atEdge = i == 0 || i == count - 1
+    count match
+      case 2 => 1
+      case 3 => if atEdge then 0 else 1
+      case 4 => if atEdge then -1 else 2
+      case _ =>
+        val theta = Math.PI / (count - 1)
+        if atEdge then -Math.sin(theta) else (2 - 2 * Math.cos(theta)) * Math.sin(i * theta)
+
+/** What must hold before an array of faces is looked at as a surface. */
+private[shapes] object MeshInput:
+
+  /** @throws MeshError at the first thing that is wrong */
+  def check(levels: Int, indices: Array[Int], positions: Array[Float]): Unit =
+    def fail(message: String) = throw MeshError(message)
+    val vertexCount = positions.length / 3
+    if levels < 0 then fail(s"a mesh can't be subdivided $levels times")
+    if positions.length % 3 != 0 then
+      fail(s"${positions.length} coordinates are no whole number of points")
+    if indices.isEmpty then fail("a mesh without faces")
+    if indices.length % 3 != 0 then
+      fail(s"${indices.length} indices are no whole number of triangles")
+    if indices.length.toDouble * Math.pow(4, levels) > Int.MaxValue - 8 then
+      fail(s"$levels levels make too many triangles of ${indices.length / 3}")
+    indices.indices.find(i => indices(i) < 0 || indices(i) >= vertexCount).foreach: i =>
+      fail(s"face ${i / 3} uses vertex ${indices(i)}; there are $vertexCount, counted from 0")
+    positions.indices.find(i => !java.lang.Float.isFinite(positions(i))).foreach: i =>
+      fail(s"a coordinate of vertex ${i / 3} is ${positions(i)}")
+    loop(indices.length / 3): f =>
+      val a = indices(3 * f)
+      val b = indices(3 * f + 1)
+      val c = indices(3 * f + 2)
+      if a == b || b == c || c == a then
+        fail(s"face $f uses a vertex twice: $a, $b, $c")
+
+  /** The faces, and for each vertex that they use its old number, in the old order. */
+  def withoutUnused(indices: Array[Int], vertexCount: Int): (Array[Int], Array[Int]) =
+    val uses = new Array[Boolean](vertexCount)
+    indices.foreach(i => uses(i) = true)
+    val used = (0 until vertexCount).filter(i => uses(i)).toArray
+    val renumbered = new Array[Int](vertexCount)
+    loop(used.length)(i => renumbered(used(i)) = i)
+    (indices.map(i => renumbered(i)), used)
+
+/** A mesh that can't be what its author meant. The message names the faces and vertices, counted
+  * from 0 in the order of the input; who reads scene files adds the place.
+  */
+final class MeshError(message: String) extends RuntimeException(message, null, false, false)

@@ -2,6 +2,7 @@ package candela.textures
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
+import candela.math.*
 
 /** A number from a picture: scale·v, or 1 − scale·v (not below 0) if `invert`. */
 final class FloatImageTexture(
@@ -29,3 +30,86 @@ private object ImageTexture:
   def finish(value: Float, scale: Float, invert: Boolean): Float =
     val scaled = value * scale
     if invert then Math.max(0f, 1f - scaled) else scaled
+
+/** Looks up texels at places of the unit square: s to the right, and t up from the picture's last
+  * row if `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2,
+  * EXR).
+  */
+abstract class ImageLookup(bottomUp: Boolean):
+  def color(mapping: Mapping2D, at: ShadingPoint): Rgb
+
+  /** Of a picture with one channel. */
+  final def value(mapping: Mapping2D, at: ShadingPoint): Float = color(mapping, at).r
+
+  /** Distance from the picture's upper edge, as a part of its height. */
+  protected final def row(t: Float): Float = if bottomUp then 1f - t else t
+
+/** Reads what the footprint of a sample covers of the picture, from a pyramid.
+  *
+  * @param turned does a step along t count upwards in the picture, as t itself does? pbrt-v4
+  *               forgets that it turns t around
+  */
+abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turned: Boolean)
+    extends ImageLookup(bottomUp):
+  protected final val last: Int = pyramid.length - 1
+  private val down = if bottomUp && turned then -1f else 1f
+
+  final def color(mapping: Mapping2D, at: ShadingPoint): Rgb =
+    val c = mapping(at)
+    val f = mapping.footprint(at)
+    filtered(c.s, row(c.t), f.dsdx, f.dtdx * down, f.dsdy, f.dtdy * down)
+
+  /** Around a place, over the parallelogram between two steps (`dsdx`, `dydx`) and (`dsdy`,
+    * `dydy`).
+    */
+  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb
+
+  protected final def top: Rgb = pyramid(last).nearest(0f, 0f)
+
+  protected final def between(level: Float, s: Float, y: Float): Rgb =
+    val whole = level.toInt
+    val part = level - whole
+    pyramid(whole).bilinear(s, y) * (1f - part) + pyramid(whole + 1).bilinear(s, y) * part
+
+  /** The level whose texels are as large as the larger extent of the footprint. */
+  protected final def levelOf(width: Float): Float = last + log2(Math.max(width, 1e-8f))
+
+/** The largest extent of the footprint, along either axis, chooses one level (pbrt-v4's "point" and
+  * "bilinear").
+  */
+final class LevelLookup(
+    pyramid: Array[MipLevel],
+    interpolates: Boolean,
+    bottomUp: Boolean,
+    turned: Boolean
+) extends FilteredLookup(pyramid, bottomUp, turned):
+  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+    val level = levelOf(2f * Footprint.extent(dsdx, dydx, dsdy, dydy))
+    if level >= last then top
+    else
+      val chosen = pyramid(if level > 0f then level.toInt else 0)
+      if interpolates then chosen.bilinear(s, y) else chosen.nearest(s, y)
+
+/** Blends the two levels nearest to the footprint's largest extent.
+  *
+  * @param factor     of the extent: 2 in pbrt-v2 and v4, 1 in v3
+  * @param fromSecond do levels begin to blend only beyond the second, as in pbrt-v4?
+  */
+final class TrilinearLookup(
+    pyramid: Array[MipLevel],
+    factor: Float,
+    fromSecond: Boolean,
+    bottomUp: Boolean,
+    turned: Boolean
+) extends FilteredLookup(pyramid, bottomUp, turned):
+  private val blendsFrom = if fromSecond then 1f else 0f
+
+  def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
+    val level = levelOf(factor * Footprint.extent(dsdx, dydx, dsdy, dydy))
+    if level >= last then top
+    else if level < blendsFrom then pyramid(0).bilinear(s, y)
+    else between(level, s, y)
+
+private object Footprint:
+  def extent(dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Float =
+    Math.max(Math.max(abs(dsdx), abs(dydx)), Math.max(abs(dsdy), abs(dydy)))

@@ -1,0 +1,177 @@
+package candela.lights
+
+import candela.color.Rgb
+import candela.geometry.Bounds3
+import candela.math.*
+
+/** How a spotlight fades between its bright cone and its edge. */
+enum Fade:
+  /** The fourth power of the way from the edge, in cosines: pbrt-v2 and v3. */
+  case Quartic
+
+  /** 3t² − 2t³ of it: pbrt-v4. */
+  case Cubic
+
+  /** For `t` from 0 at the edge to 1. */
+  def apply(t: Float): Float = this match
+    case Quartic => square(square(t))
+    case Cubic => t * t * (3f - 2f * t)
+
+/** A cone of light from a point along `axis` (unit, in light space).
+  *
+  * @param all     intensity within the bright cone, in W·sr⁻¹
+  * @param cosEdge of the angle between axis and edge, where the light ends
+  * @param cosFull of the angle where it begins to fade
+  */
+final class SpotLight(
+    frame: LightFrame,
+    axis: Vec3,
+    all: Rgb,
+    cosEdge: Float,
+    cosFull: Float,
+    fade: Fade
+) extends ConeLight(frame, axis, 1f - cosEdge):
+
+  def intensity(w: Vec3): Rgb =
+    val cosine = frame.toLight(w) dot axis
+    if cosine < cosEdge then Rgb.Black
+    else if cosine >= cosFull then all
+    else all * fade((cosine - cosEdge) / (cosFull - cosEdge))
+
+  def bounds: Option[LightBounds] =
+    val power = 4f * Pi * all.max
+    val fading = Math.acos(clamp(cosEdge, -1f, 1f)) - Math.acos(clamp(cosFull, -1f, 1f))
+    if !frame.keepsAngles || fading >= Math.PI / 2 then
+      Some(LightBounds.everywhere(frame.position, power))
+    else
+      Some(
+        LightBounds(
+          Bounds3(frame.position, frame.position),
+          frame.toWorld(axis),
+          cosFull,
+          Math.cos(Math.max(0.0, fading)).toFloat - PositionedLight.Slack,
+          power,
+          twoSided = false
+        )
+      )
+
+object SpotLight:
+  /** ∫ of the intensity over all directions, where it is 1 within the bright cone, for
+    * [[Fade.Cubic]]: the fading part counts half.
+    */
+  def solidAngle(cosEdge: Float, cosFull: Float): Float =
+    TwoPi * ((1f - cosFull) + (cosFull - cosEdge) * 0.5f)
+
+/** A point that shines as measured: its intensity into each direction is in an image.
+  *
+  * The image's pole (+z of its map) is the light's +y, as in all of pbrt.
+  */
+final class GoniometricLight(frame: LightFrame, image: SphereImage)
+    extends RoundLight(frame.position):
+
+  def intensity(w: Vec3): Rgb =
+    val d = frame.toLight(w)
+    image(Vec3(d.x, d.z, d.y))
+
+  def bounds: Option[LightBounds] =
+    Some(LightBounds.everywhere(frame.position, 4f * Pi * image.meanOfMax))
+
+/** A slide projector at a point, looking along its +z.
+  *
+  * @param tanHalf of half the angle of the image's shorter side
+  * @param slide   None: all of the (square) image is white
+  * @param upright is the image's top on the light's +y? So in pbrt-v4; in v2 and v3 on −y
+  */
+final class ProjectionLight(
+    frame: LightFrame,
+    all: Rgb,
+    tanHalf: Float,
+    slide: Option[Picture],
+    upright: Boolean
+) extends ConeLight(frame, Vec3.Z, ProjectionLight.spread(slide, tanHalf)):
+  private val picture = slide.orNull
+  private val screen = ProjectionLight.Screen(slide.fold(1f)(_.aspect), tanHalf)
+
+  def intensity(w: Vec3): Rgb =
+    val d = frame.toLight(w)
+    if d.z < ProjectionLight.Near then Rgb.Black
+    else
+      val x = (d.x / (d.z * screen.halfWidth) + 1f) * 0.5f
+      val up = d.y / (d.z * screen.halfHeight)
+      val y = ((if upright then -up else up) + 1f) * 0.5f
+      if x < 0f || x > 1f || y < 0f || y > 1f then Rgb.Black
+      else if picture == null then all
+      else all * picture(x, y)
+
+  def bounds: Option[LightBounds] =
+    val mean = slide.fold(1f)(_.mean((c, _, _) => c.max))
+    val power = 4f * Pi * all.max * mean
+    if !frame.keepsAngles then Some(LightBounds.everywhere(frame.position, power))
+    else
+      Some(
+        LightBounds(
+          Bounds3(frame.position, frame.position),
+          frame.toWorld(Vec3.Z),
+          1f,
+          screen.cosCorner - PositionedLight.Slack,
+          power,
+          twoSided = false
+        )
+      )
+
+object ProjectionLight:
+  /** Cosine between axis and direction below which nothing is projected, as in all of pbrt. */
+  private inline val Near = 1e-3f
+
+  /** 1 − cos of a cone that holds the image. */
+  private def spread(slide: Option[Picture], tanHalf: Float): Float =
+    1f - Screen(slide.fold(1f)(_.aspect), tanHalf).cosCorner + PositionedLight.Slack
+
+  /** The image at distance 1 from the projector. */
+  final class Screen(aspect: Float, tanHalf: Float):
+    val halfWidth: Float = tanHalf * Math.max(1f, aspect)
+    val halfHeight: Float = tanHalf * Math.max(1f, 1f / aspect)
+    def area: Float = 4f * halfWidth * halfHeight
+    def cosCorner: Float = 1f / sqrt(1f + square(halfWidth) + square(halfHeight))
+
+    /** Steradians per area at the place (x, y) of the image: the cube of the cosine. */
+    def stretch(x: Float, y: Float): Float =
+      val length2 = 1f + square((2f * x - 1f) * halfWidth) + square((2f * y - 1f) * halfHeight)
+      1f / (length2 * sqrt(length2))
+
+  /** Total power that `slide` lets through, in lumens.
+    *
+    * @param luminance of its colours
+    */
+  def power(slide: Picture, tanHalf: Float, luminance: Rgb => Float): Float =
+    val screen = Screen(slide.aspect, tanHalf)
+    screen.area * slide.mean((c, x, y) => luminance(c) * screen.stretch(x, y))
+
+/** Where a light is and how it is turned: between its own directions and the world's. Directions
+  * come back with unit length, whatever the transform scales.
+  */
+final class LightFrame(lightToWorld: Transform):
+  private val toWorldRows = lightToWorld.m.map(_.toFloat)
+  private val toLightRows = lightToWorld.inverseM.map(_.toFloat)
+
+  /** In world space. */
+  val position: Vec3 = lightToWorld.point(Vec3.Zero)
+
+  /** Are angles in the light's space those of the world? Not if the transform stretches. */
+  val keepsAngles: Boolean =
+    val columns = Seq(Vec3.X, Vec3.Y, Vec3.Z).map(lightToWorld.vector)
+    val length2 = columns.map(_.lengthSquared).max
+    val isStretched = columns.exists(c => Math.abs(c.lengthSquared - length2) > 1e-4f * length2)
+    val isSheared = Seq((0, 1), (0, 2), (1, 2)).exists: (i, j) =>
+      Math.abs(columns(i) dot columns(j)) > 1e-4f * length2
+    !isStretched && !isSheared
+
+  def toWorld(v: Vec3): Vec3 = times(toWorldRows, v)
+  def toLight(v: Vec3): Vec3 = times(toLightRows, v)
+
+  private def times(m: IArray[Float], v: Vec3): Vec3 =
+    Vec3(
+      m(0) * v.x + m(1) * v.y + m(2) * v.z,
+      m(4) * v.x + m(5) * v.y + m(6) * v.z,
+      m(8) * v.x + m(9) * v.y + m(10) * v.z
+    ).normalized
