@@ -28,10 +28,10 @@ private[bidirectional] final class PathVertex(scene: Scene):
 
   /** Looks at the surface, once `at` is filled in.
     *
-    * @param widened with its sharp parts widened?
+    * @param regularized see [[Bsdf.regularized]]
     */
-  def look(direction: Vec3, widened: Boolean = false): Unit =
-    bsdf = if widened then scene.widenedBsdf(at) else scene.bsdf(at)
+  def look(direction: Vec3, regularized: Boolean = false): Unit =
+    bsdf = if regularized then scene.bsdf(at).regularized else scene.bsdf(at)
     wo = -direction
     local = at.frame.toLocal(wo)
 

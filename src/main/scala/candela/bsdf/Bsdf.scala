@@ -37,6 +37,36 @@ abstract class Bsdf:
   /** Does it scatter to the other side of the surface? */
   def isTransmissive: Boolean
 
+  /** The same with its sharp lobes widened, so that light sampling finds what only chance would:
+    * for vertices behind a non-specular bounce of a path that is regularized.
+    *
+    * Source: Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light
+    * Transport", Eurographics 2013; PBRT 4th ed., §13.4.1.
+    */
+  def regularized: Bsdf = this
+
+  /** Does it scatter wavelengths differently? */
+  def isDispersive: Boolean = false
+
+  /** How it scatters one wavelength, in nm. Without asking for one, a dispersive BSDF has the index
+    * of refraction of some typical wavelength.
+    */
+  def atWavelength(nm: Float): Bsdf = this
+
+/** Scatters as `inner` does but for what a subclass overrides; one that changes what is scattered
+  * must change it in the regularized BSDF and at each wavelength, too.
+  */
+abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
+  def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi)
+  def pdf(wo: Vec3, wi: Vec3): Float = inner.pdf(wo, wi)
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    inner.sample(wo, choice, u1, u2)
+  def isSpecular: Boolean = inner.isSpecular
+  def isTransmissive: Boolean = inner.isTransmissive
+  override def regularized: Bsdf
+  override def isDispersive: Boolean = inner.isDispersive
+  override def atWavelength(nm: Float): Bsdf
+
 /** @param weight     f·|cos θi|/pdf
   * @param pdf        per solid angle; for a specular direction the probability of its choice
   * @param eta        for transmission the index of refraction on the side of `wi` over that of
@@ -58,7 +88,7 @@ object BsdfSample:
 abstract class Material:
   def bsdf(at: ShadingPoint): Bsdf
 
-  /** Does it scatter wavelengths differently? Then its BSDFs are [[Dispersive]]. */
+  /** Are any of its BSDFs? */
   def isDispersive: Boolean = false
 
   /** Is it the same everywhere? */
@@ -84,4 +114,4 @@ final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = 
     extends Material:
   def bsdf(at: ShadingPoint): Bsdf = value
   override def isConstant: Boolean = true
-  override def isDispersive: Boolean = value.isInstanceOf[Dispersive]
+  override def isDispersive: Boolean = value.isDispersive

@@ -23,6 +23,9 @@ abstract class Coat:
   /** The fraction of the power that comes back to the base, which sends it evenly everywhere. */
   def internalReflectance: Float
 
+  /** The coat of a surface that is regularized; see [[Bsdf.regularized]]. */
+  def regularized: Coat
+
 object Coat:
 
   /** What is left of light that crosses the coat once, at this cosine to the normal. */
@@ -48,6 +51,9 @@ final class SmoothCoat(val eta: Float, thickness: Float) extends Coat:
   val internalReflectance: Float = SmoothCoat.cosineMean: c =>
     val oneWay = Coat.attenuation(thickness, c)
     Fresnel.dielectric(c, 1f / eta) * oneWay * oneWay
+
+  lazy val regularized: Coat =
+    if eta == 1f then this else RoughCoat(TrowbridgeReitz.RegularizedMirror, eta, thickness)
 
 private object SmoothCoat:
 
@@ -102,6 +108,9 @@ final class RoughCoat(top: TrowbridgeReitz, val eta: Float, thickness: Float) ex
     (sum / n).toFloat
 
   val internalReflectance: Float = RoughCoat.returned(top, eta, thickness)
+
+  lazy val regularized: Coat =
+    if top.regularized eq top then this else RoughCoat(top.regularized, eta, thickness)
 
 private object RoughCoat:
   private inline val Cosines = 64

@@ -13,17 +13,17 @@ import candela.math.*
   * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every lookup;
   * `CoatedDiffuseSuite` checks against such a walk.
   *
-  * @param series   albedo · Σ (albedo · R)^k, by colour: see the companion
+  * @param series   albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
   * @param top      roughness of the outer side of the coat
   * @param coat     what gets through; may stand for a roughness slightly different from `top`
   *
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
-final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends LeanBsdf:
+final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
-  private val base = series * (InvPi / (eta * eta))
+  private val base = series(coat) * (InvPi / (eta * eta))
   private val meanBase = base.max * Pi * coat.meanTransmittance
 
   def f(wo: Vec3, wi: Vec3): Rgb =
@@ -80,13 +80,16 @@ final class CoatedDiffuse(series: Rgb, top: TrowbridgeReitz, coat: Coat) extends
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
 
+  // Kept: the series of a spectrum takes long
+  override lazy val regularized: Bsdf = new CoatedDiffuse(series, top.regularized, coat.regularized)
+
 object CoatedDiffuse:
 
   /** @param albedo   of the base, in [0, 1]
     * @param baseHits how often light may meet the base
     */
   def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
-    new CoatedDiffuse(albedo.map(series(_, coat, baseHits)), top, coat)
+    new CoatedDiffuse(under => albedo.map(series(_, under, baseHits)), top, coat)
 
   /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
   def series(albedo: Float, coat: Coat, baseHits: Int): Float =

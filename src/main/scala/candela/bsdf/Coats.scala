@@ -42,11 +42,16 @@ object Coats:
     val root = if isotropic then sqrt(top.alphaX) else sqrt(sqrt(top.alphaX * top.alphaY))
     val level = clamp(root, 0f, 1f) * (Levels - 1).toFloat
     val i = Math.min(level.toInt, Levels - 2)
-    BlendedCoat(family(i), family(i + 1), level - i.toFloat)
+    BlendedCoat(family, top, i, level - i.toFloat)
 
-/** A coat between two others of the same index: `t` of the way from `a` to `b`. */
-private final class BlendedCoat(a: Coat, b: Coat, t: Float) extends Coat:
+/** A coat between two others of its family: `t` of the way from the `i`th to the next. */
+private final class BlendedCoat(family: IArray[Coat], top: TrowbridgeReitz, i: Int, t: Float)
+    extends Coat:
+  private val a = family(i)
+  private val b = family(i + 1)
+
   def eta: Float = a.eta
   def transmittance(w: Vec3): Float = lerp(t, a.transmittance(w), b.transmittance(w))
   def meanTransmittance: Float = lerp(t, a.meanTransmittance, b.meanTransmittance)
   def internalReflectance: Float = lerp(t, a.internalReflectance, b.internalReflectance)
+  def regularized: Coat = Coats.between(family, top.regularized)

@@ -1,23 +1,16 @@
 package candela.bsdf
 
-import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.*
 
 /** A surface that scatters each wavelength in a way of its own.
   *
   * @param usual  what those see who don't ask for a wavelength
   * @param single what one wavelength, in nm, does
   */
-final class Dispersive(usual: Bsdf, single: Float => Bsdf) extends Bsdf:
-  def at(wavelength: Float): Bsdf = single(wavelength)
-
-  def f(wo: Vec3, wi: Vec3): Rgb = usual.f(wo, wi)
-  def pdf(wo: Vec3, wi: Vec3): Float = usual.pdf(wo, wi)
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    usual.sample(wo, choice, u1, u2)
-  def isSpecular: Boolean = usual.isSpecular
-  def isTransmissive: Boolean = usual.isTransmissive
+final class Dispersive(usual: Bsdf, single: Float => Bsdf) extends WrappedBsdf(usual):
+  override def isDispersive: Boolean = true
+  override def atWavelength(nm: Float): Bsdf = single(nm)
+  override def regularized: Bsdf = Dispersive(usual.regularized, nm => single(nm).regularized)
 
 /** Glass that splits light into its colours.
   *

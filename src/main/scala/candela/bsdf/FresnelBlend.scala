@@ -68,3 +68,4 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def regularized: Bsdf = FresnelBlend(diffuse, specular, distribution.regularized)

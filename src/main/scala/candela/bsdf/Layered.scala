@@ -6,12 +6,14 @@ import candela.sampling.{HenyeyGreenstein, SampleHash}
 
 /** What a layered surface consists of: a base under an interface, and what is between them.
   *
-  * @param base      reflects only; in the medium between the layers
+  * @param base      reflects only, all wavelengths alike; in the medium between the layers
   * @param thickness of the medium, in mean free paths, at least 0
   * @param albedo    of the medium: 0 only absorbs
   * @param maxDepth  most events below the interface: at the base, in the medium, and back from the
   *                  interface
   * @param walks     that a value is the mean of, at least 1
+  * @param gloss     how rough a glossy base is: directions are looked for in a lobe like its own
+  * @param share     of the directions from below that are, in [0, 1); the rest goes by the cosine
   */
 final class Layers(
     topDistribution: TrowbridgeReitz,
@@ -21,11 +23,32 @@ final class Layers(
     val albedo: Rgb,
     asymmetry: Float,
     val maxDepth: Int,
-    val walks: Int
+    val walks: Int,
+    gloss: TrowbridgeReitz = TrowbridgeReitz(1f, 1f),
+    val share: Float = 0f
 ):
   private[bsdf] val top = Boundary(topDistribution, eta)
   private[bsdf] val phase = HenyeyGreenstein(clamp(asymmetry, -0.99f, 0.99f))
   val isClear: Boolean = albedo.isBlack || thickness <= 0f
+
+  /** The lobe of the base as it looks from outside. Refraction makes it wider by `eta`. Two
+    * passages through a rough interface bend light by (eta − 1) times the slope of the facets each,
+    * which looks like mirrors of half that slope.
+    */
+  private[bsdf] val lobe: TrowbridgeReitz =
+    def along(base: Float, interface: Float) =
+      Math.min(sqrt(square(eta * base) + 0.5f * square((eta - 1f) * interface)), 1f)
+    if share <= 0f then gloss
+    else
+      TrowbridgeReitz(
+        along(gloss.alphaX, topDistribution.alphaX),
+        along(gloss.alphaY, topDistribution.alphaY)
+      )
+
+  private[bsdf] lazy val regularized: Layers = Layers(
+    topDistribution.regularized, eta, base.regularized, thickness, albedo, asymmetry, maxDepth,
+    walks, gloss.regularized, share
+  )
 
   /** What is left of light after this distance across, in mean free paths. */
   private[bsdf] def attenuation(distance: Float, w: Vec3): Float =
@@ -39,15 +62,11 @@ final class Layers(
   * `pdf` is only a guide to which of several ways to find a direction is best. Any such guide
   * leaves the mean as it is.
   *
-  * @param glossy a lobe like that of the base, seen from outside, for the guide; smooth: none
-  * @param share  of the guide that is that lobe, in [0, 1); the rest goes by the cosine
-  *
   * Source: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs",
   * SIGGRAPH Asia 2018; PBRT 4th ed., §14.3. Unlike there, the two ways to cross the interface are
   * weighted by densities of the same variable, so that their weights sum to one.
   */
-final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed: Long)
-    extends Bsdf:
+final class Layered(layers: Layers, seed: Long) extends Bsdf:
   import Layered.*
   private val top = layers.top
 
@@ -143,7 +162,8 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
       val m = (o + Hemisphere.above(wi)).normalized
       // Never all of it: at grazing angles, facets that turn to the light let it pass
       val reflected = Math.min(Fresnel.dielectric(o.z, top.eta), 0.95f)
-      val gloss = if share > 0f then share * MicrofacetReflection.pdf(glossy, o, m) else 0f
+      val share = layers.share
+      val gloss = if share > 0f then share * MicrofacetReflection.pdf(layers.lobe, o, m) else 0f
       val under = (1f - reflected) * (gloss + (1f - share) * Hemisphere.cosinePdf(wi))
       if top.isSmooth then under
       else under + reflected * MicrofacetReflection.pdf(top.distribution, o, m)
@@ -206,6 +226,7 @@ final class Layered(layers: Layers, glossy: TrowbridgeReitz, share: Float, seed:
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def regularized: Bsdf = Layered(layers.regularized, seed)
 
 private object Layered:
 

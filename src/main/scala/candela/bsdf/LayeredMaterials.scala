@@ -23,11 +23,14 @@ final class LayerMedium(
   def isConstant: Boolean =
     thickness.constant.isDefined && albedo.constant.isDefined && asymmetry.constant.isDefined
 
+  /** Over a diffuse base. */
   private[bsdf] def layers(
       top: TrowbridgeReitz,
       eta: Float,
       base: Bsdf,
-      at: ShadingPoint
+      at: ShadingPoint,
+      gloss: TrowbridgeReitz = LayerMedium.NoGloss,
+      share: Float = 0f
   ): Layers = Layers(
     top,
     eta,
@@ -36,28 +39,26 @@ final class LayerMedium(
     albedo(at).map(c => clamp(c, 0f, 1f)),
     asymmetry(at),
     maxDepth,
-    Math.max(walks, 1)
+    Math.max(walks, 1),
+    gloss,
+    share
   )
+
+object LayerMedium:
+  private[bsdf] val NoGloss = TrowbridgeReitz(1f, 1f)
 
 /** A surface whose layers are walked: at each point with random numbers of its own.
   *
-  * @param isConstant are the layers the same everywhere?
+  * @param isSame are the layers the same everywhere?
   */
 abstract class LayeredMaterial(isSame: Boolean) extends Material:
-
-  /** The layers at a point, and the lobe and share of [[Layered]]. */
   protected def layers(at: ShadingPoint): Layers
-  protected def glossy(at: ShadingPoint): TrowbridgeReitz
-  protected def share: Float
 
   // Only layers that are the same everywhere are read from here
   private lazy val fixed: Layers = layers(ShadingPoint())
-  private lazy val fixedGloss: TrowbridgeReitz = glossy(ShadingPoint())
 
   final def bsdf(at: ShadingPoint): Bsdf =
-    val seed = Layered.hash(0L, at.p)
-    if isSame then Layered(fixed, fixedGloss, share, seed)
-    else Layered(layers(at), glossy(at), share, seed)
+    Layered(if isSame then fixed else layers(at), Layered.hash(0L, at.p))
 
 /** A diffuse base whose `reflectance` is held to [0, 1]. */
 final class LayeredDiffuseMaterial(
@@ -72,8 +73,6 @@ final class LayeredDiffuseMaterial(
     val base = Lambert(reflectance(at).map(c => clamp(c, 0f, 1f)))
     medium.layers(top.trowbridgeReitz(at), eta, base, at)
 
-  protected def glossy(at: ShadingPoint): TrowbridgeReitz = LayeredMaterial.NoGloss
-  protected def share: Float = 0f
   override def isAnisotropic: Boolean = top.isAnisotropic
 
 /** A metal as base.
@@ -89,24 +88,23 @@ final class LayeredConductorMaterial(
 ) extends LayeredMaterial(
       metal.isConstant && bottom.isConstant && top.isConstant && medium.isConstant
     ):
+  private val share = if medium.albedo.constant.exists(_.isBlack) then 0.85f else 0.5f
+
   protected def layers(at: ShadingPoint): Layers =
-    val base = Conductor(bottom.trowbridgeReitz(at), metal(at))
-    medium.layers(top.trowbridgeReitz(at), eta, base, at)
-
-  /** Seen from outside, refraction makes the lobe of the base wider by `eta`. Two passages through
-    * a rough interface bend light by (eta − 1) times the slope of the facets each, which looks like
-    * mirrors of half that slope.
-    */
-  protected def glossy(at: ShadingPoint): TrowbridgeReitz =
-    val b = bottom.trowbridgeReitz(at)
-    val t = top.trowbridgeReitz(at)
-    def along(base: Float, interface: Float) =
-      Math.min(sqrt(square(eta * base) + 0.5f * square((eta - 1f) * interface)), 1f)
-    TrowbridgeReitz(along(b.alphaX, t.alphaX), along(b.alphaY, t.alphaY))
-
-  protected def share: Float = if medium.albedo.constant.exists(_.isBlack) then 0.85f else 0.5f
+    val gloss = bottom.trowbridgeReitz(at)
+    val base = Conductor(gloss, metal(at))
+    medium.layers(top.trowbridgeReitz(at), eta, base, at, gloss, share)
 
   override def isAnisotropic: Boolean = top.isAnisotropic || bottom.isAnisotropic
 
-private object LayeredMaterial:
-  val NoGloss = TrowbridgeReitz(1f, 1f)
+/** A smooth metal under a smooth coat, which together are a mirror; regularized, they are walked.
+  *
+  * @param mirror all that goes back and forth between the two, summed
+  * @param walked the same layers
+  */
+final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = SummedLayers(mirror, walked.bsdf(at))
+
+private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBsdf(mirror):
+  override def regularized: Bsdf = walked.regularized
+  override def atWavelength(nm: Float): Bsdf = this

@@ -74,6 +74,10 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
 
+  override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
+  override def isDispersive: Boolean = lobes.exists(_.isDispersive)
+  override def atWavelength(nm: Float): Bsdf = Lobes(lobes.map(_.atWavelength(nm)), probabilities)
+
 object Lobes:
 
   /** Collects lobes with a guess of their albedo, and makes the plainest [[Bsdf]] of them.

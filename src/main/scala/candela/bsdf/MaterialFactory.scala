@@ -62,10 +62,9 @@ object MaterialFactory:
       val hits = (maxDepth + 1) / 2
       bySpectrum.filter(_ => isFixed(reflectance) && roughness.isConstant) match
         case Some(colored) =>
-          val coat = family(0)
-          val series = colored(CoatedDiffuse.series(_, coat, hits))
+          def series(coat: Coat) = colored(CoatedDiffuse.series(_, coat, hits))
           ConstantMaterial(
-            new CoatedDiffuse(series, roughness.trowbridgeReitz(ShadingPoint()), coat),
+            new CoatedDiffuse(series, roughness.trowbridgeReitz(ShadingPoint()), family(0)),
             roughness.isAnisotropic
           )
         case None =>
@@ -95,9 +94,11 @@ object MaterialFactory:
       mirrored: Option[Float => Rgb]
   ): Material =
     def isSmooth(r: Roughness) = r.isConstant && r.trowbridgeReitz(ShadingPoint()).isSmooth
+    val walked = LayeredConductorMaterial(metal, bottom, top, eta, medium)
     mirrored.filter(_ => isSmooth(bottom) && (isSmooth(top) || (top.isConstant && eta == 1f))) match
-      case Some(curve) => conductor(TabulatedReflectance.of(256)(curve), bottom)
-      case None => LayeredConductorMaterial(metal, bottom, top, eta, medium)
+      case Some(curve) =>
+        SummedConductorMaterial(Mirror(Rgb.White, TabulatedReflectance.of(256)(curve)), walked)
+      case None => walked
 
   def substrate(kd: RgbTexture, ks: RgbTexture, roughness: Roughness): Material =
     fold(SubstrateMaterial(kd, ks, roughness), isFixed(kd) && isFixed(ks) && roughness.isConstant)

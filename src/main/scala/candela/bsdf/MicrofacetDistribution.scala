@@ -34,3 +34,8 @@ abstract class MicrofacetDistribution:
 
   /** So smooth that it should be treated as a perfect mirror. */
   def isSmooth: Boolean
+
+  /** That of [[Bsdf.regularized]]. Those which only older versions of PBRT have stay as they are:
+    * no integrator of theirs asks.
+    */
+  def regularized: MicrofacetDistribution = this

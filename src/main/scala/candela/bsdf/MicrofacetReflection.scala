@@ -53,6 +53,7 @@ final class MicrofacetReflection(
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def regularized: Bsdf = MicrofacetReflection(distribution.regularized, curve, scale)
 
 object MicrofacetReflection:
 

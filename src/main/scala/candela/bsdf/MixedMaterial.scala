@@ -21,6 +21,7 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
       .addScaled(other, rest)
       .result
 
+  override def isDispersive: Boolean = first.isDispersive || second.isDispersive
   override def isAnisotropic: Boolean = first.isAnisotropic || second.isAnisotropic
 
 object MixedMaterial:

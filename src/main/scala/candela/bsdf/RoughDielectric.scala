@@ -105,6 +105,8 @@ final class RoughDielectric(
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack
+  override def regularized: Bsdf =
+    RoughDielectric(distribution.regularized, eta, reflectance, transmittance)
 
 object RoughDielectric:
 

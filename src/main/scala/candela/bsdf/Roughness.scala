@@ -48,14 +48,12 @@ enum RoughnessModel:
   * @param v            along ∂p/∂v
   * @param smoothAtZero is a surface of roughness 0 in both directions a perfect mirror, even where
   *                     the model would make it slightly rough? (the glass of PBRT 3)
-  * @param isWidened    see [[TrowbridgeReitz.widened]]
   */
 final class Roughness(
     u: FloatTexture,
     v: FloatTexture,
     model: RoughnessModel,
-    smoothAtZero: Boolean = false,
-    isWidened: Boolean = false
+    smoothAtZero: Boolean = false
 ):
   val isConstant: Boolean = u.constant.isDefined && v.constant.isDefined
 
@@ -72,15 +70,10 @@ final class Roughness(
 
   /** The Trowbridge–Reitz distribution, for surfaces that only it describes. */
   def trowbridgeReitz(at: ShadingPoint): TrowbridgeReitz =
-    val distribution = model.trowbridgeReitz(u(at), v(at))
-    if isWidened then distribution.widened else distribution
-
-  /** That of a surface which sharpens nothing. */
-  def widened: Roughness = Roughness(u, v, model, smoothAtZero, isWidened = true)
+    model.trowbridgeReitz(u(at), v(at))
 
   private def evaluate(ru: Float, rv: Float): MicrofacetDistribution =
-    if isWidened then model.trowbridgeReitz(ru, rv).widened
-    else if smoothAtZero && ru == 0f && rv == 0f then TrowbridgeReitz(0f, 0f)
+    if smoothAtZero && ru == 0f && rv == 0f then TrowbridgeReitz(0f, 0f)
     else model.distribution(ru, rv)
 
 object Roughness:

@@ -20,6 +20,8 @@ final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extend
     else out.set(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
 
   def isTransmissive: Boolean = false
+  override def regularized: Bsdf =
+    MicrofacetReflection(TrowbridgeReitz.RegularizedMirror, curve, scale)
 
 /** The smooth interface of two transparent media.
   *
@@ -64,6 +66,12 @@ final class SmoothDielectric(
       out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 
   def isTransmissive: Boolean = !transmittance.isBlack
+
+  /** [[RoughDielectric]] does compress. */
+  override def regularized: Bsdf =
+    if compresses then
+      Dielectric(TrowbridgeReitz.RegularizedMirror, eta, reflectance, transmittance)
+    else this
 
 /** A pane with two parallel smooth sides: all that is reflected back and forth within it is
   * counted, and what passes keeps its direction.

@@ -19,13 +19,10 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
 
   val isSmooth: Boolean = Math.max(alphaX, alphaY) < TrowbridgeReitz.SmoothBelow
 
-  /** As rough as this, and so much so that paths find lights by it that they would hardly find by
-    * mirrors: twice as rough, but from 0.1 to 0.3. So pbrt-v4 does where it
-    * "regularizes".
-    */
-  def widened: TrowbridgeReitz =
-    def wide(alpha: Float) = if alpha < 0.3f then clamp(2f * alpha, 0.1f, 0.3f) else alpha
-    TrowbridgeReitz(wide(alphaX), wide(alphaY))
+  /** Twice as rough, but at least 0.1; from 0.3 on as it is (PBRT 4th ed., §13.4.1). */
+  override def regularized: TrowbridgeReitz =
+    if alphaX >= TrowbridgeReitz.Regular && alphaY >= TrowbridgeReitz.Regular then this
+    else TrowbridgeReitz(TrowbridgeReitz.widened(alphaX), TrowbridgeReitz.widened(alphaY))
 
   // One rough direction is enough to need the other: keeps d finite.
   private val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
@@ -63,6 +60,15 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
     if both > 0f then cosI * (cosO + o) / both else 0f
 
 object TrowbridgeReitz:
+
+  /** That of a smooth surface which is regularized. */
+  val RegularizedMirror: TrowbridgeReitz = TrowbridgeReitz(0f, 0f).regularized
+
+  /** The least roughness that regularization leaves as it is. */
+  private inline val Regular = 0.3f
+
+  private def widened(alpha: Float): Float =
+    if alpha < Regular then clamp(2f * alpha, 0.1f, Regular) else alpha
 
   /** Where PBRT 4 begins to treat a surface as perfectly smooth. */
   inline val SmoothBelow = 1e-3f

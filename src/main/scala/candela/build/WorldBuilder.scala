@@ -38,7 +38,6 @@ final class WorldBuilder(
     problems: Findings
 ):
   private val materials = ArrayBuffer.empty[Material]
-  private val widened = ArrayBuffer.empty[Material]
   private val borders = ArrayBuffer.empty[MediumBorder]
   private val materialOf = mutable.HashMap.empty[(MaterialRef, MediumBorder), Int]
   private val madeOf = mutable.HashMap.empty[MaterialRef, Material]
@@ -88,8 +87,7 @@ final class WorldBuilder(
       sources,
       selection,
       sidesByGeometry = description.dialect != Dialect.V4,
-      Option.when(resources.footprintUses.nonEmpty)(footprints),
-      widened = widened.toArray
+      Option.when(resources.footprintUses.nonEmpty)(footprints)
     )
     if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then
       for c <- description.camera do
@@ -238,7 +236,6 @@ final class WorldBuilder(
     materialOf.getOrElseUpdate(
       (ref, border), {
         materials += madeOf.getOrElseUpdate(ref, material(ref))
-        if integratorPlan.regularizes then widened += resources.widened(material(ref))
         borders += border
         materials.length - 1
       }

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.{Bsdf, Dispersive}
+import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.sampling.{Sampler, Wavelengths}
 
@@ -21,11 +21,10 @@ final class Dispersion(wavelengths: Wavelengths):
   /** What the path sees of the surface. */
   def choose(met: Bsdf, sampler: Sampler): Bsdf =
     weight = Rgb.White
-    met match
-      case split: Dispersive =>
-        if wavelength == 0f then
-          val u = sampler.next1D()
-          wavelength = wavelengths.sample(u)
-          weight = wavelengths.weight(u)
-        split.at(wavelength)
-      case _ => met
+    if !met.isDispersive then met
+    else
+      if wavelength == 0f then
+        val u = sampler.next1D()
+        wavelength = wavelengths.sample(u)
+        weight = wavelengths.weight(u)
+      met.atWavelength(wavelength)

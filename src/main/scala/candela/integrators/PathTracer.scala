@@ -12,7 +12,7 @@ import candela.scene.Scene
   * @param maxDepth most scattering events of a path
   * @param rouletteAfter     scattering events that no path ends before
   * @param rouletteThreshold throughput below which a path may end early
-  * @param regularizes is what a path meets after it was spread seen with its sharp parts widened?
+  * @param regularizes are BSDFs regularized that a path meets after a bounce that is not specular?
   * @param wavelengths if a surface splits light: a path takes one of them at the first such surface
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
@@ -64,7 +64,7 @@ final class PathTracer(
           scene.passed(ray)
         else
           depth += 1
-          val met = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
+          val met = if isSpread then scene.bsdf(at).regularized else scene.bsdf(at)
           val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
           if dispersion != null then throughput.scaleBy(dispersion.weight)
           light.addProduct(throughput, anyLight(bsdf, wo, sampler))

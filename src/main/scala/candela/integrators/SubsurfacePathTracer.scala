@@ -59,7 +59,7 @@ final class SubsurfacePathTracer(
           scene.passed(ray)
         else
           depth += 1
-          var bsdf = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
+          var bsdf = if isSpread then scene.bsdf(at).regularized else scene.bsdf(at)
           atBoundary = scene.isSubsurface(at.material)
           light += throughput * anyLight(bsdf, wo, sampler)
           var local = at.frame.toLocal(wo)

@@ -89,7 +89,7 @@ final class VolumePathTracer(
         else if depth == maxDepth then alive = false
         else
           depth += 1
-          var bsdf = if isSpread then scene.widenedBsdf(at) else scene.bsdf(at)
+          var bsdf = if isSpread then scene.bsdf(at).regularized else scene.bsdf(at)
           var towards = wo
           atBoundary = scene.isSubsurface(at.material)
           light += lightOnSurface(bsdf, towards, medium, sampler)

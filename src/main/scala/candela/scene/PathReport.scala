@@ -1,6 +1,6 @@
 package candela.scene
 
-import candela.bsdf.{Bsdf, BsdfSample}
+import candela.bsdf.{Bsdf, BsdfSample, WrappedBsdf}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.lights.LightSample
@@ -39,21 +39,26 @@ final class PathReport(say: String => Unit):
   def found(light: Int, radiance: Rgb): Unit =
     say(s"   light $light is met: radiance $radiance, throughput $throughput")
 
+  /** The path sees another side of the surface that it has come to. */
+  def sees(bsdf: Bsdf, how: String): Bsdf =
+    say(s"   $how: ${name(bsdf)}")
+    ReportedBsdf(bsdf, this)
+
   private def name(bsdf: Bsdf): String = bsdf.getClass.getSimpleName
 
 /** Tells of every question and its answer. */
-private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Bsdf:
-  def f(wo: Vec3, wi: Vec3): Rgb =
+private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends WrappedBsdf(bsdf):
+  override def f(wo: Vec3, wi: Vec3): Rgb =
     val value = bsdf.f(wo, wi)
     report.value(wo, wi, value)
     value
 
-  def pdf(wo: Vec3, wi: Vec3): Float =
+  override def pdf(wo: Vec3, wi: Vec3): Float =
     val density = bsdf.pdf(wo, wi)
     report.density(density)
     density
 
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+  override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     told(wo, bsdf.sample(wo, choice, u1, u2))
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
@@ -63,5 +68,5 @@ private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Bsdf:
     report.bounce(wo, sample)
     sample
 
-  def isSpecular: Boolean = bsdf.isSpecular
-  def isTransmissive: Boolean = bsdf.isTransmissive
+  override def regularized: Bsdf = report.sees(bsdf.regularized, "regularized")
+  override def atWavelength(nm: Float): Bsdf = report.sees(bsdf.atWavelength(nm), s"at $nm nm")

@@ -29,8 +29,6 @@ final case class ShapeInstance(
   *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
   *                        goes by the shading normal alone
   * @param footprints      if textures ask for them, or displacements for partial derivatives
-  * @param widened         materials by the same numbers, as paths see them that were spread before,
-  *                        if the integrator asks for that
   * @param report          is told of every surface that scatters; see [[reported]]
   */
 final class Scene(
@@ -42,8 +40,7 @@ final class Scene(
     val selection: LightSelection,
     val sidesByGeometry: Boolean,
     footprints: Option[Footprints] = None,
-    report: Option[PathReport] = None,
-    widened: Array[Material] = Array.empty
+    report: Option[PathReport] = None
 ):
   private val told: PathReport | Null = report.orNull
 
@@ -99,12 +96,7 @@ final class Scene(
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 
   def bsdf(at: ShadingPoint): Bsdf =
-    tell(at, materials(at.material).bsdf(at))
-
-  /** The same, where all sharp scattering is widened. */
-  def widenedBsdf(at: ShadingPoint): Bsdf = tell(at, widened(at.material).bsdf(at))
-
-  private def tell(at: ShadingPoint, made: Bsdf): Bsdf =
+    val made = materials(at.material).bsdf(at)
     val report = told
     if report == null then made else report.scatters(at, made)
 
@@ -120,8 +112,7 @@ final class Scene(
       selection,
       sidesByGeometry,
       footprints,
-      Some(report),
-      widened
+      Some(report)
     )
 
   /** Does any surface split light by wavelength? */

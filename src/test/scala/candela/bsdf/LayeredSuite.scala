@@ -21,8 +21,11 @@ class LayeredSuite extends BsdfLaws:
       share: Float = 0f,
       seed: Long = 1
   ): Layered =
-    val layers = Layers(top, eta, base, thickness, albedo, g, maxDepth, walks = 1)
-    Layered(layers, rough(0.5f), share, seed)
+    val gloss = rough(0.3f)
+    Layered(
+      Layers(top, eta, base, thickness, albedo, g, maxDepth, walks = 1, gloss, share),
+      seed
+    )
 
   private val white = Rgb(0.9f, 0.8f, 0.7f)
 
@@ -115,8 +118,6 @@ class LayeredSuite extends BsdfLaws:
     val (wo, wi) = pairs.head
     def make(walks: Int)(seed: Long) = Layered(
       Layers(rough(0.3f), 1.5f, lambert(0.5f), 0.5f, white, 0f, 10, walks),
-      rough(1f),
-      0f,
       seed * 99
     )
     val (one, eight) = (mean(make(1), wo, wi, 10000), mean(make(8), wo, wi, 10000))

@@ -52,7 +52,7 @@ class TrowbridgeReitzSuite extends AnyFunSuite:
     val m = TrowbridgeReitz(0f, 0.1f).sample(Directions.at(30, 30), 0.3f, 0.6f)
     assert(m.isFinite && java.lang.Float.isFinite(TrowbridgeReitz(0f, 0.1f).d(m)))
 
-  test("widened it is twice as rough, but from 0.1 to 0.3, and what is rougher stays"):
+  test("regularized it is twice as rough, but from 0.1 to 0.3, and what is rougher stays"):
     for
       (alpha, expected) <- Seq(
         (0f, 0.1f),
@@ -63,5 +63,5 @@ class TrowbridgeReitzSuite extends AnyFunSuite:
         (0.5f, 0.5f)
       )
     do
-      val wide = TrowbridgeReitz(alpha, 0.7f).widened
+      val wide = TrowbridgeReitz(alpha, 0.7f).regularized
       assert(wide.alphaX == expected && wide.alphaY == 0.7f)

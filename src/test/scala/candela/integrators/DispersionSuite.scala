@@ -1,6 +1,9 @@
 package candela.integrators
 
-import candela.bsdf.{BsdfLaws, Dielectric, Dispersive, TrowbridgeReitz}
+import candela.bsdf.{
+  Bsdf, BsdfLaws, Dielectric, Directions, Dispersive, Lambert, Lobes, Scaled, SentThrough,
+  TrowbridgeReitz
+}
 import candela.color.{ColorBasis, Rgb}
 import candela.sampling.Wavelengths
 import candela.scenefile.Dialect
@@ -13,7 +16,7 @@ class DispersionSuite extends BsdfLaws:
 
   obeysLaws("smooth, unasked", splitting(0f), isLossless = true)
   obeysLaws("rough, unasked", splitting(0.3f))
-  obeysLaws("rough, of one wavelength", splitting(0.3f).at(450f))
+  obeysLaws("rough, of one wavelength", splitting(0.3f).atWavelength(450f))
 
   for (name, basis) <- Seq("sRGB" -> ColorBasis.Srgb, "the sharp basis" -> ColorBasis.Sharp) do
     test(s"the colours of wavelengths are white on average, in $name"):
@@ -65,9 +68,26 @@ class DispersionSuite extends BsdfLaws:
     assert(warning(foggy).startsWith("glass that splits light is not supported here yet"))
     val coated = scene(glass).replace("\"dielectric\"", "\"coateddiffuse\"")
     assert(warning(coated).startsWith("dispersion of \"coateddiffuse\" is not supported"))
-    val named = s"MakeNamedMaterial \"a\" \"string type\" \"dielectric\" $glass\n"
+
+  test("what wraps glass keeps its dispersion, regularized or not"):
+    val glass = splitting(0.2f)
+    val wrapped = Seq[Bsdf => Bsdf](
+      Scaled(_, Rgb.gray(0.5f)),
+      SentThrough(_),
+      b => Lobes(Array(Lambert(Rgb.White), b), Array(0.5f, 0.5f))
+    )
+    val pairs = Seq((20.0, 0.0), (160.0, 170.0)).map(Directions.at(_, _))
+    for wrap <- wrapped; bsdf <- Seq(wrap(glass), wrap(glass).regularized) do
+      assert(bsdf.isDispersive)
+      def values(b: Bsdf) = for wo <- pairs; wi <- pairs yield b.f(wo, wi)
+      assert(values(bsdf.atWavelength(700f)) != values(bsdf))
+
+  test("a mixture of glasses splits light as the glass does"):
+    val named = "MakeNamedMaterial \"a\" \"string type\" \"dielectric\" " +
+      "\"spectrum eta\" \"glass-F11\"\n"
     val mixed = scene("").replace(
       "Material \"dielectric\"",
       named + "Material \"mix\" \"string materials\" [\"a\" \"a\"]"
     )
-    assert(warning(mixed).startsWith("a mixed surface doesn't split light"))
+    assert(SceneTexts.problems(mixed, Dialect.V4).isEmpty)
+    assert(SceneTexts.plan(mixed, Dialect.V4).features.toMap.apply("dispersion").contains("one"))

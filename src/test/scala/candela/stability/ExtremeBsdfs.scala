@@ -59,7 +59,7 @@ object ExtremeBsdfs:
       val top = TrowbridgeReitz(a, a)
       val coat = Coats().of(top, eta, thick)
       s"coated diffuse of index $eta, roughness $a, thickness $thick" ->
-        new CoatedDiffuse(Rgb.White.map(CoatedDiffuse.series(_, coat, 50)), top, coat)
+        CoatedDiffuse(Rgb.White, top, coat, 50)
 
   private def layers =
     val mirror = Conductor(glossy((0f, 0f)), metals(2)._2)
@@ -68,9 +68,11 @@ object ExtremeBsdfs:
       (words, base) <- Seq("matte" -> Lambert(Rgb.White), "a mirror" -> mirror)
       (thick, g) <- Seq((0f, 0f), (1e-3f, 0.99f), (100f, -0.99f))
     yield
-      val made = Layers(TrowbridgeReitz(a, a), 1.5f, base, thick, Rgb.White, g, 100, 1)
+      val top = TrowbridgeReitz(a, a)
+      val gloss = TrowbridgeReitz(0.5f, 0.5f)
+      val made = Layers(top, 1.5f, base, thick, Rgb.White, g, 100, 1, gloss, share = 0.5f)
       s"$words under a coat of roughness $a, thickness $thick" ->
-        new Layered(made, TrowbridgeReitz(0.5f, 0.5f), 0.5f, 1)
+        new Layered(made, 1)
 
   private def disney =
     for ends <- 0 until 64 yield

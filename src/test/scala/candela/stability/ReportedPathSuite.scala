@@ -1,5 +1,7 @@
 package candela.stability
 
+import java.nio.file.{Files, Path}
+
 import scala.collection.mutable.ArrayBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -8,6 +10,7 @@ import candela.color.Rgb
 import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
 import candela.scene.PathReport
+import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
 /** What is no number never reaches the film, and one can see where it is from. */
@@ -25,6 +28,23 @@ class ReportedPathSuite extends AnyFunSuite:
       val told = lines.mkString("\n")
       for words <- Seq("1: point (", "Lambert", "light 0 is sampled", "f rgb(", "pdf") do
         assert(told.contains(words), s"$integrator: $told"): Unit
+
+  test("where glass splits light, all samples told are those that are rendered"):
+    val file = Path.of("scenes/v4-dispersion.pbrt")
+    for regularize <- Seq(false, true) do
+      val text = Files.readString(file).replace("pixelsamples\" 16", "pixelsamples\" 1")
+        .replace("\"path\"", s"\"path\" \"bool regularize\" $regularize")
+      val plan = SceneTexts.plan(text, Dialect.V4)
+      val image = Renderer.render(plan, threads = 1).film.toImage(1f)
+      val different =
+        for
+          y <- 0 until plan.height
+          x <- 0 until plan.width
+          at = 3 * (y * plan.width + x)
+          rendered = Rgb(image.data(at), image.data(at + 1), image.data(at + 2))
+          if !Renderer.trace(plan, x, y, 0, PathReport(_ => ())).contains(rendered)
+        yield (x, y)
+      assert(different.isEmpty)
 
   test("a sample that is no number is none, and the first one is named with its material"):
     val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)

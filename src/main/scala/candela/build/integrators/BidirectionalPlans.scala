@@ -19,7 +19,6 @@ private[build] object BidirectionalPlans:
         BidirectionalPathTracer(scene, most, RouletteAfter, dialect != Dialect.V2, widens),
       samplesBsdf = false,
       s"$shown, up to $most scattering events" + (if widens then ", regularized" else ""),
-      regularizes = widens,
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         site.warn(

@@ -13,7 +13,6 @@ import candela.scenefile.Dialect
   * @param make         takes the scene and how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
-  * @param regularizes  does it ask for [[Scene.widenedBsdf]]?
   * @param window       of the full image that is rendered, if not all of it is
   * @param samples      of each pixel, if the integrator and not the sampler says how many
   * @param lights       how the light to sample is chosen
@@ -31,7 +30,6 @@ final case class IntegratorPlan(
     lights: LightStrategy = LightStrategy.Importance,
     isLit: Boolean = true,
     samples: Option[Int] = None,
-    regularizes: Boolean = false,
     window: Option[PixelBounds] = None,
     throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None

@@ -36,7 +36,6 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       throughMedia = Option.when(name == "volpath")((scene, media) =>
         VolumePathTracer(scene, media, depth, RouletteAfter, threshold(), seesThrough, widens)
       ),
-      regularizes = widens,
       throughVolumes = Some((scene, _, march) =>
         PathThroughVolumes(scene, march, depth, RouletteAfter, threshold())
       )

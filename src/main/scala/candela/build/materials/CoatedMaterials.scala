@@ -64,10 +64,9 @@ object CoatedConductorRecipe
     private val v = along("v")
     private def along(axis: String) =
       floatTexture(s"$name.${axis}roughness", s"along $axis", shown = s"$name.roughness")(0f)
-    def apply()(using site: Site): Roughness =
+    def apply()(using Site): Roughness =
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
-      val all = Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
-      if site.resources.isWidening then all.widened else all
+      Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
 
   private val interface = Side("interface")
   private val conductor = Side("conductor")

@@ -77,8 +77,7 @@ abstract class RoughRecipe(
         if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
     val along = u.flatMap(_.given_()).getOrElse(both())
     val sideways = v.flatMap(_.given_()).getOrElse(both())
-    val all = Roughness(along, sideways, model, smoothAtZero)
-    if site.resources.isWidening then all.widened else all
+    Roughness(along, sideways, model, smoothAtZero)
 
 /** pbrt-v2 has other formulas than v3 for some materials of the same name. */
 private[build] def edition(dialect: Dialect): Edition =

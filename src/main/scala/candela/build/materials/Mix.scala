@@ -29,8 +29,6 @@ object MixRecipe
   private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
     if a.isSubsurface || b.isSubsurface then
       site.warn("light does not travel beneath a mixed surface: it goes straight on inside")
-    if a.isDispersive || b.isDispersive then
-      site.warn("a mixed surface doesn't split light: its index at 589 nm is used")
     MaterialFactory.mix(a, b, amount)
 
   private def named(name: String, parameter: String)(using site: Site): Material =

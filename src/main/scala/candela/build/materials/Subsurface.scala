@@ -45,8 +45,7 @@ abstract class BssrdfRecipe(
     case Dialect.V4 =>
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       val across = acrossV4.given_().getOrElse(both())
-      val all = Roughness(alongV4.given_().getOrElse(both()), across, model)
-      Make.dielectric(eta(), if site.resources.isWidening then all.widened else all)
+      Make.dielectric(eta(), Roughness(alongV4.given_().getOrElse(both()), across, model))
 
   protected def table(g: Float)(using site: Site): ProfileTable =
     site.resources.profiles.of(g, eta())

@@ -11,7 +11,7 @@ import candela.scenefile.NameKind
   */
 final class NamedMaterials:
   private val recipes = mutable.LinkedHashMap.empty[String, () => Material]
-  private val made = mutable.HashMap.empty[(String, Boolean), Material]
+  private val made = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
 
   def define(name: String, make: () => Material): Unit = recipes(name) = make
@@ -25,7 +25,7 @@ final class NamedMaterials:
       StandIns.material(resources.basis)
     else
       made.getOrElseUpdate(
-        (name, resources.isWidening),
+        name,
         recipes.get(name) match
           case Some(make) =>
             open += name

@@ -31,19 +31,6 @@ final class Resources(
   /** Likewise of media beneath surfaces. */
   val profiles = ProfileTables()
 
-  private var widens = false
-
-  /** Makes materials as paths see them that have been spread already, where an integrator
-    * regularizes.
-    */
-  def widened[A](make: => A): A =
-    widens = true
-    try make
-    finally widens = false
-
-  /** Are such materials being made? */
-  def isWidening: Boolean = widens
-
   private var footprints = Vector.empty[String]
 
   /** What asks for the footprint of a sample on a surface, in words; at first nothing. */
