@@ -9,8 +9,8 @@ import candela.build.sampling.{SamplerRequest, Samplers}
 import candela.build.settings.OptionRecipe
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
-import candela.film.{FilterReach, Layer, SpectralBands}
-import candela.integrators.{Chained, Splatting, Stepping, SurfaceProbe}
+import candela.film.{FilterReach, Layer, SpectralBands, VisibleSurface}
+import candela.integrators.{Chained, Splatting, Stepping}
 import candela.math.*
 import candela.render.{LayerPlan, PixelBounds, RenderPlan}
 import candela.sampling.IndependentSampler
@@ -82,7 +82,8 @@ object SceneBuilder:
       case Some(motion) => MovingCamera(cameraPlan.make(Transform.Identity, frame), motion)
       case None => cameraPlan.make(description.worldToCamera.start.inverse, frame)
     val layers = (film.layers ++ options.layers).distinct
-    if layers.contains(Layer.Gradient) then resources.askForFootprints("the image's dzdx and dzdy")
+    for layer <- layers if layer.needsFootprints do
+      resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
     val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
     val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
     val isV4 = description.dialect == Dialect.V4
@@ -139,7 +140,7 @@ object SceneBuilder:
         val space =
           if film.layersInWorld then Still(Transform.Identity)
           else motions.camera.fold(Still(description.worldToCamera.start))(InverseMotion(_))
-        LayerPlan(layers, SurfaceProbe(world.scene, space, basis, layers.contains(Layer.Albedo)))
+        LayerPlan(layers, VisibleSurface(world.scene, space, basis))
       ,
       sharesSamples = shares
     )

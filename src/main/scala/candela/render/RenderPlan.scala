@@ -2,8 +2,8 @@ package candela.render
 
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
-import candela.film.{Development, Filter, FilterReach, Layer, SampleLimit}
-import candela.integrators.{Integrator, SurfaceProbe}
+import candela.film.{Development, Filter, FilterReach, Layer, SampleLimit, VisibleSurface}
+import candela.integrators.Integrator
 import candela.sampling.Sampler
 
 /** The pixels to render, as half-open ranges of the full image: x0 ≤ x < x1, y0 ≤ y < y1. */
@@ -57,5 +57,5 @@ final class RenderPlan(
         crop.y1 + reach.beyondY
       )
 
-/** Layers of an image, and what looks for them. */
-final case class LayerPlan(layers: Vector[Layer], probe: SurfaceProbe)
+/** Layers of an image, and the surface that they are taken from. */
+final case class LayerPlan(layers: Vector[Layer], surface: VisibleSurface)

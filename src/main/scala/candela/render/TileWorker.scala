@@ -2,8 +2,8 @@ package candela.render
 
 import candela.cameras.{CameraRays, Shutter}
 import candela.color.Rgb
-import candela.film.{Film, FilterSampler, LayerFilm, SampleLimit, SampleShares, SharedBlock}
-import candela.integrators.{Splatting, Stepping, SurfaceProbe}
+import candela.film.*
+import candela.integrators.{Splatting, Stepping}
 import candela.scene.PathReport
 
 /** Renders tiles, pixel by pixel. */
@@ -32,7 +32,7 @@ private[render] final class TileWorker(
   private val weighsLast = weighs && !plan.weighsFirst
   private val limit: SampleLimit | Null = plan.limit.orNull
   private val layerFilm: LayerFilm | Null = layers.orNull
-  private val probe: SurfaceProbe | Null = plan.layers.map(_.probe.copy()).orNull
+  private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
   private val shutter = plan.shutter.getOrElse(Shutter(0f, 0f))
 
   // Where samples go that several pixels share: the block of the tile
@@ -109,7 +109,7 @@ private[render] final class TileWorker(
       add(Rgb.Black)
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
-      if probe != null then probe.look(ray)
+      if visible != null then visible.look(ray)
       if stepping != null then stepping.step(sample, plan.crop.pixels, shutter)
       val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
       if radiance.isFinite then record(if weighs then weighed(radiance, weight) else radiance)
@@ -118,8 +118,8 @@ private[render] final class TileWorker(
   private def record(radiance: Rgb): Unit =
     val light = if limit != null && !weighsLast then radiance * limit.scale(radiance) else radiance
     add(light)
-    if layerFilm != null && probe != null then
-      layerFilm.add(x, y, light, filterSampler.weight, probe.seen)
+    if layerFilm != null && visible != null then
+      layerFilm.add(x, y, light, filterSampler.weight, visible)
 
   private def add(light: Rgb): Unit =
     val shared = block

@@ -2,26 +2,35 @@ package candela.film
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.bsdf.Lambert
+import candela.build.BuildOptions
 import candela.color.Rgb
+import candela.geometry.{Frame, Ray}
 import candela.image.Image
-import candela.integrators.VisibleSurface
 import candela.math.Vec3
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
 
 final class LayerFilmSuite extends AnyFunSuite:
 
-  private def surface(p: Vec3, n: Vec3, albedo: Float): VisibleSurface =
-    val seen = VisibleSurface()
-    seen.isThere = true
-    seen.p = p
-    seen.n = n
-    seen.shadingNormal = n
-    seen.albedo = Rgb(albedo, 0f, 1f)
-    seen.dzdx = -2f
-    seen.u = 0.25f
-    seen.depth = p.length
-    seen
+  /** The camera's space is the world's, and colours are in linear sRGB. */
+  private def nothing: VisibleSurface =
+    val text = """Camera "perspective" WorldBegin LightSource "infinite" Shape "sphere" """
+    val asked = BuildOptions(layers = Layer.values.toVector)
+    SceneTexts.plan(text, Dialect.V3, asked).layers.get.surface
 
-  private val nothing = VisibleSurface()
+  /** Seen from the origin. */
+  private def surface(p: Vec3, n: Vec3, albedo: Float): VisibleSurface =
+    val seen = nothing
+    seen.at.p = p
+    seen.at.geometricNormal = n
+    seen.at.frame = Frame.around(n)
+    seen.at.dpdx = Vec3(0, 0, -2)
+    seen.at.u = 0.25f
+    val ray = Ray()
+    ray.set(Vec3.Zero, -n, 1f)
+    seen.met(ray, Lambert(Rgb(albedo, 0f, 1f)))
+    seen
 
   private def value(image: Image, name: String, x: Int = 0): Float =
     image(x, 0, image.channelNames.indexOf(name))
