@@ -96,7 +96,7 @@ object Renderer:
         val schedule = Schedule(plan.sampled, samples, largest)
         workers(schedule)(TileWorker(plan, schedule, _, film, layers, filterSampler.copy()))
 
-  /** Where samples of the pixels `sampled` are shared by those of `film`, if the plan shares any. */
+  /** Accumulators of samples that contribute to several pixels; None if the plan has none. */
   private def shares(
       plan: RenderPlan,
       film: PixelBounds,
