@@ -1,7 +1,5 @@
 package candela.build
 
-import candela.build.recipe.*
-import candela.cameras.Shutter
 import candela.math.{Interpolation, InverseMotion, Motion, Still, Transform, Vec3}
 import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}
 
@@ -45,16 +43,3 @@ private[build] object Motions:
   def moves(t: AnimatedTransform): Boolean = t.isAnimated && isAffine(t)
 
   def stands(what: String): String = s"$what can't move: it stands still as at the start"
-
-/** What [[CameraRecipe]] says of its shutter, for those who move. */
-private[build] object Shutters extends Fields:
-  protected def register[T](field: Field[T]): Field[T] = field
-  private val open = float("shutteropen", "time at which the shutter opens")(0f)
-  private val close = float("shutterclose", "time at which the shutter closes")(1f)
-
-  def of(using site: Site): Shutter =
-    val (from, to) = (open(), close())
-    if to < from then
-      site.warn(s"the shutter closes at $to, before it opens at $from: the two are exchanged")
-      Shutter(to, from)
-    else Shutter(from, to)

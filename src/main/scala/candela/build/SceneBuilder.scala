@@ -84,8 +84,9 @@ object SceneBuilder:
     val layers = (film.layers ++ options.layers).distinct
     for layer <- layers if layer.needsFootprints do
       resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
-    val shutter = description.camera.fold(Shutter(0f, 1f))(c => Shutters.of(using site(c)))
-    val exposure = if description.dialect == Dialect.V4 then cameraPlan.exposure else 1f
+    val shutter = cameraPlan.shutter
+    // pbrt-v4's images are the brighter the longer the shutter is open
+    val exposure = if description.dialect == Dialect.V4 then shutter.duration else 1f
     val isV4 = description.dialect == Dialect.V4
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     val scale = if isV4 then Math.max(SharpestV4, density) else density

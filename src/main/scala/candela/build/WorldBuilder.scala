@@ -10,7 +10,7 @@ import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights, MeshL
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.build.recipe.*
 import candela.build.settings.{Accelerators, BvhRecipe}
-import candela.build.shapes.{Alpha, ShapeGeometry, Shapes}
+import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
 import candela.integrators.Integrator
@@ -145,13 +145,13 @@ final class WorldBuilder(
     val toWorld = s.objectToWorld.start
     val (declared, itsMaterial) = shapeMaterials.split(s.shape, s.material)
     val here = site(declared)
-    for geometry <- Shapes.all.build(here).flatten do
+    for plan <- Shapes.all.build(here).flatten do
       val material = materialIndex(itsMaterial, media.border(s))
       val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)).flatten)
 
       def place(g: ShapeGeometry): Unit = g match
         case mesh: ShapeGeometry.Triangles =>
-          addMesh(s, mesh, toWorld, material, light, here, to)
+          addMesh(s, plan, mesh, toWorld, material, light, here, to)
         case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
         case ShapeGeometry.Solid(make) =>
           // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards, v2 those of all disks
@@ -159,31 +159,31 @@ final class WorldBuilder(
             if description.dialect == Dialect.V2 then declared.name == "disk"
             else toWorld.swapsHandedness
           val shape = make(toWorld, s.reverseOrientation)
-          addSolids(Vector(shape), material, light, inverted, here, to)
+          addSolids(Vector(shape), plan, material, light, inverted, here, to)
         case ShapeGeometry.Solids(make, emits) =>
           if light.isDefined && !emits then
             here.warn(s"a ${s.shape.name} can't emit light, as in pbrt: it is no lamp")
           val shapes = make(toWorld, s.reverseOrientation)
-          addSolids(shapes, material, light.filter(_ => emits), false, here, to)
+          addSolids(shapes, plan, material, light.filter(_ => emits), false, here, to)
         case ShapeGeometry.Several(parts) => parts.foreach(place)
 
-      if light.isDefined || !media.isNothing(materials(material)) then place(geometry)
+      if light.isDefined || !media.isNothing(materials(material)) then place(plan.geometry)
 
   private def addSolids(
       shapes: Vector[Shape],
+      plan: ShapePlan,
       material: Int,
       light: Option[AreaLightPlan],
       inverted: Boolean,
       here: Site,
       to: SurfaceBuilder
   ): Unit =
-    val mask = Alpha.mask(using here)
     for shape <- shapes do
-      val index = light.filter(_ => hasArea(shape, here)).fold(-1): plan =>
-        lights += Alpha.emission(using here).of(plan.ofShape(shape, inverted), shape)
-        lightSamples += plan.samples
+      val index = light.filter(_ => hasArea(shape, here)).fold(-1): lamp =>
+        lights += plan.holes.light(lamp.ofShape(shape, inverted), shape)
+        lightSamples += lamp.samples
         lights.length - 1
-      to.add(ShapeInstance(shape, material, index, inverted), mask)
+      to.add(ShapeInstance(shape, material, index, inverted), plan.mask)
 
   private def hasArea(shape: Shape, here: Site): Boolean =
     val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
@@ -192,6 +192,7 @@ final class WorldBuilder(
 
   private def addMesh(
       s: ShapeDescription,
+      plan: ShapePlan,
       mesh: ShapeGeometry.Triangles,
       toWorld: Transform,
       material: Int,
@@ -212,12 +213,12 @@ final class WorldBuilder(
         case _ => BumpTangents.Turned
       val reversed = s.reverseOrientation
       val first = to.soup.add(mesh, toWorld, reversed, flipNormals, material, firstLight, bumps)
-      to.maskMesh(Alpha.mask(using here))
-      for plan <- light do
-        meshLights += MeshLights(plan, Alpha.emission(using here), first, count, firstLight, here)
+      to.maskMesh(plan.mask)
+      for lamp <- light do
+        meshLights += MeshLights(lamp, plan.holes, first, count, firstLight, here)
         for _ <- 0 until count do
           lights += null // made as soon as all triangles are known
-          lightSamples += plan.samples
+          lightSamples += lamp.samples
 
   private def plan(l: LightDescription): Option[LightPlan] =
     if l.lightToWorld.isAnimated then problems.warn(l.light.at, Motions.stands("a light"))

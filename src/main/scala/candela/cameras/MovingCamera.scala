@@ -5,6 +5,8 @@ import candela.math.*
 
 /** When the shutter is open, in the scene's unit of time. */
 final case class Shutter(open: Float, close: Float):
+  def duration: Float = close - open
+
   /** The time that a number in [0, 1) stands for. */
   def at(u: Float): Float = lerp(u, open, close)
 

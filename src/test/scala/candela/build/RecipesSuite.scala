@@ -12,7 +12,7 @@ import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerRequest, Samplers}
 import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements, SceneSettings}
-import candela.build.shapes.{ShapeGeometry, Shapes}
+import candela.build.shapes.{ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.film.Filter
 import candela.math.Transform
@@ -39,7 +39,7 @@ final class CameraRecipesSuite
     )
 
 final class ShapeRecipesSuite
-    extends RecipeLaws[Option[ShapeGeometry]](
+    extends RecipeLaws[Option[ShapePlan]](
       Shapes.all,
       demanding = Set(
         "trianglemesh", "plymesh", "loopsubdiv", "heightfield", "nurbs", "bilinearmesh", "curve"

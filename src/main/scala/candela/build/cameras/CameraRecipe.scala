@@ -1,16 +1,15 @@
 package candela.build.cameras
 
 import candela.build.recipe.*
-import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup}
+import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup, Shutter}
 import candela.math.Transform
 import candela.scenefile.Dialect
 
 /** A camera to be placed.
   *
-  * @param make     takes its transform and the film
-  * @param exposure how long the shutter is open: v4's images are the brighter for it
+  * @param make takes its transform and the film
   */
-final case class CameraPlan(make: (Transform, FilmFrame) => Camera, exposure: Float)
+final case class CameraPlan(make: (Transform, FilmFrame) => Camera, shutter: Shutter)
 
 /** What all cameras have. */
 abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
@@ -18,12 +17,14 @@ abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect
   private val open = float("shutteropen", "time at which the shutter opens", unit = "s")(0f)
   private val close = float("shutterclose", "time at which the shutter closes", unit = "s")(1f)
 
-  /** How long the shutter is open. */
-  protected def exposure()(using site: Site): Float =
-    val time = close() - open()
-    if site.dialect == Dialect.V4 && !(time > 0f) then
+  protected def shutter()(using site: Site): Shutter =
+    val (from, to) = (open(), close())
+    if site.dialect == Dialect.V4 && !(to > from) then
       site.error(s"the shutter never opens: `shutterclose` must be above `shutteropen` in v4")
-    Math.abs(time)
+    if to < from then
+      site.warn(s"the shutter closes at $to, before it opens at $from: the two are exchanged")
+      Shutter(to, from)
+    else Shutter(from, to)
 
 /** What cameras have that look at a film through one lens. */
 abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)

@@ -14,11 +14,11 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "things far awa
     if !isAngle then site.error(s"`fov` lies between 0 and 180 degrees; found $angle")
     CameraPlan(
       (toWorld, frame) => PerspectiveCamera(setup(toWorld, frame), if isAngle then angle else 90f),
-      exposure()
+      shutter()
     )
 
 object OrthographicRecipe extends ProjectiveRecipe("orthographic", "parallel lines stay parallel"):
   protected def make()(using Site): CameraPlan = CameraPlan(
     (toWorld, frame) => OrthographicCamera(setup(toWorld, frame)),
-    exposure()
+    shutter()
   )

@@ -37,7 +37,7 @@ object RealisticRecipe extends CameraRecipe("realistic", "lenses of glass, from 
     val place: (Transform, FilmFrame) => Camera = lenses match
       case Some(lens) => camera(_, _, lens)
       case None => StandInCamera.make
-    CameraPlan(place, exposure())
+    CameraPlan(place, shutter())
 
   private def read(path: Path)(using site: Site): Option[LensSystem] =
     val at = site.declaration.param("lensfile").get.valuesAt
@@ -69,7 +69,7 @@ object RealisticRecipe extends CameraRecipe("realistic", "lenses of glass, from 
         val gain =
           if site.dialect == Dialect.V4 then RealisticCamera.exposureGain(focused, 1.0)
           else if simple() then RealisticCamera.relativeGain(pupil)
-          else RealisticCamera.exposureGain(focused, exposure())
+          else RealisticCamera.exposureGain(focused, shutter().duration)
         RealisticCamera(toWorld, frame, focused, pupil, gain)
 
   /** None: a disc. */
@@ -106,4 +106,4 @@ object RealisticRecipe extends CameraRecipe("realistic", "lenses of glass, from 
 object ForkedRealisticRecipe extends CameraRecipe("realistic", "lenses of glass", onlyV2):
   override def pending: Option[String] =
     Some(s"pbrt-v2 has none, only some of its forks; ${StandInCamera.words}")
-  protected def make()(using Site): CameraPlan = CameraPlan(StandInCamera.make, exposure())
+  protected def make()(using Site): CameraPlan = CameraPlan(StandInCamera.make, shutter())

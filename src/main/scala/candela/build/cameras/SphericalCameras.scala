@@ -32,7 +32,7 @@ object EnvironmentRecipe
     ):
   protected def make()(using site: Site): CameraPlan =
     val step = if site.dialect == Dialect.V2 then 1f else 0.05f
-    CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false, step), exposure())
+    CameraPlan(SphericalCamera(_, _, LatLongMap, folds = false, step), shutter())
 
 object SphericalRecipe extends PanoramaRecipe("spherical", "looks to all sides", onlyV4):
   private val mapping =
@@ -41,4 +41,4 @@ object SphericalRecipe extends PanoramaRecipe("spherical", "looks to all sides",
   protected def make()(using Site): CameraPlan =
     val isEqualArea = mapping() == "equalarea"
     val map = if isEqualArea then EqualAreaMap else LatLongMap
-    CameraPlan(SphericalCamera(_, _, map, folds = isEqualArea), exposure())
+    CameraPlan(SphericalCamera(_, _, map, folds = isEqualArea), shutter())

@@ -1,7 +1,7 @@
 package candela.build.lights
 
 import candela.build.recipe.*
-import candela.build.shapes.Emission
+import candela.build.shapes.EmitterHoles
 import candela.lights.Light
 import candela.shapes.{TriangleSampler, TriangleSoup}
 
@@ -12,7 +12,7 @@ import candela.shapes.{TriangleSampler, TriangleSoup}
   */
 private[build] final case class MeshLights(
     plan: AreaLightPlan,
-    emission: Emission,
+    holes: EmitterHoles,
     first: Int,
     count: Int,
     light: Int,
@@ -24,4 +24,4 @@ private[build] final case class MeshLights(
     val flat = samplers.count(s => !(s.area > 0f))
     if flat > 0 then
       site.warn(s"$flat of $count triangles of this light have no area: they emit nothing")
-    samplers.zipWithIndex.map((s, k) => (emission.of(plan.ofTriangle(s), s), light + k))
+    samplers.zipWithIndex.map((s, k) => (holes.light(plan.ofTriangle(s), s), light + k))

@@ -17,7 +17,7 @@ object CurveRecipe extends ShapeRecipe("curve", "a thin strip: a hair, a blade o
   private val splitdepth =
     float("splitdepth", "each curve is cut into 2 to the power of this many segments")(3f)
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (p, d) = (points(), degree())
     val count = p.length / 3
     val isBezier = basis() == "bezier"

@@ -9,7 +9,7 @@ object HeightFieldRecipe
   private val nv = integer("nv", "grid points along y", shown = "none")(0)
   private val heights = numbers("Pz", "float[]", "heights, row by row of constant y")
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (columns, rows, z) = (nu(), nv(), heights())
     if z.isEmpty || nu.given_().isEmpty || nv.given_().isEmpty then
       site.error("a heightfield needs `nu`, `nv` and `Pz`")

@@ -11,7 +11,7 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop's subdivision su
   private val points = numbers("P", "point3[]", "vertices of the control mesh")
   noMeaning("there is but one")(string("scheme", "kind of subdivision")("loop"))
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)
     if points().isEmpty || indices().isEmpty then
       site.error("a loopsubdiv needs `P` and `indices`")

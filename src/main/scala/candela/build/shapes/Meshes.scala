@@ -19,7 +19,7 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "triangles that sha
     integers("faceIndices", "numbers of faces, one a triangle", sinceV3)
   )
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val p = points()
     val uvs = if uv().nonEmpty then uv() else st()
     val given_ = indices()
@@ -42,7 +42,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "a mesh from a PLY file", sin
     float("edgelength", "longest edge of the displaced mesh", onlyV4, "scene units")(1f)
   )
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     site.declaration.param("filename") match
       case Some(p) if filename().nonEmpty =>
         val standIn = StandIns.LeftOut
@@ -89,7 +89,7 @@ object BilinearMeshRecipe
     integers("faceIndices", "numbers of faces, one a patch")
   )
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val p = points()
     val given_ = indices()
     val all = if given_.isEmpty && p.length == 12 then Array(0, 1, 2, 3) else given_

@@ -56,7 +56,7 @@ object NurbsRecipe
     float(s"${d}1", s"where $d ends", shown = s"${d}knots[n$d]")(1f)
   )
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     for
       ku <- u.read()
       kv <- v.read()

@@ -12,7 +12,7 @@ object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, wh
     float("zmax", "z of the upper clip plane", shown = "radius")(Float.PositiveInfinity)
   private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val r = radius()
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
     val phi = radians(clamp(phimax(), 0f, 360f))
@@ -36,7 +36,7 @@ object DiskRecipe
   private val inner = float("innerradius", "radius of the hole", unit = "scene units")(0f)
   private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (r, i) = (radius(), inner())
     if !(r > 0f) || !(i >= 0f && i < r) then
       site.error(s"a disk needs 0 ≤ innerradius < radius; found innerradius $i, radius $r")

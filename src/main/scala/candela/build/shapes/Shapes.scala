@@ -4,7 +4,7 @@ import candela.build.recipe.*
 
 /** Recipes of shapes. */
 object Shapes:
-  val all: Recipes[Option[ShapeGeometry]] =
+  val all: Recipes[Option[ShapePlan]] =
     Recipes(
       "shape",
       Vector(

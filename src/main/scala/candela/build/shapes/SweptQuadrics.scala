@@ -26,7 +26,7 @@ object CylinderRecipe extends SweptRecipe("cylinder", "about the z-axis, open at
   private val zmin = float("zmin", "z of one end")(-1f)
   private val zmax = float("zmax", "z of the other end")(1f)
 
-  protected def make()(using Site): Option[ShapeGeometry] =
+  protected def geometry()(using Site): Option[ShapeGeometry] =
     val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
     if radius() == 0f then leftOut("its `radius` is 0")
     else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
@@ -36,7 +36,7 @@ object ConeRecipe extends SweptRecipe("cone", "from z = 0 to a tip, open below",
   private val radius = float("radius", "radius at z = 0", unit = "scene units")(1f)
   private val height = float("height", "z of the tip")(1f)
 
-  protected def make()(using Site): Option[ShapeGeometry] =
+  protected def geometry()(using Site): Option[ShapeGeometry] =
     if radius() == 0f then leftOut("its `radius` is 0")
     else if !(height() > 0f) then leftOut(s"its `height` is ${height()}")
     else swept(Profile.cone(radius(), height()))
@@ -46,7 +46,7 @@ object ParaboloidRecipe extends SweptRecipe("paraboloid", "about z, with its ape
   private val zmin = float("zmin", "z of the lower clip plane")(0f)
   private val zmax = float("zmax", "z of the upper clip plane")(1f)
 
-  protected def make()(using Site): Option[ShapeGeometry] =
+  protected def geometry()(using Site): Option[ShapeGeometry] =
     val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
     if radius() == 0f then leftOut("its `radius` is 0")
     else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
@@ -58,7 +58,7 @@ object HyperboloidRecipe
   private val p1 = point("p1", "one end of the line")(Vec3.Zero)
   private val p2 = point("p2", "its other end")(Vec3(1f, 1f, 1f))
 
-  protected def make()(using site: Site): Option[ShapeGeometry] =
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
     Profile.hyperboloid(p1(), p2()) match
       case None => leftOut(s"`p1` and `p2` have the same z, ${p1().z}")
       case Some(profile) =>

@@ -5,7 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
-class AlphaSuite extends AnyFunSuite:
+class ShapeRecipeSuite extends AnyFunSuite:
 
   private val light = "LightSource \"infinite\"\n"
   private val mesh =
