@@ -50,7 +50,7 @@ object Architecture:
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf lights media cameras accel " +
-      "accel.building accel.tracing scene integrators bidirectional film render"
+      "accel.building accel.tracing scene film integrators bidirectional render"
   )
   val file: Vector[String] = floors("base math scenefile")
 

@@ -2,11 +2,12 @@ package candela.bidirectional
 
 import candela.cameras.{Camera, FilmPlace}
 import candela.color.Rgb
+import candela.film.Splats
 import candela.geometry.{Ray, ShadingPoint}
-import candela.integrators.{LightTransport, Splats, Splatting}
+import candela.integrators.LightTransport
 import candela.math.*
 import candela.sampling.Sampler
-import candela.scene.{PathReport, Scene}
+import candela.scene.Scene
 
 /** Bidirectional path tracing: each sample follows a path from the camera and one from a light, and
   * joins every point of the one with every point of the other, with the camera, and with another
@@ -15,6 +16,9 @@ import candela.scene.{PathReport, Scene}
   * It finds what paths from the camera can't: light of a point that comes by way of mirrors or
   * glass.
   *
+  * @param takes         the picture; if it can't tell where it sees a point, light that comes to it
+  *                      from there is left out
+  * @param splats        receives what light paths bring to the camera
   * @param maxDepth      most scattering events of a whole path
   * @param rouletteAfter of these, before which neither part of a path ends by chance
   * @param compresses    as in [[Subpath]]
@@ -25,12 +29,13 @@ import candela.scene.{PathReport, Scene}
   */
 final class BidirectionalPathTracer(
     scene: Scene,
+    takes: Camera,
+    splats: Splats,
     maxDepth: Int,
     rouletteAfter: Int,
     compresses: Boolean,
     regularizes: Boolean = false
-) extends LightTransport(scene)
-    with Splatting:
+) extends LightTransport(scene):
   import PartialWeights.mis
 
   private val lightPaths =
@@ -39,23 +44,15 @@ final class BidirectionalPathTracer(
   private val vertex = PathVertex(scene)
   at = vertex.at
 
-  private var camera: Camera | Null = null
-  private var splats: Splats | Null = null
+  private val camera: Camera | Null = if takes.isTraceable then takes else null
   private val place = FilmPlace()
 
-  def aim(camera: Camera, splats: Splats | Null): Unit =
-    this.camera = if camera.isTraceable then camera else null
-    this.splats = splats
-
   protected def over(scene: Scene): BidirectionalPathTracer =
-    BidirectionalPathTracer(scene, maxDepth, rouletteAfter, compresses, regularizes)
+    BidirectionalPathTracer(
+      scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes
+    )
 
   override def raysTraced: Long = rays + lightPaths.raysTraced
-
-  /** The same, for another worker. */
-  private[bidirectional] def another(): BidirectionalPathTracer = over(scene)
-  private[bidirectional] def telling(report: PathReport): BidirectionalPathTracer =
-    over(scene.reported(report))
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
 
@@ -71,16 +68,14 @@ final class BidirectionalPathTracer(
   ): Rgb =
     shadowRay.time = ray.time
     lightPaths.trace(ray.time, light)
-    if splats != null then
-      splats.begin()
-      showLight(light)
+    splats.begin()
+    showLight(light)
     fromCamera(ray, joins, onward)
 
   /** Joins the points of the light's path with the camera. */
   private def showLight(sampler: Sampler): Unit =
     val seenBy = camera
-    val film = splats
-    if seenBy != null && film != null && lightPaths.count > 0 then
+    if seenBy != null && lightPaths.count > 0 then
       sampler.next2D()
       val lensU = sampler.x
       val lensV = sampler.y
@@ -97,7 +92,7 @@ final class BidirectionalPathTracer(
             val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
             val light = lit.throughput * f * weight
             if !light.isBlack && isClear(lit.at, toCamera, place.eye) then
-              film.add(place.x, place.y, light)
+              splats.add(place.x, place.y, light)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =

@@ -1,7 +1,7 @@
 package candela.bidirectional
 
 import candela.color.Rgb
-import candela.integrators.{Splats, View}
+import candela.film.{Splats, View}
 
 /** All the light that one point of [[PrimarySamples]] brings, wherever on the film. Mutable. */
 private[bidirectional] final class Contribution(view: View) extends Splats:
@@ -33,6 +33,16 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
         data(at + 4) = light.b
         count += 1
         strength += weight
+
+  /** Each becomes what the other was. */
+  def exchange(other: Contribution): Unit =
+    val (hisData, hisCount, hisStrength) = (other.data, other.count, other.strength)
+    other.data = data
+    other.count = count
+    other.strength = strength
+    data = hisData
+    count = hisCount
+    strength = hisStrength
 
   /** Hands all of it on, times `weight`. */
   def addTo(splats: Splats, weight: Float): Unit =

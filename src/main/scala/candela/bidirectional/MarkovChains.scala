@@ -1,20 +1,46 @@
 package candela.bidirectional
 
-import candela.integrators.{ChainWalker, Chains, View}
+import candela.film.{Splats, View}
+import candela.integrators.{ChainWalker, SharedChains}
 import candela.sampling.{Discrete, SampleHash}
 
 import java.util.concurrent.atomic.AtomicInteger
 import java.util.concurrent.locks.LockSupport
 
-/** The chains of one rendering, and where they start: at paths thrown independently, chosen by
-  * their brightness, so that no chain has to find its way to the light first. Who needs the start
-  * helps to find it; what comes out does not depend on who did.
+/** How chains walk.
+  *
+  * @param bootstrap paths from which the mean brightness is known and the chains start
+  * @param chains    that walk independently
+  * @param largeStep probability of a path that is all new
+  * @param sigma     standard deviation of each random number in the other steps
   */
-private[bidirectional] final class MarkovChains(
-    paths: BidirectionalPathTracer,
+final case class MetropolisSettings(
+    bootstrap: Int,
+    chains: Int,
+    largeStep: Float,
+    sigma: Float,
+    seed: Int = 0
+)
+
+/** Metropolis light transport in the space of random numbers: chains of paths, each a small change
+  * of the last or all new, that come to each path as often as it is bright. The paths are those of
+  * [[BidirectionalPathTracer]], which makes one picture of one sequence of random numbers; so where
+  * light is hard to find, what has been found is explored.
+  *
+  * The chains start at paths thrown independently, chosen by their brightness, so that no chain has
+  * to find its way to the light first. Who needs the start helps to find it; what comes out does
+  * not depend on who did.
+  *
+  * Sources: Veach and Guibas, "Metropolis Light Transport", SIGGRAPH 1997; Kelemen et al., see
+  * [[PrimarySamples]]; PBRT 3rd ed., §16.4.
+  *
+  * @param tracer finds paths, and hands what they bring to the given splats
+  */
+final class MarkovChains(
+    tracer: Splats => BidirectionalPathTracer,
     settings: MetropolisSettings,
     view: View
-) extends Chains:
+) extends SharedChains:
   import MarkovChains.*
 
   val count: Int = Math.max(1, Math.min(settings.chains, view.pixels.toInt))
@@ -26,26 +52,27 @@ private[bidirectional] final class MarkovChains(
   @volatile private var failure: Option[Throwable] = None
   @volatile private var start: Option[Discrete] = None
 
-  def walker(): ChainWalker = MarkovWalker(paths.another(), settings, view, this)
+  def walker(): ChainWalker = MarkovWalker(tracer, settings, view, this)
 
   /** The mean brightness of all paths; 0 if none has brought light. */
-  def mean: Float =
+  private[bidirectional] def mean: Float =
     start.fold(0f)(found => (found.total / strengths.length).toFloat)
 
   /** The chain of this number, begun if it was not. Only once `help` has returned. */
-  def apply(chain: Int, walker: MarkovWalker): MarkovChain =
+  private[bidirectional] def apply(chain: Int, walker: MarkovWalker): MarkovChain =
     if states(chain) == null then
       val state = MarkovChain(PrimarySamples(settings.largeStep, settings.sigma), view)
       val jitter = SampleHash.toUnit(SampleHash.mix64(seed(chain, Starts)).toInt)
       for found <- start do
         state.samples.start(seed(found.sample((chain + jitter) / count), Bootstrap))
-        walker.follow(state.samples, state.current)
+        walker.follow(state.samples)
+        state.current.exchange(walker.proposed)
         state.samples.branch(seed(chain, Walks))
       states(chain) = state
     states(chain)
 
   /** Returns when it is known where chains start. */
-  def help(walker: MarkovWalker): Unit =
+  private[bidirectional] def help(walker: MarkovWalker): Unit =
     if start.isEmpty then
       try work(walker)
       catch
@@ -58,15 +85,14 @@ private[bidirectional] final class MarkovChains(
 
   private def work(walker: MarkovWalker): Unit =
     val samples = PrimarySamples(settings.largeStep, settings.sigma)
-    val found = Contribution(view)
     var part = next.getAndIncrement()
     while part < parts do
       val end = Math.min(strengths.length, (part + 1) * PartSize)
       var i = part * PartSize
       while i < end do
         samples.start(seed(i, Bootstrap))
-        walker.follow(samples, found)
-        strengths(i) = found.strength
+        walker.follow(samples)
+        strengths(i) = walker.proposed.strength
         i += 1
       if done.incrementAndGet() == parts then start = Some(Discrete(strengths))
       part = next.getAndIncrement()
@@ -74,17 +100,17 @@ private[bidirectional] final class MarkovChains(
   private def seed(number: Int, purpose: Int): Long =
     SampleHash.pixel(number, purpose, settings.seed)
 
-private object MarkovChains:
+object MarkovChains:
   /** Purposes of seeds. */
-  inline val Bootstrap = 0
-  inline val Starts = 1
-  inline val Walks = 2
+  private inline val Bootstrap = 0
+  private inline val Starts = 1
+  private inline val Walks = 2
 
-  val PartSize = 256
+  private val PartSize = 256
 
   /** Nanoseconds; short beside a bootstrap. */
-  val Pause = 50_000L
+  private val Pause = 50_000L
 
 /** Where a chain is. */
 private[bidirectional] final class MarkovChain(val samples: PrimarySamples, view: View):
-  var current: Contribution = Contribution(view)
+  val current: Contribution = Contribution(view)

@@ -1,7 +1,8 @@
 package candela.bidirectional
 
 import candela.cameras.CameraRays
-import candela.integrators.{ChainWalker, View}
+import candela.film.{Splats, View}
+import candela.integrators.ChainWalker
 
 /** Takes chains on by the rule of Metropolis et al. ("Equation of State Calculations by Fast
   * Computing Machines", 1953), and hands what they find to the film by its expected value: each
@@ -12,14 +13,15 @@ import candela.integrators.{ChainWalker, View}
   * more noise than without them.
   */
 private[bidirectional] final class MarkovWalker(
-    paths: BidirectionalPathTracer,
+    tracer: Splats => BidirectionalPathTracer,
     settings: MetropolisSettings,
     view: View,
     chains: MarkovChains
 ) extends ChainWalker:
-  private var proposed = Contribution(view)
-  private val camera = view.camera
-  private val rays = CameraRays(camera, view.shutter, view.differentialScale)
+  /** What the last path has brought. */
+  val proposed: Contribution = Contribution(view)
+  private val paths = tracer(proposed)
+  private val rays = CameraRays(view.camera, view.shutter, view.differentialScale)
 
   /** Camera paths are chosen on a part of the film, or on more than the film. */
   private val share =
@@ -51,7 +53,7 @@ private[bidirectional] final class MarkovWalker(
     while i < count do
       view.splats.begin()
       samples.propose()
-      follow(samples, proposed)
+      follow(samples)
       val here = chain.current.strength
       val there = proposed.strength
       val accept = if there >= here then 1f else there / here
@@ -61,9 +63,7 @@ private[bidirectional] final class MarkovWalker(
       if draw < accept then
         chain.current.addTo(view.splats, stay)
         samples.accept()
-        val left = chain.current
-        chain.current = proposed
-        proposed = left
+        chain.current.exchange(proposed)
         stay = pay
       else
         if there > 0f then proposed.addTo(view.splats, pay)
@@ -71,16 +71,15 @@ private[bidirectional] final class MarkovWalker(
       i += 1
     chain.current.addTo(view.splats, stay)
 
-  /** Finds all that the point stands for. */
-  def follow(samples: PrimarySamples, out: Contribution): Unit =
+  /** Finds all that the point stands for, and leaves it in `proposed`. */
+  def follow(samples: PrimarySamples): Unit =
     val s = samples.camera
-    out.clear()
+    proposed.clear()
     s.next2D()
     filmX = view.x0 + s.x * (view.x1 - view.x0)
     filmY = view.y0 + s.y * (view.y1 - view.y0)
     val weight = rays.next(filmX, filmY, s)
     if weight > 0f then
-      paths.aim(camera, out)
       val light = paths.radiance(rays.ray, samples.light, samples.joins, s)
-      if light.isFinite then out.add(filmX, filmY, light * (weight * share))
+      if light.isFinite then proposed.add(filmX, filmY, light * (weight * share))
       else refused += 1

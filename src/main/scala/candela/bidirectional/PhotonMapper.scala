@@ -1,10 +1,9 @@
 package candela.bidirectional
 
 import candela.bsdf.Bsdf
-import candela.cameras.Shutter
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.{LightTransport, Stepping}
+import candela.integrators.{LightTransport, PassIntegrator}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -22,32 +21,24 @@ import candela.scene.Scene
   * Sources: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009;
   * [[PhotonPasses]] for the radius; PBRT 3rd ed., §16.2.
   */
-final class PhotonMapper private (
+private[bidirectional] final class PhotonMapper(
     scene: Scene,
     maxDepth: Int,
     settings: PhotonSettings,
     passes: PhotonPasses
 ) extends LightTransport(scene)
-    with Stepping:
+    with PassIntegrator:
   import PhotonMapper.Sharp
-
-  def this(scene: Scene, maxDepth: Int, settings: PhotonSettings) =
-    this(scene, maxDepth, settings, PhotonPasses(settings))
 
   private val tracer = PhotonTracer(scene, settings)
   private val vertex = PathVertex(scene)
   at = vertex.at
-  private var pass = 0
-  private var pixels = 1L
-  private var shutter = Shutter(0f, 0f)
+  private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
-  def step(number: Int, pixels: Long, shutter: Shutter): Unit =
-    pass = number
-    this.pixels = pixels
-    this.shutter = shutter
+  def begin(pass: Int): Unit = photons = passes(pass, tracer)
 
   protected def over(scene: Scene): PhotonMapper =
-    new PhotonMapper(scene, maxDepth, settings, passes)
+    PhotonMapper(scene, maxDepth, settings, passes)
 
   override def raysTraced: Long = rays + tracer.raysTraced
 
@@ -58,7 +49,6 @@ final class PhotonMapper private (
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
-    val photons = passes(pass, pixels, shutter, tracer)
     var light = Rgb.Black
     var throughput = Rgb.White
     var depth = 0

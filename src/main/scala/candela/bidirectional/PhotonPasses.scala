@@ -1,8 +1,10 @@
 package candela.bidirectional
 
 import candela.cameras.Shutter
+import candela.film.View
+import candela.integrators.{PassIntegrator, SharedPasses}
 import candela.sampling.IndependentSampler
-import candela.scene.Scene
+import candela.scene.{PathReport, Scene}
 
 import java.util.concurrent.atomic.AtomicInteger
 import java.util.concurrent.locks.LockSupport
@@ -58,23 +60,30 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
   *
   * Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 30(3),
   * 2011.
+  *
+  * @param maxDepth most scattering events of a path from the camera
   */
-private[bidirectional] final class PhotonPasses(settings: PhotonSettings):
+final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, view: View)
+    extends SharedPasses:
   import PhotonPasses.*
 
-  // Workers are at most one pass apart
-  private val recent = new Array[Pass](3)
+  private val paths =
+    if settings.paths > 0 then settings.paths else Math.min(view.crop.pixels, MostPaths).toInt
+  private val shutter = view.shutter.getOrElse(Shutter(0f, 0f))
+  private val recent = new Array[Pass](SharedPasses.Open)
 
-  def apply(number: Int, pixels: Long, shutter: Shutter, tracer: PhotonTracer): PhotonMap =
-    val pass = find(number, pixels)
+  def integrator(report: Option[PathReport]): PassIntegrator =
+    PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this)
+
+  /** The photons of a pass; workers may be at work on as many as [[SharedPasses.Open]]. */
+  private[bidirectional] def apply(number: Int, tracer: PhotonTracer): PhotonMap =
+    val pass = find(number)
     if pass.map.isEmpty then pass.help(tracer, shutter)
     pass.map.get
 
-  private def find(number: Int, pixels: Long): Pass = synchronized:
+  private def find(number: Int): Pass = synchronized:
     val at = number % recent.length
     if recent(at) == null || recent(at).number != number then
-      val paths =
-        if settings.paths > 0 then settings.paths else Math.min(pixels, MostPaths).toInt
       recent(at) = Pass(number, paths, radius(number))
     recent(at)
 
@@ -83,15 +92,15 @@ private[bidirectional] final class PhotonPasses(settings: PhotonSettings):
     for k <- 1 to pass do r2 *= (k + Alpha) / (k + 1)
     Math.sqrt(r2).toFloat
 
-private object PhotonPasses:
-  val Alpha: Double = 2.0 / 3.0
-  val PartSize = 1024
-  val MostPaths = 100_000_000L
+object PhotonPasses:
+  private val Alpha: Double = 2.0 / 3.0
+  private[bidirectional] val PartSize = 1024
+  private val MostPaths = 100_000_000L
 
   /** Nanoseconds; short beside a pass. */
-  val Pause = 50_000L
+  private val Pause = 50_000L
 
-  final class Pass(val number: Int, paths: Int, radius: Float):
+  private final class Pass(val number: Int, paths: Int, radius: Float):
     private val parts = new Array[Photons]((paths + PartSize - 1) / PartSize)
     private val next = AtomicInteger()
     private val done = AtomicInteger()

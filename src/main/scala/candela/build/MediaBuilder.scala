@@ -5,8 +5,9 @@ import candela.bsdf.{InterfaceMaterial, Material}
 import candela.build.integrators.{IntegratorPlan, VolumeIntegrators, VolumeMethod}
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
-import candela.integrators.{Integrator, VolumeMarch}
+import candela.integrators.VolumeMarch
 import candela.media.{Medium, MediumBorder, Region, Regions, SceneMedia}
+import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.*
 
@@ -31,7 +32,7 @@ private[build] final class MediaBuilder(
     description.volumes
       .flatMap(v => Volumes.all.build(site(v.light, v.lightToWorld)).flatten)
       .toArray
-  private val method: VolumeMethod =
+  private val volumeMethod: VolumeMethod =
     description.volumeIntegrator
       .flatMap(d => VolumeIntegrators.all.build(Site(d, description.dialect, resources, problems)))
       .getOrElse(VolumeMethod.Default)
@@ -73,23 +74,24 @@ private[build] final class MediaBuilder(
   /** @param borders by index of the scene's materials
     * @param reach   diameter of the scene
     */
-  def integrator(
+  def method(
       scene: Scene,
       lightSamples: Array[Int],
       borders: Array[MediumBorder],
       hasInterfaces: Boolean,
       reach: Float
-  ): (Integrator, String) =
+  ): (RenderMethod, String) =
     warnOfBlindness()
     (plan.throughMedia, plan.throughVolumes) match
       case (Some(make), _) if isUsed || hasInterfaces =>
         val all = SceneMedia(media, borders, camera, reach, hasInterfaces)
-        (make(scene, all), all.describe)
+        (RenderMethod.Tiles(make(scene, all)), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)
-        val march = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
-        (make(scene, lightSamples, march), s"${volumes.describe}, ${method.describe}")
-      case _ => (plan.make(scene, lightSamples), "none")
+        val march = VolumeMarch(scene, volumes, volumeMethod.stepSize, volumeMethod.scatters)
+        val integrator = make(scene, lightSamples, march)
+        (RenderMethod.Tiles(integrator), s"${volumes.describe}, ${volumeMethod.describe}")
+      case _ => (plan.method(scene, lightSamples), "none")
 
   private def warnOfBlindness(): Unit =
     val blind =

@@ -9,10 +9,9 @@ import candela.build.sampling.{SamplerRequest, Samplers}
 import candela.build.settings.OptionRecipe
 import candela.cameras.{FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.color.ColorBasis
-import candela.film.{FilterReach, Layer, SpectralBands, VisibleSurface}
-import candela.integrators.{Chained, Splatting, Stepping}
+import candela.film.{FilterReach, Layer, PixelBounds, SpectralBands, VisibleSurface}
 import candela.math.*
-import candela.render.{LayerPlan, PixelBounds, RenderPlan}
+import candela.render.{LayerPlan, RenderPlan}
 import candela.sampling.IndependentSampler
 import candela.scene.Footprints
 import candela.scenefile.{Declaration, Dialect, SceneDescription}
@@ -96,25 +95,20 @@ object SceneBuilder:
       Footprints(integrator.followsSpecular, cone)
     val world =
       WorldBuilder(description, integrator, shutter, resources, problems).build(footprints)
-    world.integrator match
-      case _: Splatting if !camera.isTraceable =>
-        for at <- description.camera.map(_.at) do
-          problems.warn(
-            at,
-            "paths from the lights are not joined with this camera yet: light that they alone " +
-              "find there, like that of a point by way of glass, is left out"
-          )
-      case _ => ()
-    // Chains draw numbers of their own, as many as they are told
-    val isChained = world.integrator.isInstanceOf[Chained]
-    if isChained && layers.nonEmpty then
+    val method = world.method
+    if method.seesLightPaths && !camera.isTraceable then
+      for at <- description.camera.map(_.at) do
+        problems.warn(
+          at,
+          "paths from the lights are not joined with this camera yet: light that they alone " +
+            "find there, like that of a point by way of glass, is left out"
+        )
+    val usesSampler = method.takesCameraSamples
+    if !usesSampler && layers.nonEmpty then
       for at <- description.integrator.orElse(description.renderer).map(_.at) do
         problems.warn(at, "chains of paths find no layers: the image has its colours alone")
-    // Layers and paths from lights belong to the pixel that they were begun for
-    val shares = layers.isEmpty && !isChained && FilterReach.isUseful(filter) &&
-      (world.integrator match
-        case _: Splatting | _: Stepping => false
-        case _ => true)
+    // Layers belong to the pixel that they were begun for
+    val shares = layers.isEmpty && method.canShareSamples && FilterReach.isUseful(filter)
     problems.stopAtErrors()
     val plan = RenderPlan(
       width = width,
@@ -122,9 +116,10 @@ object SceneBuilder:
       crop = cropOf(film, integrator.window, width, height, options),
       camera = camera,
       filter = filter,
+      // Chains draw numbers of their own, as many as they are told
       sampler =
-        if isChained then IndependentSampler(spp.getOrElse(1), options.seed) else sampler,
-      integrator = world.integrator,
+        if usesSampler then sampler else IndependentSampler(spp.getOrElse(1), options.seed),
+      method = method,
       basis = basis,
       limit = film.limit(exposure),
       development = film.development.copy(scale = film.development.scale * exposure),
@@ -137,7 +132,7 @@ object SceneBuilder:
       differentialScale = if resources.footprintUses.isEmpty then 0f else scale,
       shutter = Option.when(motions.camera.isDefined || world.moves)(shutter),
       weighsFirst = isV4,
-      layers = Option.when(layers.nonEmpty && !isChained):
+      layers = Option.when(layers.nonEmpty && usesSampler):
         val space =
           if film.layersInWorld then Still(Transform.Identity)
           else motions.camera.fold(Still(description.worldToCamera.start))(InverseMotion(_))

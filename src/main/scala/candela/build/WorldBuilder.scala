@@ -13,10 +13,10 @@ import candela.build.settings.{Accelerators, BvhRecipe}
 import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
-import candela.integrators.Integrator
 import candela.lights.{Light, LightSelection}
 import candela.math.{Motion, Transform}
 import candela.media.MediumBorder
+import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
 import candela.scenefile.*
 import candela.shapes.{BumpTangents, Shape}
@@ -24,7 +24,7 @@ import candela.shapes.{BumpTangents, Shape}
 /** The world, ready to render, with what it holds in words. */
 final class World(
     val scene: Scene,
-    val integrator: Integrator,
+    val method: RenderMethod,
     val features: Vector[(String, String)],
     val moves: Boolean
 )
@@ -92,7 +92,7 @@ final class WorldBuilder(
     if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then
       for c <- description.camera do
         problems.warn(c.at, "the scene has no light: its image will be black")
-    val (integrator, inMedia) = media.integrator(
+    val (method, inMedia) = media.method(
       scene,
       lightSamples.toArray,
       borders.toArray,
@@ -101,7 +101,7 @@ final class WorldBuilder(
     )
     World(
       scene,
-      integrator,
+      method,
       Vector(
         "accelerator" -> accelerator.describe,
         "triangles" -> surfaces.soup.count.toString,
@@ -110,7 +110,7 @@ final class WorldBuilder(
         "masks" -> masked(surfaces +: objects),
         "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
         "subsurface" -> beneath,
-        "dispersion" -> Dispersions.describe(scene, integrator, description, problems),
+        "dispersion" -> Dispersions.describe(scene, method, description, problems),
         "ray differentials" -> resources.footprintsInWords,
         "media" -> inMedia,
         "lights" -> (if sources.isEmpty then "none" else selection.describe)

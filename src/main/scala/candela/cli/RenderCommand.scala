@@ -1,9 +1,9 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Version}
-import candela.film.SpectralBands
+import candela.film.{PixelBounds, SpectralBands}
 import candela.image.{ImageError, ImageFiles}
-import candela.render.{Cancellation, PixelBounds, Progress, Renderer, Rendering}
+import candela.render.{Cancellation, Progress, Renderer, Rendering}
 
 import java.nio.file.Path
 

@@ -3,8 +3,6 @@ package candela.film
 import candela.base.loop
 import candela.image.Image
 
-import java.util.concurrent.atomic.AtomicLong
-
 /** What the camera samples add up to, for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
   *
   * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a
@@ -31,36 +29,13 @@ final class Film(
     if shares.isDefined then 0 else Math.multiplyExact(4, Math.multiplyExact(width, height))
   )
 
-  private val refusals = AtomicLong(0)
-  private val firstRefusal = AtomicLong(Long.MaxValue)
-
-  /** Adds a sample to its pixel; one that is not finite is refused and counted instead. */
+  /** Adds a finite sample to its pixel. */
   def add(x: Int, y: Int, r: Float, g: Float, b: Float, weight: Float): Unit =
-    val pixel = (y - y0) * width + (x - x0)
-    // Infinite or NaN parts make the sum so; it costs one test instead of four.
-    if java.lang.Float.isFinite((r + g + b) * weight) || allFinite(r, g, b, weight) then
-      val at = 4 * pixel
-      sums(at) += weight.toDouble * r
-      sums(at + 1) += weight.toDouble * g
-      sums(at + 2) += weight.toDouble * b
-      sums(at + 3) += weight.toDouble
-    else
-      val _ = refusals.incrementAndGet()
-      val _ = firstRefusal.accumulateAndGet(pixel.toLong, (a, b) => Math.min(a, b))
-
-  /** Large finite values may overflow in the sum that `add` tests. */
-  private def allFinite(r: Float, g: Float, b: Float, weight: Float): Boolean =
-    import java.lang.Float.isFinite
-    isFinite(r) && isFinite(g) && isFinite(b) && isFinite(weight)
-
-  /** Samples that were NaN or infinite. */
-  def refused: Long = refusals.get
-
-  /** The first pixel, row by row, that got such a sample, whatever the order of work was. */
-  def firstRefused: Option[(Int, Int)] =
-    val pixel = firstRefusal.get
-    Option.when(pixel != Long.MaxValue):
-      ((pixel % width).toInt + x0, (pixel / width).toInt + y0)
+    val at = 4 * ((y - y0) * width + (x - x0))
+    sums(at) += weight.toDouble * r
+    sums(at + 1) += weight.toDouble * g
+    sums(at + 2) += weight.toDouble * b
+    sums(at + 3) += weight.toDouble
 
   /** A copy of what there is, to see later what was added. */
   def copy(): Film =

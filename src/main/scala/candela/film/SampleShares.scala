@@ -37,12 +37,9 @@ final class SampleShares private (
     new SampleShares(x0, y0, x1, y1, added)
 
 object SampleShares:
-  /** The pixels of a tile, whose samples go into one block: x0 ≤ x < x1, y0 ≤ y < y1. */
-  final case class Tile(x0: Int, y0: Int, x1: Int, y1: Int)
-
   /** For the pixels x0 ≤ x < x1, y0 ≤ y < y1 of the film.
     *
-    * @param tiles of all samples that count in one of these pixels
+    * @param tiles of all samples that count in one of these pixels; each has a block of its own
     */
   def apply(
       x0: Int,
@@ -50,7 +47,7 @@ object SampleShares:
       x1: Int,
       y1: Int,
       reach: FilterReach,
-      tiles: Vector[Tile]
+      tiles: Vector[PixelBounds]
   ): SampleShares =
     val blocks = tiles.map: t =>
       SharedBlock(

@@ -2,7 +2,6 @@ package candela.film
 
 import candela.base.loop
 import candela.color.{ColorBasis, Rgb}
-import candela.integrators.Splats
 
 import java.util.concurrent.atomic.{AtomicLongArray, LongAdder}
 

@@ -7,10 +7,10 @@ import candela.integrators.ChainWalker
   */
 private[render] final class ChainWorker(
     walker: ChainWalker,
-    waves: Waves,
+    schedule: Schedule,
     board: Board,
     pixels: Long
-) extends Worker(waves, board):
+) extends Worker(schedule, board):
   import ChainWorker.*
 
   def raysTraced: Long = walker.raysTraced
@@ -20,8 +20,8 @@ private[render] final class ChainWorker(
       Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
 
   protected def work(chain: Int, wave: Int): Boolean =
-    val end = paths(chain, waves.endSample(wave))
-    var left = end - paths(chain, waves.firstSample(wave))
+    val end = paths(chain, schedule.endSample(wave))
+    var left = end - paths(chain, schedule.firstSample(wave))
     while left > 0 && !board.isStopped do
       val some = Math.min(left, AtOnce)
       walker.advance(chain, some)
@@ -31,7 +31,7 @@ private[render] final class ChainWorker(
 
   /** That the chain has after so many samples per pixel. */
   private def paths(chain: Int, samples: Int): Long =
-    (samples * pixels + waves.pieces - 1 - chain) / waves.pieces
+    (samples * pixels + schedule.pieces - 1 - chain) / schedule.pieces
 
   protected def failure(cause: Throwable): RenderFailure =
     RenderFailure(walker.x, walker.y, 0, cause)

@@ -2,20 +2,14 @@ package candela.render
 
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
-import candela.film.{Development, Filter, FilterReach, Layer, SampleLimit, VisibleSurface}
-import candela.integrators.Integrator
+import candela.film.*
 import candela.sampling.Sampler
-
-/** The pixels to render, as half-open ranges of the full image: x0 ≤ x < x1, y0 ≤ y < y1. */
-final case class PixelBounds(x0: Int, y0: Int, x1: Int, y1: Int):
-  def width: Int = x1 - x0
-  def height: Int = y1 - y0
-  def pixels: Long = width.toLong * height
 
 /** A scene made ready to render: just the objects that it needs, each the plainest that is right.
   *
   * @param width        of the full image in pixels, of which `crop` is rendered
-  * @param basis        of the radiance that the integrator returns
+  * @param method       takes the samples
+  * @param basis        of the radiance that the method finds
   * @param limit        of samples, if the scene sets one
   * @param development  makes the image of what the film has gathered
   * @param differentialScale of camera rays' differentials; 0: nothing in the scene asks for them
@@ -33,7 +27,7 @@ final class RenderPlan(
     val camera: Camera,
     val filter: Filter,
     val sampler: Sampler,
-    val integrator: Integrator,
+    val method: RenderMethod,
     val basis: ColorBasis,
     val limit: Option[SampleLimit],
     val development: Development,
@@ -56,6 +50,13 @@ final class RenderPlan(
         crop.x1 + reach.beyondX,
         crop.y1 + reach.beyondY
       )
+
+  /** What the method sees of it.
+    *
+    * @param splats receives what paths from the lights bring
+    */
+  def view(splats: Splats): View =
+    View(camera, splats, width, height, crop, filter, shutter, differentialScale)
 
 /** Layers of an image, and the surface that they are taken from. */
 final case class LayerPlan(layers: Vector[Layer], surface: VisibleSurface)

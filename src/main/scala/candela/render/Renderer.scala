@@ -1,8 +1,6 @@
 package candela.render
 
 import candela.color.Rgb
-import candela.film.{Film, FilterReach, FilterSampler, LayerFilm, SampleShares, SplatFilm}
-import candela.integrators.{Chained, Splatting, Stepping, View}
 import candela.scene.PathReport
 
 /** Turns a plan into an image. */
@@ -28,25 +26,10 @@ object Renderer:
     def seconds = (System.nanoTime - started - paused) * 1e-9
 
     val samplesPerPixel = plan.sampler.samplesPerPixel
-    val PixelBounds(x0, y0, x1, y1) = plan.crop
-    val splats = plan.integrator match
-      case _: Splatting =>
-        Some(
-          SplatFilm(
-            x0,
-            y0,
-            x1,
-            y1,
-            plan.filter,
-            plan.width.toDouble * plan.height,
-            plan.basis,
-            plan.limit
-          )
-        )
-      case _ => None
-    val film = Film(x0, y0, x1, y1, splats, shares(plan, plan.crop, plan.sampled))
-    val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
-    val (schedule, board, workers) = crew(plan, threads, cancellation, film, layers)
+    val job = Job(plan)
+    val schedule = job.schedule
+    val board = Board(schedule, cancellation)
+    val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt)(job.worker(board))
 
     val total = plan.sampled.pixels * samplesPerPixel
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
@@ -57,68 +40,19 @@ object Renderer:
       for w <- witness if !board.isStopped do
         val pass = Pass(schedule.firstSample(end), begin, seconds, workers.map(_.seconds))
         val stopped = System.nanoTime
-        w.passed(pass, film)
+        w.passed(pass, job.film)
         paused += System.nanoTime - stopped
     progress()
 
     Rendering(
-      film,
+      job.film,
       samplesPerPixel,
       board.samplesDone,
       board.samplesTaken.sum,
       workers.map(_.raysTraced).sum,
       seconds,
       firstOf(workers.flatMap(_.refused)),
-      layers
-    )
-
-  private def crew(
-      plan: RenderPlan,
-      threads: Int,
-      cancellation: Cancellation,
-      film: Film,
-      layers: Option[LayerFilm]
-  ): (Waves, Board, Vector[Worker]) =
-    def workers(waves: Waves)(worker: Board => Worker) =
-      val board = Board(waves, cancellation)
-      (waves, board, Vector.fill(Math.min(threads.toLong, waves.steps).toInt)(worker(board)))
-    val samples = plan.sampler.samplesPerPixel
-    (plan.integrator, film.splats) match
-      case (chained: Chained, Some(splats)) =>
-        val chains = chained.chains(view(plan, splats))
-        val waves = Waves(chains.count, samples)
-        workers(waves)(ChainWorker(chains.walker(), waves, _, plan.crop.pixels))
-      case (integrator, _) =>
-        val largest = integrator match
-          case _: Stepping => 1
-          case _ => Waves.Largest
-        val filterSampler = new FilterSampler(plan.filter)
-        val schedule = Schedule(plan.sampled, samples, largest)
-        workers(schedule)(TileWorker(plan, schedule, _, film, layers, filterSampler.copy()))
-
-  /** Accumulators of samples that contribute to several pixels; None if the plan has none. */
-  private def shares(
-      plan: RenderPlan,
-      film: PixelBounds,
-      sampled: PixelBounds
-  ): Option[SampleShares] =
-    Option.when(plan.sharesSamples):
-      val tiles = Schedule.tilesOf(sampled).map(t => SampleShares.Tile(t.x0, t.y0, t.x1, t.y1))
-      SampleShares(film.x0, film.y0, film.x1, film.y1, FilterReach(plan.filter), tiles)
-
-  /** All places of the film that can add to a pixel. */
-  private def view(plan: RenderPlan, splats: SplatFilm): View =
-    val (beyondX, beyondY) = (plan.filter.radiusX - 0.5f, plan.filter.radiusY - 0.5f)
-    View(
-      plan.camera,
-      splats,
-      plan.crop.x0 - beyondX,
-      plan.crop.y0 - beyondY,
-      plan.crop.x1 + beyondX,
-      plan.crop.y1 + beyondY,
-      plan.width.toDouble * plan.height,
-      plan.shutter,
-      plan.differentialScale
+      job.layers
     )
 
   /** Takes one sample by itself, the very one that [[render]] takes, and tells `report` what
@@ -127,19 +61,7 @@ object Renderer:
     * @return how the film has it: its light, or none if it was refused
     */
   def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
-    val bounds = PixelBounds(x, y, x + 1, y + 1)
-    val schedule = Schedule(bounds, plan.sampler.samplesPerPixel)
-    val film = Film(x, y, x + 1, y + 1, shares = shares(plan, bounds, bounds))
-    val layers = None
-    val worker = TileWorker(
-      plan,
-      schedule,
-      Board(schedule, Cancellation()),
-      film,
-      layers,
-      new FilterSampler(plan.filter),
-      Some(report)
-    )
+    val (film, worker) = Job.single(plan, x, y, report)
     worker.take(x, y, sample)
     val data = film.toImage(1f).data
     Option.when(worker.refused.isEmpty)(Rgb(data(0), data(1), data(2)))

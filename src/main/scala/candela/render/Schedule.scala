@@ -1,27 +1,70 @@
 package candela.render
 
-/** Waves over the tiles of an image, row by row. */
-private[render] final class Schedule(
-    crop: PixelBounds,
+import candela.film.PixelBounds
+
+/** In which order the pieces of a rendering are done: waves of samples, each over all pieces.
+  *
+  * The waves grow (1, 1, 2, 4, … 64 samples per pixel), so that an image which is cut short is
+  * noisy evenly, while a long rendering rarely comes back to a piece.
+  *
+  * @param largestWave samples per pixel
+  * @param openWaves   that may be in work at a time: a wave begins only when the one so many before
+  *                    it is finished
+  */
+private[render] class Schedule(
+    val pieces: Int,
     samplesPerPixel: Int,
-    largestWave: Int = Waves.Largest
-) extends Waves(Schedule.tiles(crop), samplesPerPixel, largestWave):
-  def tile(index: Int): PixelBounds = Schedule.tile(crop, index)
+    largestWave: Int = Schedule.LargestWave,
+    val openWaves: Int = Int.MaxValue
+):
+
+  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1): each doubles what there is.
+  private val waveStarts: Array[Int] =
+    Iterator
+      .iterate(0)(start => start + Math.min(Math.max(start, 1), largestWave))
+      .takeWhile(_ < samplesPerPixel)
+      .toArray :+ samplesPerPixel
+
+  val waves: Int = waveStarts.length - 1
+
+  /** One piece in one wave is one step; the steps of a wave are consecutive. */
+  val steps: Long = waves.toLong * pieces
+
+  def firstSample(wave: Int): Int = waveStarts(wave)
+
+  /** One more than the last sample of the wave. */
+  def endSample(wave: Int): Int = waveStarts(wave + 1)
+
+  /** After which waves every pixel has 1, 2, 4, 8, … samples, and after which it has all. */
+  def passes: Vector[Int] = (1 to waves).toVector.filter: end =>
+    end == waves || Integer.bitCount(waveStarts(end)) == 1
 
 private[render] object Schedule:
+
+  /** Longer visits to a piece would not be cheaper. */
+  val LargestWave: Int = 64
+
+/** A schedule whose pieces are the tiles of an image, row by row. */
+private[render] final class TileSchedule(
+    bounds: PixelBounds,
+    samplesPerPixel: Int,
+    largestWave: Int = Schedule.LargestWave,
+    openWaves: Int = Int.MaxValue
+) extends Schedule(TileSchedule.count(bounds), samplesPerPixel, largestWave, openWaves):
+
+  val tiles: Vector[PixelBounds] =
+    Vector.tabulate(pieces)(TileSchedule.tile(bounds, _))
+
+private[render] object TileSchedule:
 
   /** Pixels along a tile's edge: small enough that all workers end at about the same time. */
   val TileSize: Int = 16
 
-  /** All tiles of an image, in their order. */
-  def tilesOf(crop: PixelBounds): Vector[PixelBounds] =
-    Vector.tabulate(tiles(crop))(tile(crop, _))
+  private def columns(bounds: PixelBounds): Int = (bounds.width + TileSize - 1) / TileSize
+  private def rows(bounds: PixelBounds): Int = (bounds.height + TileSize - 1) / TileSize
+  private def count(bounds: PixelBounds): Int = Math.multiplyExact(columns(bounds), rows(bounds))
 
-  private def tile(crop: PixelBounds, index: Int): PixelBounds =
-    val x = crop.x0 + index % columns(crop) * TileSize
-    val y = crop.y0 + index / columns(crop) * TileSize
-    PixelBounds(x, y, Math.min(x + TileSize, crop.x1), Math.min(y + TileSize, crop.y1))
-
-  private def columns(crop: PixelBounds): Int = (crop.width + TileSize - 1) / TileSize
-  private def rows(crop: PixelBounds): Int = (crop.height + TileSize - 1) / TileSize
-  private def tiles(crop: PixelBounds): Int = Math.multiplyExact(columns(crop), rows(crop))
+  private def tile(bounds: PixelBounds, index: Int): PixelBounds =
+    val x = bounds.x0 + index % columns(bounds) * TileSize
+    val y = bounds.y0 + index / columns(bounds) * TileSize
+    PixelBounds(x, y, Math.min(x + TileSize, bounds.x1), Math.min(y + TileSize, bounds.y1))

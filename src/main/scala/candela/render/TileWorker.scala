@@ -1,31 +1,26 @@
 package candela.render
 
-import candela.cameras.{CameraRays, Shutter}
+import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.*
-import candela.integrators.{Splatting, Stepping}
-import candela.scene.PathReport
+import candela.integrators.Integrator
 
-/** Renders tiles, pixel by pixel. */
+/** Renders tiles, pixel by pixel.
+  *
+  * @param beginWave is told the first sample of each wave of a tile
+  */
 private[render] final class TileWorker(
     plan: RenderPlan,
-    schedule: Schedule,
+    schedule: TileSchedule,
     board: Board,
     film: Film,
     layers: Option[LayerFilm],
     filterSampler: FilterSampler,
-    report: Option[PathReport] = None
+    integrator: Integrator,
+    beginWave: Int => Unit = _ => ()
 ) extends Worker(schedule, board):
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
-  private val integrator =
-    report.fold(plan.integrator.copy())(plan.integrator.reported)
-  integrator match
-    case i: Splatting => i.aim(camera, film.splats.orNull)
-    case _ => ()
-  private val stepping: Stepping | Null = integrator match
-    case i: Stepping => i
-    case _ => null
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
   private val ray = rays.ray
   private val weighs = camera.weighs
@@ -33,7 +28,6 @@ private[render] final class TileWorker(
   private val limit: SampleLimit | Null = plan.limit.orNull
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
-  private val shutter = plan.shutter.getOrElse(Shutter(0f, 0f))
 
   // Where samples go that several pixels share: the block of the tile
   private val shares: SampleShares | Null = film.shares.orNull
@@ -52,21 +46,23 @@ private[render] final class TileWorker(
     Option.when(refusedCount > 0):
       Refused(refusedCount, refusedX, refusedY, refusedSample, refusedMaterial)
 
-  /** Takes one sample, whatever the schedule says. */
+  /** Takes one sample of the first tile, whatever the schedule says. */
   def take(x: Int, y: Int, sample: Int): Unit =
     this.x = x
     this.y = y
     this.sample = sample
-    turnTo(0)
+    begin(0, sample)
     takeSample()
 
   protected def failure(cause: Throwable): RenderFailure = RenderFailure(x, y, sample, cause)
 
   protected def work(tile: Int, wave: Int): Boolean =
-    turnTo(tile)
-    renderTile(schedule.tile(tile), wave)
+    begin(tile, schedule.firstSample(wave))
+    renderTile(schedule.tiles(tile), wave)
 
-  private def turnTo(tile: Int): Unit = if shares != null then block = shares.block(tile)
+  private def begin(tile: Int, firstSample: Int): Unit =
+    if shares != null then block = shares.block(tile)
+    beginWave(firstSample)
 
   /** False if it was told to stop on the way. */
   private def renderTile(tile: PixelBounds, wave: Int): Boolean =
@@ -110,22 +106,19 @@ private[render] final class TileWorker(
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
       if visible != null then visible.look(ray)
-      if stepping != null then stepping.step(sample, plan.crop.pixels, shutter)
       val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
-      if radiance.isFinite then record(if weighs then weighed(radiance, weight) else radiance)
+      val seen = if weighs then weighed(radiance, weight) else radiance
+      val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
+      if light.isFinite then
+        add(light)
+        if layerFilm != null && visible != null then
+          layerFilm.add(x, y, light, filterSampler.weight, visible)
       else refuse()
-
-  private def record(radiance: Rgb): Unit =
-    val light = if limit != null && !weighsLast then radiance * limit.scale(radiance) else radiance
-    add(light)
-    if layerFilm != null && visible != null then
-      layerFilm.add(x, y, light, filterSampler.weight, visible)
 
   private def add(light: Rgb): Unit =
     val shared = block
     if shared == null then film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
-    else if light.isFinite then shared.add(filmX, filmY, light.r, light.g, light.b)
-    else refuse()
+    else shared.add(filmX, filmY, light.r, light.g, light.b)
 
   private def weighed(radiance: Rgb, weight: Float): Rgb =
     if limit != null && weighsLast then radiance * (limit.scale(radiance) * weight)

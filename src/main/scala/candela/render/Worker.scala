@@ -3,7 +3,7 @@ package candela.render
 /** One of several that make the same image: takes pieces of work from the board, wave by wave, and
   * owns all that it scribbles on.
   */
-private[render] abstract class Worker(waves: Waves, board: Board) extends Runnable:
+private[render] abstract class Worker(schedule: Schedule, board: Board) extends Runnable:
   def raysTraced: Long
   def refused: Option[Refused]
 
@@ -23,8 +23,8 @@ private[render] abstract class Worker(waves: Waves, board: Board) extends Runnab
     try
       var step = board.takeStep()
       while step >= 0 do
-        val wave = (step / waves.pieces).toInt
-        val piece = (step % waves.pieces).toInt
+        val wave = (step / schedule.pieces).toInt
+        val piece = (step % schedule.pieces).toInt
         if board.awaitTurn(piece, wave) && work(piece, wave) then board.finish(piece, wave)
         step = board.takeStep()
       runNanos = System.nanoTime - started

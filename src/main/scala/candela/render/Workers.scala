@@ -4,10 +4,12 @@ import java.util.concurrent.atomic.{AtomicIntegerArray, AtomicLong, AtomicRefere
 import java.util.concurrent.locks.LockSupport
 
 /** What the workers of one rendering share: who does what, what is done, and whether to stop. */
-private[render] final class Board(schedule: Waves, cancellation: Cancellation):
+private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
   private var endStep = 0L // changed only while there are no workers
   private val finishedWaves = AtomicIntegerArray(schedule.pieces)
+  private val limitsWaves = schedule.openWaves < schedule.waves
+  private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.waves else 0)
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
 
@@ -29,17 +31,26 @@ private[render] final class Board(schedule: Waves, cancellation: Cancellation):
     val step = nextStep.getAndIncrement()
     if step < endStep && !isStopped then step else -1L
 
-  /** Waits until the earlier waves of a piece are finished; false if they won't be.
+  /** Waits until the earlier waves of a piece are finished, and until the schedule opens this wave;
+    * false if that won't be.
     *
     * Another worker may still be at them. There is no deadlock, since steps are taken in order:
     * whoever waits, waits for an earlier step. This is also what makes that worker's sums visible
     * to this one.
     */
   def awaitTurn(piece: Int, wave: Int): Boolean =
-    while finishedWaves.get(piece) < wave && !isStopped do LockSupport.parkNanos(Board.Pause)
-    finishedWaves.get(piece) == wave
+    while !isTurn(piece, wave) && !isStopped do LockSupport.parkNanos(Board.Pause)
+    isTurn(piece, wave)
 
-  def finish(piece: Int, wave: Int): Unit = finishedWaves.set(piece, wave + 1)
+  private[render] def isTurn(piece: Int, wave: Int): Boolean =
+    finishedWaves.get(piece) == wave &&
+      (wave < schedule.openWaves ||
+        finishedPieces.get(wave - schedule.openWaves) == schedule.pieces)
+
+  def finish(piece: Int, wave: Int): Unit =
+    finishedWaves.set(piece, wave + 1)
+    if limitsWaves then
+      val _ = finishedPieces.incrementAndGet(wave)
 
   /** Samples that every pixel has. */
   def samplesDone: Int =

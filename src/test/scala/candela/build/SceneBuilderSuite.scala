@@ -3,9 +3,9 @@ package candela.build
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.SceneError
-import candela.film.{BoxFilter, GaussianFilter}
-import candela.integrators.{DirectLighting, PathTracer}
-import candela.render.{PixelBounds, RenderPlan}
+import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
+import candela.integrators.{DirectLighting, Integrator, PathTracer}
+import candela.render.{RenderMethod, RenderPlan}
 import candela.sampling.{HaltonSampler, OwenSobolSampler, ZSobolSampler}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -13,6 +13,10 @@ import candela.testing.SceneTexts
 final class SceneBuilderSuite extends AnyFunSuite:
   private val nothing = "WorldBegin\n"
   private val film = """Film "image" "integer xresolution" 80 "integer yresolution" 40"""
+
+  private def integrator(plan: RenderPlan): Integrator = plan.method match
+    case RenderMethod.Tiles(integrator) => integrator
+    case other => fail(s"$other")
 
   private def feature(plan: RenderPlan, name: String): String =
     plan.features.collectFirst { case (`name`, v) => v }.get
@@ -22,7 +26,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert((plan.width, plan.height) == (640, 480))
     assert(plan.filter.isInstanceOf[BoxFilter] && plan.filter.radiusX == 0.5f)
     assert(plan.sampler.isInstanceOf[OwenSobolSampler] && plan.sampler.samplesPerPixel == 4)
-    assert(plan.integrator.isInstanceOf[DirectLighting])
+    assert(integrator(plan).isInstanceOf[DirectLighting])
     assert(plan.basis.isSrgb)
 
   test("where the scene says nothing, pbrt-v3's defaults hold"):
@@ -30,7 +34,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert((plan.width, plan.height) == (1280, 720))
     assert(plan.filter.isInstanceOf[BoxFilter] && plan.filter.radiusX == 0.5f)
     assert(plan.sampler.isInstanceOf[HaltonSampler] && plan.sampler.samplesPerPixel == 16)
-    assert(plan.integrator.isInstanceOf[PathTracer])
+    assert(integrator(plan).isInstanceOf[PathTracer])
     assert(plan.basis.isSrgb)
 
   test("where the scene says nothing, pbrt-v4's defaults hold"):
@@ -38,7 +42,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert((plan.width, plan.height) == (1280, 720))
     assert(plan.filter.isInstanceOf[GaussianFilter] && plan.filter.radiusX == 1.5f)
     assert(plan.sampler.isInstanceOf[ZSobolSampler] && plan.sampler.samplesPerPixel == 16)
-    assert(plan.integrator.isInstanceOf[PathTracer])
+    assert(integrator(plan).isInstanceOf[PathTracer])
     assert(!plan.basis.isSrgb)
 
   test("the whole image is rendered unless the scene or the caller crops it"):

@@ -29,21 +29,9 @@ class FilmSuite extends AnyFunSuite:
     for _ <- 0 until 1000000 do film.add(0, 0, 0.1f, 0.2f, 0.3f, 0.7f)
     assert(film.toImage(1f).data.toVector == Vector(0.1f, 0.2f, 0.3f))
 
-  test("samples that are not finite are refused and counted, the first pixel by rows kept"):
-    val film = Film(5, 5, 9, 9)
-    assert(film.refused == 0 && film.firstRefused.isEmpty)
-    film.add(6, 7, Float.NaN, 0f, 0f, 1f)
-    film.add(8, 6, 0f, Float.PositiveInfinity, Float.NegativeInfinity, 1f)
-    film.add(7, 8, 0f, 0f, 0f, Float.NaN)
-    film.add(7, 8, Float.PositiveInfinity, 0f, 0f, 0f)
-    assert(film.refused == 4)
-    assert(film.firstRefused.contains((8, 6)))
-    assert(film.toImage(1f).data.forall(_ == 0f))
-
   test("finite samples are taken however large"):
     val film = Film(0, 0, 1, 1)
     film.add(0, 0, Float.MaxValue, Float.MaxValue, 1f, 2f)
-    assert(film.refused == 0)
     assert(film.toImage(1f).data.toVector == Vector(Float.MaxValue, Float.MaxValue, 1f))
 
   test("what was added since a copy is seen alone"):

@@ -16,7 +16,7 @@ class SampleSharesSuite extends AnyFunSuite:
 
   // A film of 6 × 5 pixels at (10, 20), with two tiles side by side and all around
   private val tiles =
-    Vector(SampleShares.Tile(6, 16, 12, 29), SampleShares.Tile(12, 16, 20, 29))
+    Vector(PixelBounds(6, 16, 12, 29), PixelBounds(12, 16, 20, 29))
   private def shares(filter: Filter) =
     SampleShares(10, 20, 16, 25, FilterReach(filter), tiles)
   private def image(s: SampleShares): Image =

@@ -1,6 +1,6 @@
 package candela.render
 
-import candela.film.Filter
+import candela.film.{Filter, PixelBounds}
 import candela.image.Image
 import candela.testing.IncompleteGamma
 

@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.color.Rgb
-import candela.film.{Film, SampleLimit}
+import candela.film.{Film, PixelBounds, SampleLimit}
 import candela.image.Image
 
 import java.util.concurrent.ConcurrentHashMap

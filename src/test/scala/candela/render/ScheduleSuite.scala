@@ -1,28 +1,43 @@
 package candela.render
 
+import candela.film.PixelBounds
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class ScheduleSuite extends AnyFunSuite:
   private val crop = PixelBounds(3, 5, 50, 41)
 
   test("waves double what there is, up to 64 samples at a time"):
-    val schedule = Schedule(crop, 300)
+    val schedule = TileSchedule(crop, 300)
     val starts = (0 to schedule.waves).map(schedule.firstSample)
     assert(starts == Vector(0, 1, 2, 4, 8, 16, 32, 64, 128, 192, 256, 300))
 
   test("waves cover every sample once, for any count"):
     for samples <- 1 to 140 do
-      val schedule = Schedule(crop, samples)
+      val schedule = TileSchedule(crop, samples)
       val covered = (0 until schedule.waves).flatMap: wave =>
         schedule.firstSample(wave) until schedule.endSample(wave)
       assert(covered == (0 until samples))
 
+  test("a wave begins when the pieces of the one before the last are all finished"):
+    val schedule = TileSchedule(crop, 5, largestWave = 1, openWaves = 2)
+    val board = Board(schedule, Cancellation())
+    val last = schedule.pieces - 1
+    for wave <- 0 until 2; piece <- 0 until last do
+      assert(board.isTurn(piece, wave))
+      board.finish(piece, wave)
+    assert(!board.isTurn(0, 2))
+    board.finish(last, 0)
+    assert(board.isTurn(0, 2) && !board.isTurn(last, 2))
+    board.finish(0, 2)
+    assert(!board.isTurn(0, 3))
+
   test("tiles cover every pixel of the crop once, and no other"):
-    val schedule = Schedule(crop, 1)
+    val schedule = TileSchedule(crop, 1)
     val covered =
       for
         i <- 0 until schedule.pieces
-        tile = schedule.tile(i)
+        tile = schedule.tiles(i)
         y <- tile.y0 until tile.y1
         x <- tile.x0 until tile.x1
       yield (x, y)
@@ -31,7 +46,7 @@ class ScheduleSuite extends AnyFunSuite:
     assert(covered.toSet == wanted.toSet)
 
   test("an image smaller than a tile is one tile"):
-    val schedule = Schedule(PixelBounds(7, 7, 8, 9), 4)
+    val schedule = TileSchedule(PixelBounds(7, 7, 8, 9), 4)
     assert(schedule.pieces == 1)
-    assert(schedule.tile(0) == PixelBounds(7, 7, 8, 9))
+    assert(schedule.tiles(0) == PixelBounds(7, 7, 8, 9))
     assert(schedule.steps == schedule.waves)

@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.color.Rgb
-import candela.film.{Film, Filter, GaussianFilter, TriangleFilter}
+import candela.film.{Film, Filter, GaussianFilter, PixelBounds, TriangleFilter}
 import candela.image.Image
 import candela.sampling.Sampler
 

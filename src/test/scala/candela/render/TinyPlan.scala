@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.Camera
 import candela.color.Rgb
-import candela.film.{BoxFilter, Development, Filter, SampleLimit}
+import candela.film.{BoxFilter, Development, Filter, PixelBounds, SampleLimit}
 import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.math.Vec3
@@ -33,7 +33,7 @@ object TinyPlan:
       FlatCamera,
       filter,
       HashSampler(spp),
-      Formula(radiance),
+      RenderMethod.Tiles(Formula(radiance)),
       candela.color.ColorBasis.Srgb,
       limit,
       Development(),

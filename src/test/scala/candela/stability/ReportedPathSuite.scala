@@ -6,6 +6,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.BuildOptions
 import candela.color.Rgb
 import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
@@ -16,6 +17,12 @@ import candela.testing.SceneTexts
 /** What is no number never reaches the film, and one can see where it is from. */
 class ReportedPathSuite extends AnyFunSuite:
   private val lamp = """LightSource "point" "point from" [0 0 2] "rgb I" [8 8 8]"""
+
+  private val ball = """AttributeBegin
+    AreaLightSource "diffuse" "rgb L" [8 8 8]
+    Translate 0 0 2
+    Shape "sphere" "float radius" .8
+    AttributeEnd"""
 
   test("the path of one sample is told, and is the one that is rendered"):
     for integrator <- Seq("\"path\"", "\"whitted\"", "\"directlighting\"", "\"volpath\"") do
@@ -45,6 +52,19 @@ class ReportedPathSuite extends AnyFunSuite:
           if !Renderer.trace(plan, x, y, 0, PathReport(_ => ())).contains(rendered)
         yield (x, y)
       assert(different.isEmpty)
+
+  test("so it is where light paths are joined to it"):
+    // A pixel by itself: few splats come to it
+    val pixels = for y <- 0 until 4; x <- 0 until 4 yield (x, y)
+    val same = pixels.count: (x, y) =>
+      val window = (x / 4f, (x + 1) / 4f, y / 4f, (y + 1) / 4f)
+      val text = LitPlane.scene("\"bdpt\"", spp = 1, ball)
+      val plan = SceneTexts.plan(text, options = BuildOptions(cropWindow = Some(window)))
+      val image = Renderer.render(plan, threads = 1).film.toImage(1f)
+      Renderer.trace(plan, x, y, 0, PathReport(_ => ())).contains(
+        Rgb(image.data(0), image.data(1), image.data(2))
+      )
+    assert(same > 10, s"$same of ${pixels.size}")
 
   test("a sample that is no number is none, and the first one is named with its material"):
     val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)

@@ -3,7 +3,7 @@ package candela.bench
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.cameras.CameraRays
 import candela.film.FilterSampler
-import candela.render.RenderPlan
+import candela.render.{RenderMethod, RenderPlan}
 import candela.scenefile.Parser
 
 import java.lang.management.ManagementFactory
@@ -34,7 +34,9 @@ object Garbage:
 
   private final class Paths(plan: RenderPlan):
     private val sampler = plan.sampler.copy()
-    private val integrator = plan.integrator.copy()
+    private val integrator = plan.method match
+      case RenderMethod.Tiles(integrator) => integrator.copy()
+      case other => sys.error(s"only camera paths are counted: $other")
     private val filter = new FilterSampler(plan.filter)
     private val rays = CameraRays(plan.camera, plan.shutter, plan.differentialScale)
     private var sum = 0.0 // so that nothing is left out as unused

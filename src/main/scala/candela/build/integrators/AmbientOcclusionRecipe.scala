@@ -4,6 +4,7 @@ import candela.build.recipe.*
 import candela.color.Rgb
 import candela.integrators.{AmbientOcclusion, Occlusion}
 import candela.math.*
+import candela.render.RenderMethod
 import candela.scenefile.Dialect
 
 /** In each dialect another picture: v2's value is the part of the rays that meet nothing, v3's
@@ -53,7 +54,7 @@ object AmbientOcclusionRecipe
       case Dialect.V4 =>
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, showsSky = false)
     windowed(IntegratorPlan(
-      (scene, _) => AmbientOcclusion(scene, rule),
+      (scene, _) => RenderMethod.Tiles(AmbientOcclusion(scene, rule)),
       samplesBsdf = true,
       s"ambientocclusion, ${rule.samples} rays from each point",
       isLit = false,

@@ -2,8 +2,11 @@ package candela.build.integrators
 
 import candela.bidirectional.*
 import candela.build.recipe.*
+import candela.film.{Splats, View}
 import candela.integrators.LightTransport.RouletteAfter
 import candela.integrators.{PathThroughVolumes, VolumePathTracer}
+import candela.render.RenderMethod
+import candela.scene.Scene
 import candela.scenefile.Dialect
 
 /** How [[BidirectionalPathTracer]] is made, for all that is rendered by it. */
@@ -15,8 +18,7 @@ private[build] object BidirectionalPlans:
     val dialect = site.dialect
     val shown = if name == "bdpt" then name else s"bdpt for $name"
     IntegratorPlan(
-      (scene, _) =>
-        BidirectionalPathTracer(scene, most, RouletteAfter, dialect != Dialect.V2, widens),
+      (scene, _) => RenderMethod.SplattedTiles(v => tracer(scene, v, most, widens)(v.splats)),
       samplesBsdf = false,
       s"$shown, up to $most scattering events" + (if widens then ", regularized" else ""),
       followsSpecular = dialect == Dialect.V4,
@@ -31,7 +33,15 @@ private[build] object BidirectionalPlans:
         PathThroughVolumes(scene, march, most, RouletteAfter, 1f)
     )
 
-  /** Of [[Metropolis]]: where there are media or volumes, as above.
+  private def tracer(scene: Scene, view: View, depth: Int, widens: Boolean)(splats: Splats)(
+      using site: Site
+  ): BidirectionalPathTracer =
+    val compresses = site.dialect != Dialect.V2
+    BidirectionalPathTracer(
+      scene, view.camera, splats, depth, RouletteAfter, compresses, widens
+    )
+
+  /** Of [[MarkovChains]]: where there are media or volumes, as above.
     *
     * @param mutations for each pixel
     */
@@ -54,10 +64,12 @@ private[build] object BidirectionalPlans:
       site.error(s"`largestepprobability` must be in [0, 1]; found ${settings.largeStep}")
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
-    val compresses = site.dialect != Dialect.V2
     plan(name, depth, widens).copy(
-      make = (scene, _) =>
-        Metropolis(BidirectionalPathTracer(scene, most, RouletteAfter, compresses, widens), seeded),
+      method = (scene, _) =>
+        RenderMethod.Chains(
+          v => MarkovChains(tracer(scene, v, most, widens), seeded, v),
+          v => tracer(scene, v, most, widens)(v.splats)
+        ),
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))
     )
@@ -65,7 +77,7 @@ private[build] object BidirectionalPlans:
   private val Lack =
     "the same light but for that of lamps that are points, by way of mirrors or glass"
 
-/** How [[PhotonMapper]] is made. */
+/** How [[PhotonPasses]] are made. */
 private[build] object PhotonPlans:
 
   /** @param depth  scattering events of a path from the camera
@@ -80,7 +92,7 @@ private[build] object PhotonPlans:
     BidirectionalPlans
       .plan(name, most)
       .copy(
-        make = (scene, _) => PhotonMapper(scene, most, seeded),
+        method = (scene, _) => RenderMethod.Passes(PhotonPasses(scene, most, seeded, _)),
         describe =
           s"$name, up to $most scattering events, photons within ${settings.radius} at first",
         samples = passes,

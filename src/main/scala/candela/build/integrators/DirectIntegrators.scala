@@ -2,6 +2,7 @@ package candela.build.integrators
 
 import candela.build.recipe.*
 import candela.integrators.{DirectLighting, Whitted}
+import candela.render.RenderMethod
 
 object DirectLightingRecipe
     extends IntegratorRecipe(
@@ -17,7 +18,10 @@ object DirectLightingRecipe
   protected def make()(using Site): IntegratorPlan =
     val (depth, every) = (Math.max(1, maxDepth()), strategy() != "one")
     windowed(IntegratorPlan(
-      (scene, samples) => DirectLighting(scene, depth, if every then samples else Array.empty),
+      (scene, samples) =>
+        RenderMethod.Tiles(
+          DirectLighting(scene, depth, if every then samples else Array.empty)
+        ),
       // Only when each light has its turn can one of them be left to BSDF sampling
       samplesBsdf = every,
       s"directlighting, ${if every then "all lights" else "one light"} at each point",
@@ -33,7 +37,7 @@ object WhittedRecipe
   protected def make()(using Site): IntegratorPlan =
     val depth = Math.max(1, maxDepth())
     windowed(IntegratorPlan(
-      (scene, _) => Whitted(scene, depth),
+      (scene, _) => RenderMethod.Tiles(Whitted(scene, depth)),
       samplesBsdf = false,
       "whitted",
       throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))

@@ -1,7 +1,7 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
-import candela.integrators.Integrator
+import candela.render.RenderMethod
 import candela.sampling.Wavelengths
 import candela.scene.Scene
 import candela.scenefile.SceneDescription
@@ -16,12 +16,12 @@ private[build] object Dispersions:
   /** In words; with a warning if the integrator can't. */
   def describe(
       scene: Scene,
-      integrator: Integrator,
+      method: RenderMethod,
       description: SceneDescription,
       problems: Findings
   ): String =
     if !scene.isDispersive then "none"
-    else if integrator.splitsLight then "paths take one wavelength where light is split"
+    else if method.splitsLight then "paths take one wavelength where light is split"
     else
       for d <- description.integrator.orElse(description.camera) do
         problems.warn(

@@ -1,16 +1,18 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
+import candela.film.PixelBounds
 import candela.integrators.*
 import candela.lights.LightStrategy
 import candela.media.SceneMedia
-import candela.render.PixelBounds
+import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
-/** An integrator to be made once the scene is known.
+/** An integrator and its method, to be made once the scene is known.
   *
-  * @param make         takes the scene and how often each light is to be sampled
+  * @param method       how samples are organised, and by what they are taken; made of the scene and
+  *                     how often each light is to be sampled
   * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
   * @param goesBeneath  does light travel beneath surfaces?
   * @param window       of the full image that is rendered, if not all of it is
@@ -18,11 +20,11 @@ import candela.scenefile.Dialect
   * @param lights       how the light to sample is chosen
   * @param isLit        do lights matter? Else a scene without them is no mistake
   * @param followsSpecular are textures filtered in mirrors and behind glass, too?
-  * @param throughMedia   makes the integrator where there are media, if it sees them
+  * @param throughMedia   makes the integrator of tiles where there are media, if it sees them
   * @param throughVolumes likewise for v2's volumes
   */
 final case class IntegratorPlan(
-    make: (Scene, Array[Int]) => Integrator,
+    method: (Scene, Array[Int]) => RenderMethod,
     samplesBsdf: Boolean,
     describe: String,
     followsSpecular: Boolean = true,
@@ -98,7 +100,8 @@ trait PathInstead extends Recipe[IntegratorPlan]:
   protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
     IntegratorPlan(
-      (scene, _) => PathTracer(scene, most, 1, 1f, Dispersions.wavelengths(scene)),
+      (scene, _) =>
+        RenderMethod.Tiles(PathTracer(scene, most, 1, 1f, Dispersions.wavelengths(scene))),
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,

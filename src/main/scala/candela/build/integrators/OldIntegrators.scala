@@ -4,6 +4,7 @@ import candela.bidirectional.PhotonSettings
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
+import candela.render.RenderMethod
 
 /** By progressive photon mapping, which comes to the same picture without final gathering. */
 final class PhotonMapRecipe(name: String)
@@ -89,8 +90,10 @@ object DipoleSubsurfaceRecipe
     val depth = Math.max(0, maxDepth()) + 1
     IntegratorPlan(
       (scene, samples) =>
-        if scene.hasSubsurface then DipoleLighting(scene, depth, samples)
-        else DirectLighting(scene, depth, samples),
+        RenderMethod.Tiles(
+          if scene.hasSubsurface then DipoleLighting(scene, depth, samples)
+          else DirectLighting(scene, depth, samples)
+        ),
       samplesBsdf = true,
       "dipolesubsurface, all lights at each point",
       goesBeneath = true,
@@ -103,7 +106,7 @@ object DipoleSubsurfaceRecipe
 /** Of what is lit by harmonics: they hold the light that arrives directly. */
 trait DirectInstead extends Recipe[IntegratorPlan]:
   protected def make()(using Site): IntegratorPlan = IntegratorPlan(
-    DirectLighting(_, 1, _),
+    (scene, samples) => RenderMethod.Tiles(DirectLighting(scene, 1, samples)),
     samplesBsdf = true,
     s"directlighting for $name",
     throughVolumes = Some(DirectLighting(_, 1, _, _))

@@ -3,6 +3,7 @@ package candela.build.integrators
 import candela.build.recipe.*
 import candela.integrators.*
 import candela.integrators.LightTransport.RouletteAfter
+import candela.render.RenderMethod
 import candela.scenefile.Dialect
 
 final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -22,11 +23,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val seesThrough = site.dialect == Dialect.V3
     windowed(IntegratorPlan(
       (scene, _) =>
-        if goesBeneath && scene.hasSubsurface then
-          SubsurfacePathTracer(scene, depth, RouletteAfter, threshold(), seesThrough, widens)
-        else
-          val wavelengths = Dispersions.wavelengths(scene)
-          PathTracer(scene, depth, RouletteAfter, threshold(), wavelengths, widens)
+        RenderMethod.Tiles:
+          if goesBeneath && scene.hasSubsurface then
+            SubsurfacePathTracer(scene, depth, RouletteAfter, threshold(), seesThrough, widens)
+          else
+            val wavelengths = Dispersions.wavelengths(scene)
+            PathTracer(scene, depth, RouletteAfter, threshold(), wavelengths, widens)
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),

@@ -4,7 +4,8 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.BuildOptions
 import candela.color.Rgb
-import candela.render.{PixelBounds, Renderer}
+import candela.film.PixelBounds
+import candela.render.Renderer
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 

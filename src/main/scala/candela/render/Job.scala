@@ -1,0 +1,102 @@
+package candela.render
+
+import candela.film.*
+import candela.integrators.{Integrator, SharedPasses}
+import candela.scene.PathReport
+
+/** What a plan's method needs to run: film, schedule and workers, each made once. */
+private[render] final class Job(
+    val schedule: Schedule,
+    val film: Film,
+    val layers: Option[LayerFilm],
+    val worker: Board => Worker
+)
+
+private[render] object Job:
+
+  def apply(plan: RenderPlan): Job =
+    val samples = plan.sampler.samplesPerPixel
+    plan.method match
+      case RenderMethod.Tiles(integrator) =>
+        val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop)
+        tiles.job(tiles.worker(integrator.copy(), _))
+      case RenderMethod.SplattedTiles(make) =>
+        val splats = splatFilm(plan)
+        val integrator = make(plan.view(splats))
+        val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, Some(splats))
+        tiles.job(tiles.worker(integrator.copy(), _))
+      case RenderMethod.Passes(make) =>
+        val passes = make(plan.view(Splats.Discarded))
+        val schedule = TileSchedule(
+          plan.sampled,
+          samples,
+          largestWave = 1,
+          openWaves = SharedPasses.Open
+        )
+        val tiles = TileJobs(plan, schedule, plan.crop)
+        tiles.job: board =>
+          val integrator = passes.integrator(None)
+          tiles.worker(integrator, board, integrator.begin)
+      case RenderMethod.Chains(make, _) =>
+        val splats = splatFilm(plan)
+        val chains = make(plan.view(splats))
+        val schedule = Schedule(chains.count, samples)
+        val film = filmOf(plan.crop, Some(splats))
+        def worker(board: Board) =
+          ChainWorker(chains.walker(), schedule, board, plan.crop.pixels)
+        new Job(schedule, film, layers = None, worker)
+
+  /** For one sample of one pixel by itself, of which `report` is told. */
+  def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
+    val pixel = PixelBounds(x, y, x + 1, y + 1)
+    val schedule = TileSchedule(pixel, plan.sampler.samplesPerPixel)
+    val tiles = TileJobs(plan, schedule, pixel)
+    val board = Board(schedule, Cancellation())
+    val view = plan.view(Splats.Discarded)
+    val worker = plan.method match
+      case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), board)
+      case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), board)
+      case RenderMethod.Chains(_, make) => tiles.worker(make(view).reported(report), board)
+      case RenderMethod.Passes(make) =>
+        val integrator = make(view).integrator(Some(report))
+        tiles.worker(integrator, board, integrator.begin)
+    (tiles.film, worker)
+
+  private def filmOf(
+      b: PixelBounds,
+      splats: Option[SplatFilm],
+      shares: Option[SampleShares] = None
+  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares)
+
+  private def splatFilm(plan: RenderPlan): SplatFilm =
+    val PixelBounds(x0, y0, x1, y1) = plan.crop
+    val pixels = plan.width.toDouble * plan.height
+    SplatFilm(x0, y0, x1, y1, plan.filter, pixels, plan.basis, plan.limit)
+
+  /** What the methods that render tiles have in common. */
+  private final class TileJobs(
+      plan: RenderPlan,
+      schedule: TileSchedule,
+      bounds: PixelBounds,
+      splats: Option[SplatFilm] = None
+  ):
+    private val PixelBounds(x0, y0, x1, y1) = bounds
+    val film: Film = filmOf(
+      bounds,
+      splats,
+      Option.when(plan.sharesSamples):
+        SampleShares(x0, y0, x1, y1, FilterReach(plan.filter), schedule.tiles)
+    )
+    private val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
+    private val filterSampler = new FilterSampler(plan.filter)
+
+    def job(worker: Board => Worker): Job = new Job(schedule, film, layers, worker)
+
+    def worker(
+        integrator: Integrator,
+        board: Board,
+        beginWave: Int => Unit = _ => ()
+    ): TileWorker =
+      TileWorker(
+        plan, schedule, board, film, layers, filterSampler.copy(), integrator, beginWave
+      )
