@@ -9,7 +9,7 @@ import scala.util.Using
 
 import scopt.OParser
 
-import candela.base.{Problem, SceneError, Version}
+import candela.base.{FileName, Problem, SceneError, Version}
 import candela.convert.SideFiles
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
@@ -74,14 +74,14 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def checkFolder(path: Path): Unit =
     val known = Vector("html", "json", "csv", "svg")
-    if !known.contains(ReportFiles.ending(path)) then
+    if !known.contains(FileName.suffix(path)) then
       val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
       throw SceneError(Problem.general(s"can't write `$path`", help))
     val folder = path.toAbsolutePath.getParent
     if !Files.isDirectory(folder) then
       throw SceneError(Problem.general(s"can't write `$path`: there is no folder `$folder`"))
 
-  private def text(path: Path, results: SuiteReport): String = ReportFiles.ending(path) match
+  private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match
     case "html" => SuitePage.html(results, asked.pictures)
     case "json" => SuiteData.json(results)
     case "csv" => SuiteData.csv(results)

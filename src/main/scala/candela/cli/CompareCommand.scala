@@ -7,7 +7,8 @@ import scala.util.Using
 
 import scopt.{OParser, Read}
 
-import candela.image.{ImageError, ImageFiles}
+import candela.base.FileName
+import candela.image.{Contents, ImageError, ImageFiles, OutputFormat}
 import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric, Metrics, PixelWindow}
 
 /** `candela compare`: how an image differs from its reference, or a folder of them from theirs. */
@@ -41,7 +42,8 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     for name <- asked.heatMap do
       val metric = asked.heatMapMetric
       val map = ErrorMap(metric, comparison.pair)
-      if name.toLowerCase.endsWith(".exr") then ImageFiles.write(Path.of(name), map)
+      val isFalseColor = OutputFormat.of(Path.of(name)).exists(_.contents == Contents.Display)
+      if !isFalseColor then ImageFiles.write(Path.of(name), map)
       else
         val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
         val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
@@ -128,8 +130,6 @@ object Comparison:
 final case class ReferenceSet(pairs: Vector[(Path, Path)], missing: Vector[Path])
 
 object ReferenceSet:
-  private val Endings = Vector("exr", "hdr", "png", "tga", "jpg", "jpeg")
-
   /** References are a folder, with names that but for the ending are the same, or one image.
     *
     * @throws ImageError if there are no images
@@ -138,11 +138,13 @@ object ReferenceSet:
     val found = files(images)
     if found.isEmpty then throw ImageError(s"$images: there are no images in this folder")
     if Files.isDirectory(references) then
-      val known = files(references).groupBy(stem)
+      val known = files(references).groupBy(FileName.stem)
       val matched = found.map: image =>
-        // Of several the one of the same format; else EXR, as the order of endings has it.
-        val same = known.getOrElse(stem(image), Vector.empty)
-        image -> same.minByOption(r => (ending(r) != ending(image), Endings.indexOf(ending(r))))
+        // Of several the one of the same format; else EXR, as the order of suffixes has it.
+        val same = known.getOrElse(FileName.stem(image), Vector.empty)
+        image -> same.minByOption: r =>
+          val suffix = FileName.suffix(r)
+          (suffix != FileName.suffix(image), ImageFiles.readable.indexOf(suffix))
       ReferenceSet(
         matched.collect { case (image, Some(reference)) => (image, reference) },
         matched.collect { case (image, None) => image }
@@ -172,15 +174,9 @@ object ReferenceSet:
 
   private def files(folder: Path): Vector[Path] =
     Using.resource(Files.list(folder)): all =>
-      all.iterator.asScala.toVector.filter(f => Endings.contains(ending(f))).sorted
-
-  private def stem(path: Path): String =
-    val name = path.getFileName.toString
-    name.take(name.lastIndexOf('.'))
-
-  private def ending(path: Path): String =
-    val name = path.getFileName.toString
-    name.drop(name.lastIndexOf('.') + 1).toLowerCase
+      all.iterator.asScala.toVector.filter(f =>
+        ImageFiles.readable.contains(FileName.suffix(f))
+      ).sorted
 
 /** What `compare` is asked for beside the pictures.
   *
@@ -283,10 +279,13 @@ private[cli] object CompareTable:
       .text("print the figures of each channel, too")
       .action((_, o) => change(o)(_.copy(perChannel = true))),
     opt[String]("difference").valueName("FILE")
-      .text("write the absolute difference of each pixel, .exr or .png")
+      .text(s"write the absolute difference image, ${OutputFormat.listed()}")
       .action((f, o) => change(o)(_.copy(difference = Some(f)))),
     opt[String]("heatmap").valueName("FILE")
-      .text("write the error of each pixel in colours (.png), or as numbers (.exr)")
+      .text(
+        s"write the per-pixel error: ${OutputFormat.listed(Contents.Display)} in false colours, " +
+          s"${OutputFormat.listed(Contents.Radiance, Contents.Channels)} as numbers"
+      )
       .action((f, o) => change(o)(_.copy(heatMap = Some(f)))),
     opt[Metric]("heatmap-metric").valueName("METRIC")
       .text("of which error: mse, rmse, mae, relmse or flip (default flip)")

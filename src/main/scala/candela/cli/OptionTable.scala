@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.Version
 import candela.film.Layer
+import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
 
 import scopt.{OParser, Read}
@@ -34,10 +35,9 @@ private[cli] object OptionTable:
         )
 
   private given Read[Layer] = Read.reads: text =>
-    val words = Layer.values.map(_.word)
     Layer.values
       .find(_.word.equalsIgnoreCase(text.trim))
-      .getOrElse(throw IllegalArgumentException(s"expected some of ${words.mkString(", ")}"))
+      .getOrElse(throw IllegalArgumentException(s"expected some of $layers"))
 
   private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
     if number.gteq(n, number.fromInt(least)) then success
@@ -67,9 +67,11 @@ private[cli] object OptionTable:
       .action((_, o) => o.copy(verbose = true))
   )
 
+  private def layers: String = Layer.values.map(_.word).mkString(", ")
+
   private val renderOptions: Vector[Row] = Vector(
     opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
-      .text("the image to write, .exr or .png; several: the same image in each format")
+      .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     opt[Int]('j', "nthreads").valueName("N")
       .text("threads to render with (default: one for each processor)")
@@ -99,7 +101,7 @@ private[cli] object OptionTable:
       .text("write no image, but say what happens along the path of one sample")
       .action((_, o) => o.copy(debug = true)),
     opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
-      .text(s"write these into the .exr, too: ${Layer.values.map(_.word).mkString(", ")}")
+      .text(s"add layers to the ${OutputFormat.listed(Contents.Channels)} image: $layers")
       .action((l, o) => o.copy(layers = o.layers ++ l)),
     opt[String]("film").valueName("gbuffer")
       .text("write all layers that pbrt-v4's film of this name has")

@@ -1,7 +1,7 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Severity}
-import candela.image.ImageFiles
+import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.image.{Contents, OutputFormat}
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
@@ -18,9 +18,11 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
 
   /** @throws SceneError if no file can hold more than colours */
   def checkLayers(): Unit =
-    if !paths.exists(OutputFiles.extension(_) == "exr") then
-      val message = s"only .exr files hold layers; `${paths.head}` does not"
-      throw SceneError(Problem.general(message, Some("--outfile FILE.exr writes them")))
+    if !paths.flatMap(OutputFormat.of).exists(_.contents == Contents.Channels) then
+      val suffixes = OutputFormat.listed(Contents.Channels)
+      val message = s"only $suffixes files hold layers; `${paths.head}` does not"
+      val help = s"--outfile FILE.${OutputFormat.default.suffix} writes them"
+      throw SceneError(Problem.general(message, Some(help)))
 
 object OutputFiles:
 
@@ -28,20 +30,23 @@ object OutputFiles:
   def asked(names: Vector[String]): OutputFiles =
     OutputFiles(names.map(path).distinct, Vector.empty)
 
-  /** As the scene's Film says, relative to the current folder. An EXR gets a PNG beside it, to look
-    * at. What Candela does not write (pbrt does .tga and .pfm) becomes an EXR.
+  /** As the scene's Film says, relative to the current folder, with a preview beside what can't be
+    * displayed. Formats that Candela does not write (pbrt has more) become the default one.
     */
   def ofFilm(filename: String): OutputFiles =
     val named = path(filename)
-    if extension(named) == "exr" then
-      OutputFiles(Vector(named, withExtension(named, "png")), Vector.empty)
-    else if ImageFiles.isWritable(named) then OutputFiles(Vector(named), Vector.empty)
-    else
-      val exr = withExtension(named, "exr")
-      val message =
-        s"the scene's image `$filename` is neither .exr nor .png; it is written as `$exr`"
-      val warning = Problem(Severity.Warning, None, message)
-      OutputFiles(Vector(exr, withExtension(exr, "png")), Vector(warning))
+    OutputFormat.of(named) match
+      case Some(format) if format.contents == Contents.Display =>
+        OutputFiles(Vector(named), Vector.empty)
+      case Some(_) => OutputFiles(withPreview(named), Vector.empty)
+      case None =>
+        val written = FileName.withSuffix(named, OutputFormat.default.suffix)
+        val message = s"the scene's image `$filename` is not ${OutputFormat.listed()}; " +
+          s"it is written as `$written`"
+        OutputFiles(withPreview(written), Vector(Problem(Severity.Warning, None, message)))
+
+  private def withPreview(path: Path): Vector[Path] =
+    Vector(path, FileName.withSuffix(path, OutputFormat.preview.suffix))
 
   /** The name as a path. */
   def path(name: String): Path =
@@ -53,8 +58,9 @@ object OutputFiles:
   private def problem(path: Path): Option[Problem] =
     val folder = Option(path.toAbsolutePath.getParent)
     val elsewhere = Some("--outfile FILE writes the image elsewhere")
-    if !ImageFiles.isWritable(path) then
-      Some(Problem.general(s"can't write `$path`", Some("images are written as .exr or .png")))
+    if OutputFormat.of(path).isEmpty then
+      val help = s"images are written as ${OutputFormat.listed()}"
+      Some(Problem.general(s"can't write `$path`", Some(help)))
     else if Files.isDirectory(path) then
       Some(Problem.general(s"can't write the image `$path`: it is a folder", elsewhere))
     else if !folder.exists(Files.isDirectory(_)) then
@@ -63,13 +69,3 @@ object OutputFiles:
     else if !folder.exists(Files.isWritable) then
       Some(Problem.general(s"can't write `$path`: its folder is write-protected", elsewhere))
     else None
-
-  private def extension(path: Path): String =
-    val name = path.getFileName.toString
-    name.drop(name.lastIndexOf('.') + 1).toLowerCase(java.util.Locale.ROOT)
-
-  /** Replaces what follows the last dot, if there is one. */
-  private def withExtension(path: Path, extension: String): Path =
-    val name = path.getFileName.toString
-    val dot = name.lastIndexOf('.')
-    path.resolveSibling(s"${if dot > 0 then name.take(dot) else name}.$extension")

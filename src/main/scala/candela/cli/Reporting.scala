@@ -2,9 +2,8 @@ package candela.cli
 
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
-import java.util.Locale
 
-import candela.base.{Problem, SceneError, Version}
+import candela.base.{FileName, Problem, SceneError, Version}
 import candela.render.Rendering
 import candela.report.{Machine, RenderData, RenderPage, RenderReport, Span}
 
@@ -64,7 +63,7 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
 
 /** Where reports go: `.html` for people, `.json` and `.csv` for machines. */
 object ReportFiles:
-  private val Endings = Vector("html", "json", "csv")
+  private val Suffixes = Vector("html", "json", "csv")
 
   /** Looks, before rendering, whether the files can be written.
     *
@@ -74,7 +73,7 @@ object ReportFiles:
     val paths = names.map(OutputFiles.path).distinct
     val problems = paths.flatMap: path =>
       val folder = path.toAbsolutePath.getParent
-      if !Endings.contains(ending(path)) then
+      if !Suffixes.contains(FileName.suffix(path)) then
         val help = Some("reports are written as .html, .json or .csv")
         Some(Problem.general(s"can't write the report `$path`", help))
       else if !Files.isDirectory(folder) then
@@ -87,12 +86,8 @@ object ReportFiles:
 
   def write(paths: Vector[Path], report: RenderReport): Unit =
     for path <- paths do
-      val text = ending(path) match
+      val text = FileName.suffix(path) match
         case "html" => RenderPage.html(report)
         case "json" => RenderData.json(report)
         case _ => RenderData.csv(report)
       val _ = Files.write(path, text.getBytes(UTF_8))
-
-  def ending(path: Path): String =
-    val name = path.getFileName.toString
-    name.drop(name.lastIndexOf('.') + 1).toLowerCase(Locale.ROOT)

@@ -7,7 +7,7 @@ package candela.image
   * display window is, as in pbrt. Refused, because the decoder can't or does it wrong: DWA, HTJ2K,
   * B44 of float channels, subsampled channels, deep pixels.
   */
-private[image] object Exr:
+private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   /** Channels come in the order R, G, B, A, then the others as in the file. Integers above 2^24
     * lose their last bits.
@@ -25,15 +25,8 @@ private[image] object Exr:
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
     Image(part.width, part.height, order.map(inFile), data)
 
-  /** ZIP; every channel under its own name. Encoded pictures are decoded first.
-    *
-    * @param isHalf floats of 16 bits, not 32
-    */
-  def write(
-      image: Image,
-      metadata: Vector[(String, String)],
-      isHalf: Boolean = false
-  ): Array[Byte] =
+  /** ZIP; every channel under its own name. Encoded pictures are decoded first. */
+  def write(image: Image, metadata: Vector[(String, String)], isHalf: Boolean): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
     ExrEncoder.encode(image.linear, metadata, isHalf)

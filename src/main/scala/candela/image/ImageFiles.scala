@@ -1,15 +1,19 @@
 package candela.image
 
+import candela.base.FileName
+
 import java.io.IOException
 import java.nio.file.{AtomicMoveNotSupportedException, Files, NoSuchFileException, Path}
 import java.nio.file.{StandardCopyOption, StandardOpenOption}
-import java.util.Locale
 
 /** Pictures in files, whatever the format. Everything that goes wrong is an [[ImageError]]. */
 object ImageFiles:
 
+  /** Suffixes of files that can be read, the most exact first. */
+  val readable: Vector[String] = Vector("exr", "hdr", "pic", "png", "tga", "jpg", "jpeg")
+
   private val Readable = "EXR, HDR (Radiance), PNG, JPEG and TGA files can be read"
-  private val Writable = "pictures are written as .exr or .png"
+  private val Writable = s"images are written as ${OutputFormat.listed()}"
 
   /** The picture as Floats. Pictures of 8 and 16 bits hold [0, 1] and say that they are
     * sRGB-encoded; `linear` decodes them.
@@ -24,7 +28,7 @@ object ImageFiles:
         case _: NoSuchFileException => throw ImageError(s"$path: there is no such file")
         case e: IOException => throw ImageError(s"$path: can't be read: ${reason(e)}")
         case _: OutOfMemoryError => throw ImageError(s"$path: a file of 2 GB or more")
-    try decode(bytes, suffix(path))
+    try decode(bytes, FileName.suffix(path))
     catch
       case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
       case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
@@ -40,16 +44,16 @@ object ImageFiles:
     else if begins('#', '?') then Hdr.read(bytes)
     else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || extension == "tga" then
       StbReader.read(bytes)
-    else if Set("exr", "hdr", "pic", "png", "jpg", "jpeg").contains(extension) then
+    else if readable.contains(extension) then
       throw ImageError(s"not a valid .$extension file: it begins with other bytes")
     else throw ImageError(s"unknown format; $Readable")
 
-  /** Writes by extension: `.exr` (all channels) or `.png` (8-bit sRGB, R, G, B or Y).
+  /** Writes in the format of the file's suffix.
     *
     * The picture appears under its name whole or not at all: it is written beside it and renamed.
     *
     * @param metadata names and texts that the file carries along
-    * @param isHalf   floats of 16 bits in an `.exr`, not 32
+    * @param isHalf   floats of 16 bits, not 32, if the format has both
     */
   def write(
       path: Path,
@@ -59,11 +63,10 @@ object ImageFiles:
   ): Unit =
     val bytes =
       try
-        suffix(path) match
-          case "exr" => Exr.write(image, metadata, isHalf)
-          case "png" => Png.write(image, metadata)
-          case "" => throw ImageError(s"the name has no extension; $Writable")
-          case other => throw ImageError(s"can't write .$other files; $Writable")
+        (OutputFormat.of(path), FileName.suffix(path)) match
+          case (Some(format), _) => format.write(image, metadata, isHalf)
+          case (None, "") => throw ImageError(s"the name has no extension; $Writable")
+          case (None, other) => throw ImageError(s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
     try replace(path, bytes)
     catch
@@ -72,9 +75,6 @@ object ImageFiles:
 
   /** What `write` puts into an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
-
-  /** True if `write` takes the name. */
-  def isWritable(path: Path): Boolean = Set("exr", "png").contains(suffix(path))
 
   private def replace(path: Path, bytes: Array[Byte]): Unit =
     if Files.isDirectory(path) then throw IOException("it is a folder")
@@ -90,11 +90,6 @@ object ImageFiles:
           val _ = Files.move(temporary, path, StandardCopyOption.REPLACE_EXISTING)
     finally
       val _ = Files.deleteIfExists(temporary)
-
-  private def suffix(path: Path): String =
-    val name = Option(path.getFileName).fold("")(_.toString)
-    val dot = name.lastIndexOf('.')
-    if dot < 0 then "" else name.substring(dot + 1).toLowerCase(Locale.ROOT)
 
   private def reason(e: IOException): String =
     e.getClass.getSimpleName.stripSuffix("Exception") match

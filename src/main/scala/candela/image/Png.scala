@@ -10,7 +10,7 @@ import javax.imageio.stream.MemoryCacheImageOutputStream
 import javax.imageio.{IIOImage, ImageIO, ImageTypeSpecifier}
 
 /** Writes PNG: 8 bits, sRGB-encoded, values clamped to [0, 1], NaN black. */
-private[image] object Png:
+private[image] object Png extends OutputFormat("png", Contents.Display):
 
   // Before the first class of AWT loads: a renderer needs no display, and must not open one.
   if System.getProperty("java.awt.headless") == null then
@@ -18,7 +18,7 @@ private[image] object Png:
 
   private val NativeFormat = "javax_imageio_png_1.0"
 
-  def write(image: Image, metadata: Vector[(String, String)]): Array[Byte] =
+  def write(image: Image, metadata: Vector[(String, String)], isHalf: Boolean): Array[Byte] =
     val isGray = image.indicesOf(Image.RgbNames).isEmpty
     val kind = if isGray then BufferedImage.TYPE_BYTE_GRAY else BufferedImage.TYPE_INT_RGB
     val picture = BufferedImage(image.width, image.height, kind)

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.SceneError
+import candela.image.OutputFormat
 
 import java.nio.file.{Files, Path}
 
@@ -18,11 +19,11 @@ class OutputFilesSuite extends AnyFunSuite:
     assert(names(OutputFiles.ofFilm("a.png")) == Vector("a.png"))
 
   test("formats that are not written become EXR and PNG, with a warning"):
-    val films = Vector("a.tga" -> "a", "a.pfm" -> "a", "a" -> "a", ".hidden" -> ".hidden")
+    val films = Vector("a.tga" -> "a", "a.b.qoi" -> "a.b", "a" -> "a", ".hidden" -> ".hidden")
     for (film, stem) <- films do
       val files = OutputFiles.ofFilm(film)
       assert(names(files) == Vector(s"$stem.exr", s"$stem.png"))
-      val warning = s"the scene's image `$film` is neither .exr nor .png; " +
+      val warning = s"the scene's image `$film` is not ${OutputFormat.listed()}; " +
         s"it is written as `$stem.exr`"
       assert(files.warnings.map(_.message) == Vector(warning))
 

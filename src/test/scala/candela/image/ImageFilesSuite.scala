@@ -60,11 +60,35 @@ class ImageFilesSuite extends AnyFunSuite:
 
   test("writing refuses formats it does not know, and names those it does"):
     val image = Image.rgb(1, 1)
-    val supported = "pictures are written as .exr or .png"
+    val supported = s"images are written as ${OutputFormat.listed()}"
     def refusal(name: String) = error(ImageFiles.write(Path.of(name), image))
     assert(refusal("a.jpg") == s"a.jpg: can't write .jpg files; $supported")
     assert(refusal("a") == s"a: the name has no extension; $supported")
-    assert(ImageFiles.isWritable(Path.of("x/a.Exr")) && !ImageFiles.isWritable(Path.of("png")))
+    assert(OutputFormat.of(Path.of("x/a.Exr")).contains(Exr))
+    assert(OutputFormat.of(Path.of("png")).isEmpty)
+
+  test("every format that is written is read back, with what it says that it stores"):
+    val names = Image.RgbNames :+ "Z"
+    val image = Image(2, 1, names, Array(0.5f, -1f, 3f, 9f, 0f, 0.25f, 1e-3f, 7f))
+    for format <- OutputFormat.all do
+      Samples.inFolder: folder =>
+        val path = folder.resolve(s"a.${format.suffix}")
+        ImageFiles.write(path, image)
+        assert(OutputFormat.of(path).contains(format))
+        // Some formats are for other programs alone
+        if ImageFiles.readable.contains(format.suffix) then
+          val back = ImageFiles.read(path)
+          val holdsAll = format.contents == Contents.Channels
+          assert(back.channelNames == (if holdsAll then names else Image.RgbNames))
+          val isDisplayed = back.data.forall(v => v >= 0f && v <= 1f)
+          assert(isDisplayed == (format.contents == Contents.Display))
+          assert(isDisplayed || back.toRgb.data.sameElements(image.toRgb.data)): Unit
+
+  test("suffixes are listed in words"):
+    assert(OutputFormat.inWords(Vector(Exr)) == ".exr")
+    assert(OutputFormat.inWords(Vector(Exr, Png)) == ".exr or .png")
+    assert(OutputFormat.inWords(Vector(Png, Exr, Png)) == ".png, .exr or .png")
+    assert(!OutputFormat.listed(Contents.Display).contains(".exr"))
 
   test("writing replaces a picture"):
     Samples.inFolder: folder =>
