@@ -21,7 +21,7 @@ abstract class Accelerator:
   /** For the plan: what it is, with its size. */
   def describe: String
 
-/** Tests everything: the oracle of the other accelerators' tests, and right for a handful. */
+/** Tests everything: the oracle of the other accelerators' tests and benchmarks. */
 final class BruteForce(primitives: Primitives) extends Accelerator:
   private val packed = primitives.packed(Array.range(0, primitives.count))
 

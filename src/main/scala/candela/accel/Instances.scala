@@ -72,7 +72,7 @@ final class Instances private (
     else Placement.locate(ray.nested.space, 0, at)
 
 object Instances:
-  val None: Instances = of(Array.empty, Vector.empty)
+  val Empty: Instances = of(Array.empty, Vector.empty)
 
   /** @param places      (index into `objects`, object to world); those that move are numbered last
     * @param open, close when the shutter is open

@@ -58,4 +58,4 @@ final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
   def isEmpty: Boolean = meshes == 0 && shapes == 0
 
 object Masks:
-  val None: Masks = Masks(Array.empty, Array.empty)
+  val Empty: Masks = Masks(Array.empty, Array.empty)

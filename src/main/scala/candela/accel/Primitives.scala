@@ -10,8 +10,8 @@ import candela.shapes.{Shape, TriangleSoup}
 final class Primitives(
     val soup: TriangleSoup,
     val shapes: Array[Shape],
-    val instances: Instances = Instances.None,
-    val masks: Masks = Masks.None
+    val instances: Instances = Instances.Empty,
+    val masks: Masks = Masks.Empty
 ):
   private val firstInstance = soup.count + shapes.length
   def count: Int = firstInstance + instances.count

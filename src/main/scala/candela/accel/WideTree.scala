@@ -35,17 +35,17 @@ private[accel] final class WideTree(
   def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
 private[accel] object WideTree:
-  /** Widens a box, six Floats that are `stride` apart: to as far beside it as hits may be, and one
-    * Float more, so that no corner is on its planes: there, a ray along the plane has no distance.
+  /** Widens a box, six Floats: to as far beside it as hits may be, and one Float more, so that no
+    * corner is on its planes: there, a ray along the plane has no distance.
     */
-  def pad(boxes: Array[Float], at: Int, stride: Int): Unit =
-    var axis = 0
-    while axis < 3 do
-      val low = boxes(at + axis * stride)
-      val high = boxes(at + (3 + axis) * stride)
+  def pad(boxes: Array[Float], at: Int): Unit =
+    var axis = at
+    while axis < at + 3 do
+      val low = boxes(axis)
+      val high = boxes(axis + 3)
       val more = (high - low) * Pad
-      boxes(at + axis * stride) = Math.nextDown(low - more)
-      boxes(at + (3 + axis) * stride) = Math.nextUp(high + more)
+      boxes(axis) = Math.nextDown(low - more)
+      boxes(axis + 3) = Math.nextUp(high + more)
       axis += 1
 
   /** Twice what [[candela.shapes.TriangleTest.Within]] allows. */
@@ -65,7 +65,4 @@ private[accel] object WideTree:
   inline def first(leaf: Int): Int = ~leaf >>> 5
 
   /** The code of no child at all: never arrived at, but as a root. */
-  final val Nothing = -2147483648
-
-  /** What [[leaf]] can number. */
-  final val MostLeaves = 67108864
+  final val NoChild = -2147483648

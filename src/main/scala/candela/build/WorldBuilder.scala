@@ -129,7 +129,7 @@ final class WorldBuilder(
     else s"$count materials show their surface alone: so this integrator does in pbrt, too"
 
   private def instances(objects: Vector[Surfaces], places: Vector[Vector[Motion]]): Instanced =
-    val accelerators = objects.map(accelerate(_, Instances.None))
+    val accelerators = objects.map(accelerate(_, Instances.Empty))
     val all = places.zipWithIndex.flatMap((transforms, o) => transforms.map(t => (o, t)))
     val placed = Instances.of(accelerators.toArray, all, shutter.open, shutter.close)
     Instanced(objects.toArray, placed)

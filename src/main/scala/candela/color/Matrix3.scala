@@ -29,6 +29,3 @@ final class Matrix3(rows: Vector[Double]):
 object Matrix3:
   def tabulate(f: (Int, Int) => Double): Matrix3 =
     Matrix3(Vector.tabulate(9)(i => f(i / 3, i % 3)))
-
-  /** Whose columns these are. */
-  def ofColumns(columns: Vector[Vector[Double]]): Matrix3 = tabulate((r, c) => columns(c)(r))

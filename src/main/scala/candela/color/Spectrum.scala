@@ -29,8 +29,6 @@ object Spectrum:
   enum Outside:
     case Clamped, Zero
 
-  def constant(value: Float): Spectrum = Spectrum(Array(550f), Array(value))
-
   /** Spectral radiance of a black body of `kelvin`, scaled to a maximum of 1 (Planck's law; the
     * maximum by Wien's displacement law).
     */

@@ -23,9 +23,6 @@ object Srgb:
     else if linear >= 1f then 255
     else (encode(linear) * 255f + 0.5f).toInt
 
-  /** `decode(code / 255)` for the 256 codes of a byte. */
-  val DecodeTable: IArray[Float] = IArray.tabulate(256)(code => decode(code / 255f))
-
 /** How the numbers of a picture stand for linear light. */
 enum Encoding:
   case Linear

@@ -172,32 +172,6 @@ object Transform:
       )
     yield cameraToWorld.inverse
 
-  /** Perspective projection onto z in [0, 1] for depths in [near, far]; `fov` in degrees is the
-    * full angle that [-1, 1] spans.
-    */
-  def perspective(fov: Double, near: Double, far: Double): Transform =
-    val inv = 1 / Math.tan(Math.toRadians(fov) / 2)
-    fromRows(
-      Vector(
-        inv,
-        0,
-        0,
-        0, //
-        0,
-        inv,
-        0,
-        0, //
-        0,
-        0,
-        far / (far - near),
-        -far * near / (far - near), //
-        0,
-        0,
-        1,
-        0
-      )
-    ).get
-
   private def transposed(m: IArray[Double]): IArray[Double] =
     IArray.tabulate(16)(i => m(i % 4 * 4 + i / 4))
 

@@ -8,9 +8,6 @@ import candela.math.Vec3
   */
 final case class MediumBorder(inside: Int, outside: Int)
 
-object MediumBorder:
-  val None: MediumBorder = MediumBorder(-1, -1)
-
 /** The media of a scene, and where they are: what is between two surfaces is told by them.
   *
   * @param media         without those that are empty space

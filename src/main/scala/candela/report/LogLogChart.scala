@@ -39,14 +39,15 @@ final class LogLogChart(
   import LogLogChart.*
   import Svg.*
 
-  private val Left = if frame.isWhole then 70.0 else 46.0
+  private val LeftMargin = if frame.isWhole then 70.0 else 46.0
   private val Top = if frame.isWhole then 36.0 else 50.0
   private val drawn = series.map(s => s.copy(marks = s.marks.filter(m => m.x > 0 && m.y > 0)))
   private val marks = drawn.flatMap(_.marks)
   private val width = frame.width
-  private val legend = Option.when(frame.isWhole)(ChartLegend(series, 3, width - Left - Right))
+  private val legend =
+    Option.when(frame.isWhole)(ChartLegend(series, 3, width - LeftMargin - RightMargin))
   private val bottom = frame.height - legend.fold(BareBottom)(_.height + 52)
-  private val x = LogAxis.around(marks.map(_.x), Left, width - Right)
+  private val x = LogAxis.around(marks.map(_.x), LeftMargin, width - RightMargin)
   private val y =
     LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), bottom, Top)
 
@@ -56,16 +57,16 @@ final class LogLogChart(
 
   /** All but the picture around it. */
   def content: Vector[Frag] =
-    val words = text(Left, 22, "charttitle", "start")(title) +:
-      frame.note.map(text(Left, 39, "note", "start")(_)).toVector
+    val words = text(LeftMargin, 22, "charttitle", "start")(title) +:
+      frame.note.map(text(LeftMargin, 39, "note", "start")(_)).toVector
     grid ++ goalLine ++ guide ++ drawn.map(curve) ++
-      legend.toVector.flatMap(_.at(Left, bottom + 54)) ++ words
+      legend.toVector.flatMap(_.at(LeftMargin, bottom + 54)) ++ words
 
   private def goalLine: Vector[Frag] =
     val (least, most) = (y.at(marks.map(_.y).minOption.getOrElse(1.0)), Top)
     goal.toVector.map(y.at).filter(h => h <= least + 1 && h >= most).map: h =>
       element("g", "class" -> "goal")(
-        line(Left, h, width - Right, h, "goalline"),
+        line(LeftMargin, h, width - RightMargin, h, "goalline"),
         tip(s"the goal: ${goal.fold("")(Numbers.short)}")
       )
 
@@ -77,14 +78,14 @@ final class LogLogChart(
       )
     val horizontal = y.ticks.flatMap: value =>
       Vector(
-        line(Left, y.at(value), width - Right, y.at(value), "grid"),
-        text(Left - 8, y.at(value) + 4, "tick", "end")(Numbers.tick(value))
+        line(LeftMargin, y.at(value), width - RightMargin, y.at(value), "grid"),
+        text(LeftMargin - 8, y.at(value) + 4, "tick", "end")(Numbers.tick(value))
       )
     vertical ++ horizontal ++ (if frame.isWhole then labels else Vector.empty)
 
   private def labels: Vector[Frag] =
     Vector(
-      text((Left + width - Right) / 2, bottom + 34, "axis", "middle")(xLabel),
+      text((LeftMargin + width - RightMargin) / 2, bottom + 34, "axis", "middle")(xLabel),
       element(
         "text",
         "transform" -> s"translate(16 ${px((Top + bottom) / 2)}) rotate(-90)",
@@ -119,7 +120,7 @@ final class LogLogChart(
     )
 
 object LogLogChart:
-  private val Right = 20.0
+  private val RightMargin = 20.0
 
   /** Below the curves, where there are ticks only. */
   private val BareBottom = 24.0

@@ -13,7 +13,7 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
   private val renderBegin = phases.find(_.name == "render").fold(0.0)(_.begin)
 
   private def at(seconds: Double): Double =
-    Timeline.Left + seconds / most * (Timeline.Width - Timeline.Left - 20)
+    Timeline.LeftMargin + seconds / most * (Timeline.Width - Timeline.LeftMargin - 20)
 
   def svg: Node =
     picture(Timeline.Width, height, "phases and threads")(
@@ -23,9 +23,9 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
   private def top(row: Int): Double = 8.0 + row * Timeline.Row
 
   private def labels: Vector[Frag] =
-    text(Timeline.Left - 8, top(0) + 17, "tick", "end")("phases") +:
+    text(Timeline.LeftMargin - 8, top(0) + 17, "tick", "end")("phases") +:
       Vector.tabulate(workers): i =>
-        text(Timeline.Left - 8, top(i + 1) + 17, "tick", "end")(s"thread ${i + 1}")
+        text(Timeline.LeftMargin - 8, top(i + 1) + 17, "tick", "end")(s"thread ${i + 1}")
 
   private def box(row: Int, begin: Double, end: Double, css: String, words: String): Frag =
     val width = Math.max(0.8, at(end) - at(begin))
@@ -68,5 +68,5 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
 
 private object Timeline:
   val Width = 760.0
-  val Left = 76.0
+  val LeftMargin = 76.0
   val Row = 30.0

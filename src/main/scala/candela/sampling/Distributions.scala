@@ -93,8 +93,7 @@ final class Distribution1D(values: Array[Float]):
 
   private val cdf = new Array[Float](values.length + 1)
 
-  /** ∫ of the function that the values describe, over [0, 1). */
-  val integral: Double = Cdf.write(values, 0, values.length, cdf, 0) / values.length
+  Cdf.write(values, 0, values.length, cdf, 0): Unit
 
   def size: Int = cdf.length - 1
 

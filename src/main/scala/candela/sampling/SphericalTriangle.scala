@@ -19,7 +19,9 @@ final class SphericalTriangle:
   private var sinAlpha, cosAlpha = 0.0 // of the angle at a
   private var area = 0.0
 
-  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`; answers its [[solidAngle]]. */
+  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`; answers its solid angle in sr, 0 to 2π;
+    * NaN where the eye is at a corner.
+    */
   def set(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
     ax = p0.x.toDouble - from.x
     ay = p0.y.toDouble - from.y
@@ -59,9 +61,6 @@ final class SphericalTriangle:
       1 + cosAB + (bx * cx + by * cy + bz * cz) + (cx * ax + cy * ay + cz * az)
     )
     area
-
-  /** In sr, 0 to 2π; NaN where the eye is at a corner. */
-  def solidAngle: Double = area
 
   private val direction = Vec3(0f, 0f, 0f)
 
@@ -103,9 +102,7 @@ final class SphericalTriangle:
 
 object SphericalTriangle:
 
-  /** The solid angle in sr that [[SphericalTriangle.solidAngle]] would tell, without the means to
-    * sample it.
-    */
+  /** The solid angle in sr that `set` answers, without the means to sample the triangle. */
   def solidAngle(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
     val ax = p0.x.toDouble - from.x
     val ay = p0.y.toDouble - from.y

@@ -40,8 +40,6 @@ object Warp:
   /** Directions with z ≥ 0, all equally likely. Source: PBRT 3rd ed., §13.6.1. */
   def uniformHemisphere(u1: Float, u2: Float): Vec3 = around(1f - u1, safeSqrt(u1 * (2f - u1)), u2)
 
-  inline val UniformHemispherePdf = InvTwoPi
-
   /** Source: PBRT 3rd ed., §13.6.1. */
   def uniformSphere(u1: Float, u2: Float): Vec3 =
     around(1f - 2f * u1, 2f * safeSqrt(u1 * (1f - u1)), u2)

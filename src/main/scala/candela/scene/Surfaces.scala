@@ -10,12 +10,12 @@ import candela.shapes.TriangleSoup
 final class Surfaces(
     val soup: TriangleSoup,
     val solids: Array[ShapeInstance],
-    val masks: Masks = Masks.None
+    val masks: Masks = Masks.Empty
 ):
   def count: Int = soup.count + solids.length
 
   /** What an accelerator is made of: these, and instances of others. */
-  def primitives(instances: Instances = Instances.None): Primitives =
+  def primitives(instances: Instances = Instances.Empty): Primitives =
     Primitives(soup, solids.map(_.shape), instances, masks)
 
   /** Works out the geometry of the hit on `primitive`, in the space of these surfaces. */
@@ -27,9 +27,6 @@ final class Surfaces(
       at.material = solid.material
       at.areaLight = solid.light
       if solid.inverted then at.invert()
-
-object Surfaces:
-  val None: Surfaces = Surfaces(TriangleSoup.Empty, Array.empty)
 
 /** The instances of a scene, with what their objects look like.
   *
@@ -51,6 +48,3 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
       val solids = if others == 0 then "" else s" and $others other shapes"
       val moving = if instances.moving == 0 then "" else s", ${instances.moving} of them moving"
       s"${instances.count} of ${objects.length} objects with $triangles triangles$solids$moving"
-
-object Instanced:
-  val None: Instanced = Instanced(Array.empty, Instances.None)

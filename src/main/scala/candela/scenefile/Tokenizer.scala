@@ -3,7 +3,7 @@ package candela.scenefile
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
 
 /** Cuts a scene file into tokens. There is always one current token; lists of numbers are read
   * without making tokens of them. Commas are blanks, as pbrt-v3 has it behind numbers.
@@ -98,8 +98,11 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   /** Reads the current token's number as one value; false if it is none. */
   def readFloat(into: FloatBuffer): Boolean =
     val found = isNumber
-    if found then into.add(number.toFloat)
+    if found then into += number.toFloat
     found
+
+  /** Did a number that was read as an Int lose its fraction? Set back by who asks. */
+  var sawFraction = false
 
   /** Likewise; false also for what no Int can hold. */
   def readInt(into: IntBuffer): Boolean =
@@ -111,7 +114,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   def readFloats(into: FloatBuffer): Unit =
     var end = scanNext()
     while end >= 0 do
-      into.add(number.toFloat)
+      into += number.toFloat
       next = end
       end = scanNext()
     advance()
@@ -126,8 +129,8 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     advance()
 
   private def addInt(into: IntBuffer): Unit =
-    into.add(number.toInt)
-    if !number.isWhole then into.sawFraction = true
+    into += number.toInt
+    if !number.isWhole then sawFraction = true
 
   /** Scans the number that comes next, if it is one: the place after it, or −1. */
   private def scanNext(): Int =

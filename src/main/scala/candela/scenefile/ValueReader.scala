@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
 
 /** Reads the values of parameters, and checks that they are what the parameter's type says.
   *
@@ -45,8 +45,9 @@ final class ValueReader(warn: Problem => Unit):
     floats.take()
 
   private def integers(name: String, at: SourcePos, in: Tokenizer, isList: Boolean): Array[Int] =
+    in.sawFraction = false
     if isList then in.readInts(ints) else if in.readInt(ints) then in.advance()
-    if ints.sawFraction then
+    if in.sawFraction then
       warn(Problem.warning(at, s"`$name` takes whole numbers; fractions are cut off"))
     ints.take()
 

@@ -22,7 +22,6 @@ private[shapes] final class CornerTable(
   import CornerTable.{next, previous}
 
   def vertexCount: Int = start.length
-  def faceCount: Int = vertices.length / 3
 
   /** Writes the neighbours of `vertex` into `ring`: clockwise from anywhere if it is inside (for
     * faces that wind counter-clockwise), counter-clockwise from edge to edge if it is on the

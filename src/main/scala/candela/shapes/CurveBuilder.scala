@@ -20,9 +20,6 @@ final class CurveBuilder(
   private val params = ArrayBuilder.ofFloat()
   private val widths = ArrayBuilder.ofFloat()
   private val normals = ArrayBuilder.ofFloat()
-  private var segments = 0
-
-  def count: Int = segments
 
   /** Adds a curve, cut into 2^`splitDepth` segments of equal parts of u; None: it needs no
     * transform. Lengths change by the factor `scale`.
@@ -43,7 +40,6 @@ final class CurveBuilder(
         normals += unit.x
         normals += unit.y
         normals += unit.z
-    segments += n
 
   private def addPoint(p: Array[Double], i: Int, toWorld: Option[Transform]): Unit =
     toWorld match

@@ -2,7 +2,7 @@ package candela.shapes
 
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.sampling.SphericalTriangle
+import candela.sampling.{SphericalTriangle, Warp}
 
 /** Points on one triangle of the soup: uniform by the solid angle under which they are seen, so
   * that neither distance nor slant makes noise; by area where the triangle is seen so small that
@@ -90,9 +90,8 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     combine(1.0 - b1 - b2, b1, b2, out)
 
   private def placeByArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    val b0 = if u1 < u2 then u1 * 0.5f else u1 - u2 * 0.5f
-    val b1 = if u1 < u2 then u2 - u1 * 0.5f else u2 * 0.5f
-    combine(b0.toDouble, b1.toDouble, 1.0 - b0 - b1, out)
+    val b = Warp.uniformTriangle(u1, u2)
+    combine(b.x.toDouble, b.y.toDouble, 1.0 - b.x - b.y, out)
 
   private def combine(b0: Double, b1: Double, b2: Double, out: SurfaceSample): Unit =
     out.p = Vec3(

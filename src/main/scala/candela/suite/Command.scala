@@ -43,7 +43,7 @@ final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boo
     val log = scratch.resolve("log.txt").toFile
     val builder = ProcessBuilder(words.asJava).directory(scratch.toFile)
       .redirectErrorStream(true).redirectOutput(log)
-      .redirectInput(ProcessBuilder.Redirect.from(File(Commands.Nothing)))
+      .redirectInput(ProcessBuilder.Redirect.from(File(Commands.NullDevice)))
     val started = System.nanoTime
     val process = builder.start()
     try
@@ -81,7 +81,7 @@ object Commands:
   /** Milliseconds from a cancellation until it is noticed. */
   private val Patience = 100L
 
-  private val Nothing = if File.separatorChar == '\\' then "NUL" else "/dev/null"
+  private val NullDevice = if File.separatorChar == '\\' then "NUL" else "/dev/null"
 
   def notSet(variables: Vector[String]): String =
     s"the variable ${variables.mkString(", ")} is not set"

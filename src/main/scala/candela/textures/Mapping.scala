@@ -23,9 +23,6 @@ final class UvMapping(su: Float, sv: Float, du: Float, dv: Float) extends Mappin
   def footprint(at: ShadingPoint): TexFootprint =
     TexFootprint(su * at.dudx, sv * at.dvdx, su * at.dudy, sv * at.dvdy)
 
-object UvMapping:
-  val Identity: UvMapping = UvMapping(1f, 1f, 0f, 0f)
-
 /** Polar coordinates around the texture space's origin: s is the angle from +z over π, t the angle
   * around z, counter-clockwise from +x, over 2π, in [0, 1).
   */

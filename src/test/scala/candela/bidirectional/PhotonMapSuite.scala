@@ -9,6 +9,7 @@ import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}
 import candela.math.*
 import candela.scene.{Instanced, Scene, Surfaces}
+import candela.shapes.TriangleSoup
 import candela.testing.Draws
 
 final class PhotonMapSuite extends AnyFunSuite:
@@ -16,11 +17,11 @@ final class PhotonMapSuite extends AnyFunSuite:
 
   private def scene: Scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces.None
+    val surfaces = Surfaces(TriangleSoup.Empty, Array.empty)
     Scene(
       surfaces,
-      Instanced.None,
-      Bvh(surfaces.primitives(Instances.None)),
+      Instanced(Array.empty, Instances.Empty),
+      Bvh(surfaces.primitives(Instances.Empty)),
       Array(ConstantMaterial(Lambert(Rgb.gray(albedo)))),
       Array(light),
       LightSelection.of(Array(light)),

@@ -21,7 +21,7 @@ final class SpectrumSuite extends AnyFunSuite:
     assert((zero(400f), zero(700f)) == (1f, 2f))
 
   test("a constant is the same everywhere, an empty one is 0"):
-    assert(Seq(100f, 550f, 900f).forall(Spectrum.constant(0.3f)(_) == 0.3f))
+    assert(Seq(100f, 550f, 900f).forall(Spectrum(Array(550f), Array(0.3f))(_) == 0.3f))
     assert(Spectrum(Array.empty, Array.empty)(550f) == 0f)
 
   test("a factor scales every value"):

@@ -22,8 +22,7 @@ class SrgbSuite extends AnyFunSuite:
 
   test("each of the 256 codes survives decoding and encoding"):
     for code <- 0 to 255 do
-      assert(Srgb.encode8(Srgb.DecodeTable(code)) == code)
-      assert(Srgb.DecodeTable(code) == Srgb.decode(code / 255f))
+      assert(Srgb.encode8(Srgb.decode(code / 255f)) == code)
 
   test("8-bit codes clamp, and NaN is black"):
     assert(Srgb.encode8(-1f) == 0)

@@ -59,7 +59,6 @@ class Distribution1DSuite extends AnyFunSuite:
     for i <- 0 until 7 do
       // two Floats below 1 are subtracted and multiplied by 7: 7 · 2⁻²⁴, rounded up
       assert(abs(d.pdf((i + 0.5f) / 7) - values(i) / mean) < 1e-6f)
-    assert(Math.abs(d.integral - mean) < 1e-6)
     val integral = (0 until 7).map(i => d.pdf((i + 0.5f) / 7).toDouble / 7).sum
     assert(Math.abs(integral - 1) < 7 * MachineEpsilon) // one Float product per bin
 
@@ -81,7 +80,6 @@ class Distribution1DSuite extends AnyFunSuite:
 
   test("all-zero values count as uniform"):
     val zero = Distribution1D(new Array[Float](8))
-    assert(zero.integral == 0.0)
     for i <- 0 until 64 do
       assert(zero.sample(i / 64f) == i / 64f)
       assert(zero.pdf(i / 64f) == 1f)

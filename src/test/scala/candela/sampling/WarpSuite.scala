@@ -20,7 +20,7 @@ class WarpSuite extends AnyFunSuite:
     agrees(1)(Warp.cosineHemisphere, w => Warp.cosineHemispherePdf(w.z))
 
   test("the uniform hemisphere is as dense as its pdf"):
-    agrees(2)(Warp.uniformHemisphere, w => if w.z > 0 then Warp.UniformHemispherePdf else 0)
+    agrees(2)(Warp.uniformHemisphere, w => if w.z > 0 then InvTwoPi else 0)
 
   test("the uniform sphere is as dense as its pdf"):
     agrees(3)(Warp.uniformSphere, _ => Warp.UniformSpherePdf)

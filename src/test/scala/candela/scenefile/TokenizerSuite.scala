@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
 import java.util.zip.GZIPOutputStream
 
-import candela.base.SceneError
+import candela.base.{FloatBuffer, SceneError}
 import org.scalatest.funsuite.AnyFunSuite
 
 class TokenizerSuite extends AnyFunSuite:

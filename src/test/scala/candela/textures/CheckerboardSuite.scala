@@ -64,8 +64,11 @@ class CheckerboardSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     p.dudx = 0.1f
     p.dvdy = 0.2f
     for filter <- Seq(CheckFilter.Box, CheckFilter.Triangle) do
-      assert(Math.abs(Squares(UvMapping.Identity, filter).oddShare(p) - 0.5f) < 1e-6f)
+      assert(Math.abs(Squares(UvMapping(1f, 1f, 0f, 0f), filter).oddShare(p) - 0.5f) < 1e-6f)
     // over one edge, half a step beyond it
     p.u = 1.05f
     p.v = 0.5f
-    assert(Math.abs(Squares(UvMapping.Identity, CheckFilter.Box).oddShare(p) - 0.75f) < 1e-5f)
+    assert(Math.abs(Squares(
+      UvMapping(1f, 1f, 0f, 0f),
+      CheckFilter.Box
+    ).oddShare(p) - 0.75f) < 1e-5f)

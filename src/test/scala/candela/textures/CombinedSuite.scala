@@ -12,7 +12,7 @@ class CombinedSuite extends AnyFunSuite:
     point.v = v
     point
 
-  private val uv = UvMapping.Identity
+  private val uv = UvMapping(1f, 1f, 0f, 0f)
   private val ramp: FloatTexture = BilerpFloat(uv, 0f, 0f, 1f, 1f)
   private val rgbRamp: RgbTexture = BilerpRgb(uv, Rgb.Black, Rgb(0f, 2f, 0f), Rgb.White, Rgb.White)
   private def number(x: Float): FloatTexture = ConstantFloat(x)

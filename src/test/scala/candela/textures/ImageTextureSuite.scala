@@ -23,7 +23,7 @@ class ImageTextureSuite extends AnyFunSuite:
   ) = LevelLookup(Array(MipLevel(Texels.color(image, linear), wrap)), interpolates, bottomUp, true)
 
   extension (lookup: LevelLookup)
-    private def color(c: TexCoord): Rgb = lookup.color(UvMapping.Identity, at(c.s, c.t))
+    private def color(c: TexCoord): Rgb = lookup.color(UvMapping(1f, 1f, 0f, 0f), at(c.s, c.t))
     private def value(c: TexCoord): Float = lookup.color(c).r
 
   private def at(u: Float, v: Float): ShadingPoint =
@@ -96,7 +96,7 @@ class ImageTextureSuite extends AnyFunSuite:
 
   test("scale multiplies; invert takes from 1 and stops at 0"):
     val source = lookup(Image(1, 1, Vector("Y"), Array(0.25f)), Bilinear)
-    val uv = UvMapping.Identity
+    val uv = UvMapping(1f, 1f, 0f, 0f)
     assert(FloatImageTexture(uv, source, 2f)(at(0.3f, 0.3f)) == 0.5f)
     assert(FloatImageTexture(uv, source, 2f, invert = true)(at(0.3f, 0.3f)) == 0.5f)
     assert(FloatImageTexture(uv, source, 8f, invert = true)(at(0.3f, 0.3f)) == 0f)

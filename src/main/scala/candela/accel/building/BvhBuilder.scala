@@ -1,7 +1,7 @@
 package candela.accel.building
 
 import candela.accel.{BinaryTree, Primitives}
-import candela.base.{loop, Parallel}
+import candela.base.Parallel
 import candela.geometry.Bounds3
 import candela.math.Vec3
 
@@ -29,29 +29,15 @@ private[accel] object BvhBuilder:
 
   def partSize(count: Int): Int = Math.max(LeastDeferred, count / DeferredParts)
 
-  /** @param bounds six Floats a primitive */
-  def apply(bounds: Array[Float], maxLeaf: Int, parallel: Parallel = Parallel.Alone): BinaryTree =
-    val records = new Array[Int](Math.multiplyExact(BoxRecord.Ints, bounds.length / 6))
-    loop(bounds.length / 6): i =>
-      val b = 6 * i
-      BoxRecord.write(
-        records,
-        i * BoxRecord.Ints,
-        i,
-        bounds(b),
-        bounds(b + 1),
-        bounds(b + 2),
-        bounds(b + 3),
-        bounds(b + 4),
-        bounds(b + 5)
-      )
-    ofRecords(records, LeafSize.single(maxLeaf), parallel)
-
   def of(primitives: Primitives, size: LeafSize, parallel: Parallel): BinaryTree =
     ofRecords(BoxRecord.all(primitives, parallel), size, parallel)
 
   /** Sorts the records on the way. */
-  private def ofRecords(records: Array[Int], size: LeafSize, parallel: Parallel): BinaryTree =
+  private[building] def ofRecords(
+      records: Array[Int],
+      size: LeafSize,
+      parallel: Parallel
+  ): BinaryTree =
     val count = records.length / BoxRecord.Ints
     val levels = Levels()
     levels.open(0)

@@ -1,7 +1,7 @@
 package candela.accel.building
 
 import candela.accel.{BinaryTree, Primitives, WideTree}
-import candela.base.{loop, Parallel}
+import candela.base.{loop, FloatBuffer, IntBuffer, Parallel}
 import candela.shapes.TriangleSoup
 
 /** Makes nodes and leaves of a [[WideTree]] from the binary tree that [[BvhBuilder]] makes, as a
@@ -20,9 +20,9 @@ private final class WideBuilder(
 ):
   private val partSize = BvhBuilder.partSize(tree.order.length)
   private val plan = CollapsePlan(width, lanes, tree, isTriangle, parallel)
-  private val top = WideWriter(width, lanes, tree, plan, partSize, partSize)
+  private val top = WideWriter(width, lanes, tree, plan, partSize)
   private val topCode =
-    if tree.order.length == 0 then WideTree.Nothing else top.write(tree.root, tree.rootCount)
+    if tree.order.length == 0 then WideTree.NoChild else top.write(tree.root, tree.rootCount)
 
   private val later = top.later.toVector
   private val writers = new Array[WideWriter](1 + later.length)
@@ -31,7 +31,7 @@ private final class WideBuilder(
   codes(0) = topCode
   parallel.each(later.length): i =>
     val node = later(i).node
-    val part = WideWriter(width, lanes, tree, plan, partSize = 0, expected = tree.count(node))
+    val part = WideWriter(width, lanes, tree, plan, partSize = 0)
     codes(i + 1) = part.write(node, 0)
     writers(i + 1) = part
 
@@ -75,7 +75,7 @@ private final class WideBuilder(
 
   /** What a code of part `i` is in the whole. */
   private def moved(code: Int, i: Int): Int =
-    if code == WideTree.Nothing then code
+    if code == WideTree.NoChild then code
     else if code >= 0 then code + nodeStarts(i)
     else
       val isBlock = WideTree.isBlock(code)
@@ -131,23 +131,23 @@ private[accel] object WideBuilder:
   * Belongs to one thread. All numbers in its codes count from its own first node, block or slot.
   *
   * @param partSize subtrees of at most so many primitives are left for later; 0: none
-  * @param expected how many primitives are in it
   */
 private[building] final class WideWriter(
     width: Int,
     lanes: Int,
     tree: BinaryTree,
     plan: CollapsePlan,
-    partSize: Int,
-    expected: Int
+    partSize: Int
 ):
-  val nodes = FloatBuffer((expected / lanes * 2 / width + 1) * WideTree.floats(width))
+  val nodes = FloatBuffer()
 
   /** Which primitives are in the lanes of the blocks; −1: none. */
-  val owners = IntBuffer(expected + expected / 4)
+  val owners = IntBuffer()
 
   /** Which primitives are in the leaves that are no blocks. */
-  val others = IntBuffer(16)
+  val others = IntBuffer()
+
+  private val padded = new Array[Float](6)
 
   /** What was left for later, and where its code is to be put. */
   val later = scala.collection.mutable.ArrayBuffer.empty[WideWriter.Later]
@@ -178,7 +178,8 @@ private[building] final class WideWriter(
 
   /** The node that takes the place of this binary one, and all below it. */
   private def node(binary: Int): Int =
-    val at = nodes.grow(WideTree.floats(width))
+    val at = nodes.length
+    loop(WideTree.floats(width))(_ => nodes += 0f)
     val boxes = new Array[Int](width) // of the children: where in the tree's nodes
     val count = gather(binary, plan.choice(binary, 1), width, boxes, 0)
     var k = 0
@@ -213,12 +214,9 @@ private[building] final class WideWriter(
     else gather(child, plan.choice(child, k), k, boxes, count)
 
   private def writeBox(at: Int, lane: Int, box: Int): Unit =
-    var axis = 0
-    while axis < 3 do
-      nodes(at + axis * width + lane) = tree.nodes(box + axis)
-      nodes(at + (3 + axis) * width + lane) = tree.nodes(box + 3 + axis)
-      axis += 1
-    WideTree.pad(nodes.floats, at + lane, width)
+    System.arraycopy(tree.nodes, box, padded, 0, 6)
+    WideTree.pad(padded, 0)
+    loop(6)(row => nodes(at + row * width + lane) = padded(row))
 
   /** Met by no ray: it begins at infinity or lies behind. */
   private def writeEmpty(at: Int, lane: Int): Unit =
@@ -226,7 +224,7 @@ private[building] final class WideWriter(
     while row < 6 do
       nodes(at + row * width + lane) = Float.PositiveInfinity
       row += 1
-    nodes(at + 6 * width + lane) = java.lang.Float.intBitsToFloat(WideTree.Nothing)
+    nodes(at + 6 * width + lane) = java.lang.Float.intBitsToFloat(WideTree.NoChild)
 
 private[building] object WideWriter:
 

@@ -21,7 +21,7 @@ final class Bvh(
   private val nodes = tree.nodes
   parallel.ranges(tree.nodeCount): (from, until) =>
     for i <- from until until; side <- 0 until 2 do
-      WideTree.pad(nodes, BinaryTree.NodeFloats * i + 6 * side, 1)
+      WideTree.pad(nodes, BinaryTree.NodeFloats * i + 6 * side)
   private val root = tree.root
   private val rootCount = tree.rootCount
   val bounds: Bounds3 = tree.bounds

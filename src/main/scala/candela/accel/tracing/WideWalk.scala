@@ -53,11 +53,11 @@ private[tracing] object WideWalk:
     var found = false
     var top = 0
     var node = tree.root
-    while node != WideTree.Nothing do
+    while node != WideTree.NoChild do
       if node >= 0 then
         var hits = boxes(node, limit)
         val children = node + 6 * width
-        if hits == 0 then node = WideTree.Nothing
+        if hits == 0 then node = WideTree.NoChild
         else
           val a = Integer.numberOfTrailingZeros(hits)
           hits &= hits - 1
@@ -107,8 +107,8 @@ private[tracing] object WideWalk:
           if tree.others.intersect(first, first + WideTree.size(node), ray, hit) then
             found = true
         limit = limitOf(ray.tMax)
-        node = WideTree.Nothing
-      if node == WideTree.Nothing then
+        node = WideTree.NoChild
+      if node == WideTree.NoChild then
         // The next subtree that begins before the closest hit
         var going = top > 0
         while going do
@@ -136,7 +136,7 @@ private[tracing] object WideWalk:
     var found = false
     var top = 0
     var node = tree.root
-    while node != WideTree.Nothing do
+    while node != WideTree.NoChild do
       var from = node
       var hits = 0
       if node >= 0 then hits = boxes(node, limit)
@@ -157,7 +157,7 @@ private[tracing] object WideWalk:
         val next = stack(top)
         hits = (next >>> 32).toInt
         from = next.toInt
-      if found || hits == 0 then node = WideTree.Nothing
+      if found || hits == 0 then node = WideTree.NoChild
       else
         // What is left of the node stays on the stack, or is overwritten if it is nothing
         val rest = hits & (hits - 1)

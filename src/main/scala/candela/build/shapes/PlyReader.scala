@@ -1,7 +1,6 @@
 package candela.build.shapes
 
-import candela.base.loop
-import candela.scenefile.IntBuffer
+import candela.base.{loop, IntBuffer}
 
 /** Reads the elements of one PLY file.
   *
@@ -114,18 +113,18 @@ private[build] final class PlyReader(
         // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's
         // order
         if isQuad then
-          quads.add(first)
-          quads.add(second)
-          quads.add(next)
-          quads.add(last)
+          quads += first
+          quads += second
+          quads += next
+          quads += last
         else if length == 4 then triangle(next, first, last)
         else triangle(first, last, next)
         last = next
 
   private def triangle(a: Int, b: Int, c: Int): Unit =
-    indices.add(a)
-    indices.add(b)
-    indices.add(c)
+    indices += a
+    indices += b
+    indices += c
 
   private def index(t: PlyType, vertexCount: Int): Int =
     val at = in.offset

@@ -2,7 +2,7 @@ package candela.accel.building
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.accel.{AcceleratorScenes, Primitives}
+import candela.accel.{AcceleratorScenes, BinaryTree, Primitives}
 import candela.base.{loop, Parallel}
 import candela.geometry.Bounds3
 import candela.math.*
@@ -11,12 +11,23 @@ import candela.testing.Draws
 
 class BvhBuilderSuite extends AnyFunSuite:
 
+  /** @param boxes six Floats a primitive */
+  private def build(
+      boxes: Array[Float],
+      maxLeaf: Int,
+      parallel: Parallel = Parallel.Alone
+  ): BinaryTree =
+    val records = new Array[Int](BoxRecord.Ints * (boxes.length / 6))
+    for (b, i) <- boxes.grouped(6).zipWithIndex do
+      BoxRecord.write(records, i * BoxRecord.Ints, i, b(0), b(1), b(2), b(3), b(4), b(5))
+    BvhBuilder.ofRecords(records, LeafSize.single(maxLeaf), parallel)
+
   private def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
 
   for (name, primitives) <- AcceleratorScenes.all; maxLeaf <- Seq(1, 4) do
     test(s"each primitive is in one leaf, inside all boxes above: $name, leaves to $maxLeaf"):
       val boxes = primitives.bounds
-      val built = BvhBuilder(boxes, maxLeaf)
+      val built = build(boxes, maxLeaf)
       val seen = new Array[Int](primitives.count)
 
       def visit(code: Int, size: Int, depth: Int, above: List[Array[Float]]): Unit =
@@ -43,13 +54,13 @@ class BvhBuilderSuite extends AnyFunSuite:
       assert(seen.forall(_ == 1))
 
   test("primitives that all lie at one point are halved into leaves"):
-    val built = BvhBuilder(Array.fill(6 * 1000)(2f), maxLeaf = 4)
+    val built = build(Array.fill(6 * 1000)(2f), maxLeaf = 4)
     assert(built.order.sorted.sameElements(Array.range(0, 1000)))
     assert(built.nodeCount <= 511) // 1000 in leaves of at most 4 by halving: 256 or 512 leaves
 
   test("centroids a denormal number apart are no worse than equal ones"):
     val boxes = Array.tabulate(6 * 100)(i => (i / 6 % 2) * 1e-44f)
-    assert(BvhBuilder(boxes, maxLeaf = 4).order.distinct.length == 100)
+    assert(build(boxes, maxLeaf = 4).order.distinct.length == 100)
 
   private def boxesOf(primitives: Primitives): IndexedSeq[Bounds3] =
     primitives.bounds.grouped(6).toIndexedSeq.map: b =>
@@ -98,10 +109,9 @@ class BvhBuilderSuite extends AnyFunSuite:
       Array(c.x - size, c.y - size, c.z, c.x + size, c.y + size, c.z + size)
     val mesh = AcceleratorScenes.torus(140).bounds
     for all <- Seq(boxes.flatten, mesh) do
-      def build(parallel: Parallel) = BvhBuilder(all, maxLeaf = 4, parallel)
-      val alone = build(Parallel.Alone)
+      val alone = build(all, maxLeaf = 4)
       for parallel <- Seq(Crew(2), Crew(7), Backwards) do
-        val other = build(parallel)
+        val other = build(all, maxLeaf = 4, parallel)
         assert(other.order.sameElements(alone.order))
         assert(other.nodes.map(bits).sameElements(alone.nodes.map(bits)))
         assert((other.root, other.rootCount, other.bounds) == (
@@ -115,7 +125,7 @@ class BvhBuilderSuite extends AnyFunSuite:
       val draws = Draws(3)
       val boxes = Array.fill(200)(draws.vec(-1, 1)).flatMap: p =>
         Array(p.x, p.y, p.z, p.x + 0.1f, if draws.below(9) == 0 then odd else p.y + 0.1f, p.z)
-      assert(BvhBuilder(boxes, maxLeaf = 4).order.sorted.sameElements(Array.range(0, 200)))
+      assert(build(boxes, maxLeaf = 4).order.sorted.sameElements(Array.range(0, 200)))
 
 /** Several threads' work by one, the last first. */
 private[building] object Backwards extends Parallel:

@@ -45,7 +45,7 @@ class WideBuilderSuite extends AnyFunSuite:
     if code < 0 then waiting
     else
       val children = Vector.tabulate(tree.width)(k => bits(tree.nodes(code + 6 * tree.width + k)))
-        .filter(_ != WideTree.Nothing)
+        .filter(_ != WideTree.NoChild)
       val here = waiting + children.size
       children.map(stackNeed(tree, _, here - 1)).foldLeft(here)(Math.max)
 

@@ -1,0 +1,63 @@
+package candela.base
+
+import scala.collection.mutable.ArrayBuffer
+
+/** Numbers of a list whose length is not known yet, without boxes.
+  *
+  * They are in pieces of the same size, which are joined at the end: that takes memory twice for a
+  * moment, where an array that doubles takes it up to four times.
+  *
+  * @tparam A the array of such numbers
+  */
+abstract class NumberBuffer[A](newArray: Int => A):
+  private val pieces = ArrayBuffer.empty[A]
+  protected var size = 0
+
+  def length: Int = size
+
+  /** The piece in which the number of that index is, or will be. */
+  protected def pieceOf(i: Int): A =
+    val k = i >>> NumberBuffer.Bits
+    if k == NumberBuffer.Most then throw OutOfMemoryError("a list of more than 2^31 numbers")
+    while pieces.length <= k do pieces += newArray(NumberBuffer.Piece)
+    pieces(k)
+
+  def copyTo(to: A, at: Int): Unit =
+    for k <- pieces.indices do
+      val start = k << NumberBuffer.Bits
+      val count = Math.min(size - start, NumberBuffer.Piece)
+      if count > 0 then System.arraycopy(pieces(k), 0, to, at + start, count)
+
+  /** The numbers so far; the buffer is empty afterwards. */
+  def take(): A =
+    val all = newArray(size)
+    copyTo(all, 0)
+    pieces.takeInPlace(1)
+    size = 0
+    all
+
+object NumberBuffer:
+  private[base] inline val Bits = 12
+  private[base] inline val Piece = 4096
+  private[base] inline val Within = 4095
+  private inline val Most = 524287
+
+final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
+  private var last = Array.emptyFloatArray
+
+  def +=(x: Float): Unit =
+    val at = size & NumberBuffer.Within
+    if at == 0 then last = pieceOf(size)
+    last(at) = x
+    size += 1
+
+  def update(i: Int, x: Float): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
+
+final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
+  private var last = Array.emptyIntArray
+
+  def +=(x: Int): Unit =
+    val at = size & NumberBuffer.Within
+    if at == 0 then last = pieceOf(size)
+    last(at) = x
+    size += 1

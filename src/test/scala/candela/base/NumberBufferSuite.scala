@@ -1,0 +1,24 @@
+package candela.base
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class NumberBufferSuite extends AnyFunSuite:
+
+  test("numbers come back in their order, however many, and again after the buffer was emptied"):
+    val (floats, ints) = (FloatBuffer(), IntBuffer())
+    for count <- Seq(0, 1, 4095, 4096, 4097, 20000, 5) do
+      for i <- 0 until count do
+        floats += i * 0.5f
+        ints += -i
+      assert(floats.length == count && ints.length == count)
+      assert(floats.take().sameElements(Array.tabulate(count)(_ * 0.5f)))
+      assert(ints.take().sameElements(Array.tabulate(count)(-_)))
+
+  test("numbers can be replaced, and copied to a place of a larger array"):
+    val floats = FloatBuffer()
+    for _ <- 0 until 10000 do floats += 1f
+    for i <- Seq(0, 4095, 4096, 9999) do floats(i) = i.toFloat
+    val all = new Array[Float](10002)
+    floats.copyTo(all, 1)
+    assert(all.zipWithIndex.filter(_._1 != 1f).toSeq ==
+      Seq((0f, 0), (0f, 1), (4095f, 4096), (4096f, 4097), (9999f, 10000), (0f, 10001)))
