@@ -1,7 +1,6 @@
 package candela.bsdf
 
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
 import candela.math.*
 
 /** How a point of a surface scatters light. Directions are unit vectors that point away from the
@@ -83,35 +82,3 @@ final class BsdfSample(
 object BsdfSample:
   /** No direction: the path ends here. */
   val Absorbed: BsdfSample = BsdfSample(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
-
-/** Gives every point of a surface its [[Bsdf]]. */
-abstract class Material:
-  def bsdf(at: ShadingPoint): Bsdf
-
-  /** Are any of its BSDFs? */
-  def isDispersive: Boolean = false
-
-  /** Is it the same everywhere? */
-  def isConstant: Boolean = false
-
-  /** Does it scatter differently when turned about its normal? Then the tangent matters. */
-  def isAnisotropic: Boolean = false
-
-  /** How light that was sent into the surface here comes out again elsewhere; null: it goes on
-    * straight inside. Asked after [[bsdf]], which may have turned the frame.
-    */
-  def bssrdf(at: ShadingPoint): Bssrdf | Null = null
-
-  /** Does [[bssrdf]] have an answer? */
-  def isSubsurface: Boolean = false
-
-/** No surface at all: rays go straight on (pbrt's "interface" and "none"). */
-object InterfaceMaterial extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("an interface has no BSDF")
-
-/** The same everywhere: the object is made once, at build. */
-final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = false)
-    extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = value
-  override def isConstant: Boolean = true
-  override def isDispersive: Boolean = value.isDispersive

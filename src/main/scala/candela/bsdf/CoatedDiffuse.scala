@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{RgbTexture, Textured}
 
 /** A Lambertian base under a clear coat, with all the light that goes back and forth between them.
   *
@@ -99,3 +101,64 @@ object CoatedDiffuse:
       sum = albedo * (1f + coat.internalReflectance * sum)
       k += 1
     sum
+
+/** [[CoatedDiffuse]]; `reflectance` is held to [0, 1].
+  *
+  * @param thickness  in mean free paths of the coat's absorption
+  * @param baseHits   how often light may meet the base
+  * @param bySpectrum applies a function to the reflectance, wavelength by wavelength, if that is
+  *                   known: what goes back and forth under the coat grows faster than its colour.
+  *                   For surfaces that are the same everywhere, as it takes its time
+  */
+final class CoatedDiffuseMaterial(
+    reflectance: RgbTexture,
+    roughness: Roughness,
+    eta: Float,
+    thickness: Float,
+    baseHits: Int,
+    coats: Coats,
+    bySpectrum: Option[(Float => Float) => Rgb] = None
+) extends Material,
+      Textured(reflectance, roughness):
+  private val coatAt: TrowbridgeReitz => Coat =
+    if roughness.isConstant then
+      val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
+      _ => coat
+    else
+      val family = coats.family(eta, thickness)
+      Coats.between(family, _)
+
+  private val spectrum = bySpectrum.filter(_ => isConstant)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val top = roughness.trowbridgeReitz(at)
+    val coat = coatAt(top)
+    spectrum match
+      case Some(colored) =>
+        new CoatedDiffuse(c => colored(CoatedDiffuse.series(_, c, baseHits)), top, coat)
+      case None => CoatedDiffuse(reflectance.albedo(at), top, coat, baseHits)
+
+object CoatedDiffuseMaterial:
+
+  /** The material for what is between coat and base: layers are walked only if the medium scatters
+    * or its thickness varies.
+    */
+  def apply(
+      reflectance: RgbTexture,
+      roughness: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      coats: Coats,
+      bySpectrum: Option[(Float => Float) => Rgb] = None
+  ): Material =
+    val summed =
+      for
+        thickness <- medium.thickness.constant
+        _ <- medium.albedo.constant.filter(_.max <= 0f)
+      yield
+        // Light meets the base first, then coat and base in turn
+        val hits = (medium.maxDepth + 1) / 2
+        new CoatedDiffuseMaterial(
+          reflectance, roughness, eta, thickness, hits, coats, bySpectrum
+        )
+    summed.getOrElse(LayeredMaterial(DiffuseLayers(reflectance, roughness, eta, medium)))

@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{RgbTexture, Textured}
 
 /** Ideal diffuse scattering to both sides of a thin sheet, such as paper or a leaf.
   *
@@ -39,3 +41,15 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Le
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack
+
+/** [[DiffuseTransmission]]; textures times `scale` are held to [0, 1]. */
+final class DiffuseTransmissionMaterial(
+    reflectance: RgbTexture,
+    transmittance: RgbTexture,
+    scale: Float
+) extends Material,
+      Textured(reflectance, transmittance):
+  def bsdf(at: ShadingPoint): Bsdf = DiffuseTransmission(
+    reflectance(at).map(c => clamp(scale * c, 0f, 1f)),
+    transmittance(at).map(c => clamp(scale * c, 0f, 1f))
+  )

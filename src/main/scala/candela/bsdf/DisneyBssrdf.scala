@@ -3,6 +3,7 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.Textured
 
 /** Light below skin and the like as Disney's material has it: a profile fitted to what was traced,
   * two exponentials whose integral is the colour.
@@ -59,7 +60,7 @@ private object DisneyBssrdf:
     Math.log1p(-Math.min(x, OneMinusEpsilon).toDouble).toFloat
 
 /** What is below the surface of [[DisneyMaterial]]. */
-final class DisneyInterior(p: DisneyParameters) extends Interior:
+final class DisneyInterior(p: DisneyParameters) extends Interior, Textured(p):
   def bssrdf(at: ShadingPoint): Bssrdf | Null =
     val distance = p.distance(at)
     val share = (1f - p.metallic(at)) * (1f - p.transmission(at))

@@ -3,7 +3,7 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.{ConstantRgb, FloatTexture, RgbTexture}
+import candela.textures.{ConstantRgb, FloatTexture, RgbTexture, Textured}
 
 /** What [[DisneyMaterial]] is made of, each from 0 to 1 unless said otherwise.
   *
@@ -39,25 +39,27 @@ final class DisneyParameters(
     val flatness: FloatTexture,
     val diffTrans: FloatTexture,
     scatterDistance: RgbTexture = ConstantRgb(Rgb.Black)
-):
+) extends Textured(
+      color, metallic, eta, roughness, specularTint, anisotropic, sheen, sheenTint, clearcoat,
+      clearcoatGloss, transmission, flatness, diffTrans, scatterDistance
+    ):
   val distance: RgbTexture = if isThin then ConstantRgb(Rgb.Black) else scatterDistance
 
   /** Does light anywhere leave elsewhere than it enters? */
   val isSubsurface: Boolean = distance.constant.forall(!_.isBlack)
-  val isConstant: Boolean = Seq(color, distance).forall(_.constant.isDefined) && Seq(
-    metallic, eta, roughness, specularTint, anisotropic, sheen, sheenTint, clearcoat,
-    clearcoatGloss, transmission, flatness, diffTrans
-  ).forall(_.constant.isDefined)
+
+  /** Highlights are stretched along the tangents. */
+  override def isAnisotropic: Boolean = anisotropic.constant.forall(_ != 0f)
 
 /** The material that Disney's artists know, as PBRT 3 has it: a broad part, gloss between plastic
   * and metal, a clear coat, and refraction.
   *
   * Sources: Burley 2012 and 2015 (see [[DisneyDiffuse]]); PBRT 3, "disney".
   */
-final class DisneyMaterial(p: DisneyParameters) extends Material:
+final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
 
   def bsdf(at: ShadingPoint): Bsdf =
-    val color = p.color(at).map(c => clamp(c, 0f, 1f))
+    val color = p.color.albedo(at)
     val metallic = p.metallic(at)
     val eta = p.eta(at)
     val roughness = p.roughness(at)
@@ -137,4 +139,10 @@ final class DisneyMaterial(p: DisneyParameters) extends Material:
     if eta == 1f then Passthrough(passed)
     else RoughDielectric(spread, eta, Rgb.Black, passed)
 
-  override def isAnisotropic: Boolean = p.anisotropic.constant.forall(_ != 0f)
+object DisneyMaterial:
+
+  /** With what is beneath it, if light gets there. */
+  def apply(p: DisneyParameters): Material =
+    val surface = new DisneyMaterial(p)
+    if p.isSubsurface then SubsurfaceMaterial(surface, DisneyInterior(p), alongTangents = true)
+    else surface

@@ -4,6 +4,13 @@ import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
 import candela.textures.{FloatTexture, MipLevel}
 
+/** A material whose shading frame is turned at each point. */
+abstract class DisplacedMaterial(inner: Material) extends Material:
+  override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDispersive: Boolean = inner.isDispersive
+  override def isSubsurface: Boolean = inner.isSubsurface
+  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
+
 /** A material on a surface that looks as if it were displaced along its normal: only the shading
   * frame is turned.
   *
@@ -12,12 +19,8 @@ import candela.textures.{FloatTexture, MipLevel}
   *
   * Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978.
   */
-final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float) extends Material:
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDispersive: Boolean = inner.isDispersive
-  override def isSubsurface: Boolean = inner.isSubsurface
-  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
-
+final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
+    extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
     val p = at.p.copy
     val u = at.u
@@ -50,12 +53,8 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
 /** A material on a surface whose normals a picture says, as red, green and blue between 0 and 1 for
   * coordinates along u, v and the normal between −1 and 1 (pbrt-v4).
   */
-final class NormalMapMaterial(inner: Material, picture: MipLevel) extends Material:
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDispersive: Boolean = inner.isDispersive
-  override def isSubsurface: Boolean = inner.isSubsurface
-  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
-
+final class NormalMapMaterial(inner: Material, picture: MipLevel)
+    extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
     val c = picture.bilinear(at.u, 1f - at.v)
     val frame = Frame.along(at.frame.n, at.tangentU)

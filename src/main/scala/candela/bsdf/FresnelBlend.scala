@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{RgbTexture, Textured}
 
 /** A diffuse base under a glossy coat, as of varnish: what the coat reflects, the base lacks.
   *
@@ -69,3 +71,9 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
   override def regularized: Bsdf = FresnelBlend(diffuse, specular, distribution.regularized)
+
+/** [[FresnelBlend]]; colours are held to be ≥ 0. */
+final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness)
+    extends Material,
+      Textured(kd, ks, roughness):
+  def bsdf(at: ShadingPoint): Bsdf = FresnelBlend(kd.positive(at), ks.positive(at), roughness(at))

@@ -3,10 +3,10 @@ package candela.bsdf
 import candela.color.{ColorBasis, Rgb}
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.textures.{FloatTexture, RgbTexture, Varying}
 
 /** What colours a hair. */
-enum Pigment:
+enum Pigment extends Varying:
   /** The absorption coefficient itself, per unit of the hair's radius. */
   case Absorption(sigmaA: RgbTexture)
 
@@ -17,7 +17,7 @@ enum Pigment:
   case Melanin(eumelanin: FloatTexture, pheomelanin: FloatTexture, basis: ColorBasis)
 
   def absorption(at: ShadingPoint, betaN: Float): Rgb = this match
-    case Absorption(sigmaA) => sigmaA(at).map(s => Math.max(s, 0f))
+    case Absorption(sigmaA) => sigmaA.positive(at)
     case Color(reflectance) => Pigment.ofColor(reflectance(at), betaN)
     case Melanin(eu, pheo, basis) =>
       val e = Math.max(eu(at), 0f)
@@ -25,9 +25,9 @@ enum Pigment:
       basis.fromSrgb(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
 
   def isConstant: Boolean = this match
-    case Absorption(t) => t.constant.isDefined
-    case Color(t) => t.constant.isDefined
-    case Melanin(e, p, _) => e.constant.isDefined && p.constant.isDefined
+    case Absorption(t) => t.isConstant
+    case Color(t) => t.isConstant
+    case Melanin(e, p, _) => e.isConstant && p.isConstant
 
 object Pigment:
   // Absorption of a unit concentration; source: d'Eon et al., EGSR 2011, as given in PBRT

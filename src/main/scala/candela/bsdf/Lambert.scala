@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{RgbTexture, Textured}
 
 /** Ideal diffuse reflection: the same radiance in every direction on the side the light came from.
   *
@@ -23,3 +25,11 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+
+object Lambert:
+  /** Scatters nothing. */
+  val Black: Lambert = new Lambert(Rgb.Black)
+
+/** [[Lambert]]; `reflectance` is held to [0, 1]. */
+final class DiffuseMaterial(reflectance: RgbTexture) extends Material, Textured(reflectance):
+  def bsdf(at: ShadingPoint): Bsdf = Lambert(reflectance.albedo(at))

@@ -2,8 +2,7 @@ package candela.bsdf
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.*
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
 
 /** What is between the base of a [[Layered]] surface and its interface.
   *
@@ -19,9 +18,7 @@ final class LayerMedium(
     val asymmetry: FloatTexture,
     val maxDepth: Int,
     val walks: Int
-):
-  def isConstant: Boolean =
-    thickness.constant.isDefined && albedo.constant.isDefined && asymmetry.constant.isDefined
+) extends Textured(thickness, albedo, asymmetry):
 
   /** Over a diffuse base. */
   private[bsdf] def layers(
@@ -36,7 +33,7 @@ final class LayerMedium(
     eta,
     base,
     Math.max(thickness(at), 0f),
-    albedo(at).map(c => clamp(c, 0f, 1f)),
+    albedo.albedo(at),
     asymmetry(at),
     maxDepth,
     Math.max(walks, 1),
@@ -47,55 +44,51 @@ final class LayerMedium(
 object LayerMedium:
   private[bsdf] val NoGloss = TrowbridgeReitz(1f, 1f)
 
-/** A surface whose layers are walked: at each point with random numbers of its own.
-  *
-  * @param isSame are the layers the same everywhere?
-  */
-abstract class LayeredMaterial(isSame: Boolean) extends Material:
-  protected def layers(at: ShadingPoint): Layers
-
-  // Only layers that are the same everywhere are read from here
-  private lazy val fixed: Layers = layers(ShadingPoint())
-
-  final def bsdf(at: ShadingPoint): Bsdf =
-    Layered(if isSame then fixed else layers(at), Layered.hash(0L, at.p))
+/** The layers of a surface, at each of its points. */
+abstract class LayersTexture extends Varying:
+  def apply(at: ShadingPoint): Layers
 
 /** A diffuse base whose `reflectance` is held to [0, 1]. */
-final class LayeredDiffuseMaterial(
+final class DiffuseLayers(
     reflectance: RgbTexture,
     top: Roughness,
     eta: Float,
     medium: LayerMedium
-) extends LayeredMaterial(
-      reflectance.constant.isDefined && top.isConstant && medium.isConstant
-    ):
-  protected def layers(at: ShadingPoint): Layers =
-    val base = Lambert(reflectance(at).map(c => clamp(c, 0f, 1f)))
-    medium.layers(top.trowbridgeReitz(at), eta, base, at)
-
-  override def isAnisotropic: Boolean = top.isAnisotropic
+) extends LayersTexture,
+      Textured(reflectance, top, medium):
+  def apply(at: ShadingPoint): Layers =
+    medium.layers(top.trowbridgeReitz(at), eta, Lambert(reflectance.albedo(at)), at)
 
 /** A metal as base.
   *
   * @param metal how it reflects from within the coat
   */
-final class LayeredConductorMaterial(
+final class ConductorLayers(
     metal: MetalTexture,
     bottom: Roughness,
     top: Roughness,
     eta: Float,
     medium: LayerMedium
-) extends LayeredMaterial(
-      metal.isConstant && bottom.isConstant && top.isConstant && medium.isConstant
-    ):
+) extends LayersTexture,
+      Textured(metal, bottom, top, medium):
   private val share = if medium.albedo.constant.exists(_.isBlack) then 0.85f else 0.5f
 
-  protected def layers(at: ShadingPoint): Layers =
+  def apply(at: ShadingPoint): Layers =
     val gloss = bottom.trowbridgeReitz(at)
     val base = Conductor(gloss, metal(at))
     medium.layers(top.trowbridgeReitz(at), eta, base, at, gloss, share)
 
-  override def isAnisotropic: Boolean = top.isAnisotropic || bottom.isAnisotropic
+/** A surface whose layers are walked: at each point with random numbers of its own, so that it is
+  * never constant.
+  */
+final class LayeredMaterial(layers: LayersTexture) extends Material:
+  private val fixed: Layers | Null = if layers.isConstant then layers(ShadingPoint()) else null
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val here = fixed
+    Layered(if here != null then here else layers(at), Layered.hash(0L, at.p))
+
+  override def isAnisotropic: Boolean = layers.isAnisotropic
 
 /** A smooth metal under a smooth coat, which together are a mirror; regularized, they are walked.
   *
@@ -108,3 +101,26 @@ final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Ma
 private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBsdf(mirror):
   override def regularized: Bsdf = walked.regularized
   override def atWavelength(nm: Float): Bsdf = this
+
+object CoatedConductorMaterial:
+
+  /** A metal under a coat: smooth on smooth if that can be summed, else by walks between the two.
+    *
+    * @param metal    as seen from within the coat
+    * @param mirrored what a smooth metal and a smooth coat reflect together at the cosine, if that
+    *                 is known
+    */
+  def apply(
+      metal: MetalTexture,
+      bottom: Roughness,
+      top: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      mirrored: Option[Float => Rgb]
+  ): Material =
+    val walked = LayeredMaterial(ConductorLayers(metal, bottom, top, eta, medium))
+    val isSmooth = bottom.isSmooth && (top.isSmooth || (top.isConstant && eta == 1f))
+    mirrored.filter(_ => isSmooth) match
+      case Some(curve) =>
+        SummedConductorMaterial(Mirror(Rgb.White, TabulatedReflectance.of(256)(curve)), walked)
+      case None => walked

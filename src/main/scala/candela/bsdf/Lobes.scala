@@ -107,10 +107,8 @@ object Lobes:
       if scale == Rgb.White then lobe else Scaled(lobe, scale)
 
     def result: Bsdf =
-      if lobes.isEmpty then Black
+      if lobes.isEmpty then Lambert.Black
       else if lobes.length == 1 then lobes(0)
       else
         val total = albedos.sum
         Lobes(lobes, albedos.map(a => 0.5f * a / total + 0.5f / lobes.length.toFloat))
-
-  private val Black = Lambert(Rgb.Black)

@@ -61,13 +61,3 @@ object MicrofacetReflection:
   private[bsdf] def pdf(distribution: MicrofacetDistribution, wo: Vec3, m: Vec3): Float =
     val cosM = wo dot m
     if cosM > 0f then distribution.pdf(wo, m) / (4f * cosM) else 0f
-
-/** A metal or other opaque mirror, as rough as `distribution` says. */
-object Conductor:
-  def apply(
-      distribution: MicrofacetDistribution,
-      curve: ReflectanceCurve,
-      scale: Rgb = Rgb.White
-  ): Bsdf =
-    if distribution.isSmooth then Mirror(scale, curve)
-    else MicrofacetReflection(distribution, curve, scale)

@@ -2,16 +2,17 @@ package candela.bsdf
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.*
-import candela.textures.RgbTexture
+import candela.textures.{RgbTexture, Textured}
 
 /** Two materials in one: `amount` (held to [0, 1], by colour) of the first, the rest of the second.
   *
   * The normal that bumps give the first holds for both, as in PBRT 2 and 3.
   */
-final class MixedMaterial(first: Material, second: Material, amount: RgbTexture) extends Material:
+final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
+    extends Material,
+      Textured(first, second, amount):
   def bsdf(at: ShadingPoint): Bsdf =
-    val part = amount(at).map(c => clamp(c, 0f, 1f))
+    val part = amount.albedo(at)
     val rest = Rgb.White - part
     val frame = at.frame.copy
     val other = MixedMaterial.scatter(second, at)
@@ -22,7 +23,6 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
       .result
 
   override def isDispersive: Boolean = first.isDispersive || second.isDispersive
-  override def isAnisotropic: Boolean = first.isAnisotropic || second.isAnisotropic
 
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)

@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Textured}
 
 /** Diffuse reflection from a surface of V-shaped grooves, as of clay or the moon.
   *
@@ -38,3 +40,12 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+
+/** Diffuse reflection; Oren and Nayar's where `sigma` (degrees, held to [0, 90]) isn't 0. */
+final class MatteMaterial(kd: RgbTexture, sigma: FloatTexture)
+    extends Material,
+      Textured(kd, sigma):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val albedo = kd.positive(at)
+    val angle = clamp(sigma(at), 0f, 90f)
+    if angle == 0f then Lambert(albedo) else OrenNayar(albedo, angle)

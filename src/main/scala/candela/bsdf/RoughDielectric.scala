@@ -126,20 +126,3 @@ object RoughDielectric:
   private[bsdf] def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
     val cosI = i dot m
     Math.abs(cosI) / square(cosI + (o dot m) / relative)
-
-/** The interface of two transparent media, as rough as `distribution` says. */
-object Dielectric:
-  def apply(
-      distribution: MicrofacetDistribution,
-      eta: Float,
-      reflectance: Rgb = Rgb.White,
-      transmittance: Rgb = Rgb.White
-  ): Bsdf =
-    // With next to no change of index nothing is bent, however rough the interface: by 1e-4 at
-    // most, and Float directions could not tell which facet did it.
-    val isMatched = Math.abs(eta - 1f) < Matched
-    if distribution.isSmooth || isMatched then SmoothDielectric(eta, reflectance, transmittance)
-    else RoughDielectric(distribution, eta, reflectance, transmittance)
-
-  /** Of the index: media that differ by less are as good as the same. */
-  private inline val Matched = 1e-4f

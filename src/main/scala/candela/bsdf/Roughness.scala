@@ -2,7 +2,7 @@ package candela.bsdf
 
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.FloatTexture
+import candela.textures.{ConstantFloat, FloatTexture, Textured}
 
 /** What the number that a scene calls roughness means: it differs between the versions of PBRT. */
 enum RoughnessModel:
@@ -54,29 +54,34 @@ final class Roughness(
     v: FloatTexture,
     model: RoughnessModel,
     smoothAtZero: Boolean = false
-):
-  val isConstant: Boolean = u.constant.isDefined && v.constant.isDefined
-
-  /** Does it depend on the direction along the surface? */
-  val isAnisotropic: Boolean = (u.constant, v.constant) match
+) extends Textured(u, v):
+  override val isAnisotropic: Boolean = (u.constant, v.constant) match
     case (Some(a), Some(b)) => a != b && model != RoughnessModel.BlinnExponent
     case _ => !(u eq v)
 
   // Only a constant roughness is read from here.
-  private val fixed = evaluate(u.constant.getOrElse(1f), v.constant.getOrElse(1f))
+  private val fixedU = u.constant.getOrElse(1f)
+  private val fixedV = v.constant.getOrElse(1f)
+  private val fixed = evaluate(fixedU, fixedV)
+  private val fixedTrowbridgeReitz = model.trowbridgeReitz(fixedU, fixedV)
 
   def apply(at: ShadingPoint): MicrofacetDistribution =
     if isConstant then fixed else evaluate(u(at), v(at))
 
   /** The Trowbridge–Reitz distribution, for surfaces that only it describes. */
   def trowbridgeReitz(at: ShadingPoint): TrowbridgeReitz =
-    model.trowbridgeReitz(u(at), v(at))
+    if isConstant then fixedTrowbridgeReitz else model.trowbridgeReitz(u(at), v(at))
+
+  /** Is it smooth everywhere? */
+  def isSmooth: Boolean = isConstant && fixedTrowbridgeReitz.isSmooth
 
   private def evaluate(ru: Float, rv: Float): MicrofacetDistribution =
     if smoothAtZero && ru == 0f && rv == 0f then TrowbridgeReitz(0f, 0f)
     else model.distribution(ru, rv)
 
 object Roughness:
+  val Smooth: Roughness =
+    Roughness(ConstantFloat(0f), ConstantFloat(0f), RoughnessModel.PlainAlpha)
 
   /** The `alpha` that PBRT 3 gives a roughness in [0, 1]: a fit, to make the scale even to the eye.
     *

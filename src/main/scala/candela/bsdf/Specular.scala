@@ -1,7 +1,9 @@
 package candela.bsdf
 
 import candela.color.Rgb
+import candela.geometry.ShadingPoint
 import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Textured}
 
 /** What perfectly specular scattering has in common: only `sample` can find its directions. */
 sealed abstract class Specular extends LeanBsdf:
@@ -98,3 +100,17 @@ final class Passthrough(transmittance: Rgb) extends Specular:
     else out.set(-wo, transmittance, 1f, isSpecular = true)
 
   def isTransmissive: Boolean = true
+
+/** A smooth mirror of the same reflectance at every angle. */
+final class MirrorMaterial(kr: RgbTexture) extends Material, Textured(kr):
+  def bsdf(at: ShadingPoint): Bsdf = Mirror(kr.positive(at))
+
+/** A smooth surface that reflects as an interface of index `eta` does, times `kr`, and lets nothing
+  * through that goes on straight: so where PBRT 2 has something beneath.
+  */
+final class ReflectingInterfaceMaterial(kr: RgbTexture, eta: FloatTexture)
+    extends Material,
+      Textured(kr, eta):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val scale = kr.positive(at)
+    if scale.isBlack then Lambert.Black else Mirror(scale, DielectricReflectance(eta(at)))

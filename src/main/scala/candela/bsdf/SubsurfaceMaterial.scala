@@ -1,55 +1,43 @@
 package candela.bsdf
 
-import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.textures.{FloatTexture, RgbTexture}
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
 
 /** A surface that light enters, and leaves elsewhere.
   *
-  * @param boundary      what the surface itself does
+  * @param surface       what the surface itself does
   * @param alongTangents is light searched for along the tangents of u and v, as in pbrt-v3? Other
   *                      programs take any. Which part of the light that went farthest is left out
   *                      depends on it (see [[Bssrdf.reach]])
   */
 final class SubsurfaceMaterial(
-    boundary: Material,
-    interior: Interior,
+    surface: Material,
+    beneath: Interior,
     alongTangents: Boolean = false
-) extends Material:
+) extends Material,
+      Textured(surface, beneath):
+  private val boundary = surface.folded
+  private val interior = beneath.folded
+
   def bsdf(at: ShadingPoint): Bsdf = boundary.bsdf(at)
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = interior.bssrdf(at)
   override def isSubsurface: Boolean = true
-  override def isConstant: Boolean = boundary.isConstant && interior.isConstant
+  override def folded: Material = this
+  override def isDispersive: Boolean = boundary.isDispersive
   override def isAnisotropic: Boolean = alongTangents || boundary.isAnisotropic
 
-/** A smooth surface that reflects as an interface of index `eta` does, times `kr`, and lets nothing
-  * through that goes on straight: so where PBRT 2 has something beneath.
-  */
-final class ReflectingInterfaceMaterial(kr: RgbTexture, eta: FloatTexture) extends Material:
-  def bsdf(at: ShadingPoint): Bsdf =
-    val scale = kr(at).map(c => Math.max(c, 0f))
-    if scale.isBlack then ReflectingInterfaceMaterial.dark
-    else Mirror(scale, DielectricReflectance(eta(at)))
-
-object ReflectingInterfaceMaterial:
-  private val dark = Lambert(Rgb.Black)
-
 /** Gives every point the [[Bssrdf]] of what is beneath; null: nothing is there. */
-abstract class Interior:
+abstract class Interior extends Varying:
   def bssrdf(at: ShadingPoint): Bssrdf | Null
 
-  /** Is it the same everywhere? */
-  def isConstant: Boolean = false
+  /** As [[Material.folded]]. */
+  def folded: Interior = if isConstant then ConstantInterior(bssrdf(ShadingPoint())) else this
 
-/** The same everywhere: the object is made once, at build. */
-final class ConstantInterior(value: Bssrdf | Null) extends Interior:
+/** The same everywhere. */
+private final class ConstantInterior(value: Bssrdf | Null) extends Interior:
+  def isConstant: Boolean = true
   def bssrdf(at: ShadingPoint): Bssrdf | Null = value
-  override def isConstant: Boolean = true
-
-object Interior:
-  /** No texture looks at the point if all are constant. */
-  def fold(interior: Interior, isFixed: Boolean): Interior =
-    if isFixed then ConstantInterior(interior.bssrdf(ShadingPoint())) else interior
 
 /** A medium by its coefficients; textures times `scale` are held to be at least 0, in 1/scene unit.
   *
@@ -61,7 +49,8 @@ final class CoefficientInterior(
     scattering: RgbTexture,
     scale: Float,
     eta: Float
-) extends Interior:
+) extends Interior,
+      Textured(absorption, scattering):
   private val entry = NormalizedFresnel(eta)
 
   def bssrdf(at: ShadingPoint): Bssrdf =
@@ -82,10 +71,65 @@ final class ReflectanceInterior(
     meanFreePath: RgbTexture,
     scale: Float,
     eta: Float
-) extends Interior:
+) extends Interior,
+      Textured(reflectance, meanFreePath):
   private val entry = NormalizedFresnel(eta)
 
   def bssrdf(at: ShadingPoint): Bssrdf =
     val extinction = meanFreePath(at).map(c => 1f / Math.max(scale * c, 0f))
     val albedos = reflectance(at).map(table.albedoOf(_))
     TabulatedBssrdf(table.profiles(albedos), extinction, eta, entry)
+
+/** PBRT 2's medium by its coefficients, textures times `scale`, in 1/scene unit.
+  *
+  * @param scattering reduced
+  * @param eta        index of refraction inside over that outside
+  * @param counted    see [[DipoleBssrdf]]
+  */
+final class DipoleInterior(
+    absorption: RgbTexture,
+    scattering: RgbTexture,
+    scale: Float,
+    eta: FloatTexture,
+    counted: Float
+) extends Interior,
+      Textured(absorption, scattering, eta):
+  def bssrdf(at: ShadingPoint): Bssrdf =
+    val sigmaA = absorption(at).map(c => Math.max(scale * c, 0f))
+    val sigmaS = scattering(at).map(c => Math.max(scale * c, 0f))
+    val index = eta(at)
+    DipoleBssrdf(
+      DipoleProfile(sigmaA.r, sigmaS.r, index),
+      DipoleProfile(sigmaA.g, sigmaS.g, index),
+      DipoleProfile(sigmaA.b, sigmaS.b, index),
+      index,
+      counted
+    )
+
+/** PBRT 2's medium by what it reflects.
+  *
+  * @param meanFreePath the inverse of the effective transport coefficient, in scene units
+  */
+final class DiffuseDipoleInterior(
+    reflectance: RgbTexture,
+    meanFreePath: FloatTexture,
+    eta: FloatTexture,
+    counted: Float
+) extends Interior,
+      Textured(reflectance, meanFreePath, eta):
+  def bssrdf(at: ShadingPoint): Bssrdf =
+    val index = eta(at)
+    val path = meanFreePath(at)
+    val color = reflectance(at)
+    DipoleBssrdf(
+      profile(color.r, path, index),
+      profile(color.g, path, index),
+      profile(color.b, path, index),
+      index,
+      counted
+    )
+
+  private def profile(reflectance: Float, path: Float, eta: Float): DipoleProfile =
+    val albedo = DipoleProfile.albedoOf(Math.max(reflectance, 0f), eta)
+    val extinction = 1f / (Math.max(path, 0f) * sqrt(3f * (1f - albedo)))
+    DipoleProfile((1f - albedo) * extinction, albedo * extinction, eta)

@@ -3,15 +3,32 @@ package candela.textures
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 
+/** What may differ from point to point of a surface. */
+trait Varying:
+
+  /** Is it the same everywhere? Then it is evaluated once, at build. */
+  def isConstant: Boolean
+
+  /** Does it depend on the direction along the surface? Then the tangent matters. */
+  def isAnisotropic: Boolean = false
+
+/** What is made of parts that may vary. */
+trait Textured(parts: Varying*) extends Varying:
+  override val isConstant: Boolean = parts.forall(_.isConstant)
+  private val isDirected = parts.exists(_.isAnisotropic)
+  override def isAnisotropic: Boolean = isDirected
+
 /** A number at every point of a surface. */
-abstract class FloatTexture:
+abstract class FloatTexture extends Varying:
+  final def isConstant: Boolean = constant.isDefined
   def apply(at: ShadingPoint): Float
 
   /** The value, if it is the same everywhere: lets the builder make constants of it. */
   def constant: Option[Float] = None
 
 /** A colour at every point of a surface. */
-abstract class RgbTexture:
+abstract class RgbTexture extends Varying:
+  final def isConstant: Boolean = constant.isDefined
   def apply(at: ShadingPoint): Rgb
   def constant: Option[Rgb] = None
 

@@ -47,7 +47,7 @@ final class DisneyBssrdfSuite extends AnyFunSuite:
 
   private def material(distance: Rgb, metallic: Float, isThin: Boolean) =
     val Seq(zero, half, metal) = Seq(0f, 0.5f, metallic).map(ConstantFloat(_)): @unchecked
-    MaterialFactory.disney(
+    DisneyMaterial(
       DisneyParameters(
         ConstantRgb(Rgb.White), metal, ConstantFloat(1.5f), half, zero, zero, zero, zero, zero,
         zero, zero, isThin, zero, zero, ConstantRgb(distance)

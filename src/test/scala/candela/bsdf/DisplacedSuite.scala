@@ -9,7 +9,7 @@ import candela.testing.Draws
 import candela.textures.*
 
 class DisplacedSuite extends AnyFunSuite:
-  private val inner = MaterialFactory.diffuse(ConstantRgb(Rgb.gray(0.5f)))
+  private val inner = DiffuseMaterial(ConstantRgb(Rgb.gray(0.5f)))
 
   /** h = a·u + b·v². */
   private final class Hill(a: Float, b: Float) extends FloatTexture:

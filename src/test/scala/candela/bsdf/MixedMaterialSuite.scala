@@ -8,22 +8,22 @@ import candela.textures.{ConstantFloat, ConstantRgb, RgbTexture}
 class MixedMaterialSuite extends BsdfLaws:
   private val at = ShadingPoint()
   private val red = Rgb(0.7f, 0.1f, 0.1f)
-  private val paper = MaterialFactory.diffuse(ConstantRgb(red))
-  private val sheet = MaterialFactory.diffuseTransmission(gray(0.3f), gray(0.5f), 1f)
-  private val gloss = MaterialFactory.plastic(
+  private val paper = DiffuseMaterial(ConstantRgb(red))
+  private val sheet = DiffuseTransmissionMaterial(gray(0.3f), gray(0.5f), 1f)
+  private val gloss = PlasticMaterial(
     gray(0.2f),
     gray(0.5f),
     Roughness(ConstantFloat(0.3f), ConstantFloat(0.3f), RoughnessModel.PlainAlpha),
     Edition.Third
   )
-  private val glass = MaterialFactory.dielectric(
+  private val glass = DielectricMaterial(
     1.5f,
     Roughness(ConstantFloat(0f), ConstantFloat(0f), RoughnessModel.PlainAlpha)
   )
 
   private def gray(v: Float): RgbTexture = ConstantRgb(Rgb.gray(v))
   private def mix(a: Material, b: Material, amount: Rgb): Bsdf =
-    MaterialFactory.mix(a, b, ConstantRgb(amount)).bsdf(at)
+    MixedMaterial(a, b, ConstantRgb(amount)).bsdf(at)
 
   obeysLaws("paper and gloss", mix(paper, gloss, Rgb(0.25f, 0.5f, 0.75f)))
   obeysLaws("a sheet and glass", mix(sheet, glass, Rgb.gray(0.5f)))
@@ -48,4 +48,4 @@ class MixedMaterialSuite extends BsdfLaws:
     assert(found.isSpecular && !found.weight.isBlack)
 
   test("a mixture of constants is made once"):
-    assert(MaterialFactory.mix(paper, gloss, gray(0.5f)).isConstant)
+    assert(MixedMaterial(paper, gloss, gray(0.5f)).isConstant)

@@ -64,7 +64,7 @@ class RegularizedSuite extends AnyFunSuite:
     val smooth = Roughness(zero, zero, RoughnessModel.PlainAlpha)
     val metal = UniformMetal(copper)
     def material(mirrored: Option[Float => Rgb]) =
-      MaterialFactory.coatedConductor(metal, smooth, smooth, 1.5f, medium, mirrored)
+      CoatedConductorMaterial(metal, smooth, smooth, 1.5f, medium, mirrored)
     val at = ShadingPoint()
     val summed = material(Some(_ => gray)).bsdf(at)
     val walked = material(None).bsdf(at)

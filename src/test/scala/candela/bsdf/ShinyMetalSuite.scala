@@ -9,7 +9,7 @@ class ShinyMetalSuite extends BsdfLaws:
   private def make(ks: Rgb, kr: Rgb): Bsdf =
     val roughness =
       Roughness(ConstantFloat(0.2f), ConstantFloat(0.2f), RoughnessModel.BlinnExponent)
-    MaterialFactory.shinyMetal(ConstantRgb(ks), ConstantRgb(kr), roughness).bsdf(ShadingPoint())
+    ShinyMetalMaterial(ConstantRgb(ks), ConstantRgb(kr), roughness).bsdf(ShadingPoint())
 
   obeysLaws("only rough", make(Rgb(0.9f, 0.6f, 0.3f), Rgb.Black))
 

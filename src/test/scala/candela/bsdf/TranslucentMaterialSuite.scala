@@ -12,8 +12,7 @@ class TranslucentMaterialSuite extends BsdfLaws:
       if edition == Edition.Second then RoughnessModel.BlinnExponent
       else RoughnessModel.PlainAlpha
     val roughness = Roughness(ConstantFloat(0.4f), ConstantFloat(0.4f), model)
-    MaterialFactory
-      .translucent(gray(kd), gray(ks), gray(r), gray(t), roughness, edition)
+    TranslucentMaterial(gray(kd), gray(ks), gray(r), gray(t), roughness, edition)
       .bsdf(ShadingPoint())
 
   for edition <- Edition.values do

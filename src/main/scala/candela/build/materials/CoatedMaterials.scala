@@ -1,7 +1,8 @@
 package candela.build.materials
 
 import candela.bsdf.{
-  Fresnel, LayerMedium, Material, MaterialFactory as Make, Roughness, RoughnessModel
+  CoatedConductorMaterial, CoatedDiffuseMaterial, Fresnel, LayerMedium, Material, Roughness,
+  RoughnessModel
 }
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Upsampling}
@@ -45,12 +46,7 @@ object CoatedDiffuseRecipe
         basis.fromSrgb(Colorimetry.rgb(nm => f(base(nm)), Colorimetry.White.D65))
     val index = Indices.one(eta())
     val medium = layers.medium
-    Make
-      .coatedDiffuse(
-        reflectance(), roughness(), medium.thickness, medium.albedo, index, medium.maxDepth, coats,
-        bySpectrum
-      )
-      .getOrElse(Make.layeredDiffuse(reflectance(), roughness(), index, medium))
+    CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "a metal under a dielectric coat", onlyV4)
@@ -78,7 +74,7 @@ object CoatedConductorRecipe
   protected def make()(using Site): Material =
     val outside = Indices.one(eta())
     val medium = layers.medium
-    Make.coatedConductor(
+    CoatedConductorMaterial(
       metal(index, outside),
       conductor(),
       interface(),

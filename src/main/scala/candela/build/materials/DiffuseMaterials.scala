@@ -1,17 +1,17 @@
 package candela.build.materials
 
-import candela.bsdf.{Material, MaterialFactory as Make}
+import candela.bsdf.{DiffuseMaterial, DiffuseTransmissionMaterial, Material, MatteMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
 
 object MatteRecipe extends MaterialRecipe("matte", "diffuse, with Oren–Nayar's roughness", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val sigma = floatTexture("sigma", "Oren–Nayar's spread of facets, degrees")(0f)
-  protected def make()(using Site): Material = Make.matte(kd(), sigma())
+  protected def make()(using Site): Material = MatteMaterial(kd(), sigma())
 
 object DiffuseRecipe extends MaterialRecipe("diffuse", "scatters evenly to all sides", onlyV4):
   private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.5f))
-  protected def make()(using Site): Material = Make.diffuse(reflectance())
+  protected def make()(using Site): Material = DiffuseMaterial(reflectance())
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "scatters evenly, on both sides", onlyV4):
@@ -19,4 +19,4 @@ object DiffuseTransmissionRecipe
   private val transmittance = rgbTexture("transmittance", "0 to 1")(Rgb.gray(0.25f))
   private val scale = float("scale", "factor of both")(1f)
   protected def make()(using Site): Material =
-    Make.diffuseTransmission(reflectance(), transmittance(), scale())
+    DiffuseTransmissionMaterial(reflectance(), transmittance(), scale())

@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{DisneyParameters, Material, MaterialFactory as Make}
+import candela.bsdf.{DisneyMaterial, DisneyParameters, Material}
 import candela.build.recipe.*
 import candela.color.Rgb
 
@@ -27,7 +27,7 @@ object DisneyRecipe
     floatTexture("difftrans", "of a thin sheet: transmitted diffuse light, 0 to 2")(1f)
 
   protected def make()(using Site): Material =
-    Make.disney(
+    DisneyMaterial(
       DisneyParameters(
         color(),
         metallic(),

@@ -1,6 +1,9 @@
 package candela.build.materials
 
-import candela.bsdf.{Material, MaterialFactory as Make, Roughness, RoughnessModel}
+import candela.bsdf.{
+  ConstantMaterial, DielectricMaterial, DispersiveMaterial, Material, Roughness, RoughnessModel,
+  ThinDielectric
+}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
@@ -15,21 +18,21 @@ object GlassRecipe
   private val v = floatTexture("vroughness", "along v; 0: smooth", onlyV3)(0f)
   private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", onlyV3)(true)
   protected def make()(using site: Site): Material =
-    if site.dialect == Dialect.V2 then Make.oldGlass(kr(), kt(), index())
+    if site.dialect == Dialect.V2 then DielectricMaterial.old(kr(), kt(), index())
     else
       val model = if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       val rough = Roughness(u(), v(), model, smoothAtZero = true)
-      Make.dielectric(kr(), kt(), eta.given_().getOrElse(index()), rough)
+      new DielectricMaterial(kr(), kt(), eta.given_().getOrElse(index()), rough)
 
 object DielectricRecipe
     extends RoughRecipe("dielectric", "glass and the like, smooth or rough", onlyV4, 0f):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
     Indices.dispersive(eta()) match
-      case Some((byWavelength, usual)) => Make.dispersive(byWavelength, usual, roughness())
-      case None => Make.dielectric(Indices.one(eta()), roughness())
+      case Some((byWavelength, usual)) => DispersiveMaterial(byWavelength, usual, roughness())
+      case None => DielectricMaterial(Indices.one(eta()), roughness())
 
 object ThinDielectricRecipe
     extends MaterialRecipe("thindielectric", "a thin pane of glass", onlyV4):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
-  protected def make()(using Site): Material = Make.thinDielectric(Indices.one(eta()))
+  protected def make()(using Site): Material = ConstantMaterial(ThinDielectric(Indices.one(eta())))

@@ -1,6 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{Material, MaterialFactory as Make, Roughness, RoughnessModel}
+import candela.bsdf.{
+  Material, PlasticMaterial, Roughness, RoughnessModel, SubstrateMaterial, UberMaterial
+}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
@@ -10,7 +12,7 @@ object PlasticRecipe
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "factor of the gloss")(Rgb.gray(0.25f))
   protected def make()(using site: Site): Material =
-    Make.plastic(kd(), ks(), roughness(), edition(site.dialect))
+    PlasticMaterial(kd(), ks(), roughness(), edition(site.dialect))
 
 object UberRecipe extends RoughRecipe(
       "uber",
@@ -27,7 +29,7 @@ object UberRecipe extends RoughRecipe(
   private val index = floatTexture("index", "index of refraction")(1.5f)
   protected def make()(using site: Site): Material =
     val n = eta.given_().getOrElse(index())
-    Make.uber(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
+    UberMaterial(kd(), ks(), kr(), kt(), opacity(), n, roughness(), edition(site.dialect))
 
 object SubstrateRecipe extends MaterialRecipe(
       "substrate",
@@ -44,4 +46,4 @@ object SubstrateRecipe extends MaterialRecipe(
       if site.dialect == Dialect.V2 then RoughnessModel.AnisotropicExponents
       else if remap() then RoughnessModel.PolynomialAlpha
       else RoughnessModel.BoundedAlpha
-    Make.substrate(kd(), ks(), Roughness(u(), v(), model))
+    SubstrateMaterial(kd(), ks(), Roughness(u(), v(), model))

@@ -24,7 +24,7 @@ abstract class MaterialRecipe(
 
   override protected def made(site: Site): Material =
     given Site = site
-    val smooth = make()
+    val smooth = make().folded
     normalMap() match
       case Some(picture) =>
         site.resources.askForFootprints("normal maps")

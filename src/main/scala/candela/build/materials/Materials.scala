@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{Material, MaterialFactory}
+import candela.bsdf.{DiffuseMaterial, Material}
 import candela.build.recipe.*
 import candela.color.Rgb
 
@@ -41,7 +41,7 @@ object Materials:
 
   /** Of shapes that no material was given for, or one that is not supported. */
   val default: Material =
-    MaterialFactory.diffuse(candela.textures.ConstantRgb(Rgb.gray(0.5f)))
+    DiffuseMaterial(candela.textures.ConstantRgb(Rgb.gray(0.5f))).folded
 
   def build(site: Site): Material =
     all.build(site).getOrElse(StandIns.material(site.resources.basis))

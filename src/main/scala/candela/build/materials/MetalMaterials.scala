@@ -1,8 +1,8 @@
 package candela.build.materials
 
 import candela.bsdf.{
-  Fresnel, IndexedMetal, Material, MaterialFactory as Make, MetalTexture,
-  TabulatedReflectance, TintedMetal, UniformMetal
+  ConductorMaterial, Fresnel, IndexedMetal, Material, MetalTexture, MirrorMaterial,
+  ShinyMetalMaterial, TabulatedReflectance, TintedMetal, UniformMetal
 }
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb}
@@ -80,7 +80,7 @@ private[build] trait MetalFields extends SpectrumFields:
 
 object MirrorRecipe extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))
-  protected def make()(using Site): Material = Make.mirror(kr())
+  protected def make()(using Site): Material = MirrorMaterial(kr())
 
 object MetalRecipe
     extends RoughRecipe(
@@ -99,13 +99,13 @@ object MetalRecipe
     val eta = SpectrumSource.textured(index.eta())(rgb)
     val k = SpectrumSource.textured(index.k())(rgb)
     // pbrt-v2 has the approximation for strongly absorbing metals
-    Make.conductor(IndexedMetal(eta, k, strong = site.dialect == Dialect.V2), roughness())
+    ConductorMaterial(IndexedMetal(eta, k, strong = site.dialect == Dialect.V2), roughness())
 
 object ConductorRecipe
     extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f)
     with MetalFields:
   private val index = metalIndex(tint = true)
-  protected def make()(using Site): Material = Make.conductor(metal(index), roughness())
+  protected def make()(using Site): Material = ConductorMaterial(metal(index), roughness())
 
 object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",
@@ -116,4 +116,4 @@ object ShinyMetalRecipe extends RoughRecipe(
     ):
   private val kr = rgbTexture("Kr", "mirror reflectance at normal incidence")(Rgb.White)
   private val ks = rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.White)
-  protected def make()(using Site): Material = Make.shinyMetal(ks(), kr(), roughness())
+  protected def make()(using Site): Material = ShinyMetalMaterial(ks(), kr(), roughness())

@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{InterfaceMaterial, Material, MaterialFactory}
+import candela.bsdf.{InterfaceMaterial, Material, MixedMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
@@ -29,7 +29,7 @@ object MixRecipe
   private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
     if a.isSubsurface || b.isSubsurface then
       site.warn("light does not travel beneath a mixed surface: it goes straight on inside")
-    MaterialFactory.mix(a, b, amount)
+    MixedMaterial(a, b, amount)
 
   private def named(name: String, parameter: String)(using site: Site): Material =
     val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)

@@ -2,9 +2,9 @@ package candela.build.materials
 
 import candela.base.Suggest
 import candela.bsdf.{
-  CoefficientInterior, DiffuseDipoleInterior, DipoleInterior, Interior, Material,
-  MaterialFactory as Make, ProfileTable, ReflectanceInterior, Roughness, RoughnessModel,
-  SubsurfaceMaterial
+  CoefficientInterior, DielectricMaterial, DiffuseDipoleInterior, DipoleInterior, Interior,
+  Material, ProfileTable, ReflectanceInterior, ReflectingInterfaceMaterial, Roughness,
+  RoughnessModel, SubsurfaceMaterial
 }
 import candela.build.media.{MeasuredMedia, MediumCoefficients}
 import candela.build.recipe.*
@@ -37,20 +37,18 @@ abstract class BssrdfRecipe(
     SubsurfaceMaterial(boundary(), interior(), alongTangents = site.dialect == Dialect.V3)
 
   private def boundary()(using site: Site): Material = site.dialect match
-    case Dialect.V2 => Make.reflectingInterface(kr(), index())
+    case Dialect.V2 => ReflectingInterfaceMaterial(kr(), index())
     case Dialect.V3 =>
       val model = if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       val rough = Roughness(alongV3(), acrossV3(), model, smoothAtZero = true)
-      Make.dielectric(kr(), kt(), ConstantFloat(eta()), rough)
+      new DielectricMaterial(kr(), kt(), ConstantFloat(eta()), rough)
     case Dialect.V4 =>
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       val across = acrossV4.given_().getOrElse(both())
-      Make.dielectric(eta(), Roughness(alongV4.given_().getOrElse(both()), across, model))
+      DielectricMaterial(eta(), Roughness(alongV4.given_().getOrElse(both()), across, model))
 
   protected def table(g: Float)(using site: Site): ProfileTable =
     site.resources.profiles.of(g, eta())
-
-  protected def fixed(textures: RgbTexture*): Boolean = textures.forall(_.constant.isDefined)
 
 object SubsurfaceRecipe
     extends BssrdfRecipe("subsurface", "light scatters inside, by coefficients", every):
@@ -84,9 +82,7 @@ object SubsurfaceRecipe
         val milk = measured.getOrElse(Milk)
         val a = sigmaA.given_().getOrElse(ConstantRgb(milk.absorption))
         val s = reduced.given_().getOrElse(ConstantRgb(milk.scattering))
-        val index_ = index()
-        val isFixed = fixed(a, s) && index_.constant.isDefined
-        Interior.fold(DipoleInterior(a, s, scale(), index_, DipolePoints.Covered), isFixed)
+        DipoleInterior(a, s, scale(), index(), DipolePoints.Covered)
 
   private def named(name: String)(using site: Site): Option[MediumCoefficients] =
     val found = MeasuredMedia.find(name, site.dialect)
@@ -110,9 +106,7 @@ object SubsurfaceRecipe
       if one.isDefined && other.isEmpty then site.error(s"`$name` is not given, but its twin is")
     r.filter(_ => a.isEmpty && s.isEmpty) match
       case Some(tint) =>
-        val path = meanFreePath()
-        val medium = ReflectanceInterior(table(g()), tint, path, scale(), eta())
-        Interior.fold(medium, fixed(tint, path))
+        ReflectanceInterior(table(g()), tint, meanFreePath(), scale(), eta())
       case None => byCoefficients(sigmaA, sigmaS, Milk, g())
 
   private def byCoefficients(
@@ -130,7 +124,7 @@ object SubsurfaceRecipe
     ConstantRgb(site.resources.basis.fromSrgb(c))
 
   private def coefficients(a: RgbTexture, s: RgbTexture, asymmetry: Float)(using Site): Interior =
-    Interior.fold(CoefficientInterior(table(asymmetry), a, s, scale(), eta()), fixed(a, s))
+    CoefficientInterior(table(asymmetry), a, s, scale(), eta())
 
 object KdSubsurfaceRecipe
     extends BssrdfRecipe("kdsubsurface", "light scatters inside, by the colour", untilV3):
@@ -142,13 +136,9 @@ object KdSubsurfaceRecipe
   protected def interior()(using site: Site): Interior =
     val color = kd()
     if site.dialect == Dialect.V2 then
-      val (way, index_) = (path(), index())
-      val isFixed = fixed(color) && way.constant.isDefined && index_.constant.isDefined
-      Interior.fold(DiffuseDipoleInterior(color, way, index_, DipolePoints.Covered), isFixed)
+      DiffuseDipoleInterior(color, path(), index(), DipolePoints.Covered)
     else
-      val ways = paths()
-      val medium = ReflectanceInterior(table(g()), color, ways, scale(), eta())
-      Interior.fold(medium, fixed(color, ways))
+      ReflectanceInterior(table(g()), color, paths(), scale(), eta())
 
 private object DipolePoints:
   /** The part of a surface that pbrt-v2 counts. It lays out points that keep a distance until 2,000

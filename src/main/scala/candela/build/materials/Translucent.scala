@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{Material, MaterialFactory}
+import candela.bsdf.{Material, TranslucentMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
 
@@ -17,5 +17,4 @@ object TranslucentRecipe
   private val reflect = rgbTexture("reflect", "factor of what is reflected")(Rgb.gray(0.5f))
   private val transmit = rgbTexture("transmit", "factor of what is transmitted")(Rgb.gray(0.5f))
   protected def make()(using site: Site): Material =
-    MaterialFactory
-      .translucent(kd(), ks(), reflect(), transmit(), roughness(), edition(site.dialect))
+    TranslucentMaterial(kd(), ks(), reflect(), transmit(), roughness(), edition(site.dialect))

@@ -1,6 +1,6 @@
 package candela.build.recipe
 
-import candela.bsdf.{Material, MaterialFactory}
+import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, StoredImage}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
@@ -14,7 +14,7 @@ object StandIns:
   val picture: StoredImage = Image(1, 1, Image.RgbNames, Array(Magenta.r, Magenta.g, Magenta.b))
   val number: FloatTexture = ConstantFloat(1f)
   def color(basis: ColorBasis): RgbTexture = ConstantRgb(basis.fromSrgb(Magenta))
-  def material(basis: ColorBasis): Material = MaterialFactory.diffuse(color(basis))
+  def material(basis: ColorBasis): Material = DiffuseMaterial(color(basis)).folded
 
   // The same in messages
   val Magentas = "magenta is used"
