@@ -2,6 +2,30 @@ package candela.film
 
 import candela.math.*
 
+/** A reconstruction filter: how much a sample counts that lies (`dx`, `dy`) pixels from a pixel's
+  * centre. Zero beyond the radii; need not be normalised, may be negative.
+  *
+  * All filters here are products of a function of x and one of y, which makes them cheap to
+  * tabulate and to sample; see [[FilterSampler]].
+  */
+abstract class Filter(val radiusX: Float, val radiusY: Float):
+  require(radiusX > 0f && radiusY > 0f, s"filter radii $radiusX, $radiusY")
+
+  def x(dx: Float): Float
+  def y(dy: Float): Float
+  final def apply(dx: Float, dy: Float): Float = x(dx) * y(dy)
+
+  /** ∫ of it over its extent, by the midpoint rule along both axes. */
+  final def integral: Double = Filter.along(radiusX, x) * Filter.along(radiusY, y)
+
+private object Filter:
+  private val Steps = 4096
+
+  def along(radius: Float, value: Float => Float): Double =
+    (0 until Steps)
+      .map(i => value(((2.0 * i + 1) / Steps - 1).toFloat * radius).toDouble)
+      .sum * 2 * radius / Steps
+
 // Scene files name the radii `xwidth`, `ywidth` (pbrt-v2, v3) or `xradius`, `yradius` (v4); all in
 // pixels from the centre. The defaults are given as v2 and v3 / v4.
 

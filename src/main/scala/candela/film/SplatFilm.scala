@@ -29,7 +29,7 @@ final class SplatFilm(
   private val width = x1 - x0
   private val height = y1 - y0
   private val most: SampleLimit | Null = limit.orNull
-  private val volume = FilterVolume(filter)
+  private val volume = filter.integral
 
   // For each pixel, row by row, and each colour: the coarse part, then the fine one
   private val sums = AtomicLongArray(Math.multiplyExact(6, Math.multiplyExact(width, height)))

@@ -1,8 +1,35 @@
 package candela.build.film
 
 import candela.build.recipe.*
-import candela.film.{Development, SampleLimit}
+import candela.film.{Development, Layer, SampleLimit}
 import candela.scenefile.Dialect
+
+/** Recipes of the film. */
+object Films:
+  val all: Recipes[FilmSettings] =
+    Recipes("film", Vector(ImageFilmRecipe, RgbFilmRecipe, GBufferFilmRecipe, SpectralFilmRecipe))
+
+/** What a Film statement says.
+  *
+  * @param crop         x0, x1, y0, y1 as parts of the full image, or pixels if `inPixels`
+  * @param development  how pixel values are made, but for the time that v4's shutter is open
+  * @param limit        of samples, for a factor by which v4 multiplies them first
+  * @param diagonal     of the film, in metres
+  * @param layers       what the image holds beside colours
+  * @param layersInWorld are they in world space, not in the camera's?
+  */
+final case class FilmSettings(
+    width: Int,
+    height: Int,
+    crop: Array[Float],
+    inPixels: Boolean,
+    filename: String,
+    development: Development,
+    limit: Float => Option[SampleLimit],
+    diagonal: Float,
+    layers: Vector[Layer] = Vector.empty,
+    layersInWorld: Boolean = false
+)
 
 /** What all films have. */
 abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
