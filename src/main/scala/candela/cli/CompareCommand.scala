@@ -230,10 +230,10 @@ object Limit:
   /** Option, figure, and the text of its help. */
   val all: Vector[(String, String, String)] = Vector(
     ("max-mse", "MSE", "the mean squared error"),
-    ("max-rmse", "RMSE", "its root"),
+    ("max-rmse", "RMSE", "the root mean squared error"),
     ("max-mae", "MAE", "the mean absolute error"),
     ("max-relmse", "relative MSE", "the relative mean squared error"),
-    ("max-flip", "FLIP", "the mean of FLIP"),
+    ("max-flip", "FLIP", "the mean FLIP error"),
     ("max-bias", "bias", "the largest |mean ratio − 1| of a channel"),
     ("min-psnr", "PSNR", "the peak signal-to-noise ratio in dB")
   )
@@ -262,7 +262,7 @@ private[cli] object CompareTable:
 
   private def limit(option: String, figure: String, text: String): Row =
     val where = if option.startsWith("min") then "below" else "above"
-    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $where")
+    opt[Double](option).valueName("X").text(s"exit with 1 if $text is $where X")
       .validate: x =>
         if x >= 0 then success else failure(s"--$option: expected a number from 0, found `$x`")
       .action: (x, o) =>
@@ -270,13 +270,13 @@ private[cli] object CompareTable:
 
   val options: Vector[Row] = Vector[Row](
     opt[PixelWindow]("crop").valueName("x0,x1,y0,y1")
-      .text("compare only these pixels, x1 and y1 excluded")
+      .text("restrict the comparison to these pixels, x1 and y1 excluded")
       .action((w, o) => change(o)(_.copy(crop = Some(w)))),
     opt[Seq[String]]("channels").valueName("NAME,...")
-      .text("compare these channels, instead of R,G,B")
+      .text("restrict the comparison to these channels (default R,G,B)")
       .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
     opt[Unit]("per-channel")
-      .text("print the figures of each channel, too")
+      .text("also print per-channel figures")
       .action((_, o) => change(o)(_.copy(perChannel = true))),
     opt[String]("difference").valueName("FILE")
       .text(s"write the absolute difference image, ${OutputFormat.listed()}")
@@ -288,10 +288,10 @@ private[cli] object CompareTable:
       )
       .action((f, o) => change(o)(_.copy(heatMap = Some(f)))),
     opt[Metric]("heatmap-metric").valueName("METRIC")
-      .text("of which error: mse, rmse, mae, relmse or flip (default flip)")
+      .text("metric of the heat map: mse, rmse, mae, relmse or flip (default flip)")
       .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
     opt[Double]("heatmap-max").valueName("X")
-      .text("the error with the brightest colour (default: 1 for flip, else the 99th percentile)")
+      .text("top of its scale (default: 1 for flip, else the 99th percentile)")
       .validate(x => if x > 0 then success else failure("--heatmap-max: expected more than 0"))
       .action((x, o) => change(o)(_.copy(heatMapMax = Some(x))))
   ) ++ Limit.all.map(limit)

@@ -46,26 +46,31 @@ private[cli] object OptionTable:
   private def file(name: String, text: String): OParser[String, Options] =
     arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
 
-  private def scenes: Row = file("scene.pbrt...", "scene files, each for itself").unbounded()
+  private def scenes: Row =
+    file("scene.pbrt...", "scene files; each is rendered or checked by itself").unbounded()
 
   // What several commands have is made anew for each: scopt gives a row one parent.
-  private def shared: Vector[Row] = Vector(
-    opt[Dialect]("dialect").valueName("v2|v3|v4")
-      .text("read the scene as this version of pbrt does, instead of recognising it")
-      .action((d, o) => o.copy(dialect = Some(d))),
-    opt[Unit]("keep-going")
-      .text("use stand-ins for what is missing: magenta for pictures and materials")
-      .action((_, o) => o.copy(keepGoing = true)),
-    opt[Unit]("explain")
-      .text("say what the scene is built of, and what was left out")
-      .action((_, o) => o.copy(explain = true)),
-    opt[Unit]("quiet")
-      .text("print nothing but errors")
-      .action((_, o) => o.copy(quiet = true)),
-    opt[Unit]("verbose")
-      .text("print every warning, the times of all phases, and what --explain says")
+  private def dialect(text: String): Row =
+    opt[Dialect]("dialect").valueName("v2|v3|v4").text(text)
+      .action((d, o) => o.copy(dialect = Some(d)))
+
+  private def parsedAs: Row =
+    dialect("parse the scene as this pbrt version (default: auto-detected)")
+
+  private def keepGoing: Row = opt[Unit]("keep-going")
+    .text("replace missing files and types with placeholders, with a warning each")
+    .action((_, o) => o.copy(keepGoing = true))
+
+  private def explain: Row = opt[Unit]("explain")
+    .text("print what the scene is built from and what was ignored")
+    .action((_, o) => o.copy(explain = true))
+
+  private def quiet: Row =
+    opt[Unit]("quiet").text("print errors only").action((_, o) => o.copy(quiet = true))
+
+  private def verbose(text: String): Row =
+    opt[Unit]("verbose").text(s"print every warning$text")
       .action((_, o) => o.copy(verbose = true))
-  )
 
   private def layers: String = Layer.values.map(_.word).mkString(", ")
 
@@ -74,73 +79,82 @@ private[cli] object OptionTable:
       .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     opt[Int]('j', "nthreads").valueName("N")
-      .text("threads to render with (default: one for each processor)")
+      .text("number of render threads (default: one per processor)")
       .validate(atLeast("nthreads", 1))
       .action((n, o) => o.copy(threads = Some(n))),
     opt[Int]("spp").valueName("N")
-      .text("samples per pixel, instead of the scene's")
+      .text("samples per pixel; overrides the scene")
       .validate(atLeast("spp", 1))
       .action((n, o) => o.copy(spp = Some(n))),
     opt[Int]("seed").valueName("N")
-      .text("of the random numbers (default 0): other noise, same expected image")
+      .text("random seed (default 0)")
       .action((n, o) => o.copy(seed = n)),
     opt[Unit]("quick")
-      .text("a quarter of the width and height, one sample per pixel: a first look")
+      .text("preview: a quarter of the width and height, one sample per pixel")
       .action((_, o) => o.copy(quick = true)),
     opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
-      .text("render only this part of the image, in fractions of its size")
+      .text("render only this window, in fractions of width and height")
       .action((w, o) => o.copy(cropWindow = Some(w))),
     opt[(Int, Int)]("pixel").valueName("x,y")
-      .text("with --debug: which pixel, from 0,0 at the top left")
+      .text("the pixel of --debug, from 0,0 at the top left")
       .action((p, o) => o.copy(pixel = Some(p))),
     opt[Int]("sample").valueName("N")
-      .text("with --debug: which of its samples, from 0 (default 0)")
+      .text("the sample of --debug, from 0 (default 0)")
       .validate(atLeast("sample", 0))
       .action((n, o) => o.copy(sample = n)),
     opt[Unit]("debug")
-      .text("write no image, but say what happens along the path of one sample")
+      .text("trace one sample and print the events along its path; writes no image")
       .action((_, o) => o.copy(debug = true)),
     opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
       .text(s"add layers to the ${OutputFormat.listed(Contents.Channels)} image: $layers")
       .action((l, o) => o.copy(layers = o.layers ++ l)),
     opt[String]("film").valueName("gbuffer")
-      .text("write all layers that pbrt-v4's film of this name has")
+      .text("add all layers of pbrt-v4's gbuffer film")
       .validate(f => if f == "gbuffer" then success else failure(s"--film: only gbuffer, not `$f`"))
       .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer)),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
-      .text("write the error over time, .html, .json or .csv; the image stays the same")
+      .text("write error over time as .html, .json or .csv; the image is unaffected")
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[String]("reference").valueName("FILE")
-      .text("the image that --report compares with, instead of estimating errors from the noise")
-      .action((f, o) => o.copy(reference = Some(f)))
-  ) ++ shared
+      .text("reference for --report (default: the error is estimated from the noise)")
+      .action((f, o) => o.copy(reference = Some(f))),
+    parsedAs,
+    keepGoing,
+    explain,
+    quiet,
+    verbose(", the time of each phase, and what --explain prints")
+  )
 
-  private val checkOptions: Vector[Row] = shared
+  private val checkOptions: Vector[Row] =
+    Vector(parsedAs, keepGoing, explain, quiet, verbose(", and what --explain prints"))
+
+  private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 
   private val describeOptions: Vector[Row] = Vector(
-    opt[Dialect]("dialect").valueName("v2|v3|v4")
-      .text("only what this version of pbrt knows")
-      .action((d, o) => o.copy(dialect = Some(d))),
+    dialect("only types and parameters of this pbrt version"),
     opt[Unit]("markdown")
-      .text("the whole reference, as a page of documentation")
+      .text("print the whole reference as a Markdown page")
       .action((_, o) => o.copy(markdown = true)),
     opt[String]("outfile").valueName("FILE")
-      .text("where to write that, instead of here")
+      .text("where to write the page (default: standard output)")
       .action((f, o) => o.copy(outfiles = Vector(f)))
   )
 
   private val convertOptions: Vector[Row] = Vector(
     opt[Dialect]("to").required().valueName("v4|v3")
-      .text("the dialect to write; the scene's own formats it (v2 only from v2)")
+      .text("target dialect; the scene's own dialect reformats it (v2 only from v2)")
       .action((d, o) => o.copy(to = Some(d))),
     opt[String]("outfile").valueName("FILE")
-      .text("the scene to write, instead of printing it; its images and meshes go beside it")
+      .text("output scene (default: standard output); its images and meshes go beside it")
       .action((f, o) => o.copy(outfiles = Vector(f))),
     opt[Int]("to-ply").valueName("N")
-      .text("write meshes of N triangles or more as binary PLY files")
+      .text("write meshes of at least N triangles as binary PLY files")
       .validate(atLeast("to-ply", 1))
-      .action((n, o) => o.copy(toPly = Some(n)))
-  ) ++ shared.filterNot(_.toList.exists(_.name == "explain"))
+      .action((n, o) => o.copy(toPly = Some(n))),
+    parsedAs,
+    quiet,
+    verbose("")
+  )
 
   /** The long options of a command, without dashes. */
   def names(command: String): Vector[String] =
@@ -148,7 +162,7 @@ private[cli] object OptionTable:
       case Some(Command.Render) => renderOptions
       case Some(Command.Check) => checkOptions
       case Some(Command.Compare) => CompareTable.options
-      case Some(Command.Bench) => BenchTable.options
+      case Some(Command.Bench) => benchOptions
       case Some(Command.Describe) => describeOptions
       case Some(Command.Convert) => convertOptions
       case None => Vector.empty
@@ -160,38 +174,38 @@ private[cli] object OptionTable:
   val table: Row = OParser.sequence(
     programName("candela"),
     head("candela", Version.current),
-    help("help").text("print this"),
+    help("help").text("print this help"),
     version("version").text("print the version"),
     note(""),
-    command(Command.Render, "render scenes; the word itself may be left out")(
+    command(Command.Render, "render scenes (the default command)")(
       scenes +: renderOptions
     ),
     note(""),
-    command(Command.Check, "parse and build scenes, without rendering")(scenes +: checkOptions),
+    command(Command.Check, "parse and build scenes, and report errors")(scenes +: checkOptions),
     note(""),
-    command(Command.Compare, "print how an image differs from its reference")(
+    command(Command.Compare, "measure the error of an image against a reference")(
       Vector(
-        file("image", "what to judge; or a folder of images"),
-        file("reference", "what to judge it by; or a folder of references, by the same names")
+        file("image", "an image, or a folder of images"),
+        file("reference", "its reference, or a folder of references by the same names")
       ) ++ CompareTable.options
     ),
     note(""),
-    command(Command.Bench, "measure how fast programs come to which error")(
-      file("suite.conf", "the suite; or a folder of scenes with references") +: BenchTable.options
+    command(Command.Bench, "measure error against time, for several renderers")(
+      file("suite.conf", "the suite, or a folder of scenes with references") +: benchOptions
     ),
     note(""),
-    command(Command.Describe, "say what scene files can say: all categories, types, parameters")(
+    command(Command.Describe, "print the scene reference: types, parameters, defaults")(
       arg[String]("[category] [type]").optional().unbounded().text("what to describe")
         .action((f, o) => o.copy(files = o.files :+ f)) +: describeOptions
     ),
     note(""),
-    command(Command.Convert, "write a scene in another dialect")(
+    command(Command.Convert, "convert a scene to another dialect")(
       file("scene.pbrt", "the scene to convert") +: convertOptions
     ),
     note("""
-      |Without --outfile the image goes where the scene's Film says; an .exr also as a .png.
-      |Ctrl-C writes the image as far as it is; a second one quits at once.
-      |Exit codes: 0 done, 1 bad input, 2 bad usage, 3 a bug in Candela, 130 Ctrl-C.
+      |Without --outfile the scene's Film names the image, and a preview is written next to it.
+      |Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits immediately.
+      |Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted.
       |""".stripMargin.stripTrailing),
     checkConfig: o =>
       if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
