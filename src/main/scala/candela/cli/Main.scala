@@ -26,7 +26,8 @@ object Main:
         terminal.err.print(answer.err)
         answer.code
       case Right(options) =>
-        val report = Report(terminal.err, options.quiet, options.verbose)
+        val canKeepGoing = OptionTable.names(options.command.word).contains("keep-going")
+        val report = Report(terminal.err, options.quiet, options.verbose, canKeepGoing)
         options.command match
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Check => CheckCommand(options, terminal, report, loader).run()

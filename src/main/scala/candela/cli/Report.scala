@@ -6,8 +6,16 @@ import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos}
 import candela.image.ImageError
 import candela.render.RenderFailure
 
-/** The one place where problems become text and exit codes. */
-final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
+/** The one place where problems become text and exit codes.
+  *
+  * @param canKeepGoing does the command have the option `--keep-going`?
+  */
+final class Report(
+    err: PrintStream,
+    isQuiet: Boolean,
+    isVerbose: Boolean,
+    canKeepGoing: Boolean = true
+):
 
   private var errorCount = 0
 
@@ -35,7 +43,7 @@ final class Report(err: PrintStream, isQuiet: Boolean, isVerbose: Boolean):
     val more = kinds.drop(Report.MostErrors).map((_, places) => places).sum
     if more > 0 then err.println(s"and ${Figures.count(more, "more error")}")
     else if count > 1 then err.println(Figures.count(count, "error"))
-    if errors.forall(_.standIn.nonEmpty) then
+    if canKeepGoing && errors.forall(_.standIn.nonEmpty) then
       err.println(" --keep-going uses stand-ins for what is missing")
     ExitCode.BadInput
 

@@ -35,6 +35,14 @@ class ConvertCommandSuite extends AnyFunSuite:
       assert(Files.readString(out).contains("Film \"rgb\""))
       assert(TempFolder.names(folder) == Set("a.pbrt", "b.pbrt"))
 
+  test("a missing include is an error, without the advice to use an option that convert lacks"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.pbrt"), "Include \"none.pbrt\"\n")
+      val (code, captured) = run(file.toString, "--to", "v4")
+      assert(code == 1 && captured.err.contains("can't include `none.pbrt`"))
+      assert(!captured.err.contains("--keep-going"))
+      assert(run(file.toString, "--to", "v4", "--keep-going")(0) == 2)
+
   test("what is read is not overwritten, nor is a folder"):
     TempFolder.use: folder =>
       val file = scene(folder)
