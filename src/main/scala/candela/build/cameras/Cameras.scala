@@ -1,6 +1,9 @@
 package candela.build.cameras
 
 import candela.build.recipe.*
+import candela.cameras.{Camera, FilmFrame, PerspectiveCamera, ProjectiveSetup, Shutter}
+import candela.math.Transform
+import candela.scenefile.Dialect
 
 /** Recipes of cameras. */
 object Cameras:
@@ -12,3 +15,70 @@ object Cameras:
         ForkedRealisticRecipe
       )
     )
+
+/** A camera to be placed.
+  *
+  * @param make takes its transform and the film
+  */
+final case class CameraPlan(make: (Transform, FilmFrame) => Camera, shutter: Shutter)
+
+/** What all cameras have. */
+abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
+    extends Recipe[CameraPlan](name, meaning, dialects):
+  private val open = float("shutteropen", "time at which the shutter opens", unit = "s")(0f)
+  private val close = float("shutterclose", "time at which the shutter closes", unit = "s")(1f)
+
+  protected def shutter()(using site: Site): Shutter =
+    val (from, to) = (open(), close())
+    if site.dialect == Dialect.V4 && !(to > from) then
+      site.error(s"the shutter never opens: `shutterclose` must be above `shutteropen` in v4")
+    if to < from then
+      site.warn(s"the shutter closes at $to, before it opens at $from: the two are exchanged")
+      Shutter(to, from)
+    else Shutter(from, to)
+
+/** What cameras have that look at a film through one lens. */
+abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
+    extends CameraRecipe(name, meaning, dialects):
+  private val aspect = float("frameaspectratio", "width over height", shown = "the image's")(0f)
+  private val window =
+    numbers(
+      "screenwindow",
+      "float[4]",
+      "left right bottom top of the film",
+      shown = "by the aspect"
+    )
+  private val lens =
+    float("lensradius", "of the aperture; 0: a pinhole", unit = "scene units")(0f)
+  private val focus =
+    float("focaldistance", "to the plane in focus", unit = "scene units")(
+      if v2 then 1e30f else 1e6f
+    )
+  noMeaning("pbrt-v1 had it; nothing is cut off")(
+    float("hither", "nearest distance that is seen", onlyV2, "scene units")(1e-3f),
+    float("yon", "farthest distance that is seen", onlyV2, "scene units")(1e30f)
+  )
+
+  protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
+    val FilmFrame(width, height, _) = frame
+    val ratio = if aspect() > 0f then aspect() else width.toFloat / height
+    val screen = window() match
+      case Array(l, r, b, t) => (l, r, b, t)
+      case other =>
+        if other.nonEmpty then site.error("`screenwindow` takes left right bottom top")
+        ScreenWindow.of(ratio)
+    ProjectiveSetup(toWorld, width, height, screen, lens(), focus())
+
+private[build] object ScreenWindow:
+
+  /** Its shorter side goes from -1 to 1. */
+  def of(ratio: Float): (Float, Float, Float, Float) =
+    if ratio > 1f then (-ratio, ratio, -1f, 1f) else (-1f, 1f, -1f / ratio, 1f / ratio)
+
+/** A pinhole camera of 90 degrees, for what can't be made. */
+private[build] object StandInCamera:
+  val words = "a perspective camera of 90 degrees is used"
+
+  def make(toWorld: Transform, frame: FilmFrame): Camera =
+    val screen = ScreenWindow.of(frame.width.toFloat / frame.height)
+    PerspectiveCamera(ProjectiveSetup(toWorld, frame.width, frame.height, screen, 0f, 1f), 90f)

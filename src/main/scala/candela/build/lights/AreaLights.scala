@@ -1,12 +1,13 @@
 package candela.build.lights
 
 import candela.build.recipe.*
+import candela.build.shapes.EmitterHoles
 import candela.color.{ColorBasis, Rgb}
 import candela.geometry.Bounds3
 import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{Shape, SurfaceSampler, TriangleSampler}
+import candela.shapes.{Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
 
 /** Recipes of lights that are surfaces. */
 object AreaLights:
@@ -96,3 +97,24 @@ final class DiffuseLightRecipe(
 private object DiffuseLightRecipe:
   def luminance(picture: Picture, basis: ColorBasis): Float =
     picture.mean((c, _, _) => basis.toSrgb(c).luminance)
+
+/** The lights of an emitting mesh, to be.
+  *
+  * @param first of its triangles
+  * @param light number of the first triangle's light
+  */
+private[build] final case class MeshLights(
+    plan: AreaLightPlan,
+    holes: EmitterHoles,
+    first: Int,
+    count: Int,
+    light: Int,
+    site: Site
+):
+  /** The lights with their numbers. */
+  def of(triangles: TriangleSoup): Seq[(Light, Int)] =
+    val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
+    val flat = samplers.count(s => !(s.area > 0f))
+    if flat > 0 then
+      site.warn(s"$flat of $count triangles of this light have no area: they emit nothing")
+    samplers.zipWithIndex.map((s, k) => (holes.light(plan.ofTriangle(s), s), light + k))

@@ -1,8 +1,12 @@
 package candela.build.materials
 
-import candela.bsdf.{DiffuseMaterial, Material}
+import candela.bsdf.{
+  BumpMaterial, DiffuseMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel
+}
 import candela.build.recipe.*
 import candela.color.Rgb
+import candela.scenefile.Dialect
+import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
 
 /** Recipes of materials. */
 object Materials:
@@ -45,3 +49,81 @@ object Materials:
 
   def build(site: Site): Material =
     all.build(site).getOrElse(StandIns.material(site.resources.basis))
+
+/** What all materials have.
+  *
+  * @param bumps whether bumps can be put on the surface
+  */
+abstract class MaterialRecipe(
+    name: String,
+    meaning: String,
+    dialects: Set[Dialect],
+    bumps: Boolean = true
+) extends Recipe[Material](name, meaning, dialects):
+  private val heights: Option[Field[FloatTexture]] = Option.when(bumps):
+    floatTexture("bumpmap", "height of bumps", untilV3, "scene units", "none")(0f)
+  private val displacements: Option[Field[FloatTexture]] = Option.when(bumps):
+    floatTexture("displacement", "height of bumps", onlyV4, "scene units", "none")(0f)
+  private val normals: Option[Field[String]] = Option.when(bumps):
+    string("normalmap", "image of normals", onlyV4, "none")("")
+
+  override protected def made(site: Site): Material =
+    given Site = site
+    val smooth = make().folded
+    normalMap() match
+      case Some(picture) =>
+        site.resources.askForFootprints("normal maps")
+        NormalMapMaterial(smooth, picture)
+      case None =>
+        val height = if site.dialect == Dialect.V4 then displacements else heights
+        height.fold(smooth)(field => bumped(smooth, field()))
+
+  /** Bumps of the same height everywhere move no normal. */
+  private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
+    if height.constant.isDefined then smooth
+    else
+      site.resources.askForFootprints("bumps")
+      // pbrt's steps
+      BumpMaterial(smooth, height, if site.dialect == Dialect.V2 then 0.01f else 0.0005f)
+
+  private def normalMap()(using site: Site): Option[MipLevel] =
+    for
+      field <- normals
+      name <- field.given_() if name.nonEmpty
+      p <- site.declaration.param("normalmap")
+      stored <- site.resources.image(p, site.declaration, site.problems)
+    yield MipLevel(Texels.color(stored, identity), Wrap.Repeat)
+
+/** The parameters of roughness that many materials share.
+  *
+  * @param across the dialects in which u and v can have roughnesses of their own
+  */
+abstract class RoughRecipe(
+    name: String,
+    meaning: String,
+    dialects: Set[Dialect],
+    default: Float,
+    across: Set[Dialect] = sinceV3
+) extends MaterialRecipe(name, meaning, dialects):
+  private val both = floatTexture("roughness", "of the surface; 0: smooth")(default)
+  private val u = alongAxis("u")
+  private val v = alongAxis("v")
+  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", sinceV3)(true)
+
+  private def alongAxis(axis: String) = Option.when(across.exists(dialects)):
+    floatTexture(s"${axis}roughness", s"along $axis", across, shown = "roughness")(default)
+
+  protected def roughness(smoothAtZero: Boolean = false)(using site: Site): Roughness =
+    val model = site.dialect match
+      case Dialect.V2 => RoughnessModel.BlinnExponent
+      case Dialect.V3 =>
+        if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
+      case Dialect.V4 =>
+        if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
+    val along = u.flatMap(_.given_()).getOrElse(both())
+    val sideways = v.flatMap(_.given_()).getOrElse(both())
+    Roughness(along, sideways, model, smoothAtZero)
+
+/** pbrt-v2 has other formulas than v3 for some materials of the same name. */
+private[build] def edition(dialect: Dialect): Edition =
+  if dialect == Dialect.V2 then Edition.Second else Edition.Third

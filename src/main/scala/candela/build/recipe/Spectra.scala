@@ -2,12 +2,14 @@ package candela.build.recipe
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.Files
+
 import scala.util.Try
 
 import candela.base.Suggest
-import candela.color.{Colorimetry, Rgb, Spectrum}
+import candela.color.{ColorBasis, Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
+import candela.textures.{ConstantRgb, RgbTexture}
 
 /** What a spectrum stands for: it decides how it becomes a colour. */
 enum SpectrumRole:
@@ -119,3 +121,47 @@ object Spectra:
           None
         else pairs(numbers, p, site)
     }
+
+/** A parameter that is a spectrum, the same everywhere, or a texture of colours. */
+enum SpectrumSource:
+  case Uniform(value: SpectralValue)
+
+  /** In the basis of the scene. */
+  case Varying(texture: RgbTexture)
+
+object SpectrumSource:
+  /** As a texture, with what `color` makes of a uniform value in the basis. */
+  def textured(source: SpectrumSource)(color: SpectralValue => candela.color.Rgb): RgbTexture =
+    source match
+      case Uniform(value) => ConstantRgb(color(value))
+      case Varying(texture) => texture
+
+/** Parameters of recipes whose wavelengths count as long as no texture gives them. */
+trait SpectrumFields extends Fields:
+
+  protected final def spectrumTexture(
+      name: String,
+      doc: String,
+      in: Set[Dialect] = every,
+      shown: String
+  )(default: Dialect ?=> SpectralValue): Field[SpectrumSource] =
+    val field = Field[SpectrumSource](
+      name,
+      "spectrum texture",
+      doc,
+      in,
+      "",
+      d => SpectrumSource.Uniform(default(using d)),
+      _ => shown,
+      (p, site) =>
+        if p.paramType == ParamType.Texture then
+          site.resources.rgbTexture(p, site.problems).map: texture =>
+            texture.constant match
+              case Some(c) => SpectrumSource.Uniform(uniform(c, site.resources.basis))
+              case None => SpectrumSource.Varying(texture)
+        else Spectra.value(p, site).map(SpectrumSource.Uniform(_))
+    )
+    register(field)
+
+  private def uniform(color: candela.color.Rgb, basis: ColorBasis) =
+    SpectralValue.Color(basis.toSrgb(color))

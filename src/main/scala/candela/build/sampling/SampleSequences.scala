@@ -53,3 +53,34 @@ object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   protected def make()(using Site): SamplerRequest => Sampler =
     val s = seed()
     request => HaltonSampler(count(request), request.seed ^ s)
+
+object StratifiedRecipe
+    extends Recipe[SamplerRequest => Sampler]("stratified", "one sample in each cell of a grid"):
+  private val x = integer("xsamples", "strata along x")(if v2 then 2 else 4)
+  private val y = integer("ysamples", "strata along y")(if v2 then 2 else 4)
+  private val jitter = bool("jitter", "a random place in each stratum, or its middle")(true)
+  private val seed = integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
+  noMeaning("all dimensions are sampled alike")(
+    integer("dimensions", "dimensions with good samples", onlyV3)(4)
+  )
+  protected def make()(using Site): SamplerRequest => Sampler =
+    val (nx, ny, j, s) = (Math.max(1, x()), Math.max(1, y()), jitter(), seed())
+    request =>
+      // Another count is split into the most nearly square strata
+      val (a, b) = request.spp.fold((nx, ny)): n =>
+        val side = (1 to Math.sqrt(n.toDouble).toInt).filter(n % _ == 0).max
+        (n / side, side)
+      StratifiedSampler(a, b, j, request.seed ^ s)
+
+/** v2's sampler that takes more samples where neighbours differ. */
+object AdaptiveRecipe
+    extends Recipe[SamplerRequest => Sampler]("adaptive", "more samples where it matters", onlyV2):
+  private val most = integer("maxsamples", "samples of a pixel where it matters")(32)
+  declare(
+    integer("minsamples", "samples of every pixel")(4),
+    string("method", "what decides: contrast, shapeid")("contrast")
+  )
+  override def pending: Option[String] = Some("`maxsamples` are taken in every pixel")
+  protected def make()(using Site): SamplerRequest => Sampler =
+    val n = most()
+    request => OwenSobolSampler(request.spp.getOrElse(n), request.seed)

@@ -1,8 +1,9 @@
 package candela.build.shapes
 
-import candela.base.SceneError
+import candela.base.{loop, SceneError}
 import candela.build.recipe.*
 import candela.scenefile.Dialect
+import candela.shapes.{LoopSubdivision, MeshError}
 
 object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "triangles that share vertices"):
   private val indices =
@@ -104,3 +105,60 @@ object BilinearMeshRecipe
       Option.when(MeshArrays.isWhole(p, whole, 4))(
         MeshArrays.patches(p, normals(), uv(), whole)
       )
+
+object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop's subdivision surface"):
+  private val levels = integer("levels", "times that each triangle is split into four", sinceV3)(3)
+  private val nlevels =
+    integer("nlevels", "times that each triangle is split into four", untilV3)(3)
+  private val indices = integers("indices", "three vertices a triangle of the control mesh")
+  private val points = numbers("P", "point3[]", "vertices of the control mesh")
+  noMeaning("there is but one")(string("scheme", "kind of subdivision")("loop"))
+
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
+    val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)
+    if points().isEmpty || indices().isEmpty then
+      site.error("a loopsubdiv needs `P` and `indices`")
+      None
+    else if depth < 0 || depth > 10 then
+      site.error(s"`levels` of loopsubdiv lies in 0 to 10; found $depth")
+      None
+    else
+      MeshArrays.checked(points(), Array.empty, Array.empty, indices()).flatMap: _ =>
+        try
+          val fine = LoopSubdivision.subdivide(depth, indices(), points())
+          Some(ShapeGeometry.Triangles(fine.positions, fine.normals, Array.empty, fine.indices))
+        catch
+          case e: MeshError =>
+            site.error(s"loopsubdiv: ${e.getMessage}")
+            None
+
+object HeightFieldRecipe
+    extends ShapeRecipe("heightfield", "heights above a grid over the unit square", untilV3):
+  private val nu = integer("nu", "grid points along x", shown = "none")(0)
+  private val nv = integer("nv", "grid points along y", shown = "none")(0)
+  private val heights = numbers("Pz", "float[]", "heights, row by row of constant y")
+
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
+    val (columns, rows, z) = (nu(), nv(), heights())
+    if z.isEmpty || nu.given_().isEmpty || nv.given_().isEmpty then
+      site.error("a heightfield needs `nu`, `nv` and `Pz`")
+      None
+    else if columns < 2 || rows < 2 then
+      site.warn(
+        s"a heightfield needs two points or more both ways; this has $columns × $rows, and is " +
+          "left out"
+      )
+      None
+    else if z.length != columns.toLong * rows then
+      site.error(s"`Pz` holds ${z.length} heights; nu × nv are ${columns.toLong * rows}")
+      None
+    else
+      val uvs = new Array[Float](2 * z.length)
+      val positions = new Array[Float](3 * z.length)
+      loop(z.length): i =>
+        uvs(2 * i) = (i % columns).toFloat / (columns - 1)
+        uvs(2 * i + 1) = (i / columns).toFloat / (rows - 1)
+        positions(3 * i) = uvs(2 * i)
+        positions(3 * i + 1) = uvs(2 * i + 1)
+        positions(3 * i + 2) = z(i)
+      MeshArrays.checked(positions, Array.empty, uvs, MeshArrays.grid(columns, rows))

@@ -3,7 +3,7 @@ package candela.build.shapes
 import java.io.IOException
 import java.nio.file.Path
 
-import candela.base.{loop, Problem, SceneError, Severity, SourcePos}
+import candela.base.{IntBuffer, loop, Problem, SceneError, Severity, SourcePos}
 import candela.scenefile.Source
 
 /** The triangles of a PLY file.
@@ -78,3 +78,150 @@ object PlyFile:
     var lines = 0
     loop(until)(i => if source.bytes(i) == '\n' then lines += 1)
     lines
+
+/** Reads the elements of one PLY file.
+  *
+  * @param keepQuads leave faces of four corners whole
+  * @param fail      reports a problem at a byte offset
+  */
+private[build] final class PlyReader(
+    header: PlyHeader,
+    in: PlyNumbers,
+    keepQuads: Boolean,
+    fail: (Long, String) => Nothing
+):
+  private var positions = Array.emptyFloatArray
+  private var normals = Array.emptyFloatArray
+  private var uvs = Array.emptyFloatArray
+  private val indices = IntBuffer()
+  private val quads = IntBuffer()
+
+  def read(): PlyMesh =
+    val vertexCount = needed("vertex").count
+    val _ = needed("face")
+    header.elements.filter(_.properties.nonEmpty).foreach: element =>
+      if !in.canHold(element) then
+        fail(in.offset, s"the file is too short for its ${element.count} ${element.name} elements")
+      element.name match
+        case "vertex" => readVertices(element)
+        case "face" => readFaces(element, vertexCount)
+        case _ => loop(element.count)(_ => element.properties.foreach(skip))
+    val triangles = indices.take()
+    val patches = quads.take()
+    if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
+    PlyMesh(positions, normals, uvs, triangles, patches)
+
+  private def needed(name: String): PlyElement =
+    header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
+      val found = header.elements.map(e => s"${e.count} ${e.name}").mkString(", ")
+      val others = if found.isEmpty then "none at all" else found
+      fail(in.offset, s"no $name elements in the file, but $others")
+
+  private def readVertices(element: PlyElement): Unit =
+    val names = element.properties.filter(_.countType.isEmpty).map(_.name)
+    def has(wanted: Seq[String]) = wanted.forall(names.contains)
+    def room(wanted: Seq[String]) =
+      new Array[Float](if has(wanted) then element.count * wanted.size else 0)
+    if !has(PlyReader.Position) then
+      val found = element.properties.map(_.name).mkString("`", "`, `", "`")
+      fail(in.offset, s"vertices need `x`, `y` and `z`, but have $found")
+    val uvNames = PlyReader.TextureCoordinates.find(has).getOrElse(PlyReader.NoCoordinates)
+    positions = room(PlyReader.Position)
+    normals = room(PlyReader.Normal)
+    uvs = room(uvNames)
+    // for each property the array it goes to (or null), the array's numbers per vertex, and its
+    // place among these
+    val roles = element.properties.map: p =>
+      val arrays = List(positions, normals, uvs)
+      val groups = List(PlyReader.Position, PlyReader.Normal, uvNames)
+        .zip(arrays)
+        .filter((g, array) => g.contains(p.name) && array.nonEmpty)
+      val group = groups.headOption.filter(_ => p.countType.isEmpty)
+      group.map((g, array) => (array, g.size, g.indexOf(p.name)))
+    val targets = roles.map(_.fold(null)(_._1)).toArray
+    val strides = roles.map(_.fold(0)(_._2)).toArray
+    val places = roles.map(_.fold(0)(_._3)).toArray
+    val properties = element.properties.toArray
+    loop(element.count): i =>
+      loop(properties.length): k =>
+        val target = targets(k)
+        if target == null then skip(properties(k))
+        else target(i * strides(k) + places(k)) = number(properties(k), target eq positions, i)
+
+  /** The property's number; 0 for one that is not finite, except in positions. */
+  private def number(p: PlyProperty, isPosition: Boolean, vertex: Int): Float =
+    val at = in.offset
+    val value = in.next(p.valueType).toFloat
+    if java.lang.Float.isFinite(value) then value
+    else if isPosition then fail(at, s"`${p.name}` of vertex $vertex is $value")
+    else 0f
+
+  private def skip(p: PlyProperty): Unit =
+    val length = p.countType.fold(1)(in.length)
+    loop(length)(_ =>
+      val _ = in.next(p.valueType)
+    )
+
+  private def readFaces(element: PlyElement, vertexCount: Int): Unit =
+    val corners =
+      element.properties.indexWhere(p => PlyReader.Corners(p.name) && p.countType.nonEmpty)
+    if corners < 0 then
+      val found = element.properties.map(_.name).mkString("`", "`, `", "`")
+      fail(in.offset, s"faces need a list `vertex_indices`, but have $found")
+    val properties = element.properties.toArray
+    loop(element.count): _ =>
+      loop(properties.length): k =>
+        if k == corners then readCorners(properties(k), vertexCount) else skip(properties(k))
+
+  private def readCorners(p: PlyProperty, vertexCount: Int): Unit =
+    val length = in.length(p.countType.get)
+    if length < 3 then
+      loop(length)(_ =>
+        val _ = index(p.valueType, vertexCount)
+      )
+    else
+      val first = index(p.valueType, vertexCount)
+      val second = index(p.valueType, vertexCount)
+      var last = index(p.valueType, vertexCount)
+      val isQuad = length == 4 && keepQuads
+      if !isQuad then triangle(first, second, last)
+      loop(length - 3): _ =>
+        val next = index(p.valueType, vertexCount)
+        // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's
+        // order
+        if isQuad then
+          quads += first
+          quads += second
+          quads += next
+          quads += last
+        else if length == 4 then triangle(next, first, last)
+        else triangle(first, last, next)
+        last = next
+
+  private def triangle(a: Int, b: Int, c: Int): Unit =
+    indices += a
+    indices += b
+    indices += c
+
+  private def index(t: PlyType, vertexCount: Int): Int =
+    val at = in.offset
+    val value = in.next(t)
+    if !(value >= 0 && value < vertexCount && value == Math.rint(value)) then
+      val range = s"0 … ${vertexCount - 1}"
+      fail(at, s"a face has the corner ${PlyNumbers.plain(value)}, but vertices go by $range")
+    value.toInt
+
+private[build] object PlyReader:
+  private val Position = Seq("x", "y", "z")
+  private val Normal = Seq("nx", "ny", "nz")
+  private val Corners = Set("vertex_indices", "vertex_index")
+
+  private val NoCoordinates = Seq.empty[String]
+
+  /** The pairs of names in use for texture coordinates. */
+  private val TextureCoordinates = List(
+    Seq("u", "v"),
+    Seq("s", "t"),
+    Seq("texture_u", "texture_v"),
+    Seq("texture_s", "texture_t")
+  )

@@ -2,7 +2,8 @@ package candela.build.shapes
 
 import candela.build.recipe.*
 import candela.math.*
-import candela.shapes.{Disk, Sphere}
+import candela.scenefile.Dialect
+import candela.shapes.{Disk, Profile, Quadric, Sphere}
 
 object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, whole or a part"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
@@ -47,3 +48,67 @@ object DiskRecipe
     else
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
       Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed)))
+
+/** A line swept about the z-axis. */
+abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect])
+    extends ShapeRecipe(name, meaning, dialects):
+  private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
+
+  protected final def swept(profile: Profile)(using site: Site): Option[ShapeGeometry] =
+    val phi = radians(clamp(phimax(), 0f, 360f))
+    if phi > 0f then
+      Some(ShapeGeometry.Solid((toWorld, reversed) => Quadric(toWorld, profile, phi, reversed)))
+    else leftOut(s"its `phimax` is ${phimax()}")
+
+  /** Shapes without a surface are no mistake that stops a rendering: pbrt never hits them. */
+  protected final def leftOut(why: String)(using site: Site): Option[ShapeGeometry] =
+    site.warn(s"this $name has no surface, as $why: it is left out")
+    None
+
+object CylinderRecipe extends SweptRecipe("cylinder", "about the z-axis, open at its ends", every):
+  private val radius = float("radius", "radius", unit = "scene units")(1f)
+  private val zmin = float("zmin", "z of one end")(-1f)
+  private val zmax = float("zmax", "z of the other end")(1f)
+
+  protected def geometry()(using Site): Option[ShapeGeometry] =
+    val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
+    if radius() == 0f then leftOut("its `radius` is 0")
+    else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
+    else swept(Profile.cylinder(radius(), z0, z1))
+
+object ConeRecipe extends SweptRecipe("cone", "from z = 0 to a tip, open below", untilV3):
+  private val radius = float("radius", "radius at z = 0", unit = "scene units")(1f)
+  private val height = float("height", "z of the tip")(1f)
+
+  protected def geometry()(using Site): Option[ShapeGeometry] =
+    if radius() == 0f then leftOut("its `radius` is 0")
+    else if !(height() > 0f) then leftOut(s"its `height` is ${height()}")
+    else swept(Profile.cone(radius(), height()))
+
+object ParaboloidRecipe extends SweptRecipe("paraboloid", "about z, with its apex at 0", untilV3):
+  private val radius = float("radius", "radius at `zmax`", unit = "scene units")(1f)
+  private val zmin = float("zmin", "z of the lower clip plane")(0f)
+  private val zmax = float("zmax", "z of the upper clip plane")(1f)
+
+  protected def geometry()(using Site): Option[ShapeGeometry] =
+    val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
+    if radius() == 0f then leftOut("its `radius` is 0")
+    else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
+    else if z1 == 0f then leftOut("its `radius` is given at z = 0")
+    else swept(Profile.paraboloid(radius(), z0, z1))
+
+object HyperboloidRecipe
+    extends SweptRecipe("hyperboloid", "what a line sweeps that turns about z", untilV3):
+  private val p1 = point("p1", "one end of the line")(Vec3.Zero)
+  private val p2 = point("p2", "its other end")(Vec3(1f, 1f, 1f))
+
+  protected def geometry()(using site: Site): Option[ShapeGeometry] =
+    Profile.hyperboloid(p1(), p2()) match
+      case None => leftOut(s"`p1` and `p2` have the same z, ${p1().z}")
+      case Some(profile) =>
+        if !profile.follows(p1()) then
+          site.warn(
+            "the line from `p1` to `p2` is not nearest to the z-axis at z = 0: the hyperboloid " +
+              "is symmetric about z = 0 and passes through `p2` only, as in pbrt"
+          )
+        swept(profile)

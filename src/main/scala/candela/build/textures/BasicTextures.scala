@@ -2,6 +2,7 @@ package candela.build.textures
 
 import candela.build.recipe.*
 import candela.color.Rgb
+import candela.math.Vec3
 import candela.scenefile.Dialect
 import candela.textures.*
 
@@ -43,3 +44,18 @@ object RgbMixRecipe extends Recipe[RgbTexture]("mix", "a blend of two"):
   private val tex2 = rgbTexture("tex2", "where `amount` is 1")(Rgb.White)
   private val amount = floatTexture("amount", "between the two, 0 to 1")(0.5f)
   protected def make()(using Site): RgbTexture = MixRgb.of(tex1(), tex2(), amount())
+
+abstract class DirectionMixRecipe[A]
+    extends Recipe[A]("directionmix", "blends by the surface's direction", onlyV4):
+  private val direction = vector("dir", "where `tex1` is seen, as is −dir")(Vec3.Y)
+  protected def axis()(using site: Site): Vec3 = site.toWorld.vector(direction()).normalized
+
+object FloatDirectionMixRecipe extends DirectionMixRecipe[FloatTexture]:
+  private val tex1 = floatTexture("tex1", "of surfaces across `dir`")(0f)
+  private val tex2 = floatTexture("tex2", "of surfaces along `dir`")(1f)
+  protected def make()(using Site): FloatTexture = DirectionMixFloat(tex1(), tex2(), axis())
+
+object RgbDirectionMixRecipe extends DirectionMixRecipe[RgbTexture]:
+  private val tex1 = rgbTexture("tex1", "of surfaces across `dir`")(Rgb.Black)
+  private val tex2 = rgbTexture("tex2", "of surfaces along `dir`")(Rgb.White)
+  protected def make()(using Site): RgbTexture = DirectionMixRgb(tex1(), tex2(), axis())

@@ -46,3 +46,18 @@ object RgbBilerpRecipe
       color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
   protected def make()(using Site): RgbTexture =
     BilerpRgb(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
+
+/** All versions of pbrt put `inside` outside the dots, and `outside` inside. */
+object FloatDotsRecipe extends MappedRecipe[FloatTexture]("dots", "round dots here and there"):
+  private val inside = floatTexture("inside", "around the dots, as pbrt has it")(1f)
+  private val outside = floatTexture("outside", "in the dots, as pbrt has it")(0f)
+  protected def make()(using Site): FloatTexture = DotsFloat(mapped(), outside(), inside())
+
+object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "round dots here and there"):
+  private val inside = rgbTexture("inside", "around the dots, as pbrt has it")(Rgb.White)
+  private val outside = rgbTexture("outside", "in the dots, as pbrt has it")(Rgb.Black)
+  protected def make()(using Site): RgbTexture = DotsRgb(mapped(), outside(), inside())
+
+object RgbUvRecipe
+    extends MappedRecipe[RgbTexture]("uv", "the coordinates, as red and green", untilV3):
+  protected def make()(using Site): RgbTexture = UvColor(mapped())

@@ -37,3 +37,8 @@ object MixRecipe
     if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
       site.problems.error(at, s"`$name` is an interface, which can't be a part of \"mix\"")
     found
+
+/** The edge of a medium. */
+final class InterfaceRecipe(name: String, dialects: Set[Dialect])
+    extends MaterialRecipe(name, "no surface: light passes straight on", dialects, bumps = false):
+  protected def make()(using Site): Material = InterfaceMaterial
