@@ -9,8 +9,7 @@ import scala.util.Using
 
 import scopt.OParser
 
-import candela.base.{FileName, Problem, SceneError, Version}
-import candela.convert.SideFiles
+import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
@@ -51,7 +50,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   /** Each file is whole at any time, even if the machine stops while it is written anew. */
   private def write(paths: Vector[Path], results: SuiteReport): Unit =
     for path <- paths do
-      SideFiles.write(path)(Files.write(_, text(path, results).getBytes(UTF_8)))
+      WholeFile.write(path, text(path, results).getBytes(UTF_8))
 
   private def read(source: Path): Suite =
     if Files.isDirectory(source) then

@@ -1,7 +1,7 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError}
-import candela.convert.{Converter, Declarations, SceneText, SideFiles}
+import candela.base.{Problem, SceneError, WholeFile}
+import candela.convert.{Converter, Declarations, SceneText}
 import candela.scenefile.{Excerpts, Parser, SceneDescription}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
@@ -22,7 +22,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     report.warnings(scene.warnings ++ warnings, all = options.verbose)
     out match
       case Some(path) =>
-        SideFiles.write(path): file =>
+        WholeFile.write(path): file =>
           val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
           try SceneText.write(converted.scene, writer)
           finally writer.close()

@@ -98,18 +98,11 @@ object FromV2Surfaces:
       mapping
     ),
     Rule("checkerboard" -> "checkerboard")(keep("tex1", "tex2", "dimension", "aamode"), mapping),
-    Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
-    Rule("fbm" -> "fbm")(keep("octaves", "roughness")),
-    Rule("wrinkled" -> "wrinkled")(keep("octaves", "roughness")),
-    Rule("windy" -> "windy")(),
-    Rule("uv" -> "uv")(mapping)
-  )
+    Rule("dots" -> "dots")(keep("inside", "outside"), mapping)
+  ) ++ Noise.rules :+ Rule("uv" -> "uv")(mapping)
 
   val floats: Table = Table("float texture", fallback = "constant")(common*)
 
   val colors: Table = Table("spectrum texture", fallback = "constant")(
-    (common :+ Rule.near(
-      "marble" -> "marble",
-      MarbleNote
-    )(keep("octaves", "roughness", "scale", "variation")))*
+    (common :+ Noise.marble)*
   )

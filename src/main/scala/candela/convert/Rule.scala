@@ -77,5 +77,18 @@ object Steps:
 
   def isNumber(value: Float)(p: Param, s: Statement): Boolean = s.numberOf(p).contains(value)
 
-/** pbrt-v3 goes on along the first curves between the colours; v2 and v4 have all six. */
-private[convert] val MarbleNote = "pbrt-v3's marble runs beyond the colours of v2's and v4's"
+/** Textures of noise, which are the same in all dialects but for one. */
+private[convert] object Noise:
+  val octaves: Step = Steps.keep("octaves", "roughness")
+
+  val rules: Seq[Rule] = Seq(
+    Rule("fbm" -> "fbm")(octaves),
+    Rule("wrinkled" -> "wrinkled")(octaves),
+    Rule("windy" -> "windy")()
+  )
+
+  /** pbrt-v3 goes on along the first curves between the colours; v2 and v4 have all six. */
+  val marble: Rule = Rule.near(
+    "marble" -> "marble",
+    "pbrt-v3's marble runs beyond the colours of v2's and v4's"
+  )(Steps.keep("octaves", "roughness", "scale", "variation"))

@@ -73,15 +73,11 @@ object ToV3Textures:
     )
   )
 
-  private val octaves = keep("octaves", "roughness")
-
   val floats: Table = Table("float texture", fallback = "constant")(
-    (common ++ Seq(
-      Rule("scale" -> "scale")(rename("tex" -> "tex1", "scale" -> "tex2")),
-      Rule("fbm" -> "fbm")(octaves),
-      Rule("wrinkled" -> "wrinkled")(octaves),
-      Rule("windy" -> "windy")()
-    ))*
+    ((common :+ Rule("scale" -> "scale")(rename(
+      "tex" -> "tex1",
+      "scale" -> "tex2"
+    ))) ++ Noise.rules)*
   )
 
   /** v3 multiplies two colours: a float texture becomes gray by a mix of black and white. */
@@ -100,9 +96,6 @@ object ToV3Textures:
   val colors: Table = Table("spectrum texture", fallback = "constant")(
     (common ++ Seq(
       Rule("scale" -> "scale")(scale),
-      Rule.near(
-        "marble" -> "marble",
-        MarbleNote
-      )(keep("octaves", "roughness", "scale", "variation"))
+      Noise.marble
     ))*
   )

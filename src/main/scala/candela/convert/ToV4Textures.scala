@@ -52,15 +52,11 @@ object ToV4Textures:
     ptex
   )
 
-  private val octaves = keep("octaves", "roughness")
-
   val floats: Table = Table("float texture", fallback = "constant")(
-    (common ++ Seq(
-      Rule("scale" -> "scale")(rename("tex1" -> "tex", "tex2" -> "scale")),
-      Rule("fbm" -> "fbm")(octaves),
-      Rule("wrinkled" -> "wrinkled")(octaves),
-      Rule("windy" -> "windy")()
-    ))*
+    ((common :+ Rule("scale" -> "scale")(rename(
+      "tex1" -> "tex",
+      "tex2" -> "scale"
+    ))) ++ Noise.rules)*
   )
 
   /** v4 multiplies a colour with a number. */
@@ -152,12 +148,9 @@ object ToV4Textures:
   val colors: Table = Table("spectrum texture", fallback = "constant")(
     (common ++ Seq(
       Rule("scale" -> "scale")(scale),
-      Rule.near(
-        "marble" -> "marble",
-        MarbleNote
-      )(keep("octaves", "roughness", "scale", "variation")),
-      byNumber("fbm")(octaves),
-      byNumber("wrinkled")(octaves),
+      Noise.marble,
+      byNumber("fbm")(Noise.octaves),
+      byNumber("wrinkled")(Noise.octaves),
       byNumber("windy")(),
       uv
     ))*

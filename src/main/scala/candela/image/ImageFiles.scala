@@ -1,10 +1,9 @@
 package candela.image
 
-import candela.base.FileName
+import candela.base.{FileName, WholeFile}
 
 import java.io.IOException
-import java.nio.file.{AtomicMoveNotSupportedException, Files, NoSuchFileException, Path}
-import java.nio.file.{StandardCopyOption, StandardOpenOption}
+import java.nio.file.{Files, NoSuchFileException, Path}
 
 /** Pictures in files, whatever the format. Everything that goes wrong is an [[ImageError]]. */
 object ImageFiles:
@@ -68,28 +67,13 @@ object ImageFiles:
           case (None, "") => throw ImageError(s"the name has no extension; $Writable")
           case (None, other) => throw ImageError(s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
-    try replace(path, bytes)
+    try WholeFile.write(path, bytes)
     catch
       case _: NoSuchFileException => throw ImageError(s"$path: there is no such folder")
       case e: IOException => throw ImageError(s"$path: can't be written: ${reason(e)}")
 
   /** What `write` puts into an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
-
-  private def replace(path: Path, bytes: Array[Byte]): Unit =
-    if Files.isDirectory(path) then throw IOException("it is a folder")
-    // Not Files.createTempFile, which would make the picture readable for its owner only.
-    val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
-    val temporary = path.resolveSibling(s".${path.getFileName}.$unique.tmp")
-    try
-      val _ = Files.write(temporary, bytes, StandardOpenOption.CREATE_NEW)
-      try
-        val _ = Files.move(temporary, path, StandardCopyOption.ATOMIC_MOVE)
-      catch
-        case _: AtomicMoveNotSupportedException =>
-          val _ = Files.move(temporary, path, StandardCopyOption.REPLACE_EXISTING)
-    finally
-      val _ = Files.deleteIfExists(temporary)
 
   private def reason(e: IOException): String =
     e.getClass.getSimpleName.stripSuffix("Exception") match

@@ -35,21 +35,7 @@ final class Picture(image: Image, lookup: PictureLookup):
     else
       val fx = x * width - 0.5f
       val fy = y * height - 0.5f
-      val i = Math.floor(fx).toInt
-      val j = Math.floor(fy).toInt
-      val tx = fx - i
-      val ty = fy - j
-      val x0 = wrapped(i, width)
-      val x1 = wrapped(i + 1, width)
-      val y0 = wrapped(j, height)
-      val y1 = wrapped(j + 1, height)
-      val a = pixel(x0, y0)
-      val b = pixel(x1, y0)
-      val c = pixel(x0, y1)
-      val d = pixel(x1, y1)
-      def mix(k: Int): Float =
-        lerp(ty, lerp(tx, data(a + k), data(b + k)), lerp(tx, data(c + k), data(d + k)))
-      Rgb(mix(0), mix(1), mix(2))
+      Bilinear(data, fx, fy)((i, j) => pixel(wrapped(i, width), wrapped(j, height)))
 
   private def pixel(x: Int, y: Int): Int = 3 * (y * width + x)
 
@@ -69,3 +55,25 @@ final class Picture(image: Image, lookup: PictureLookup):
           (y + 0.5f) / height
         )
     (sum / (width.toDouble * height)).toFloat
+
+/** Colours between the four nearest pixels of an image. */
+private[lights] object Bilinear:
+
+  /** @param x, y  in pixels, from the first one's centre
+    * @param pixel where in `data` the pixel (i, j) begins, which may be beyond the border
+    */
+  inline def apply(data: Array[Float], x: Float, y: Float)(inline pixel: (Int, Int) => Int): Rgb =
+    val i = Math.floor(x).toInt
+    val j = Math.floor(y).toInt
+    val a = pixel(i, j)
+    val b = pixel(i + 1, j)
+    val c = pixel(i, j + 1)
+    val d = pixel(i + 1, j + 1)
+    Rgb(
+      mix(data, a, b, c, d, x - i, y - j),
+      mix(data, a + 1, b + 1, c + 1, d + 1, x - i, y - j),
+      mix(data, a + 2, b + 2, c + 2, d + 2, x - i, y - j)
+    )
+
+  def mix(data: Array[Float], a: Int, b: Int, c: Int, d: Int, tx: Float, ty: Float): Float =
+    lerp(ty, lerp(tx, data(a), data(b)), lerp(tx, data(c), data(d)))

@@ -38,29 +38,10 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
   def between(place: Vec3): Rgb =
     val fx = place.x * width - 0.5f
     val fy = place.y * height - 0.5f
-    val x = Math.floor(fx).toInt
-    val y = Math.floor(fy).toInt
-    val tx = fx - x
-    val ty = fy - y
-    val a = pixel(x, y)
-    val b = pixel(x + 1, y)
-    val c = pixel(x, y + 1)
-    val e = pixel(x + 1, y + 1)
-    Rgb(
-      mix(a, b, c, e, 0, tx, ty),
-      mix(a, b, c, e, 1, tx, ty),
-      mix(a, b, c, e, 2, tx, ty)
-    )
+    Bilinear(data, fx, fy)(pixel)
 
   private def pixel(x: Int, y: Int): Int =
     3 * (layout.wrapY(x, y, width, height) * width + layout.wrapX(x, y, width, height))
-
-  private def mix(a: Int, b: Int, c: Int, d: Int, channel: Int, tx: Float, ty: Float): Float =
-    lerp(
-      ty,
-      lerp(tx, data(a + channel), data(b + channel)),
-      lerp(tx, data(c + channel), data(d + channel))
-    )
 
   /** Mean brightness over the pixel: what lookups within it average to. */
   def brightness(x: Int, y: Int): Float =

@@ -28,19 +28,13 @@ final class CloudMedium(
     val phase: HenyeyGreenstein
 ) extends VaryingMedium(toUnit, MajorantGrid.constant(1f), absorption + scattering):
   def isEmissive: Boolean = false
-  def isChromatic: Boolean =
-    Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)
+  def isChromatic: Boolean = Medium.isChromatic(absorption, scattering)
   def describe: String = "cloud"
 
   protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val height = corner.y + y * extent.y
     val d = densityAt(corner.x + x * extent.x, height, corner.z + z * extent.z)
-    out.absorbR = d * absorption.r
-    out.absorbG = d * absorption.g
-    out.absorbB = d * absorption.b
-    out.scatterR = d * scattering.r
-    out.scatterG = d * scattering.g
-    out.scatterB = d * scattering.b
+    out.setDensity(d, absorption, scattering)
 
   /** In the cloud's own space. */
   private[media] def densityAt(px: Float, py: Float, pz: Float): Float =

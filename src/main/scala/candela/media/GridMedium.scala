@@ -18,8 +18,7 @@ final class GridMedium(
 ) extends VaryingMedium(toUnit, GridMedium.bounds(density), absorption + scattering):
   private val glowing: Glow | Null = glow.orNull
   def isEmissive: Boolean = glow.isDefined
-  def isChromatic: Boolean =
-    Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)
+  def isChromatic: Boolean = Medium.isChromatic(absorption, scattering)
 
   def describe: String =
     val light = glow.fold("")(g => s", ${g.describe}")
@@ -27,12 +26,7 @@ final class GridMedium(
 
   protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val d = Math.max(0f, density(x, y, z))
-    out.absorbR = d * absorption.r
-    out.absorbG = d * absorption.g
-    out.absorbB = d * absorption.b
-    out.scatterR = d * scattering.r
-    out.scatterG = d * scattering.g
-    out.scatterB = d * scattering.b
+    out.setDensity(d, absorption, scattering)
     val light = glowing
     if light != null then
       light.fill(x, y, z, out)

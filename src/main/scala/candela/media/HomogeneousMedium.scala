@@ -19,7 +19,7 @@ final class HomogeneousMedium(
   private val extinction = absorption + scattering
   private val glow = absorption * emitted
   val isEmissive: Boolean = !glow.isBlack
-  val isChromatic: Boolean = Seq(extinction, scattering).exists(c => c.r != c.g || c.g != c.b)
+  val isChromatic: Boolean = Medium.isChromatic(absorption, scattering)
   def describe: String = "homogeneous"
 
   def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float =

@@ -1,5 +1,6 @@
 package candela.media
 
+import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.{HenyeyGreenstein, RandomStream}
 
@@ -32,6 +33,11 @@ abstract class Medium:
   /** For the plan. */
   def describe: String
 
+object Medium:
+  /** Do these coefficients treat colours differently? */
+  private[media] def isChromatic(absorption: Rgb, scattering: Rgb): Boolean =
+    Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)
+
 /** Coefficients at one place, per scene unit; mutable. Emission is that of the place, per length:
   * the absorption coefficient times the radiance that the medium would have if it were opaque.
   */
@@ -39,6 +45,15 @@ final class MediumPoint:
   var absorbR, absorbG, absorbB = 0f
   var scatterR, scatterG, scatterB = 0f
   var glowR, glowG, glowB = 0f
+
+  /** Those of a medium where it is `density` times as dense; `glow` stays as it is. */
+  def setDensity(density: Float, absorption: Rgb, scattering: Rgb): Unit =
+    absorbR = density * absorption.r
+    absorbG = density * absorption.g
+    absorbB = density * absorption.b
+    scatterR = density * scattering.r
+    scatterG = density * scattering.g
+    scatterB = density * scattering.b
 
 /** Work space of walks through media, one per worker. */
 final class MediumWork:

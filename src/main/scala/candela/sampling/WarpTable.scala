@@ -103,6 +103,18 @@ final class WarpTable(
 
     private def rowSum(row: Int): Float = blended(along, size, row * width + width - 1)
 
+    /** `fy` rows below `row`: the sum of what is left of a column, and the value there. */
+    private def sum(column: Int, row: Int, fy: Float): Float =
+      lerp(
+        fy,
+        blended(along, size, row * width + column),
+        blended(along, size, (row + 1) * width + column)
+      )
+
+    private def edge(column: Int, row: Int, fy: Float): Float =
+      val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
+      scale * lerp(fy, value(0, row * width + column), value(0, (row + 1) * width + column))
+
     /** Sets x and y to where an even point goes. */
     def sample(u1: Float, u2: Float): Unit =
       val row = WarpTable.find(height)(r => blended(down, height, r) < u2)
@@ -110,16 +122,12 @@ final class WarpTable(
       val r1 = rowSum(row + 1)
       val fy = WarpTable.invert(r0, r1, u2 - blended(down, height, row))
       val target = u1 * lerp(fy, r0, r1)
-      def sum(column: Int) = lerp(
-        fy,
-        blended(along, size, row * width + column),
-        blended(along, size, (row + 1) * width + column)
+      val column = WarpTable.find(width)(c => sum(c, row, fy) < target)
+      val fx = WarpTable.invert(
+        edge(column, row, fy),
+        edge(column + 1, row, fy),
+        target - sum(column, row, fy)
       )
-      val column = WarpTable.find(width)(c => sum(c) < target)
-      val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
-      def edge(c: Int) = scale *
-        lerp(fy, value(0, row * width + c), value(0, (row + 1) * width + c))
-      val fx = WarpTable.invert(edge(column), edge(column + 1), target - sum(column))
       x = (column.toFloat + fx) / (width - 1).toFloat
       y = (row.toFloat + fy) / (height - 1).toFloat
 
@@ -131,16 +139,9 @@ final class WarpTable(
       val row = clamp(gy.toInt, 0, height - 2)
       val fx = gx - column.toFloat
       val fy = gy - row.toFloat
-      val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
-      def edge(c: Int) = scale *
-        lerp(fy, value(0, row * width + c), value(0, (row + 1) * width + c))
-      val c0 = edge(column)
-      val c1 = edge(column + 1)
-      val before = lerp(
-        fy,
-        blended(along, size, row * width + column),
-        blended(along, size, (row + 1) * width + column)
-      )
+      val c0 = edge(column, row, fy)
+      val c1 = edge(column + 1, row, fy)
+      val before = sum(column, row, fy)
       val r0 = rowSum(row)
       val r1 = rowSum(row + 1)
       val whole = lerp(fy, r0, r1)
