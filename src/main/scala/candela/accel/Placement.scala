@@ -93,7 +93,7 @@ object Placement:
     s.geometricNormal = normal(m, at, s.geometricNormal).normalized
     val across = normal(m, at, s.frame.n)
     val n = across.normalized.facing(s.geometricNormal)
-    s.frame = Frame.along(n, vector(m, at, s.frame.s))
+    s.frame.set(Frame.along(n, vector(m, at, s.frame.s)))
     if s.wantsPartials then partials(m, at, across, n, s)
 
   /** @param across the shading normal, mapped but of any length; `n` the one that is used */

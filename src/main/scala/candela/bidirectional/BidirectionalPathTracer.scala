@@ -3,8 +3,8 @@ package candela.bidirectional
 import candela.cameras.{Camera, FilmPlace}
 import candela.color.Rgb
 import candela.film.Splats
-import candela.geometry.{Ray, ShadingPoint}
-import candela.integrators.LightTransport
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.integrators.{LightConnection, LightTransport, SceneIntegrator}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -35,14 +35,22 @@ final class BidirectionalPathTracer(
     rouletteAfter: Int,
     compresses: Boolean,
     regularizes: Boolean = false
-) extends LightTransport(scene):
+) extends SceneIntegrator(scene):
   import PartialWeights.mis
 
   private val lightPaths =
     LightPaths(scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes)
-  private val path = Subpath(scene, carriesLight = false, compresses, rouletteAfter)
+  private val path = Subpath(carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
-  at = vertex.at
+  private val at = vertex.at
+  private val connection = LightConnection(scene)
+  private val hit = Hit()
+  private val shadowRay = Ray()
+  private val shadowHit = Hit()
+  private var rays = 0L
+
+  // Where the current direction of the camera path was sampled
+  private val lastP, lastN = MutableVec3()
 
   private val camera: Camera | Null = if takes.isTraceable then takes else null
   private val place = FilmPlace()
@@ -52,7 +60,8 @@ final class BidirectionalPathTracer(
       scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes
     )
 
-  override def raysTraced: Long = rays + lightPaths.raysTraced
+  def raysTraced: Long = rays + connection.raysTraced + lightPaths.raysTraced
+  override def lastMaterial: Int = at.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
 
@@ -67,6 +76,7 @@ final class BidirectionalPathTracer(
       onward: Sampler
   ): Rgb =
     shadowRay.time = ray.time
+    connection.begin(ray.time)
     lightPaths.trace(ray.time, light)
     splats.begin()
     showLight(light)
@@ -90,20 +100,20 @@ final class BidirectionalPathTracer(
             val others =
               lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
             val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
-            val light = lit.throughput * f * weight
-            if !light.isBlack && isClear(lit.at, toCamera, place.eye) then
-              splats.add(place.x, place.y, light)
+            val found = lit.throughput * f * weight
+            if !found.isBlack && isClear(lit.at, toCamera, place.eye) then
+              splats.add(place.x, place.y, found)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
     val origin = from.offsetOrigin(towards)
-    shadowRay.set(origin, end - origin, LightTransport.ShadowEnd)
+    shadowRay.set(origin, end - origin, LightConnection.ShadowEnd)
     rays += 1
     !scene.isOccluded(shadowRay, shadowHit)
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
-    var light = Rgb.Black
+    var found = Rgb.Black
     path.throughput = Rgb.White
     path.isSpecularSoFar = true
     path.weights.near = 0.0
@@ -114,20 +124,22 @@ final class BidirectionalPathTracer(
       rays += 1
       edges += 1
       if !scene.closest(ray, hit) then
-        light += path.throughput * escaped(
+        found += path.throughput * LightTransport.environment(
+          scene,
           ray,
           (i, source) =>
             if edges == 1 then 1f
             else
               val w = ray.direction
-              val sampled = scene.selection.probability(lastP, lastN, i) * source.pdf(lastP, w)
-              val emitted = source.emissionPdf(scene.ball, lastP, Vec3.Zero, -w)
+              val p = lastP.toVec3
+              val sampled = scene.selection.probability(p, lastN.toVec3, i) * source.pdf(p, w)
+              val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
               metWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
         )
         alive = false
       else
-        scene.surface(ray, hit, at)
-        val wo = -ray.direction
+        vertex.hit(ray, hit)
+        val wo = vertex.wo
         val cosine = vertex.cosine(wo)
         val distance = ray.tMax.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
@@ -136,16 +148,17 @@ final class BidirectionalPathTracer(
           val density = if seenBy == null then 0f else seenBy.density(eye, at.p)
           path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
         if at.areaLight >= 0 && cosine > 0f then
-          light += path.throughput * emitted(edges, wo, distance)
+          found += path.throughput * emitted(edges, wo, distance)
         alive = edges <= maxDepth && cosine > 0f
         if alive then
           vertex.edges = edges
-          vertex.look(ray.direction, regularizes && !path.isSpecularSoFar)
+          vertex.evaluate(regularizes && !path.isSpecularSoFar)
           if !vertex.bsdf.isSpecular then
-            light += path.throughput * (direct(joins) + joined())
+            found += path.throughput * (direct(joins) + joined())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
-          keepPlace()
-    light
+          lastP.set(at.p)
+          lastN.set(at.frame.n)
+    found
 
   /** Weight of light that the path has met, for the densities with which it is sampled and with
     * which light sets out from there.
@@ -162,8 +175,9 @@ final class BidirectionalPathTracer(
     else
       val index = at.areaLight
       val perArea = vertex.cosine(wo) / (distance * distance)
-      val chosen = scene.selection.probability(lastP, lastN, index)
-      val sampled = chosen.toDouble * source.pdf(lastP, at) * perArea
+      val p = lastP.toVec3
+      val chosen = scene.selection.probability(p, lastN.toVec3, index)
+      val sampled = chosen.toDouble * source.pdf(p, at) * perArea
       val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
       radiance * metWeight(sampled, lightPaths.chance(index).toDouble * emitted)
 
@@ -171,32 +185,30 @@ final class BidirectionalPathTracer(
   private def direct(sampler: Sampler): Rgb =
     val choice = sampler.next1D()
     sampler.next2D()
-    scene.selection.choose(at.p, at.frame.n, choice, chosen)
-    if chosen.light < 0 then Rgb.Black
+    val p = at.p
+    if !connection.choose(p, at.frame.n, choice) || !connection.samplePoint(p, sampler.x, sampler.y)
+    then
+      Rgb.Black
     else
-      val source = scene.lights(chosen.light)
-      val sample = lightSample
-      source.sample(at.p, sampler.x, sampler.y, sample)
-      if !(sample.pdf > 0f) || sample.radiance.isBlack then Rgb.Black
+      val source = scene.lights(connection.index)
+      val sample = connection.sample
+      val wi = connection.wi
+      val f = vertex.received(wi)
+      if f.isBlack || connection.isBlocked(at) then Rgb.Black
       else
-        val wi = sample.wi
-        val f = vertex.received(wi)
-        if f.isBlack || isBlocked() then Rgb.Black
-        else
-          val pick = chosen.probability
-          val pdf = pick * sample.pdf
-          val target = sample.target
-          val meeting =
-            if sample.isInfinite then sample.pdf
-            else if target.n.isZero then (target.p - at.p).lengthSquared
-            else sample.pdf * (target.n absDot wi)
-          val emission = lightPaths.chance(chosen.light) *
-            source.emissionPdf(scene.ball, target.p, target.n, -wi)
-          val byLight = emission.toDouble * vertex.cosine(wi) / (pick.toDouble * meeting)
-          val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / pdf)
-          val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
-          val weight = (at.frame.n absDot wi) / (pdf * (1 + others))
-          f * sample.radiance * weight.toFloat
+        val target = sample.target
+        val meeting =
+          if sample.isInfinite then sample.pdf
+          else if target.n.isZero then (target.p - p).lengthSquared
+          else sample.pdf * (target.n absDot wi)
+        val emission = lightPaths.chance(connection.index) *
+          source.emissionPdf(scene.ball, target.p, target.n, -wi)
+        val byLight =
+          emission.toDouble * vertex.cosine(wi) / (connection.probability.toDouble * meeting)
+        val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
+        val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
+        val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
+        f * sample.radiance * weight.toFloat
 
   /** Joins the path's end with all points of the light's path. */
   private def joined(): Rgb =
@@ -225,7 +237,7 @@ final class BidirectionalPathTracer(
         val toHere = lit.pdf(back).toDouble * here / distance2
         val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
           lit.weights.sum(toLit, lit.reversePdf(back).toDouble)
-        val cosines = (at.frame.n absDot wi) * lit.sentCosine(back)
+        val cosines = vertex.shadingCosine(wi) * lit.sentCosine(back)
         val weight = (cosines / (distance2 * (1 + others))).toFloat
         val light = f * g * lit.throughput * weight
         if light.isBlack || isHidden(lit.at, wi, there) then Rgb.Black else light
@@ -234,6 +246,6 @@ final class BidirectionalPathTracer(
   private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =
     val origin = at.offsetOrigin(wi)
     val end = other.offsetOrigin(-wi)
-    shadowRay.set(origin, end - origin, LightTransport.shadowEnd(cosine))
+    shadowRay.set(origin, end - origin, LightConnection.shadowEnd(cosine))
     rays += 1
     scene.isOccluded(shadowRay, shadowHit)

@@ -27,7 +27,7 @@ private[bidirectional] final class LightPaths(
   private val start = EmittedRay()
   private val ray = Ray()
   private val hit = Hit()
-  private val path = Subpath(scene, carriesLight = true, compresses, rouletteAfter)
+  private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
   private var kept = Array.fill(LightPaths.Some)(PathVertex(scene))
   private var used = 0
 
@@ -72,13 +72,12 @@ private[bidirectional] final class LightPaths(
       if alive then
         edges += 1
         val vertex = next()
-        scene.surface(ray, hit, vertex.at)
-        if scene.isInterface(vertex.at) then
+        vertex.hit(ray, hit)
+        if vertex.isInterface then
           edges -= 1
-          val on = ray.direction
-          ray.set(vertex.at.offsetOrigin(on), on, Float.PositiveInfinity)
+          vertex.passThrough(ray)
         else
-          vertex.look(ray.direction, regularizes && !path.isSpecularSoFar)
+          vertex.evaluate(regularizes && !path.isSpecularSoFar)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)
           if edges == 1 then begin(light, vertex, cosine)

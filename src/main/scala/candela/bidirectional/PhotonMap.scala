@@ -2,6 +2,7 @@ package candela.bidirectional
 
 import candela.base.loop
 import candela.color.Rgb
+import candela.integrators.SurfaceVertex
 import candela.math.*
 import candela.sampling.SampleHash
 
@@ -70,7 +71,7 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
     * from, as far as they come from directions that the path chooses with a density of at most
     * `limit`.
     */
-  def gather(vertex: PathVertex, limit: Float): Rgb =
+  def gather(vertex: SurfaceVertex, limit: Float): Rgb =
     val p = vertex.at.p
     // The corner of the eight cubes: the one before the nearest border along each axis
     val x0 = cube(p.x - radius)
@@ -83,7 +84,7 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
       k += 1
     sum * (1f / (Pi * radius2 * paths))
 
-  private def gather(vertex: PathVertex, limit: Float, x: Int, y: Int, z: Int): Rgb =
+  private def gather(vertex: SurfaceVertex, limit: Float, x: Int, y: Int, z: Int): Rgb =
     val b = bucket(x, y, z)
     val p = vertex.at.p
     var r, g, blue = 0f

@@ -1,10 +1,8 @@
 package candela.bidirectional
 
-import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.{LightTransport, PassIntegrator}
-import candela.math.*
+import candela.integrators.{LightTransport, PassIntegrator, SceneIntegrator, Walk}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -26,13 +24,12 @@ private[bidirectional] final class PhotonMapper(
     maxDepth: Int,
     settings: PhotonSettings,
     passes: PhotonPasses
-) extends LightTransport(scene)
+) extends SceneIntegrator(scene)
     with PassIntegrator:
   import PhotonMapper.Sharp
 
   private val tracer = PhotonTracer(scene, settings)
-  private val vertex = PathVertex(scene)
-  at = vertex.at
+  private val walk = Walk(scene)
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
   def begin(pass: Int): Unit = photons = passes(pass, tracer)
@@ -40,48 +37,35 @@ private[bidirectional] final class PhotonMapper(
   protected def over(scene: Scene): PhotonMapper =
     PhotonMapper(scene, maxDepth, settings, passes)
 
-  override def raysTraced: Long = rays + tracer.raysTraced
-
-  /** Directions that are not followed are the light's alone. */
-  override protected def lightWeight(pdf: Float, bsdf: Bsdf, wo: Vec3, wi: Vec3): Float =
-    val chosen = bsdf.pdf(wo, wi)
-    if chosen > Sharp then LightTransport.powerHeuristic(pdf, chosen) else 1f
+  def raysTraced: Long = walk.raysTraced + tracer.raysTraced
+  override def lastMaterial: Int = walk.vertex.at.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
-    shadowRay.time = ray.time
-    var light = Rgb.Black
-    var throughput = Rgb.White
-    var depth = 0
-    var lastPdf = 0f
-    var alive = true
-    while alive do
-      rays += 1
-      if !scene.closest(ray, hit) then
-        light += throughput * escaped(ray, lastPdf)
-        alive = false
+    val vertex = walk.vertex
+    walk.begin(ray, sampler)
+    while walk.goesOn do
+      if !walk.intersect() then walk.addEnvironment()
       else
-        scene.surface(ray, hit, at)
-        light += metLight(throughput, -ray.direction, lastPdf)
-        if depth == maxDepth then alive = false
-        else if scene.isInterface(at) then
-          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
-          scene.passed(ray)
+        walk.addEmission()
+        if vertex.isInterface then walk.passThrough()
+        else if walk.depth == maxDepth then walk.end()
         else
-          depth += 1
-          vertex.look(ray.direction)
-          if !vertex.bsdf.isSpecular then
-            light += throughput * anyLight(vertex.bsdf, vertex.wo, sampler)
-            light += throughput * photons.gather(vertex, Sharp)
-          draw(vertex.bsdf, vertex.local, sampler)
-          val wi = at.frame.toWorld(bounce.wi)
-          throughput = throughput * bounce.weight
-          lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          keepPlace()
-          ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, vertex.wo, wi, bounce.isSpecular, bounce.eta)
-          alive = !throughput.isBlack &&
-            (bounce.isSpecular || (bounce.pdf > Sharp && vertex.isOpen(wi)))
-    light
+          walk.evaluate(sampler)
+          addOneLight(sampler)
+          if !vertex.bsdf.isSpecular then walk.add(photons.gather(vertex, Sharp))
+          walk.scatter(sampler)
+          walk.leave()
+          if !(vertex.bounce.isSpecular || vertex.bounce.pdf > Sharp) then walk.end()
+    walk.radiance.toRgb
+
+  /** Light sampling alone finds light from directions in which paths end. */
+  private def addOneLight(sampler: Sampler): Unit =
+    if walk.sampleOneLight(sampler) then
+      val light = walk.light
+      val pdf = walk.vertex.pdf(light.wi)
+      walk.addLight(weight =
+        if pdf > Sharp then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
+      )
 
 object PhotonMapper:
   /** Three times that of a matte surface along its normal. */

@@ -4,7 +4,6 @@ import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
 import candela.sampling.Sampler
-import candela.scene.Scene
 
 /** The end of a path on its way through the scene, from the camera or from a light. Mutable.
   *
@@ -13,7 +12,6 @@ import candela.scene.Scene
   * @param rouletteAfter edges after which a path may end by chance
   */
 private[bidirectional] final class Subpath(
-    scene: Scene,
     carriesLight: Boolean,
     compresses: Boolean,
     rouletteAfter: Int
@@ -24,9 +22,8 @@ private[bidirectional] final class Subpath(
 
   /** Scatters the path at `vertex`; false if it ends there. */
   def scatter(vertex: PathVertex, ray: Ray, sampler: Sampler): Boolean =
-    val choice = sampler.next1D()
-    sampler.next2D()
-    val bounce = vertex.bsdf.sample(vertex.local, choice, sampler.x, sampler.y)
+    vertex.draw(sampler)
+    val bounce = vertex.bounce
     val wi = vertex.at.frame.toWorld(bounce.wi)
     if bounce.weight.isBlack || !(bounce.isSpecular || vertex.isOpen(wi)) then false
     else
@@ -37,9 +34,8 @@ private[bidirectional] final class Subpath(
       if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
       if bounce.isSpecular then weights.turnSpecular(cosine)
-      else weights.turn(cosine, bounce.pdf, vertex.bsdf.pdf(bounce.wi, vertex.local))
-      ray.set(vertex.at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-      scene.scattered(ray, vertex.at, vertex.wo, wi, bounce.isSpecular, bounce.eta)
+      else weights.turn(cosine, bounce.pdf, vertex.bsdf.pdf(bounce.wi, vertex.localWo))
+      vertex.leave(ray): Unit
       cosine > 0f && !throughput.isBlack && survives(vertex.edges, kept.largest, sampler)
 
   /** For shading normals, as in [[PathVertex.sentCosine]]. */

@@ -1,22 +1,22 @@
 package candela.bsdf
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
-/** What a [[BsdfSample]] says, to be written over by the next: it owns its vectors, so that a path
-  * leaves no garbage. Mutable, one per worker.
+/** A [[BsdfSample]] in storage that is overwritten by the next one, so that a path allocates
+  * nothing. One per worker.
   */
 final class Bounce:
-  private val ownWi = Vec3.Z.copy
-  private val ownWeight = Rgb.Black.copy
+  private val ownWi = MutableVec3(0f, 0f, 1f)
+  private val ownWeight = MutableRgb()
   private var ownPdf = 0f
   private var ownIsSpecular = false
   private var ownEta = 1f
 
-  def wi: Vec3 = ownWi
+  def wi: Vec3 = ownWi.toVec3
 
   /** f·|cos θi|/pdf; black: the path ends here. */
-  def weight: Rgb = ownWeight
+  def weight: Rgb = ownWeight.toRgb
 
   /** Per solid angle; for a specular direction the probability of its choice. */
   def pdf: Float = ownPdf
@@ -26,8 +26,8 @@ final class Bounce:
   def eta: Float = ownEta
 
   def set(wi: Vec3, weight: Rgb, pdf: Float, isSpecular: Boolean, eta: Float = 1f): Unit =
-    ownWi.become(wi)
-    ownWeight.become(weight)
+    ownWi.set(wi)
+    ownWeight.set(weight)
     ownPdf = pdf
     ownIsSpecular = isSpecular
     ownEta = eta
@@ -37,7 +37,7 @@ final class Bounce:
 
   def take(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
 
-  def toSample: BsdfSample = BsdfSample(wi.copy, weight.copy, pdf, isSpecular, eta)
+  def toSample: BsdfSample = BsdfSample(wi, weight, pdf, isSpecular, eta)
 
 /** A BSDF that draws its directions without garbage: what most surfaces are made of. */
 abstract class LeanBsdf extends Bsdf:

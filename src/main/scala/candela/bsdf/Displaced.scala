@@ -22,7 +22,7 @@ abstract class DisplacedMaterial(inner: Material) extends Material:
 final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
-    val p = at.p.copy
+    val p = at.p
     val u = at.u
     val v = at.v
     val here = height(at)
@@ -43,7 +43,7 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     val dpdv = at.tangentV + up * slopeV + at.dndv * here
     val n = dpdu cross dpdv
     if n.lengthSquared > 0f then
-      at.frame = Frame.along(n.normalized.facing(at.geometricNormal), dpdu)
+      at.frame.set(Frame.along(n.normalized.facing(at.geometricNormal), dpdu))
     inner.bsdf(at)
 
   private def step(dx: Float, dy: Float): Float =
@@ -60,5 +60,5 @@ final class NormalMapMaterial(inner: Material, picture: MipLevel)
     val frame = Frame.along(at.frame.n, at.tangentU)
     val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
     if n.lengthSquared > 0f then
-      at.frame = Frame.along(n.normalized.facing(at.geometricNormal), at.tangentU)
+      at.frame.set(Frame.along(n.normalized.facing(at.geometricNormal), at.tangentU))
     inner.bsdf(at)

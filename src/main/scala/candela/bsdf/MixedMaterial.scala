@@ -14,9 +14,9 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
   def bsdf(at: ShadingPoint): Bsdf =
     val part = amount.albedo(at)
     val rest = Rgb.White - part
-    val frame = at.frame.copy
+    val frame = at.frame.toFrame
     val other = MixedMaterial.scatter(second, at)
-    at.frame = frame
+    at.frame.set(frame)
     Lobes.Builder()
       .addScaled(MixedMaterial.scatter(first, at), part)
       .addScaled(other, rest)

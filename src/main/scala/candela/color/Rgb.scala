@@ -1,46 +1,9 @@
 package candela.color
 
-/** Linear light in the primaries of sRGB (Rec. 709): radiance, reflectance, or a weight. Like
-  * [[candela.math.Vec3]] a value, but for those that a worker owns to add up what a path brings.
+/** Linear light in the primaries of sRGB (Rec. 709): radiance, reflectance, or a weight. Immutable;
+  * [[MutableRgb]] accumulates.
   */
-final class Rgb(red: Float, green: Float, blue: Float):
-  private var ownR = red
-  private var ownG = green
-  private var ownB = blue
-
-  def r: Float = ownR
-  def g: Float = ownG
-  def b: Float = ownB
-
-  def copy: Rgb = Rgb(r, g, b)
-
-  /** Takes the values of `c`; for the owner alone. */
-  private[candela] def become(c: Rgb): Unit =
-    ownR = c.ownR
-    ownG = c.ownG
-    ownB = c.ownB
-
-  /** Takes a · b · s; for the owner alone, as what follows. */
-  private[candela] def becomeProduct(a: Rgb, b: Rgb, s: Float): Unit =
-    ownR = a.ownR * b.ownR * s
-    ownG = a.ownG * b.ownG * s
-    ownB = a.ownB * b.ownB * s
-
-  /** Adds a · b. */
-  private[candela] def addProduct(a: Rgb, b: Rgb): Unit =
-    ownR += a.ownR * b.ownR
-    ownG += a.ownG * b.ownG
-    ownB += a.ownB * b.ownB
-
-  private[candela] def scaleBy(c: Rgb): Unit =
-    ownR *= c.ownR
-    ownG *= c.ownG
-    ownB *= c.ownB
-
-  private[candela] def scaleBy(s: Float): Unit =
-    ownR *= s
-    ownG *= s
-    ownB *= s
+final class Rgb(val r: Float, val g: Float, val b: Float):
 
   def +(c: Rgb): Rgb = Rgb(r + c.r, g + c.g, b + c.b)
   def -(c: Rgb): Rgb = Rgb(r - c.r, g - c.g, b - c.b)

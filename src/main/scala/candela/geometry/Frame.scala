@@ -2,25 +2,8 @@ package candela.geometry
 
 import candela.math.*
 
-/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. Like [[Vec3]]
-  * a value, but for those that a record owns.
-  */
+/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. Immutable. */
 final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
-  def copy: Frame = Frame(s.copy, t.copy, n.copy)
-
-  /** Takes the values of `f`; for the owner alone, who owns its vectors, too. */
-  private[candela] def become(f: Frame): Unit =
-    s.become(f.s)
-    t.become(f.t)
-    n.become(f.n)
-
-  /** Becomes a basis around the unit vector `axis`, as [[Frame.around]] makes it; for the owner. */
-  private[candela] def becomeAround(axis: Vec3): Unit =
-    val around = Frame.around(axis)
-    s.become(around.s)
-    t.become(around.t)
-    n.become(axis)
-
   def toLocal(v: Vec3): Vec3 = Vec3(v dot s, v dot t, v dot n)
   def toWorld(v: Vec3): Vec3 = Vec3(
     s.x * v.x + t.x * v.y + n.x * v.z,
@@ -54,3 +37,28 @@ object Frame:
       val unit = (once - n * (once dot n)).normalized
       Frame(unit, n cross unit, n)
     else around(n)
+
+/** Storage for a [[Frame]] in a record that a worker reuses; at first the axes. */
+final class MutableFrame:
+  private val ownS = MutableVec3(1f, 0f, 0f)
+  private val ownT = MutableVec3(0f, 1f, 0f)
+  private val ownN = MutableVec3(0f, 0f, 1f)
+
+  def s: Vec3 = ownS.toVec3
+  def t: Vec3 = ownT.toVec3
+  def n: Vec3 = ownN.toVec3
+
+  /** The present value. */
+  def toFrame: Frame = Frame(s, t, n)
+
+  def set(f: Frame): Unit =
+    ownS.set(f.s)
+    ownT.set(f.t)
+    ownN.set(f.n)
+
+  def toLocal(v: Vec3): Vec3 = Vec3(ownS dot v, ownT dot v, ownN dot v)
+  def toWorld(v: Vec3): Vec3 = Vec3(
+    ownS.x * v.x + ownT.x * v.y + ownN.x * v.z,
+    ownS.y * v.x + ownT.y * v.y + ownN.y * v.z,
+    ownS.z * v.x + ownT.z * v.y + ownN.z * v.z
+  )

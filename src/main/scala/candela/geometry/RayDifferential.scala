@@ -11,16 +11,16 @@ final class RayDifferential:
   /** Are there such rays? Not after a scattering that sends neighbours to all sides. */
   var isKnown = false
 
-  private val ownXOrigin, ownXDirection, ownYOrigin, ownYDirection = Vec3(0f, 0f, 0f)
+  private val ownXOrigin, ownXDirection, ownYOrigin, ownYDirection = MutableVec3()
 
-  def xOrigin: Vec3 = ownXOrigin
-  def xOrigin_=(v: Vec3): Unit = ownXOrigin.become(v)
-  def xDirection: Vec3 = ownXDirection
-  def xDirection_=(v: Vec3): Unit = ownXDirection.become(v)
-  def yOrigin: Vec3 = ownYOrigin
-  def yOrigin_=(v: Vec3): Unit = ownYOrigin.become(v)
-  def yDirection: Vec3 = ownYDirection
-  def yDirection_=(v: Vec3): Unit = ownYDirection.become(v)
+  def xOrigin: Vec3 = ownXOrigin.toVec3
+  def xOrigin_=(v: Vec3): Unit = ownXOrigin.set(v)
+  def xDirection: Vec3 = ownXDirection.toVec3
+  def xDirection_=(v: Vec3): Unit = ownXDirection.set(v)
+  def yOrigin: Vec3 = ownYOrigin.toVec3
+  def yOrigin_=(v: Vec3): Unit = ownYOrigin.set(v)
+  def yDirection: Vec3 = ownYDirection.toVec3
+  def yDirection_=(v: Vec3): Unit = ownYDirection.set(v)
 
   def copy(from: RayDifferential): Unit =
     isKnown = from.isKnown

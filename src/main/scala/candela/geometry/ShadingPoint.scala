@@ -4,40 +4,34 @@ import candela.math.*
 
 /** Where a ray met a surface, with all that textures, materials and lights ask about it.
   *
-  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit. It owns its
-  * vectors: setting one copies the values, and the next hit changes them. So a hit makes no
-  * garbage, and whoever keeps a vector for longer keeps its `copy`.
+  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit. Its vectors
+  * are stored in place, so a hit allocates nothing; getters return values, which may be kept.
   *
   * @param wantsPartials are the partial derivatives asked for? Decided once for a scene: a shape
   *                      fills them in only then, by `setPartials`
   */
 final class ShadingPoint(val wantsPartials: Boolean = false):
-  private val ownP, ownPError = Vec3(0f, 0f, 0f)
-  private val ownGeometricNormal = Vec3.Z.copy
-  private val ownFrame = Frame.around(Vec3.Z).copy
-  private val ownDpdu, ownDpdv, ownDndu, ownDndv = Vec3(0f, 0f, 0f)
-  private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = Vec3(0f, 0f, 0f)
-
-  /** Work space of triangles. */
-  private[candela] val firstEdge, secondEdge = Vec3(0f, 0f, 0f)
+  private val ownP, ownPError = MutableVec3()
+  private val ownGeometricNormal = MutableVec3(0f, 0f, 1f)
+  private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
+  private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = MutableVec3()
 
   /** World space. */
-  def p: Vec3 = ownP
-  def p_=(v: Vec3): Unit = ownP.become(v)
+  def p: Vec3 = ownP.toVec3
+  def p_=(v: Vec3): Unit = ownP.set(v)
 
   /** Conservative bound of the absolute error of `p`, per component. */
-  def pError: Vec3 = ownPError
-  def pError_=(v: Vec3): Unit = ownPError.become(v)
+  def pError: Vec3 = ownPError.toVec3
+  def pError_=(v: Vec3): Unit = ownPError.set(v)
 
   /** Unit normal of the true surface, on the side that the shape calls its outside. */
-  def geometricNormal: Vec3 = ownGeometricNormal
-  def geometricNormal_=(v: Vec3): Unit = ownGeometricNormal.become(v)
+  def geometricNormal: Vec3 = ownGeometricNormal.toVec3
+  def geometricNormal_=(v: Vec3): Unit = ownGeometricNormal.set(v)
 
   /** Orthonormal; `frame.n` is the (interpolated) shading normal, in the hemisphere of
     * `geometricNormal`, and `frame.s` follows ∂p/∂u.
     */
-  def frame: Frame = ownFrame
-  def frame_=(f: Frame): Unit = ownFrame.become(f)
+  val frame: MutableFrame = MutableFrame()
 
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
@@ -45,22 +39,22 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** How the point moves with `u` and `v`, and how the normal `frame.n` turns; of meshes
     * with normals, how these change that are interpolated, whatever their length.
     */
-  def dpdu: Vec3 = ownDpdu
-  def dpdu_=(v: Vec3): Unit = ownDpdu.become(v)
-  def dpdv: Vec3 = ownDpdv
-  def dpdv_=(v: Vec3): Unit = ownDpdv.become(v)
-  def dndu: Vec3 = ownDndu
-  def dndu_=(v: Vec3): Unit = ownDndu.become(v)
-  def dndv: Vec3 = ownDndv
-  def dndv_=(v: Vec3): Unit = ownDndv.become(v)
+  def dpdu: Vec3 = ownDpdu.toVec3
+  def dpdu_=(v: Vec3): Unit = ownDpdu.set(v)
+  def dpdv: Vec3 = ownDpdv.toVec3
+  def dpdv_=(v: Vec3): Unit = ownDpdv.set(v)
+  def dndu: Vec3 = ownDndu.toVec3
+  def dndu_=(v: Vec3): Unit = ownDndu.set(v)
+  def dndv: Vec3 = ownDndv.toVec3
+  def dndv_=(v: Vec3): Unit = ownDndv.set(v)
 
   /** What displacements are added to: `dpdu` and `dpdv`, but tangent to `frame.n` on meshes with
     * interpolated normals.
     */
-  def tangentU: Vec3 = ownTangentU
-  def tangentU_=(v: Vec3): Unit = ownTangentU.become(v)
-  def tangentV: Vec3 = ownTangentV
-  def tangentV_=(v: Vec3): Unit = ownTangentV.become(v)
+  def tangentU: Vec3 = ownTangentU.toVec3
+  def tangentU_=(v: Vec3): Unit = ownTangentU.set(v)
+  def tangentV: Vec3 = ownTangentV.toVec3
+  def tangentV_=(v: Vec3): Unit = ownTangentV.set(v)
 
   /** 1 if displacements rise along `frame.n`, −1 if they sink. */
   var bumpSide: Float = 1f
@@ -69,10 +63,10 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
     * unknown, or not wanted: textures then show their finest detail.
     */
-  def dpdx: Vec3 = ownDpdx
-  def dpdx_=(v: Vec3): Unit = ownDpdx.become(v)
-  def dpdy: Vec3 = ownDpdy
-  def dpdy_=(v: Vec3): Unit = ownDpdy.become(v)
+  def dpdx: Vec3 = ownDpdx.toVec3
+  def dpdx_=(v: Vec3): Unit = ownDpdx.set(v)
+  def dpdy: Vec3 = ownDpdy.toVec3
+  def dpdy_=(v: Vec3): Unit = ownDpdy.set(v)
   var dudx, dvdx, dudy, dvdy: Float = 0f
 
   def setPartials(dpdu: Vec3, dpdv: Vec3, dndu: Vec3, dndv: Vec3): Unit =
@@ -91,7 +85,7 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** Calls the other side the outside. The tangents stay, and what normals do along them. */
   def invert(): Unit =
     geometricNormal = -geometricNormal
-    frame = Frame(frame.s, -frame.t, -frame.n)
+    frame.set(Frame(frame.s, -frame.t, -frame.n))
 
   /** Works out the footprint's `dudx` … `dvdy` from `dpdx` and `dpdy`: the least-squares solution
     * of dp = dpdu·du + dpdv·dv.

@@ -1,20 +1,19 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.geometry.{Frame, Ray}
-import candela.math.*
+import candela.geometry.{Frame, Hit, Ray}
 import candela.sampling.{Sampler, Warp}
 import candela.scene.Scene
 
-/** What [[AmbientOcclusion]] looks for, and how it writes that down.
+/** How [[AmbientOcclusion]] measures openness.
   *
-  * @param samples rays from each point
-  * @param start   in scene units: what is nearer hides nothing
-  * @param end     in scene units: what is farther hides nothing
-  * @param cosine  are rays chosen by the cosine of their angle to the normal?
-  * @param weighs  do rays count by that cosine? Else all count the same
-  * @param open    value of a point that nothing hides
-  * @param showsSky do rays that meet nothing show what surrounds the scene? Else they are black
+  * @param samples  rays per vertex
+  * @param start    in scene units: nearer surfaces don't occlude
+  * @param end      in scene units: farther surfaces don't occlude
+  * @param cosine   sample directions by their cosine?
+  * @param weighs   weight directions by their cosine? Else all count the same
+  * @param open     value of a point without occlusion
+  * @param showsSky do camera rays that leave the scene show the environment? Else they are black
   */
 final case class Occlusion(
     samples: Int,
@@ -26,48 +25,44 @@ final case class Occlusion(
     showsSky: Boolean
 )
 
-/** How much of the hemisphere above a point is open, whatever the materials and lights are.
+/** The unoccluded fraction of the hemisphere above a point, whatever the materials and lights.
   *
   * Source: Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", Eurographics Workshop on
   * Rendering 1998.
   */
 final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch | Null = null)
-    extends LightTransport(scene, volumes):
+    extends SceneIntegrator(scene):
   import rule.*
+
+  private val walk = Walk(scene, volumes)
+  private val shadowRay = Ray()
+  private val shadowHit = Hit()
+  private var shadowRays = 0L
+
+  def raysTraced: Long = walk.raysTraced + shadowRays
+  override def lastMaterial: Int = walk.vertex.at.material
 
   protected def over(scene: Scene): AmbientOcclusion =
     AmbientOcclusion(scene, rule, VolumeMarch.copy(volumes))
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     shadowRay.time = ray.time
-    val march = volumes
-    if march != null then march.start(ray, sampler)
-    var light = Rgb.Black
-    var throughput = Rgb.White
-    var alive = true
-    while alive do
-      rays += 1
-      val met = scene.closest(ray, hit)
-      if march != null then
-        march.march(ray, sampler)
-        light += throughput * march.light
-        throughput = throughput * march.transmitted
-      if !met then
-        if showsSky then light += throughput * escaped(ray, (_, _) => 1f)
-        alive = false
-      else
-        scene.surface(ray, hit, at)
-        alive = scene.isInterface(at)
-        if alive then
-          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
-          scene.passed(ray)
-        else light += throughput * open * openness(-ray.direction, sampler)
-    light
+    walk.begin(ray, sampler)
+    while walk.goesOn do
+      val isHit = walk.intersect()
+      walk.marchThroughVolumes(sampler)
+      if isHit && walk.vertex.isInterface then walk.passThrough()
+      else if isHit then
+        walk.add(open * openness(walk.vertex, sampler))
+        walk.end()
+      else if showsSky then walk.addEnvironment()
+      else walk.end()
+    walk.radiance.toRgb
 
-  /** The part of the hemisphere around the true surface's normal that nothing hides. */
-  private def openness(wo: Vec3, sampler: Sampler): Float =
-    val n = if (wo dot at.geometricNormal) < 0f then -at.geometricNormal else at.geometricNormal
-    val frame = Frame.around(n)
+  /** Of the hemisphere around the geometric normal. */
+  private def openness(vertex: SurfaceVertex, sampler: Sampler): Float =
+    val at = vertex.at
+    val frame = Frame.around(at.geometricNormal.facing(vertex.wo))
     sampler.next2D()
     // One point of the sampler, and the others of a sequence that starts there
     var (u1, u2) = (sampler.x, sampler.y)
@@ -77,7 +72,7 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
       val w = if cosine then Warp.cosineHemisphere(u1, u2) else Warp.uniformHemisphere(u1, u2)
       val wi = frame.toWorld(w)
       shadowRay.set(at.offsetOrigin(wi) + wi * start, wi, end - start)
-      rays += 1
+      shadowRays += 1
       // By the cosine, over its mean: 1 is a half of its density
       if !scene.isOccluded(shadowRay, shadowHit) then
         sum += (if weighs && !cosine then 2f * w.z else 1f)

@@ -1,21 +1,19 @@
 package candela.integrators
 
-import candela.bsdf.{Bsdf, DipoleBssrdf}
+import candela.bsdf.DipoleBssrdf
 import candela.color.Rgb
-import candela.geometry.Frame
-import candela.math.*
+import candela.geometry.{Frame, Ray}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** [[DirectLighting]], and what comes straight from the sources into translucent surfaces and out
-  * of them again elsewhere.
+/** [[DirectLighting]], and direct light that enters translucent surfaces and leaves them elsewhere.
   *
-  * @param maxDepth     most specular bounces, plus one
-  * @param lightSamples how often each light is sampled at a point
+  * @param maxDepth     specular bounces plus one, at most
+  * @param lightSamples samples of each light at a vertex
   *
-  * PBRT 2 sums the dipole over points that it has laid out on all translucent surfaces (Jensen and
-  * Buhler, "A Rapid Hierarchical Rendering Technique for Translucent Materials", SIGGRAPH 2002);
-  * here each sample draws a place of its own, and light from one source.
+  * pbrt-v2 sums the dipole over points distributed on all translucent surfaces (Jensen and Buhler,
+  * "A Rapid Hierarchical Rendering Technique for Translucent Materials", SIGGRAPH 2002); here each
+  * sample draws its own point of entry, and one light.
   */
 final class DipoleLighting(
     scene: Scene,
@@ -24,37 +22,40 @@ final class DipoleLighting(
     volumes: VolumeMarch | Null = null
 ) extends DirectLighting(scene, maxDepth, lightSamples, volumes):
   private val probe = SubsurfaceProbe(scene, acrossMaterials = true)
-  private val entry = scene.newPoint()
+  private val entry = SurfaceVertex(scene)
+  private var time = 0f
 
   override protected def over(scene: Scene): DipoleLighting =
     DipoleLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
   override def raysTraced: Long = super.raysTraced + probe.raysTraced
 
-  override protected def gathered(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
-    val fromSurface = super.gathered(bsdf, wo, sampler)
-    scene.bssrdf(at) match
-      case dipole: DipoleBssrdf => fromSurface + beneath(dipole, wo, sampler)
+  override def radiance(ray: Ray, sampler: Sampler): Rgb =
+    time = ray.time
+    super.radiance(ray, sampler)
+
+  override protected def gathered(vertex: SurfaceVertex, sampler: Sampler): Rgb =
+    val fromSurface = super.gathered(vertex, sampler)
+    scene.bssrdf(vertex.at) match
+      case dipole: DipoleBssrdf => fromSurface + beneath(vertex, dipole, sampler)
       case _ => fromSurface
 
-  private def beneath(dipole: DipoleBssrdf, wo: Vec3, sampler: Sampler): Rgb =
-    val weight = probe.enter(at, dipole, shadowRay.time, sampler, entry)
+  /** Light that enters elsewhere and leaves at `exit`. */
+  private def beneath(exit: SurfaceVertex, dipole: DipoleBssrdf, sampler: Sampler): Rgb =
+    val weight = probe.enter(exit.at, dipole, time, sampler, entry.at)
     val choice = sampler.next1D()
     sampler.next2D()
     if weight.isBlack then Rgb.Black
     else
-      val leaving = dipole.leaving(wo dot at.frame.n)
-      val exit = at
-      at = entry
-      at.frame = Frame.around(at.geometricNormal) // light arrives at the true surface
-      val arrived = irradiance(dipole, choice, sampler)
-      at = exit
-      weight * arrived * leaving
+      val leaving = dipole.leaving(exit.wo dot exit.at.frame.n)
+      // Light arrives at the true surface
+      entry.at.frame.set(Frame.around(entry.at.geometricNormal))
+      entry.scatterBy(dipole.entry, entry.at.frame.n)
+      weight * irradiance(choice, sampler) * leaving
 
-  /** Light that enters at `at`, over π. */
-  private def irradiance(dipole: DipoleBssrdf, choice: Float, sampler: Sampler): Rgb =
-    scene.selection.choose(at.p, at.frame.n, choice, chosen)
-    if chosen.light < 0 then Rgb.Black
-    else
-      val selected = chosen.probability
-      sampleLight(chosen.light, selected, dipole.entry, at.frame.n, sampler, combined = false)
+  /** Light of one source that enters at `entry`, over π. */
+  private def irradiance(choice: Float, sampler: Sampler): Rgb =
+    val p = entry.at.p
+    if light.choose(p, entry.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
+    then light.scattered(entry, weight = 1f)
+    else Rgb.Black

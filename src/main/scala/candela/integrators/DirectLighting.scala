@@ -1,20 +1,17 @@
 package candela.integrators
 
-import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
-import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Light that comes straight from the sources, or by way of mirrors and glass only.
+/** Direct lighting, also by way of specular surfaces.
   *
-  * @param maxDepth     most specular bounces, plus one
-  * @param lightSamples how often each light is sampled at a point; empty: one light, chosen at
-  *                     random
+  * @param maxDepth     specular bounces plus one, at most
+  * @param lightSamples samples of each light at a vertex; empty: one light, chosen at random
   *
-  * Where a surface both mirrors and refracts, one of the two is followed at random instead of both:
-  * the same mean at a cost that does not double with each bounce.
+  * Where a surface both reflects and transmits, the path follows one of the two at random: the same
+  * mean at a cost that does not double with each bounce.
   * Source: PBRT 3rd ed., §14.3; multiple importance sampling as in Veach 1997, §9.2.
   */
 class DirectLighting(
@@ -25,63 +22,73 @@ class DirectLighting(
 ) extends SpecularWalk(scene, maxDepth, volumes):
   private val bsdfRay = Ray()
   private val bsdfHit = Hit()
-  private val met = ShadingPoint()
+  private val emitter = ShadingPoint()
+  private var bsdfRays = 0L
 
   protected def over(scene: Scene): DirectLighting =
     DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
 
-  override protected def begin(ray: Ray): Unit =
-    super.begin(ray)
-    bsdfRay.time = ray.time
+  override def raysTraced: Long = super.raysTraced + bsdfRays
 
-  protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+  override def radiance(ray: Ray, sampler: Sampler): Rgb =
+    bsdfRay.time = ray.time
+    super.radiance(ray, sampler)
+
+  protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
-      scene.selection.choose(at.p, at.frame.n, sampler.next1D(), chosen)
-      if chosen.light >= 0 then
-        sum = estimate(chosen.light, chosen.probability, bsdf, wo, sampler)
+      if light.choose(vertex.at.p, vertex.at.frame.n, sampler.next1D()) then
+        sum = estimate(vertex, sampler)
     else
-      var light = 0
-      while light < lightSamples.length do
-        var i = 0
-        while i < lightSamples(light) do
-          sum += estimate(light, 1f, bsdf, wo, sampler) * (1f / lightSamples(light))
-          i += 1
-        light += 1
+      var i = 0
+      while i < lightSamples.length do
+        light.choose(i)
+        var k = 0
+        while k < lightSamples(i) do
+          sum += estimate(vertex, sampler) * (1f / lightSamples(i))
+          k += 1
+        i += 1
     sum
 
-  /** One sample of the light and one of the BSDF, combined. */
-  private def estimate(light: Int, selected: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+  /** One sample of the chosen light and one of the BSDF, combined by the power heuristic. */
+  private def estimate(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     sampler.next2D()
-    val byLight = sampleLight(light, selected, bsdf, wo, sampler, combined = true)
-    if scene.lights(light).isDelta then byLight
-    else byLight + byBsdf(light, selected, bsdf, wo, sampler)
-
-  private def byBsdf(light: Int, selected: Float, bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
-    val choice = sampler.next1D()
-    sampler.next2D()
-    val bounce = bsdf.sample(at.frame.toLocal(wo), choice, sampler.x, sampler.y)
-    // Specular directions are followed by the loop above
-    val wi = at.frame.toWorld(bounce.wi)
-    if bounce.isSpecular || bounce.weight.isBlack || !isOpenSide(wi, wo, bsdf) then Rgb.Black
-    else
-      bsdfRay.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-      rays += 1
-      if scene.closest(bsdfRay, bsdfHit) then
-        scene.surface(bsdfRay, bsdfHit, met)
-        if met.areaLight != light then Rgb.Black
-        else
-          val source = scene.surfaceLight(met)
-          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, met))
-          bounce.weight * dimmed(source.radiance(met, -wi)) * (weight / selected)
+    val byLight =
+      if !light.samplePoint(vertex.at.p, sampler.x, sampler.y) then Rgb.Black
       else
-        val found = scene.environmentIndex.indexOf(light)
+        light.scattered(
+          vertex,
+          weight = LightTransport.powerHeuristic(light.pdf, vertex.pdf(light.wi))
+        )
+    if light.isDelta then byLight else byLight + byBsdf(vertex, sampler)
+
+  /** The sample of the BSDF, if it hits the chosen light. */
+  private def byBsdf(vertex: SurfaceVertex, sampler: Sampler): Rgb =
+    vertex.draw(sampler)
+    val bounce = vertex.bounce
+    val wi = vertex.at.frame.toWorld(bounce.wi)
+    // The walk follows specular directions
+    if bounce.isSpecular || bounce.weight.isBlack || !vertex.isOpen(wi) then Rgb.Black
+    else
+      bsdfRay.set(vertex.at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+      bsdfRays += 1
+      val p = vertex.at.p
+      val chosen = light.probability
+      if scene.closest(bsdfRay, bsdfHit) then
+        scene.surface(bsdfRay, bsdfHit, emitter)
+        if emitter.areaLight != light.index then Rgb.Black
+        else
+          val source = scene.surfaceLight(emitter)
+          val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, emitter))
+          bounce.weight * attenuated(source.radiance(emitter, -wi)) * (weight / chosen)
+      else
+        val found = scene.environmentIndex.indexOf(light.index)
         if found < 0 then Rgb.Black
         else
           val source = scene.environments(found)
-          val weight = LightTransport.powerHeuristic(bounce.pdf, selected * source.pdf(at.p, wi))
-          bounce.weight * dimmed(source.radiance(at.p, wi)) * (weight / selected)
+          val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, wi))
+          bounce.weight * attenuated(source.radiance(p, wi)) * (weight / chosen)
 
-  private def dimmed(light: Rgb): Rgb =
+  private def attenuated(light: Rgb): Rgb =
     val march = volumes
-    if march == null then light else light * march.dimming(bsdfRay, stepsToLights)
+    if march == null then light else light * march.dimming(bsdfRay, VolumeMarch.StepsToLights)

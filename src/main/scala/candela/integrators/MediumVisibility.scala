@@ -32,11 +32,11 @@ private[integrators] final class MediumVisibility(
   def reaches(origin: Vec3, light: LightSample, medium: Int): Boolean =
     work.shadow.start(work.weights.hero, 1f)
     val end =
-      if light.isInfinite then origin + light.wi * media.reach else LightTransport.end(light)
+      if light.isInfinite then origin + light.wi * media.reach else LightConnection.end(light)
     if media.hasInterfaces then passes(origin, end, medium)
     else
       if light.isInfinite then ray.set(origin, light.wi, Float.PositiveInfinity)
-      else ray.set(origin, end - origin, LightTransport.ShadowEnd)
+      else ray.set(origin, end - origin, LightConnection.ShadowEnd)
       rays += 1
       if scene.isOccluded(ray, hit) then false
       else
@@ -49,7 +49,7 @@ private[integrators] final class MediumVisibility(
 
   private def passes(origin: Vec3, end: Vec3, first: Int): Boolean =
     var medium = first
-    ray.set(origin, end - origin, LightTransport.ShadowEnd)
+    ray.set(origin, end - origin, LightConnection.ShadowEnd)
     var going = true
     var arrives = true
     while going do
@@ -64,5 +64,5 @@ private[integrators] final class MediumVisibility(
         val direction = ray.direction
         medium = media.beyond(border, direction, medium)
         val from = border.offsetOrigin(direction)
-        ray.set(from, end - from, LightTransport.ShadowEnd)
+        ray.set(from, end - from, LightConnection.ShadowEnd)
     arrives

@@ -2,86 +2,84 @@ package candela.integrators
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.math.*
-import candela.sampling.{Sampler, Wavelengths}
+import candela.sampling.Sampler
 import candela.scene.Scene
+
+/** Limits of a path tracer's paths.
+  *
+  * @param maxDepth          scattering events of a path, at most
+  * @param rouletteThreshold throughput below which Russian roulette may end a path
+  * @param rouletteAfter     scattering events before that
+  * @param seesThrough       does light sampling alone find light straight through the boundary of a
+  *                          subsurface medium? So in pbrt-v3; v4 weights it against BSDF sampling,
+  *                          which does not find it, and loses that part
+  */
+final case class PathLimits(
+    maxDepth: Int,
+    rouletteThreshold: Float = 1f,
+    rouletteAfter: Int = LightTransport.RouletteAfter,
+    seesThrough: Boolean = false
+)
 
 /** Unidirectional path tracing with next-event estimation, multiple importance sampling and Russian
   * roulette.
   *
-  * @param maxDepth most scattering events of a path
-  * @param rouletteAfter     scattering events that no path ends before
-  * @param rouletteThreshold throughput below which a path may end early
-  * @param regularizes are BSDFs regularized that a path meets after a bounce that is not specular?
-  * @param wavelengths if a surface splits light: a path takes one of them at the first such surface
+  * @param volumes pbrt-v2's: the camera ray gathers what they emit and scatter, and they attenuate
+  *                all other light
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
   * §13.4.
   */
 final class PathTracer(
     scene: Scene,
-    maxDepth: Int,
-    rouletteAfter: Int,
-    rouletteThreshold: Float,
-    wavelengths: Option[Wavelengths] = None,
-    regularizes: Boolean = false
-) extends LightTransport(scene):
+    limits: PathLimits,
+    options: WalkOptions = WalkOptions(),
+    volumes: VolumeMarch | Null = null
+) extends SceneIntegrator(scene):
+  import limits.*
 
-  private val dispersion: Dispersion | Null = wavelengths.map(Dispersion(_)).orNull
-
-  // Owned, so that a path makes no garbage: what it has brought so far and what more will count
-  // for, and the directions at the last surface, in the world and in its frame
-  private val light, throughput = Rgb.Black.copy
-  private val wo, wi, local = Vec3(0f, 0f, 0f)
-
-  override def splitsLight: Boolean = wavelengths.isDefined
+  private val walk = Walk(scene, volumes, options = options)
+  private val hasVolumes = volumes != null
 
   protected def over(scene: Scene): PathTracer =
-    PathTracer(scene, maxDepth, rouletteAfter, rouletteThreshold, wavelengths, regularizes)
+    PathTracer(scene, limits, options, VolumeMarch.copy(volumes))
+
+  override def splitsLight: Boolean = options.wavelengths.isDefined
+  def raysTraced: Long = walk.raysTraced
+  override def lastMaterial: Int = walk.vertex.at.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
-    shadowRay.time = ray.time
-    if dispersion != null then dispersion.begin()
-    light.become(Rgb.Black)
-    throughput.become(Rgb.White)
-    var depth = 0
-    var etaScale = 1f // undoes the radiance scaling of refraction, so that roulette sees the energy
-    var lastPdf = 0f // of the direction just sampled; 0: no light sample competed with it
-    var isSpread = false
-    var alive = true
-    while alive do
-      rays += 1
-      if !scene.closest(ray, hit) then
-        light.addProduct(throughput, escaped(ray, lastPdf))
-        alive = false
+    walk.begin(ray, sampler)
+    while walk.goesOn do
+      val isHit = walk.intersect()
+      if hasVolumes then
+        if walk.depth == 0 then walk.marchThroughVolumes(sampler) else walk.attenuateByVolumes()
+      if !isHit then walk.addEnvironment()
       else
-        scene.surface(ray, hit, at)
-        wo.become(-ray.direction)
-        light.become(light + metLight(throughput, wo, lastPdf))
-        if depth == maxDepth then alive = false
-        else if scene.isInterface(at) then
-          ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
-          scene.passed(ray)
+        walk.addEmission()
+        if walk.vertex.isInterface then walk.passThrough()
+        else if walk.depth == maxDepth then walk.end()
         else
-          depth += 1
-          val met = if isSpread then scene.bsdf(at).regularized else scene.bsdf(at)
-          val bsdf = if dispersion == null then met else dispersion.choose(met, sampler)
-          if dispersion != null then throughput.scaleBy(dispersion.weight)
-          light.addProduct(throughput, anyLight(bsdf, wo, sampler))
-          local.become(at.frame.toLocal(wo))
-          draw(bsdf, local, sampler)
-          throughput.scaleBy(bounce.weight)
-          isSpread ||= regularizes && !bounce.isSpecular
-          lastPdf = if bounce.isSpecular then 0f else bounce.pdf
-          keepPlace()
-          etaScale *= square(bounce.eta)
-          wi.become(at.frame.toWorld(bounce.wi))
-          ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
-          scene.scattered(ray, at, wo, wi, bounce.isSpecular, bounce.eta)
-          alive = !throughput.isBlack && (bounce.isSpecular || isOpenSide(wi, wo, bsdf))
-          if alive && depth > rouletteAfter then
-            throughput.scaleBy(
-              LightTransport.roulette(throughput, etaScale, rouletteThreshold, sampler)
-            )
-            alive = !throughput.isBlack
-    light.copy
+          walk.evaluate(sampler)
+          addOneLight(
+            sampler,
+            isBoundary = seesThrough && scene.isSubsurface(walk.vertex.at.material)
+          )
+          walk.scatter(sampler)
+          val inside = walk.beneath
+          if inside != null && walk.emerge(inside, sampler) then
+            addOneLight(sampler, isBoundary = false)
+            walk.scatter(sampler)
+          walk.leave()
+          if walk.goesOn && walk.depth > rouletteAfter then
+            walk.roulette(rouletteThreshold, sampler)
+    walk.radiance.toRgb
+
+  /** @param isBoundary does light sampling alone find light straight through the surface? */
+  private def addOneLight(sampler: Sampler, isBoundary: Boolean): Unit =
+    if walk.sampleOneLight(sampler) then
+      val light = walk.light
+      walk.addLight(weight =
+        if isBoundary && walk.vertex.crosses(light.wi) then 1f
+        else LightTransport.powerHeuristic(light.pdf, walk.vertex.pdf(light.wi))
+      )

@@ -1,8 +1,7 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.geometry.{Hit, Ray}
-import candela.lights.{LightChoice, LightSample}
+import candela.geometry.Ray
 import candela.math.*
 import candela.media.Regions
 import candela.sampling.{RandomStream, Sampler}
@@ -21,27 +20,23 @@ import candela.scene.Scene
   */
 final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatters: Boolean):
   private val work = regions.newWork()
-  private val chosen = LightChoice()
-  private val lightSample = LightSample()
-  private val shadowRay = Ray()
-  private val shadowHit = Hit()
+  private val light = LightConnection(scene)
   private val random = RandomStream()
-  private var rays = 0L
 
-  /** What the volumes add along the ray of the last [[march]], and what they leave of the rest. */
-  var light, transmitted: Rgb = Rgb.Black
+  /** What the volumes add along the ray of the last [[march]], and their transmittance. */
+  var added, transmitted: Rgb = Rgb.Black
 
-  def raysTraced: Long = rays
+  def raysTraced: Long = light.raysTraced
   def copy(): VolumeMarch = VolumeMarch(scene, regions, stepSize, scatters)
 
   /** For a new path from the camera. */
   def start(ray: Ray, sampler: Sampler): Unit =
-    shadowRay.time = ray.time
+    light.begin(ray.time)
     random.seed(sampler.next1D(), sampler.next1D())
 
   /** Follows the ray as far as `ray.tMax`. */
   def march(ray: Ray, sampler: Sampler): Unit =
-    light = Rgb.Black
+    added = Rgb.Black
     transmitted = Rgb.White
     if regions.clip(ray, work) then
       val unit = ray.direction.length
@@ -86,28 +81,18 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
             sumG += here.g * arrived.g
             sumB += here.b * arrived.b
         i += 1
-      light = Rgb(sumR, sumG, sumB) * (step * unit)
+      added = Rgb(sumR, sumG, sumB) * (step * unit)
       transmitted = work.transmittance * boost
 
   /** Light of one source that is scattered to `wo`, per scene unit. */
   private def scattered(p: Vec3, wo: Vec3): Rgb =
-    scene.selection.choose(p, Vec3.Zero, random.next(), chosen)
-    if chosen.light < 0 then Rgb.Black
+    if !light.choose(p, Vec3.Zero, random.next()) ||
+      !light.samplePoint(p, random.next(), random.next()) || light.isBlocked(p)
+    then Rgb.Black
     else
-      val selected = chosen.probability
-      scene.lights(chosen.light).sample(p, random.next(), random.next(), lightSample)
-      if !(lightSample.pdf > 0f) || lightSample.radiance.isBlack then Rgb.Black
-      else
-        LightTransport.towards(p, lightSample, shadowRay)
-        rays += 1
-        if scene.isOccluded(shadowRay, shadowHit) then Rgb.Black
-        else
-          val phase = regions.phase(wo, lightSample.wi, work)
-          val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * lightSample.radiance
-          sent * dimming(
-            shadowRay,
-            VolumeMarch.StepsToLights
-          ) * (phase / (selected * lightSample.pdf))
+      val phase = regions.phase(wo, light.wi, work)
+      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * light.sample.radiance
+      sent * light.transmittance(this) * (phase / light.pdf)
 
   /** What the volumes leave of light that comes along the ray, as far as `ray.tMax`.
     *

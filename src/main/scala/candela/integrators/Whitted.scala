@@ -1,31 +1,29 @@
 package candela.integrators
 
-import candela.bsdf.Bsdf
 import candela.color.Rgb
-import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Recursive ray tracing: every light is sampled once at each point, and mirrors and glass are
-  * followed.
+/** Recursive ray tracing: samples every light once at each vertex, and follows specular reflection
+  * and transmission.
   *
-  * @param maxDepth most specular bounces, plus one
+  * @param maxDepth specular bounces plus one, at most
   *
   * Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; one
   * random specular branch instead of a tree, as in [[DirectLighting]].
   */
 final class Whitted(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null = null)
-    extends SpecularWalk(scene, maxDepth, volumes):
+    extends SpecularWalk(scene, maxDepth, volumes, steps = 1f):
 
   protected def over(scene: Scene): Whitted = Whitted(scene, maxDepth, VolumeMarch.copy(volumes))
 
-  override protected def stepsToLights: Float = 1f
-
-  protected def direct(bsdf: Bsdf, wo: Vec3, sampler: Sampler): Rgb =
+  protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     var i = 0
     while i < scene.lights.length do
       sampler.next2D()
-      sum += sampleLight(i, 1f, bsdf, wo, sampler, combined = false)
+      light.choose(i)
+      if light.samplePoint(vertex.at.p, sampler.x, sampler.y) then
+        sum += light.scattered(vertex, weight = 1f)
       i += 1
     sum

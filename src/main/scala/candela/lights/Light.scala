@@ -50,11 +50,11 @@ abstract class Light:
 
 /** What [[Light.sample]] chose; mutable, one per worker. It owns its vectors. */
 final class LightSample:
-  private val ownWi = Vec3.Z.copy
+  private val ownWi = MutableVec3(0f, 0f, 1f)
 
   /** Unit vector towards the light. */
-  def wi: Vec3 = ownWi
-  def wi_=(v: Vec3): Unit = ownWi.become(v)
+  def wi: Vec3 = ownWi.toVec3
+  def wi_=(v: Vec3): Unit = ownWi.set(v)
 
   /** Radiance that would arrive if nothing is in the way; for delta lights the irradiance on a
     * plane facing the light, with `pdf` 1.

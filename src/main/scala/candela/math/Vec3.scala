@@ -3,27 +3,10 @@ package candela.math
 /** A point, direction or offset in space, or a normal: three Floats. What it stands for is said by
   * the name that holds it; [[Transform]] has one method for each meaning.
   *
-  * A value: no operation changes it. Only those that a worker's records own, such as
-  * [[candela.geometry.ShadingPoint]], are written over by the next `become`, so that following a
-  * path leaves no garbage: who keeps one of those for longer keeps a `copy`.
+  * Immutable. Records that are reused, such as [[candela.geometry.ShadingPoint]], store theirs as
+  * [[MutableVec3]].
   */
-final class Vec3(startX: Float, startY: Float, startZ: Float):
-  private var ownX = startX
-  private var ownY = startY
-  private var ownZ = startZ
-
-  def x: Float = ownX
-  def y: Float = ownY
-  def z: Float = ownZ
-
-  def copy: Vec3 = Vec3(x, y, z)
-
-  /** Takes the values of `v`; for the owner alone. */
-  private[candela] def become(v: Vec3): Unit =
-    ownX = v.ownX
-    ownY = v.ownY
-    ownZ = v.ownZ
-
+final class Vec3(val x: Float, val y: Float, val z: Float):
   def +(b: Vec3): Vec3 = Vec3(x + b.x, y + b.y, z + b.z)
   def -(b: Vec3): Vec3 = Vec3(x - b.x, y - b.y, z - b.z)
   def *(s: Float): Vec3 = Vec3(x * s, y * s, z * s)

@@ -62,11 +62,7 @@ final class SphericalTriangle:
     )
     area
 
-  private val direction = Vec3(0f, 0f, 0f)
-
-  /** The unit direction for a point of the square; only if the triangle has a solid angle. The next
-    * call changes it.
-    */
+  /** The unit direction for a point of the square; only if the triangle has a solid angle. */
   def sample(u1: Float, u2: Float): Vec3 =
     // The corner c moves along its arc until the part that is left has the share u1 of the area.
     val part = u1 * area
@@ -90,10 +86,7 @@ final class SphericalTriangle:
     val fy = my - by * cosBM
     val fz = mz - bz * cosBM
     val on = sine(w) / positive(length(fx, fy, fz))
-    direction.become(
-      Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
-    )
-    direction
+    Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
 
   private def length(x: Double, y: Double, z: Double): Double = Math.sqrt(x * x + y * y + z * z)
   private def clamped(x: Double): Double = Math.max(-1.0, Math.min(1.0, x))

@@ -27,7 +27,7 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
     if t.length == 0 then
       at.u = u
       at.v = v
-      at.frame = Frame.along(n, pu)
+      at.frame.set(Frame.along(n, pu))
       if at.wantsPartials then partials(p, u, v, 1f, 0f, 0f, 1f, at)
     else
       at.u = blend(t, 2, 0, u, v)
@@ -40,7 +40,7 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
       val determinant = differenceOfProducts(su, tv, sv, tu)
       val isSpanned = Math.abs(determinant) > 1e-8f
       val dpds = if isSpanned then (pu * tv - pv * tu) * Math.signum(determinant) else pu
-      at.frame = Frame.along(n, dpds)
+      at.frame.set(Frame.along(n, dpds))
       if at.wantsPartials then
         if isSpanned then
           val inverse = 1f / determinant

@@ -45,7 +45,7 @@ private[shapes] final class CurveSurface(
     at.v = hit.v.toFloat
     val n = toWorld.normal(dpdu cross dpdv).normalized
     at.geometricNormal = if flipped then -n else n
-    at.frame = Frame.along(at.geometricNormal, toWorld.vector(dpdu))
+    at.frame.set(Frame.along(at.geometricNormal, toWorld.vector(dpdu)))
     // As in pbrt, the normal is taken not to turn
     if at.wantsPartials then
       at.setPartials(toWorld.vector(dpdu), toWorld.vector(dpdv), Vec3.Zero, Vec3.Zero)

@@ -88,7 +88,7 @@ final class Disk(
     val phi = angle(local.x.toDouble, local.y.toDouble).toFloat
     at.u = phi / phiMax
     at.v = (radius - sqrt(square(local.x) + square(local.y))) / (radius - innerRadius)
-    at.frame = Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f)))
+    at.frame.set(Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f))))
     if at.wantsPartials then
       val r = sqrt(square(local.x) + square(local.y))
       val inwards = if r > 0f then (innerRadius - radius) / r else 0f

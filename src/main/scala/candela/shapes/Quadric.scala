@@ -117,7 +117,10 @@ final class Quadric(
     at.geometricNormal = objectToWorld.normal(up).normalized * outside
     at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
     at.v = Math.max(0.0, Math.min(1.0, profile.v(z))).toFloat
-    at.frame = Frame.along(at.geometricNormal, objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0)))
+    at.frame.set(Frame.along(
+      at.geometricNormal,
+      objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0))
+    ))
     if at.wantsPartials then partials(x, y, z, at)
 
   /** A step in v goes along the outline, and turns with the seam. */

@@ -54,21 +54,21 @@ abstract class SurfaceSampler:
   /** Is there a hit in (0, `ray.tMax`)? Then `at` gets its geometry. */
   def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
 
-/** A point on a surface; mutable, one per worker. It owns its vectors, as [[ShadingPoint]] does. */
+/** A point on a surface; mutable, one per worker. Its vectors are stored in place. */
 final class SurfaceSample:
-  private val ownP, ownPError = Vec3(0f, 0f, 0f)
-  private val ownN = Vec3.Z.copy
+  private val ownP, ownPError = MutableVec3()
+  private val ownN = MutableVec3(0f, 0f, 1f)
 
-  def p: Vec3 = ownP
-  def p_=(v: Vec3): Unit = ownP.become(v)
+  def p: Vec3 = ownP.toVec3
+  def p_=(v: Vec3): Unit = ownP.set(v)
 
   /** Conservative bound of the error of `p`, per component. */
-  def pError: Vec3 = ownPError
-  def pError_=(v: Vec3): Unit = ownPError.become(v)
+  def pError: Vec3 = ownPError.toVec3
+  def pError_=(v: Vec3): Unit = ownPError.set(v)
 
   /** Unit normal on the outside. */
-  def n: Vec3 = ownN
-  def n_=(v: Vec3): Unit = ownN.become(v)
+  def n: Vec3 = ownN.toVec3
+  def n_=(v: Vec3): Unit = ownN.set(v)
 
   /** Per solid angle at the point that asked, or per area. */
   var pdf: Float = 0f

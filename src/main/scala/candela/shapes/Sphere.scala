@@ -104,7 +104,7 @@ final class Sphere(
     at.v = ((Math.acos(Math.max(-1.0, Math.min(1.0, z / radius))) - thetaMin) /
       (thetaMax - thetaMin)).toFloat
     val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
-    at.frame = Frame.along(at.geometricNormal, dpdu)
+    at.frame.set(Frame.along(at.geometricNormal, dpdu))
     if at.wantsPartials then partials(x, y, z, at)
 
   private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =

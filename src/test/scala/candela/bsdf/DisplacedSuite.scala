@@ -19,7 +19,7 @@ class DisplacedSuite extends AnyFunSuite:
   private def plane(dpdu: Vec3, dpdv: Vec3): ShadingPoint =
     val at = ShadingPoint(wantsPartials = true)
     at.geometricNormal = (dpdu cross dpdv).normalized
-    at.frame = Frame.along(at.geometricNormal, dpdu)
+    at.frame.set(Frame.along(at.geometricNormal, dpdu))
     at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
     at.p = Vec3(1f, 2f, 3f)
     at.u = 0.3f

@@ -13,7 +13,7 @@ class RayDifferentialSuite extends AnyFunSuite:
     val n = p.normalized
     at.p = p
     at.geometricNormal = n
-    at.frame = Frame.around(n)
+    at.frame.set(Frame.around(n))
     // Parameters along the tangents, in units of length; the normal turns by 1/radius
     val turn = 1f / p.length
     at.setPartials(at.frame.s, at.frame.t, at.frame.s * turn, at.frame.t * turn)

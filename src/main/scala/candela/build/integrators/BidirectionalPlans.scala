@@ -4,7 +4,7 @@ import candela.bidirectional.*
 import candela.build.recipe.*
 import candela.film.{Splats, View}
 import candela.integrators.LightTransport.RouletteAfter
-import candela.integrators.{PathThroughVolumes, VolumePathTracer}
+import candela.integrators.{PathLimits, PathTracer, VolumePathTracer, WalkOptions}
 import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.Dialect
@@ -26,11 +26,16 @@ private[build] object BidirectionalPlans:
         site.warn(
           s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
         )
-        VolumePathTracer(scene, media, most, RouletteAfter, 1f, dialect == Dialect.V3, widens)
+        VolumePathTracer(
+          scene,
+          media,
+          PathLimits(most, seesThrough = dialect == Dialect.V3),
+          WalkOptions(widens, subsurface = scene.hasSubsurface)
+        )
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
-        PathThroughVolumes(scene, march, most, RouletteAfter, 1f)
+        PathTracer(scene, PathLimits(most), volumes = march)
     )
 
   private def tracer(scene: Scene, view: View, depth: Int, widens: Boolean)(splats: Splats)(

@@ -99,16 +99,20 @@ trait PathInstead extends Recipe[IntegratorPlan]:
 
   protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
+    val limits =
+      PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
     IntegratorPlan(
       (scene, _) =>
-        RenderMethod.Tiles(PathTracer(scene, most, 1, 1f, Dispersions.wavelengths(scene))),
+        val wavelengths = Dispersions.wavelengths(scene)
+        RenderMethod.Tiles(PathTracer(scene, limits, WalkOptions(wavelengths = wavelengths)))
+      ,
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,
       throughMedia =
         Option.when(seesMedia)((scene, media) =>
-          VolumePathTracer(scene, media, most, 1, 1f, site.dialect == Dialect.V3)
+          VolumePathTracer(scene, media, limits, WalkOptions(subsurface = scene.hasSubsurface))
         ),
       throughVolumes =
-        Some((scene, _, march) => PathThroughVolumes(scene, march, most, 1, 1f))
+        Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
     )

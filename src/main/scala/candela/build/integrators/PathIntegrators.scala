@@ -2,7 +2,6 @@ package candela.build.integrators
 
 import candela.build.recipe.*
 import candela.integrators.*
-import candela.integrators.LightTransport.RouletteAfter
 import candela.render.RenderMethod
 import candela.scenefile.Dialect
 
@@ -20,15 +19,14 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     // v2's path and v4's take such a surface for glass, or see its reflection alone
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val widens = regularize()
-    val seesThrough = site.dialect == Dialect.V3
+    val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
-        RenderMethod.Tiles:
-          if goesBeneath && scene.hasSubsurface then
-            SubsurfacePathTracer(scene, depth, RouletteAfter, threshold(), seesThrough, widens)
-          else
-            val wavelengths = Dispersions.wavelengths(scene)
-            PathTracer(scene, depth, RouletteAfter, threshold(), wavelengths, widens)
+        val wavelengths = Dispersions.wavelengths(scene)
+        val subsurface = goesBeneath && scene.hasSubsurface
+        RenderMethod.Tiles(
+          PathTracer(scene, limits, WalkOptions(widens, wavelengths, subsurface))
+        )
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),
@@ -36,10 +34,15 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
       throughMedia = Option.when(name == "volpath")((scene, media) =>
-        VolumePathTracer(scene, media, depth, RouletteAfter, threshold(), seesThrough, widens)
+        VolumePathTracer(
+          scene,
+          media,
+          limits,
+          WalkOptions(widens, subsurface = scene.hasSubsurface)
+        )
       ),
       throughVolumes = Some((scene, _, march) =>
-        PathThroughVolumes(scene, march, depth, RouletteAfter, threshold())
+        PathTracer(scene, limits, volumes = march)
       )
     ))
 

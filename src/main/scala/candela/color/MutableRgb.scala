@@ -1,0 +1,39 @@
+package candela.color
+
+/** An accumulator of linear light, or a weight that grows factor by factor. One per worker. */
+final class MutableRgb:
+  var r, g, b = 0f
+
+  def set(c: Rgb): Unit =
+    r = c.r
+    g = c.g
+    b = c.b
+
+  def add(c: Rgb): Unit =
+    r += c.r
+    g += c.g
+    b += c.b
+
+  /** Adds a · c. */
+  def addProduct(a: MutableRgb, c: Rgb): Unit =
+    r += a.r * c.r
+    g += a.g * c.g
+    b += a.b * c.b
+
+  def scale(c: Rgb): Unit =
+    r *= c.r
+    g *= c.g
+    b *= c.b
+
+  def scale(s: Float): Unit =
+    r *= s
+    g *= s
+    b *= s
+
+  def isBlack: Boolean = r == 0f && g == 0f && b == 0f
+
+  /** The largest magnitude, as [[Rgb.largest]]. */
+  def largest: Float = toRgb.largest
+
+  /** The present value. */
+  def toRgb: Rgb = Rgb(r, g, b)

@@ -1,0 +1,117 @@
+package candela.integrators
+
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.lights.{LightChoice, LightSample}
+import candela.math.*
+import candela.scene.Scene
+
+/** Next-event estimation: a point sampled on a light, and the shadow ray to it. Mutable, one per
+  * worker.
+  *
+  * @param volumes what attenuates light between surfaces, if anything does
+  * @param steps   their step size towards lights, in units of that towards the camera
+  */
+final class LightConnection(
+    scene: Scene,
+    volumes: VolumeMarch | Null = null,
+    steps: Float = VolumeMarch.StepsToLights
+):
+  private val choice = LightChoice()
+  private val ray = Ray()
+  private val hit = Hit()
+  private var rays = 0L
+
+  /** The point on the light. */
+  val sample: LightSample = LightSample()
+
+  def raysTraced: Long = rays
+
+  /** A new camera path starts. */
+  def begin(time: Float): Unit = ray.time = time
+
+  /** Chooses one light for a point with normal `n` (zero: in a medium); false if none can
+    * contribute.
+    *
+    * @param u uniform in [0, 1)
+    */
+  def choose(p: Vec3, n: Vec3, u: Float): Boolean =
+    scene.selection.choose(p, n, u, choice)
+    choice.light >= 0
+
+  /** Chooses a given light, as often as `times` for one sample. */
+  def choose(light: Int, times: Float = 1f): Unit =
+    choice.light = light
+    choice.probability = times
+
+  /** Samples a point on the chosen light as seen from `p`; false if it contributes nothing. */
+  def samplePoint(p: Vec3, u1: Float, u2: Float): Boolean =
+    scene.lights(choice.light).sample(p, u1, u2, sample)
+    sample.pdf > 0f && !sample.radiance.isBlack
+
+  /** Index of the chosen light. */
+  def index: Int = choice.light
+
+  /** Probability of the choice. */
+  def probability: Float = choice.probability
+
+  /** Unit vector towards the point. */
+  def wi: Vec3 = sample.wi
+
+  /** Density of the sample: probability of the light times solid-angle density of the point. */
+  def pdf: Float = choice.probability * sample.pdf
+
+  /** True if no direction sampled from a BSDF can meet the light. */
+  def isDelta: Boolean = scene.lights(choice.light).isDelta
+
+  /** Traces the shadow ray from a surface. */
+  def isBlocked(at: ShadingPoint): Boolean = isBlocked(at.offsetOrigin(wi))
+
+  /** Traces the shadow ray from `origin`. */
+  def isBlocked(origin: Vec3): Boolean =
+    if sample.isInfinite then ray.set(origin, wi, Float.PositiveInfinity)
+    else
+      val end = LightConnection.end(sample)
+      ray.set(origin, end - origin, LightConnection.shadowEnd(sample.target.n absDot wi))
+    rays += 1
+    scene.isOccluded(ray, hit)
+
+  /** What volumes leave of the light along the shadow ray traced last. */
+  def transmittance(march: VolumeMarch): Rgb = march.dimming(ray, steps)
+
+  /** Light of the sample that `vertex` scatters to its `wo`, not yet weighted with the path's
+    * throughput.
+    *
+    * @param weight of multiple importance sampling; evaluated only if the sample is visible and
+    *               BSDF sampling can find the light, else 1
+    */
+  inline def scattered(vertex: SurfaceVertex, inline weight: Float): Rgb =
+    val f = vertex.received(wi)
+    if f.isBlack || isBlocked(vertex.at) then Rgb.Black
+    else
+      val w = if isDelta then 1f else weight
+      arriving(f, vertex.shadingCosine(wi) * w / pdf)
+
+  /** f · radiance · factor, attenuated by volumes. */
+  def arriving(f: Rgb, factor: Float): Rgb =
+    val light = sample.radiance
+    val arrived = Rgb(f.r * light.r * factor, f.g * light.g * factor, f.b * light.b * factor)
+    val march = volumes
+    if march == null then arrived else arrived * transmittance(march)
+
+object LightConnection:
+  /** End of a shadow ray, as a fraction of the distance to the light: the rounding error of the
+    * difference of its end points, at most 2⁻²³ of its length, must not reach the light's own
+    * surface. At grazing angles it ends sooner. Occluders closer to the light than that are lost.
+    *
+    * @param cosine of the angle to the light's normal; 0 if it has none
+    */
+  def shadowEnd(cosine: Float): Float = 1f - Math.min(1f - ShadowEnd, 5e-6f / cosine)
+
+  /** The smallest of these fractions, which serves lights at any angle. */
+  inline val ShadowEnd = 0.9999f
+
+  /** End point of a shadow ray: offset from the point on the light, so that it misses the light. */
+  def end(sample: LightSample): Vec3 =
+    val target = sample.target
+    ShadingPoint.offset(target.p, target.pError, target.n, -sample.wi)

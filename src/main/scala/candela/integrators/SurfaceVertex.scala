@@ -1,0 +1,117 @@
+package candela.integrators
+
+import candela.bsdf.{Bounce, Bsdf, Bssrdf, Lambert}
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** A vertex of a path on a surface. Directions point away from it, in world space unless a name says
+  * local; `wo` is where the path came from. Mutable, one per path that is being traced.
+  *
+  * Order of use: [[hit]], then [[evaluate]] (or [[scatterBy]]), then the rest.
+  */
+class SurfaceVertex(scene: Scene):
+  final val at: ShadingPoint = scene.newPoint()
+  private val ownWo, ownLocalWo = MutableVec3()
+
+  /** The direction that [[draw]] sampled. */
+  final val bounce: Bounce = Bounce()
+  private var scattering: Bsdf = SurfaceVertex.Black
+
+  final def bsdf: Bsdf = scattering
+  final def wo: Vec3 = ownWo.toVec3
+  final def localWo: Vec3 = ownLocalWo.toVec3
+
+  /** Computes the surface geometry where `ray` hit it. */
+  final def hit(ray: Ray, hit: Hit): Unit =
+    scene.surface(ray, hit, at)
+    ownWo.set(-ray.direction)
+
+  /** Only a border of media, without a BSDF? */
+  final def isInterface: Boolean = scene.isInterface(at)
+
+  /** Continues the ray in its direction, through an interface. */
+  final def passThrough(ray: Ray): Unit =
+    val direction = ray.direction
+    ray.set(at.offsetOrigin(direction), direction, Float.PositiveInfinity)
+    scene.passed(ray)
+
+  /** Evaluates the material, which may turn the frame. */
+  final def evaluate(regularized: Boolean = false): Unit =
+    scatterBy(if regularized then scene.bsdf(at).regularized else scene.bsdf(at), wo)
+
+  /** Replaces the BSDF. */
+  final def scatterBy(bsdf: Bsdf): Unit = scattering = bsdf
+
+  /** Replaces the BSDF and the direction that the path came from. */
+  final def scatterBy(bsdf: Bsdf, wo: Vec3): Unit =
+    scattering = bsdf
+    ownWo.set(wo)
+    ownLocalWo.set(at.frame.toLocal(wo))
+
+  /** The BSDF for light from `wi` that a camera path receives. */
+  final def received(wi: Vec3): Rgb =
+    if isOpen(wi) then bsdf.f(localWo, onSide(at.frame.toLocal(wi), localWo)) else Rgb.Black
+
+  /** The BSDF for light that a light path sends on to `wi`. */
+  final def sent(wi: Vec3): Rgb =
+    if !isOpen(wi) then Rgb.Black
+    else
+      val towards = at.frame.toLocal(wi)
+      bsdf.f(towards, onSide(localWo, towards))
+
+  /** Solid-angle density with which the path continues to `wi`. */
+  final def pdf(wi: Vec3): Float = bsdf.pdf(localWo, at.frame.toLocal(wi))
+
+  /** Solid-angle density with which a path from `wi` would continue to `wo`. */
+  final def reversePdf(wi: Vec3): Float = bsdf.pdf(at.frame.toLocal(wi), localWo)
+
+  /** |cos| of the angle to the geometric normal. */
+  final def cosine(w: Vec3): Float = at.geometricNormal absDot w
+
+  /** |cos| of the angle to the shading normal. */
+  final def shadingCosine(w: Vec3): Float = at.frame.n absDot w
+
+  /** Does `wi` lie on the other side of the shading normal than `wo`? */
+  final def crosses(wi: Vec3): Boolean = (at.frame.n dot wi) * ownLocalWo.z < 0f
+
+  /** False if the BSDF only reflects, and the geometric normal separates `wi` from `wo`. */
+  final def isOpen(wi: Vec3): Boolean =
+    !scene.sidesByGeometry || bsdf.isTransmissive ||
+      ((wi dot at.geometricNormal) > 0f) == ((wo dot at.geometricNormal) > 0f)
+
+  /** The local direction `w`, mirrored to the side of `other` where the geometric normal has decided
+    * that this is a reflection.
+    */
+  private def onSide(w: Vec3, other: Vec3): Vec3 =
+    if !scene.sidesByGeometry || bsdf.isTransmissive || (w.z > 0f) == (other.z > 0f) then w
+    else Vec3(w.x, w.y, -w.z)
+
+  /** Samples the BSDF into `bounce`. */
+  final def draw(sampler: Sampler): Unit =
+    val choice = sampler.next1D()
+    sampler.next2D()
+    scattering.draw(localWo, choice, sampler.x, sampler.y, bounce)
+
+  /** How light travels beneath the surface, if `bounce` was refracted into it; null: straight on. */
+  final def beneath: Bssrdf | Null =
+    if ownLocalWo.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
+
+  /** Sets the ray on its way in the direction of `bounce`.
+    *
+    * @return false if the surface is in the way: the path ends
+    */
+  final def leave(ray: Ray): Boolean = leave(ray, bounce.wi, bounce.isSpecular, bounce.eta)
+
+  /** Likewise, to the local direction `localWi`. */
+  final def leave(ray: Ray, localWi: Vec3, isSpecular: Boolean, eta: Float): Boolean =
+    val wi = at.frame.toWorld(localWi)
+    ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
+    scene.scattered(ray, at, wo, wi, isSpecular, eta)
+    isSpecular || isOpen(wi)
+
+private object SurfaceVertex:
+  /** Before anything was hit. */
+  private val Black: Bsdf = Lambert(Rgb.Black)

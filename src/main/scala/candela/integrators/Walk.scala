@@ -1,0 +1,229 @@
+package candela.integrators
+
+import candela.bsdf.Bssrdf
+import candela.color.{MutableRgb, Rgb}
+import candela.geometry.{Hit, Ray}
+import candela.math.*
+import candela.sampling.{Sampler, Wavelengths}
+import candela.scene.Scene
+
+/** Which optional steps a path takes.
+  *
+  * @param regularizes roughen BSDFs after the first non-specular bounce
+  * @param wavelengths where a surface disperses light: the path keeps one wavelength from the first
+  *                    such surface on
+  * @param subsurface  does light travel beneath surfaces?
+  */
+final case class WalkOptions(
+    regularizes: Boolean = false,
+    wavelengths: Option[Wavelengths] = None,
+    subsurface: Boolean = false
+)
+
+/** A path from the camera over surfaces: its state, and the steps of which integrators are made.
+  * Mutable, one per worker. Each step that adds light multiplies it by the throughput.
+  *
+  * @param volumes pbrt-v2's volumes between surfaces, if any
+  * @param steps   their step size towards lights, in units of that towards the camera
+  */
+final class Walk(
+    scene: Scene,
+    volumes: VolumeMarch | Null = null,
+    steps: Float = VolumeMarch.StepsToLights,
+    options: WalkOptions = WalkOptions()
+):
+  /** Light found so far. */
+  val radiance: MutableRgb = MutableRgb()
+
+  /** Product of f·|cos|/pdf, and of what volumes let through. */
+  val throughput: MutableRgb = MutableRgb()
+
+  /** Scattering events so far. */
+  var depth: Int = 0
+
+  /** Product of squared relative indices of refraction: throughput · etaScale is free of radiance
+    * scaling, so Russian roulette sees the energy.
+    */
+  var etaScale: Float = 1f
+
+  /** Solid-angle density of the current direction; 0 if light sampling did not compete with it. */
+  var directionPdf: Float = 0f
+
+  /** Has the path bounced off a non-specular surface? Followed only if paths are regularized. */
+  var isSpread: Boolean = false
+
+  var goesOn: Boolean = false
+
+  /** Where the path is. */
+  val vertex: SurfaceVertex = SurfaceVertex(scene)
+
+  /** Next-event estimation from there. */
+  val light: LightConnection = LightConnection(scene, volumes, steps)
+
+  // Where the current direction was sampled
+  private val lastP, lastN = MutableVec3()
+
+  private var ray = Ray()
+  private val hit = Hit()
+  private var rays = 0L
+  private val regularizes = options.regularizes
+  private val dispersion: Dispersion | Null = options.wavelengths.map(Dispersion(_)).orNull
+  private val probe: SubsurfaceProbe | Null =
+    if options.subsurface then SubsurfaceProbe(scene) else null
+
+  def raysTraced: Long =
+    val march = volumes
+    val beneath = probe
+    rays + light.raysTraced + (if march == null then 0L else march.raysTraced) +
+      (if beneath == null then 0L else beneath.raysTraced)
+
+  /** Starts a path along a camera ray, which the walk overwrites. */
+  def begin(cameraRay: Ray, sampler: Sampler): Unit =
+    ray = cameraRay
+    radiance.set(Rgb.Black)
+    throughput.set(Rgb.White)
+    depth = 0
+    etaScale = 1f
+    directionPdf = 0f
+    isSpread = false
+    goesOn = true
+    light.begin(ray.time)
+    val wavelength = dispersion
+    if wavelength != null then wavelength.begin()
+    val march = volumes
+    if march != null then march.start(ray, sampler)
+
+  def end(): Unit = goesOn = false
+
+  /** Traces the ray to the next vertex; false if it leaves the scene. */
+  def intersect(): Boolean =
+    rays += 1
+    val found = scene.closest(ray, hit)
+    if found then vertex.hit(ray, hit)
+    found
+
+  /** Adds what volumes emit and scatter along the ray just traced, and attenuates the path. */
+  def marchThroughVolumes(sampler: Sampler): Unit =
+    val march = volumes
+    if march != null then
+      march.march(ray, sampler)
+      radiance.addProduct(throughput, march.added)
+      throughput.scale(march.transmitted)
+
+  /** Attenuates the path along the ray just traced. */
+  def attenuateByVolumes(): Unit =
+    val march = volumes
+    if march != null then throughput.scale(march.dimming(ray, steps))
+
+  /** Adds the environment's radiance and ends the path. Weight: BSDF sampling against light
+    * sampling.
+    */
+  def addEnvironment(): Unit =
+    val found = LightTransport.environment(
+      scene,
+      ray,
+      (i, source) => emissionWeight(i, source.pdf(lastP.toVec3, ray.direction))
+    )
+    radiance.addProduct(throughput, found)
+    end()
+
+  /** Adds what the surface emits. Weight: BSDF sampling against light sampling. */
+  def addEmission(): Unit =
+    val at = vertex.at
+    if at.areaLight >= 0 then
+      val source = scene.surfaceLight(at)
+      val emitted = source.radiance(at, vertex.wo)
+      if !emitted.isBlack then
+        val weight = emissionWeight(at.areaLight, source.pdf(lastP.toVec3, at))
+        radiance.add(throughput.toRgb * emitted * weight)
+
+  /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
+  private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
+    if directionPdf > 0f then
+      val chosen = scene.selection.probability(lastP.toVec3, lastN.toVec3, light)
+      LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
+    else 1f
+
+  /** Continues through an interface. Shadow rays stop there, so light sampling does not compete for
+    * what lies beyond.
+    */
+  def passThrough(): Unit =
+    vertex.passThrough(ray)
+    directionPdf = 0f
+
+  /** Evaluates the BSDF of the vertex: a scattering event. */
+  def evaluate(sampler: Sampler): Unit =
+    depth += 1
+    vertex.evaluate(isSpread)
+    val wavelength = dispersion
+    if wavelength != null then
+      vertex.scatterBy(wavelength.choose(vertex.bsdf, sampler))
+      throughput.scale(wavelength.weight)
+
+  /** Chooses one light and samples a point on it; false if it contributes nothing. Takes no random
+    * numbers where the BSDF is specular or the scene has no lights.
+    */
+  def sampleOneLight(sampler: Sampler): Boolean =
+    if vertex.bsdf.isSpecular || scene.lights.length == 0 then false
+    else
+      val choice = sampler.next1D()
+      sampler.next2D()
+      val at = vertex.at
+      light.choose(at.p, at.frame.n, choice) && light.samplePoint(at.p, sampler.x, sampler.y)
+
+  /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
+  inline def addLight(inline weight: Float): Unit =
+    radiance.addProduct(throughput, light.scattered(vertex, weight))
+
+  /** Adds light that leaves the vertex towards the path. */
+  def add(light: Rgb): Unit = radiance.addProduct(throughput, light)
+
+  /** Samples the BSDF: `vertex.bounce`. */
+  def scatter(sampler: Sampler): Unit =
+    vertex.draw(sampler)
+    throughput.scale(vertex.bounce.weight)
+
+  /** How light travels beneath the surface that the path was just refracted into; null: it goes
+    * straight on.
+    */
+  def beneath: Bssrdf | Null =
+    if probe == null || throughput.isBlack then null else vertex.beneath
+
+  /** Lets the path emerge elsewhere on the surface, as part of the same scattering event; false if
+    * it doesn't.
+    */
+  def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
+    val finder = probe
+    if finder == null then false
+    else
+      throughput.scale(finder.enter(vertex.at, inside, ray.time, sampler, vertex.at))
+      val emerges = !throughput.isBlack
+      if emerges then
+        vertex.scatterBy(inside.entry, vertex.at.frame.n)
+        isSpread = regularizes
+      emerges
+
+  /** Leaves in the sampled direction, or ends. */
+  def leave(): Unit =
+    val bounce = vertex.bounce
+    isSpread ||= regularizes && !bounce.isSpecular
+    directionPdf = if bounce.isSpecular then 0f else bounce.pdf
+    lastP.set(vertex.at.p)
+    lastN.set(vertex.at.frame.n)
+    etaScale *= square(bounce.eta)
+    val isOpen = vertex.leave(ray)
+    goesOn = isOpen && !throughput.isBlack
+
+  /** Samples a specular direction and leaves in it, or ends. */
+  def leaveSpecularly(sampler: Sampler): Unit =
+    val sample = vertex.bsdf.sampleSpecular(vertex.localWo, sampler.next1D())
+    throughput.scale(sample.weight)
+    goesOn = !throughput.isBlack
+    vertex.leave(ray, sample.wi, sample.isSpecular, sample.eta): Unit
+
+  /** Russian roulette. */
+  def roulette(threshold: Float, sampler: Sampler): Unit =
+    throughput.scale(
+      LightTransport.roulette(throughput.largest * etaScale, threshold, sampler)
+    )
+    goesOn = !throughput.isBlack
