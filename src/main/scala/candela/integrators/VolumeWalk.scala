@@ -165,9 +165,9 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   def sampleOneLight(sampler: Sampler): Boolean =
     val choice = sampler.next1D()
     sampler.next2D()
-    val at = vertex.at
+    val p = vertex.at.p
     !vertex.bsdf.isSpecular && scene.lights.length > 0 &&
-    light.choose(at.p, at.frame.n, choice) && light.samplePoint(at.p, sampler.x, sampler.y)
+    light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against scattering with this density. */
   inline def addLight(inline scatterPdf: Float): Unit =

@@ -168,8 +168,8 @@ final class Walk(
     else
       val choice = sampler.next1D()
       sampler.next2D()
-      val at = vertex.at
-      light.choose(at.p, at.frame.n, choice) && light.samplePoint(at.p, sampler.x, sampler.y)
+      val p = vertex.at.p
+      light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
   inline def addLight(inline weight: Float): Unit =
