@@ -24,7 +24,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     val seen = nothing
     seen.at.p = p
     seen.at.geometricNormal = n
-    seen.at.frame = Frame.around(n)
+    seen.at.frame.set(Frame.around(n))
     seen.at.dpdx = Vec3(0, 0, -2)
     seen.at.u = 0.25f
     val ray = Ray()
