@@ -1,9 +1,7 @@
 package candela.bsdf
 
-import candela.color.Rgb
 import candela.geometry.ShadingPoint
-import candela.math.*
-import candela.textures.{RgbTexture, Varying}
+import candela.textures.Varying
 
 /** Gives every point of a surface its [[Bsdf]].
   *
@@ -43,11 +41,3 @@ final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = 
   override def isConstant: Boolean = true
   override def folded: Material = this
   override def isDispersive: Boolean = value.isDispersive
-
-extension (texture: RgbTexture)
-
-  /** The colour, held to be at least 0. */
-  private[bsdf] def positive(at: ShadingPoint): Rgb = texture(at).map(c => Math.max(c, 0f))
-
-  /** The colour, held to [0, 1]. */
-  private[bsdf] def albedo(at: ShadingPoint): Rgb = texture(at).map(c => clamp(c, 0f, 1f))

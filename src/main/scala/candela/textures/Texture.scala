@@ -2,6 +2,7 @@ package candela.textures
 
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
+import candela.math.*
 
 /** What may differ from point to point of a surface. */
 trait Varying:
@@ -31,6 +32,12 @@ abstract class RgbTexture extends Varying:
   final def isConstant: Boolean = constant.isDefined
   def apply(at: ShadingPoint): Rgb
   def constant: Option[Rgb] = None
+
+  /** The colour, held to be at least 0. */
+  final def positive(at: ShadingPoint): Rgb = apply(at).map(c => Math.max(c, 0f))
+
+  /** The colour, held to [0, 1]. */
+  final def albedo(at: ShadingPoint): Rgb = apply(at).map(c => clamp(c, 0f, 1f))
 
 final class ConstantFloat(value: Float) extends FloatTexture:
   def apply(at: ShadingPoint): Float = value
