@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.bsdf.Roughness
+import candela.bsdf.microfacet.Roughness
 import candela.math.sqrt
 import candela.scenefile.{Dialect, Param, ParamType}
 

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.DipoleBssrdf
+import candela.bsdf.subsurface.DipoleBssrdf
 import candela.color.Rgb
 import candela.geometry.{Frame, Ray}
 import candela.sampling.Sampler

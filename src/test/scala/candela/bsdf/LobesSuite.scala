@@ -1,5 +1,8 @@
 package candela.bsdf
 
+import candela.bsdf.microfacet.{
+  MicrofacetReflection, Mirror, Passthrough, SmoothDielectric, TrowbridgeReitz
+}
 import candela.color.Rgb
 import candela.math.*
 

@@ -1,5 +1,6 @@
 package candela.bsdf
 
+import candela.bsdf.microfacet.{MicrofacetReflection, SmoothDielectric, TrowbridgeReitz}
 import candela.color.Rgb
 
 class ScaledSuite extends BsdfLaws:

@@ -1,9 +1,10 @@
 package candela.convert
 
+import org.scalatest.funsuite.AnyFunSuite
+
 import candela.cli.TempFolder
 import candela.scenefile.*
 import candela.testing.SceneTexts
-import org.scalatest.funsuite.AnyFunSuite
 
 /** Statements whose numbers must be calculated, so that they mean the same. */
 class MeaningSuite extends AnyFunSuite:
@@ -54,7 +55,7 @@ class MeaningSuite extends AnyFunSuite:
 
   test("roughness is the same alpha"):
     val metal = material("Material \"metal\" \"float roughness\" .2", Dialect.V3, Dialect.V4)
-    val alpha = candela.bsdf.Roughness.polynomialAlpha(.2f)
+    val alpha = candela.bsdf.microfacet.Roughness.polynomialAlpha(.2f)
     assert(number(metal, "roughness") == alpha)
     assert(metal.param("remaproughness").get.bools == Vector(false))
     val back = material("Material \"conductor\" \"float roughness\" .25", Dialect.V4, Dialect.V3)

@@ -1,9 +1,7 @@
 package candela.integrators
 
-import candela.bsdf.{
-  Bsdf, BsdfLaws, Dielectric, Directions, Dispersive, Lambert, Lobes, Scaled, SentThrough,
-  TrowbridgeReitz
-}
+import candela.bsdf.{Bsdf, BsdfLaws, Directions, Lambert, Lobes, Scaled, SentThrough}
+import candela.bsdf.microfacet.{Dielectric, Dispersive, TrowbridgeReitz}
 import candela.color.{ColorBasis, Rgb}
 import candela.sampling.Wavelengths
 import candela.scenefile.Dialect

@@ -1,6 +1,17 @@
 package candela.stability
 
-import candela.bsdf.*
+import candela.bsdf.{
+  Bsdf, ConductorReflectance, DielectricReflectance, DiffuseTransmission, FullReflectance, Lambert,
+  Lobes, OrenNayar, Scaled, SentThrough
+}
+import candela.bsdf.composite.{DisneyMaterial, DisneyParameters, Hair, HairShape}
+import candela.bsdf.layered.{CoatedDiffuse, Coats, Layered, Layers}
+import candela.bsdf.measured.{FourierBsdf, FourierTables, HalfAngleReflection}
+import candela.bsdf.microfacet.{
+  Conductor, CosinePower, Dielectric, FresnelBlend, MicrofacetReflection, Passthrough,
+  ThinDielectric, TrowbridgeReitz
+}
+import candela.bsdf.subsurface.NormalizedFresnel
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{ConstantFloat, ConstantRgb}

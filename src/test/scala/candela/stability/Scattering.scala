@@ -2,10 +2,14 @@ package candela.stability
 
 import java.util.SplittableRandom
 
-import candela.bsdf.*
+import Checks.assert
+
+import candela.bsdf.{Bsdf, DiffuseTransmission, Directions, Lambert}
+import candela.bsdf.microfacet.{
+  Dielectric, Mirror, SmoothDielectric, ThinDielectric, TrowbridgeReitz
+}
 import candela.color.Rgb
 import candela.math.*
-import Checks.assert
 
 /** BSDFs at the ends of their parameters and of the hemisphere: 10⁸ inputs a kind, whose variants
   * share them.

@@ -3,7 +3,8 @@ package candela.build.materials
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
-import candela.bsdf.{AdaptiveReflection, Bsdf}
+import candela.bsdf.Bsdf
+import candela.bsdf.measured.AdaptiveReflection
 import candela.color.{Rgb, Spectrum}
 import candela.sampling.WarpTable
 

@@ -3,7 +3,8 @@ package candela.build.materials
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
-import candela.bsdf.{Bsdf, HalfAngleReflection, ScatteredReflection}
+import candela.bsdf.Bsdf
+import candela.bsdf.measured.{HalfAngleReflection, ScatteredReflection}
 import candela.color.{Rgb, Spectrum}
 import candela.math.*
 

@@ -4,7 +4,7 @@ import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
 
-import candela.bsdf.FourierTable
+import candela.bsdf.measured.FourierTable
 
 /** Reads the `.bsdf` files of pbrt-v3's "fourier", as Jakob's layerlab writes them.
   *

@@ -1,9 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  CoatedConductorMaterial, CoatedDiffuseMaterial, Fresnel, LayerMedium, Material, Roughness,
-  RoughnessModel
-}
+import candela.bsdf.{Fresnel, Material}
+import candela.bsdf.layered.{CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium}
+import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb, Upsampling}
 import candela.math.*

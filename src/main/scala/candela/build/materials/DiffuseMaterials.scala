@@ -1,8 +1,7 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  DiffuseMaterial, DiffuseTransmissionMaterial, Material, MatteMaterial, TranslucentMaterial
-}
+import candela.bsdf.{DiffuseMaterial, DiffuseTransmissionMaterial, Material, MatteMaterial}
+import candela.bsdf.composite.TranslucentMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
 

@@ -1,8 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  ConstantMaterial, DielectricMaterial, DispersiveMaterial, Material, Roughness, RoughnessModel,
-  ThinDielectric
+import candela.bsdf.{ConstantMaterial, Material}
+import candela.bsdf.microfacet.{
+  DielectricMaterial, DispersiveMaterial, Roughness, RoughnessModel, ThinDielectric
 }
 import candela.build.recipe.*
 import candela.color.{Rgb, Upsampling}

@@ -1,9 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  DisneyMaterial, DisneyParameters, Material, PlasticMaterial, Roughness, RoughnessModel,
-  SubstrateMaterial, UberMaterial
-}
+import candela.bsdf.Material
+import candela.bsdf.composite.{DisneyMaterial, DisneyParameters, PlasticMaterial, UberMaterial}
+import candela.bsdf.microfacet.{Roughness, RoughnessModel, SubstrateMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect

@@ -1,6 +1,7 @@
 package candela.build.materials
 
-import candela.bsdf.{HairMaterial, Material, Pigment}
+import candela.bsdf.Material
+import candela.bsdf.composite.{HairMaterial, Pigment}
 import candela.build.recipe.*
 import candela.color.Rgb
 

@@ -1,8 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  BumpMaterial, DiffuseMaterial, Edition, Material, NormalMapMaterial, Roughness, RoughnessModel
-}
+import candela.bsdf.{BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial}
+import candela.bsdf.composite.Edition
+import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect

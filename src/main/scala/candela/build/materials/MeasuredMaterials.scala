@@ -2,7 +2,8 @@ package candela.build.materials
 
 import java.nio.file.Path
 
-import candela.bsdf.{Bsdf, ConstantMaterial, FourierBsdf, Material}
+import candela.bsdf.{Bsdf, ConstantMaterial, Material}
+import candela.bsdf.measured.FourierBsdf
 import candela.build.recipe.*
 import candela.color.{Rgb, Spectrum}
 import candela.scenefile.Dialect

@@ -1,8 +1,9 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  ConductorMaterial, Fresnel, IndexedMetal, Material, MetalTexture, MirrorMaterial,
-  ShinyMetalMaterial, TabulatedReflectance, TintedMetal, UniformMetal
+import candela.bsdf.{Fresnel, Material, TabulatedReflectance}
+import candela.bsdf.microfacet.{
+  ConductorMaterial, IndexedMetal, MetalTexture, MirrorMaterial, ShinyMetalMaterial, TintedMetal,
+  UniformMetal
 }
 import candela.build.recipe.*
 import candela.color.{Colorimetry, Rgb}

@@ -1,6 +1,7 @@
 package candela.build.materials
 
-import candela.bsdf.{InterfaceMaterial, Material, MixedMaterial}
+import candela.bsdf.{InterfaceMaterial, Material}
+import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect

@@ -1,10 +1,13 @@
 package candela.build.materials
 
 import candela.base.Suggest
-import candela.bsdf.{
-  CoefficientInterior, DielectricMaterial, DiffuseDipoleInterior, DipoleInterior, Interior,
-  Material, ProfileTable, ReflectanceInterior, ReflectingInterfaceMaterial, Roughness,
-  RoughnessModel, SubsurfaceMaterial
+import candela.bsdf.Material
+import candela.bsdf.microfacet.{
+  DielectricMaterial, ReflectingInterfaceMaterial, Roughness, RoughnessModel
+}
+import candela.bsdf.subsurface.{
+  CoefficientInterior, DiffuseDipoleInterior, DipoleInterior, Interior, ProfileTable,
+  ReflectanceInterior, SubsurfaceMaterial
 }
 import candela.build.media.{MeasuredMedia, MediumCoefficients}
 import candela.build.recipe.*

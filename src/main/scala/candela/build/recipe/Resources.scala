@@ -6,7 +6,9 @@ import scala.collection.mutable
 import scala.util.Try
 
 import candela.base.{Parallel, SourcePos, Suggest}
-import candela.bsdf.{Coats, Material, ProfileTables}
+import candela.bsdf.Material
+import candela.bsdf.layered.Coats
+import candela.bsdf.subsurface.ProfileTables
 import candela.color.ColorBasis
 import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, NameKind, Param}

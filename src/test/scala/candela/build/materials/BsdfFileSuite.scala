@@ -4,11 +4,11 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder.LITTLE_ENDIAN
 import java.nio.file.Files
 
-import candela.bsdf.{FourierBsdf, FourierTables}
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.bsdf.measured.{FourierBsdf, FourierTables}
 import candela.color.Rgb
 import candela.testing.{Draws, SceneTexts}
-
-import org.scalatest.funsuite.AnyFunSuite
 
 class BsdfFileSuite extends AnyFunSuite:
   private val tables = FourierTables(FourierTables.cosines(8), 3, 3, 1.25f)(

@@ -1,0 +1,145 @@
+package candela.bsdf.composite
+
+import candela.bsdf.{
+  Bsdf, DielectricReflectance, DiffuseTransmission, Fresnel, InterfaceMaterial, Lambert, Lobes,
+  Material, SentThrough
+}
+import candela.bsdf.microfacet.{
+  MicrofacetReflection, Passthrough, RoughDielectric, Roughness, SmoothDielectric
+}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.textures.{FloatTexture, RgbTexture, Textured}
+
+/** Which edition of PBRT's layered materials is meant. */
+enum Edition:
+
+  /** The interface of plastic and uber is the inside of glass, seen from either side: all light is
+    * reflected beyond 42 degrees. Refraction doesn't change radiance.
+    */
+  case Second
+
+  /** Plastic has the inside of glass outside (and the outside inside); uber is right. */
+  case Third
+
+/** Gloss on a diffuse base that doesn't know of it. */
+final class PlasticMaterial(
+    kd: RgbTexture,
+    ks: RgbTexture,
+    roughness: Roughness,
+    edition: Edition
+) extends Material,
+      Textured(kd, ks, roughness):
+  private val curve = DielectricReflectance(1f / 1.5f, oriented = edition == Edition.Third)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val diffuse = kd.positive(at)
+    val gloss = ks.positive(at)
+    Lobes.Builder()
+      .add(Lambert(diffuse), diffuse.max)
+      .add(MicrofacetReflection(roughness(at), curve, gloss), gloss.max)
+      .result
+
+/** Everything at once: diffuse base, gloss, mirror, refraction, and `opacity` to see through it
+  * all.
+  */
+final class UberMaterial(
+    kd: RgbTexture,
+    ks: RgbTexture,
+    kr: RgbTexture,
+    kt: RgbTexture,
+    opacity: RgbTexture,
+    eta: FloatTexture,
+    roughness: Roughness,
+    edition: Edition
+) extends Material,
+      Textured(kd, ks, kr, kt, opacity, eta, roughness):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val third = edition == Edition.Third
+    val index = if third then eta(at) else 1f / eta(at)
+    val covered = opacity.positive(at)
+    val open = (Rgb.White - covered).map(c => Math.max(c, 0f))
+    val diffuse = kd.positive(at) * covered
+    val gloss = ks.positive(at) * covered
+    val mirror = kr.positive(at) * covered
+    val clear = kt.positive(at) * covered
+    val normalReflectance = Fresnel.dielectric(1f, index)
+    val interface = normalReflectance * mirror.max + (1f - normalReflectance) * clear.max
+    Lobes.Builder()
+      .add(Passthrough(open), open.max)
+      .add(Lambert(diffuse), diffuse.max)
+      .add(
+        MicrofacetReflection(roughness(at), DielectricReflectance(index, oriented = third), gloss),
+        gloss.max
+      )
+      .add(SmoothDielectric(index, mirror, clear, compresses = third), interface)
+      .result
+
+/** A sheet that scatters to both sides, diffuse (`kd`) and glossy (`ks`); `reflect` and `transmit`
+  * say how much of each stays on its side and how much passes. All are held to be ≥ 0.
+  *
+  * The gloss is a rough interface of index 1.5 (in PBRT 3), or a rough mirror of the same seen in
+  * both directions (in PBRT 2).
+  */
+final class TranslucentMaterial(
+    kd: RgbTexture,
+    ks: RgbTexture,
+    reflect: RgbTexture,
+    transmit: RgbTexture,
+    roughness: Roughness,
+    edition: Edition
+) extends Material,
+      Textured(kd, ks, reflect, transmit, roughness):
+  import TranslucentMaterial.*
+  private val mirror = DielectricReflectance(1f / Index, oriented = false)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val r = reflect.positive(at)
+    val t = transmit.positive(at)
+    val diffuse = kd.positive(at)
+    val gloss = ks.positive(at)
+    val lobes = Lobes.Builder()
+    val scattered = diffuse * (r + t)
+    lobes.add(DiffuseTransmission(diffuse * r, diffuse * t), scattered.max)
+    val distribution = roughness(at)
+    edition match
+      case Edition.Second =>
+        lobes.add(MicrofacetReflection(distribution, mirror, gloss * r), (gloss * r).max)
+        lobes.add(
+          SentThrough(MicrofacetReflection(distribution, mirror, gloss * t)),
+          (gloss * t).max
+        )
+      case Edition.Third =>
+        val glossy = gloss * (r + t)
+        lobes.add(RoughDielectric(distribution, Index, gloss * r, gloss * t), glossy.max)
+    lobes.result
+
+object TranslucentMaterial:
+  private inline val Index = 1.5f
+
+/** Two materials in one: `amount` (held to [0, 1], by colour) of the first, the rest of the second.
+  *
+  * The normal that bumps give the first holds for both, as in PBRT 2 and 3.
+  */
+final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
+    extends Material,
+      Textured(first, second, amount):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val part = amount.albedo(at)
+    val rest = Rgb.White - part
+    val frame = at.frame.toFrame
+    val other = MixedMaterial.scatter(second, at)
+    at.frame.set(frame)
+    Lobes.Builder()
+      .addScaled(MixedMaterial.scatter(first, at), part)
+      .addScaled(other, rest)
+      .result
+
+  override def isDispersive: Boolean = first.isDispersive || second.isDispersive
+
+object MixedMaterial:
+  private val clear = Passthrough(Rgb.White)
+
+  /** In a mixture, no surface is one that lets all light go straight on. */
+  private def scatter(material: Material, at: ShadingPoint): Bsdf =
+    if material eq InterfaceMaterial then clear else material.bsdf(at)

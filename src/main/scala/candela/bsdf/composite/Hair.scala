@@ -1,0 +1,301 @@
+package candela.bsdf.composite
+
+import candela.bsdf.{Bsdf, BsdfSample, Fresnel, Hemisphere, Material}
+import candela.color.{ColorBasis, Rgb}
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Varying}
+
+/** A hair as light meets it at one place across its width: reflected off the outside (R), passed
+  * through (TT), reflected once inside (TRT), and all that is reflected more often.
+  *
+  * The local x is the hair's own direction. Each part is a product of a lobe along the hair (Mp),
+  * one around it (Np), and the share of light that takes it (Ap).
+  *
+  * @param h       where across the width the ray meets the hair, −1 to 1
+  * @param eta     index of refraction of the hair
+  * @param sigmaA  absorption coefficient inside, per unit of the hair's radius; ≥ 0
+  * @param shape   roughnesses and tilt
+  *
+  * Sources: Marschner et al., "Light Scattering from Human Hair Fibers", SIGGRAPH 2003; d'Eon et
+  * al., "An Energy-Conserving Hair Reflectance Model", EGSR 2011; Chiang et al., "A Practical and
+  * Controllable Hair and Fur Model for Production Path Tracing", EG 2016.
+  */
+final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bsdf:
+  import Hair.*
+  private val gammaO = Math.asin(clamp(h, -1f, 1f).toDouble).toFloat
+
+  /** Sine and cosine of the angle to the plane across the hair, once the scales have tilted it for
+    * part `p`.
+    */
+  private def tiltedSin(sinO: Float, cosO: Float, p: Int): Float = p match
+    case 0 => sinO * shape.cosTilt(1) - cosO * shape.sinTilt(1)
+    case 1 => sinO * shape.cosTilt(0) + cosO * shape.sinTilt(0)
+    case 2 => sinO * shape.cosTilt(2) + cosO * shape.sinTilt(2)
+    case _ => sinO
+
+  private def tiltedCos(sinO: Float, cosO: Float, p: Int): Float = Math.abs(p match
+    case 0 => cosO * shape.cosTilt(1) + sinO * shape.sinTilt(1)
+    case 1 => cosO * shape.cosTilt(0) - sinO * shape.sinTilt(0)
+    case 2 => cosO * shape.cosTilt(2) - sinO * shape.sinTilt(2)
+    case _ => cosO)
+
+  /** The angle around the axis at which the refracted ray goes on. */
+  private def gammaT(sinO: Float, cosO: Float): Float =
+    val etaP = safeSqrt(eta * eta - sinO * sinO) / Math.max(cosO, 1e-7f)
+    // Along a hair of index 1 nothing is bent, and both may be 0
+    val sine = if Math.abs(h) < etaP then h / etaP else Math.signum(h)
+    Math.asin(sine.toDouble).toFloat
+
+  /** What a way once through the hair leaves of the light. */
+  private def transmitted(sinO: Float, gammaT: Float): Rgb =
+    val cosT = safeSqrt(1f - square(sinO / eta))
+    val way = 2f * Math.max(0f, cos(gammaT)) / Math.max(cosT, 1e-7f)
+    sigmaA.map(s => exp(-s * way))
+
+  /** The share of the light that takes part `p`; `fresnel` is reflected at the outside. */
+  private def share(p: Int, fresnel: Float, t: Rgb): Rgb = p match
+    case 0 => Rgb.gray(fresnel)
+    case 1 => t * square(1f - fresnel)
+    case 2 => t * t * (square(1f - fresnel) * fresnel)
+    case _ =>
+      val scale = square(1f - fresnel) * square(fresnel)
+      t.map(x => scale * x * x * x / Math.max(1f - x * fresnel, 1e-7f))
+
+  private def fresnel(cosO: Float): Float =
+    Fresnel.dielectric(cosO * safeSqrt(1f - h * h), eta)
+
+  private def around(p: Int, phi: Float, gammaT: Float): Float =
+    if p == Parts - 1 then 1f / TwoPi
+    else
+      val off = wrapped(phi - exit(p, gammaO, gammaT))
+      Logistic.density(off, shape.azimuthal)
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    val cosine = Math.abs(wi.z)
+    val sinO = wo.x
+    val sinI = wi.x
+    val cosO = safeSqrt(1f - sinO * sinO)
+    val cosI = safeSqrt(1f - sinI * sinI)
+    val inside = gammaT(sinO, cosO)
+    val phi = azimuth(wi) - azimuth(wo)
+    val r = fresnel(cosO)
+    val t = transmitted(sinO, inside)
+    var sum = Rgb.Black
+    var p = 0
+    while p < Parts do
+      val along =
+        longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
+      sum += share(p, r, t) * (along * around(p, phi, inside))
+      p += 1
+    if cosine > Hemisphere.Horizon then sum * (1f / cosine) else Rgb.Black
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    val sinO = wo.x
+    val sinI = wi.x
+    val cosO = safeSqrt(1f - sinO * sinO)
+    val cosI = safeSqrt(1f - sinI * sinI)
+    val inside = gammaT(sinO, cosO)
+    val phi = azimuth(wi) - azimuth(wo)
+    val r = fresnel(cosO)
+    val t = transmitted(sinO, inside)
+    var sum = 0f
+    var total = 0f
+    var p = 0
+    while p < Parts do
+      val along =
+        longitudinal(cosI, tiltedCos(sinO, cosO, p), sinI, tiltedSin(sinO, cosO, p), shape.v(p))
+      val weight = share(p, r, t).average
+      sum += weight * along * around(p, phi, inside)
+      total += weight
+      p += 1
+    if total > 0f then sum / total else 0f
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val sinO = wo.x
+    val cosO = safeSqrt(1f - sinO * sinO)
+    val inside = gammaT(sinO, cosO)
+    val r = fresnel(cosO)
+    val t = transmitted(sinO, inside)
+    var total = 0f
+    var p = 0
+    while p < Parts do
+      total += share(p, r, t).average
+      p += 1
+    // Choose a part by its share, and use what is left of the number again
+    p = 0
+    var rest = choice * total
+    var own = share(0, r, t).average
+    while p < Parts - 1 && rest >= own do
+      rest -= own
+      p += 1
+      own = share(p, r, t).average
+    val again = if own > 0f then clamp(rest / own, 0f, OneMinusEpsilon) else 0f
+    val sinP = tiltedSin(sinO, cosO, p)
+    val cosP = tiltedCos(sinO, cosO, p)
+    val v = shape.v(p)
+    val height = 1f + v * log(Math.max(u1, 1e-5f) + (1f - u1) * exp(-2f / v))
+    val sinI = clamp(
+      -height * sinP + safeSqrt(1f - height * height) * cos(TwoPi * u2) * cosP,
+      -1f,
+      1f
+    )
+    val cosI = safeSqrt(1f - sinI * sinI)
+    val turn =
+      if p == Parts - 1 then TwoPi * again
+      else exit(p, gammaO, inside) + Logistic.sample(again, shape.azimuthal)
+    val phi = azimuth(wo) + turn
+    val wi = Vec3(sinI, cosI * cos(phi), cosI * sin(phi))
+    val density = pdf(wo, wi)
+    if !(density > 0f) || Math.abs(wi.z) < Hemisphere.Horizon then BsdfSample.Absorbed
+    else
+      val weight = f(wo, wi) * (Math.abs(wi.z) / density)
+      if weight.isFinite then BsdfSample(wi, weight, density, isSpecular = false)
+      else BsdfSample.Absorbed
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = true
+
+object Hair:
+  /** R, TT, TRT, and the rest. */
+  private inline val Parts = 4
+
+  private def azimuth(w: Vec3): Float = Math.atan2(w.z.toDouble, w.y.toDouble).toFloat
+
+  /** By how much part `p` leaves turned around the hair. */
+  private def exit(p: Int, gammaO: Float, gammaT: Float): Float =
+    2f * p.toFloat * gammaT - 2f * gammaO + p.toFloat * Pi
+
+  private def wrapped(angle: Float): Float =
+    angle - TwoPi * Math.round(angle / TwoPi).toFloat
+
+  /** The lobe along the hair, for the variance `v` (d'Eon et al. 2011, eq. 7), in Double: the
+    * exponentials of a narrow lobe overflow Floats.
+    */
+  private def longitudinal(cosI: Float, cosO: Float, sinI: Float, sinO: Float, v: Float): Float =
+    val a = cosI.toDouble * cosO / v
+    val b = sinI.toDouble * sinO / v
+    // I0(a) e^{−b} / (2v sinh(1/v)), with e^{1/v} taken out of both
+    val scale = 1.0 / (v * -Math.expm1(-2.0 / v))
+    (Bessel.scaledI0(a) * Math.exp(a - b - 1.0 / v) * scale).toFloat
+
+/** How rough a hair is and how its scales are tilted; the same all along a hair mostly, and so made
+  * once.
+  *
+  * @param betaM roughness along the hair, 0 to 1
+  * @param betaN roughness around it, 0 to 1
+  * @param alpha tilt of the scales, degrees
+  *
+  * Source of the fits: Chiang et al. 2016.
+  */
+final class HairShape(betaM: Float, betaN: Float, alpha: Float):
+  private val variances =
+    val m = clamp(betaM, 1e-2f, 1f).toDouble
+    val first = square((0.726 * m + 0.812 * m * m + 3.7 * Math.pow(m, 20)).toFloat)
+    Array(first, 0.25f * first, 4f * first, 4f * first)
+
+  /** Variance along the hair of part `p`. */
+  def v(p: Int): Float = variances(p)
+
+  /** Scale of the logistic distribution around the hair. */
+  val azimuthal: Float =
+    val n = clamp(betaN, 1e-2f, 1f).toDouble
+    (Math.sqrt(Math.PI / 8) * (0.265 * n + 1.194 * n * n + 5.372 * Math.pow(n, 22))).toFloat
+
+  // Of 2^k times the tilt
+  private val tilts = Array.tabulate(3)(k => Math.toRadians(alpha.toDouble) * (1 << k))
+  private val sines = tilts.map(a => Math.sin(a).toFloat)
+  private val cosines = tilts.map(a => Math.cos(a).toFloat)
+  def sinTilt(k: Int): Float = sines(k)
+  def cosTilt(k: Int): Float = cosines(k)
+
+/** The logistic distribution cut to [−π, π]. */
+private[bsdf] object Logistic:
+  private def cdf(x: Double, s: Float): Double = 1 / (1 + Math.exp(-x / s))
+
+  def density(x: Float, s: Float): Float =
+    val e = Math.exp(-Math.abs(x).toDouble / s)
+    (e / (s * (1 + e) * (1 + e)) / (cdf(Math.PI, s) - cdf(-Math.PI, s))).toFloat
+
+  def sample(u: Float, s: Float): Float =
+    val low = cdf(-Math.PI, s)
+    val y = low + u * (cdf(Math.PI, s) - low)
+    val x = -s * Math.log(1 / y - 1)
+    Math.max(-Math.PI, Math.min(Math.PI, x)).toFloat
+
+/** The modified Bessel function of the first kind, order 0. */
+private[bsdf] object Bessel:
+  /** e^{−x} I0(x), x ≥ 0, to 2e-7. Source: Abramowitz and Stegun, "Handbook of Mathematical
+    * Functions", 1964, 9.8.1 and 9.8.2.
+    */
+  def scaledI0(x: Double): Double =
+    if x < 3.75 then
+      val t = (x / 3.75) * (x / 3.75)
+      val i0 = 1.0 + t * (3.5156229 + t * (3.0899424 + t * (1.2067492 +
+        t * (0.2659732 + t * (0.0360768 + t * 0.0045813)))))
+      i0 * Math.exp(-x)
+    else
+      val t = 3.75 / x
+      val p = 0.39894228 + t * (0.01328592 + t * (0.00225319 + t * (-0.00157565 + t *
+        (0.00916281 + t * (-0.02057706 + t * (0.02635537 + t * (-0.01647633 + t * 0.00392377)))))))
+      p / Math.sqrt(x)
+
+/** What colours a hair. */
+enum Pigment extends Varying:
+  /** The absorption coefficient itself, per unit of the hair's radius. */
+  case Absorption(sigmaA: RgbTexture)
+
+  /** The colour that a head of such hair has. */
+  case Color(reflectance: RgbTexture)
+
+  /** Concentrations of the pigments that colour it black and brown, and red. */
+  case Melanin(eumelanin: FloatTexture, pheomelanin: FloatTexture, basis: ColorBasis)
+
+  def absorption(at: ShadingPoint, betaN: Float): Rgb = this match
+    case Absorption(sigmaA) => sigmaA.positive(at)
+    case Color(reflectance) => Pigment.ofColor(reflectance(at), betaN)
+    case Melanin(eu, pheo, basis) =>
+      val e = Math.max(eu(at), 0f)
+      val p = Math.max(pheo(at), 0f)
+      basis.fromSrgb(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
+
+  def isConstant: Boolean = this match
+    case Absorption(t) => t.isConstant
+    case Color(t) => t.isConstant
+    case Melanin(e, p, _) => e.isConstant && p.isConstant
+
+object Pigment:
+  // Absorption of a unit concentration; source: d'Eon et al., EGSR 2011, as given in PBRT
+  private val Eumelanin = Rgb(0.419f, 0.697f, 1.37f)
+  private val Pheomelanin = Rgb(0.187f, 0.4f, 1.05f)
+
+  /** The absorption of hair that looks like `color`, roughness `n` around (Chiang et al. 2016,
+    * §4.2).
+    */
+  private[bsdf] def ofColor(color: Rgb, n: Float): Rgb =
+    val fit = 5.969f + n * (-0.215f + n * (2.532f + n * (-10.73f + n * (5.574f + n * 0.245f))))
+    color.map(c => square(log(clamp(c, 1e-4f, 1f)) / fit))
+
+/** [[Hair]] on a curve, whose v says where across the width the ray meets it. */
+final class HairMaterial(
+    pigment: Pigment,
+    eta: FloatTexture,
+    betaM: FloatTexture,
+    betaN: FloatTexture,
+    alpha: FloatTexture
+) extends Material:
+  private val fixedShape =
+    for m <- betaM.constant; n <- betaN.constant; a <- alpha.constant yield HairShape(m, n, a)
+  private val fixedAbsorption =
+    for n <- betaN.constant if pigment.isConstant yield pigment.absorption(ShadingPoint(), n)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val shape = fixedShape match
+      case Some(s) => s
+      case None => HairShape(betaM(at), betaN(at), alpha(at))
+    val sigmaA = fixedAbsorption match
+      case Some(s) => s
+      case None => pigment.absorption(at, betaN(at))
+    Hair(clamp(2f * at.v - 1f, -1f, 1f), eta(at), sigmaA, shape)
+
+  override def isAnisotropic: Boolean = true

@@ -1,0 +1,166 @@
+package candela.bsdf.layered
+
+import candela.bsdf.{Bounce, Bsdf, Fresnel, Hemisphere, LeanBsdf, Material}
+import candela.bsdf.microfacet.{MicrofacetReflection, Roughness, TrowbridgeReitz}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{RgbTexture, Textured}
+
+/** A Lambertian base under a clear coat, with all the light that goes back and forth between them.
+  *
+  * The base forgets where light came from, so the sum over all paths separates: what enters from
+  * `wo`, times a geometric series of trips between base and coat, times what leaves to `wi`,
+  *
+  *   f = f_top + T(wo) T(wi) / (π eta²) · albedo · Σ (albedo · R)^k,
+  *
+  * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every lookup;
+  * `CoatedDiffuseSuite` checks against such a walk.
+  *
+  * @param series   albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
+  * @param top      roughness of the outer side of the coat
+  * @param coat     what gets through; may stand for a roughness slightly different from `top`
+  *
+  * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
+  * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
+  */
+final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat) extends LeanBsdf:
+  private val eta = coat.eta
+  private val topIsSmooth = top.isSmooth || eta == 1f
+  private val base = series(coat) * (InvPi / (eta * eta))
+  private val meanBase = base.max * Pi * coat.meanTransmittance
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if !Hemisphere.same(wo, wi) then Rgb.Black
+    else
+      val under = base * (coat.transmittance(wo) * coat.transmittance(wi))
+      if topIsSmooth then under
+      else
+        val o = Hemisphere.above(wo)
+        val i = Hemisphere.above(wi)
+        val m = (o + i).normalized
+        val cosM = o dot m
+        // As in MicrofacetReflection
+        if cosM <= 0f then under
+        else under + Rgb.gray(Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
+
+  /** The probability of sampling the outer side: its share of the reflected power. */
+  private def topChance(reflected: Float, wo: Vec3): Float =
+    val under = meanBase * coat.transmittance(wo)
+    if reflected + under > 0f then reflected / (reflected + under) else 0f
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if !Hemisphere.same(wo, wi) then 0f
+    else
+      val chance = topChance(Fresnel.dielectric(Math.abs(wo.z), eta), wo)
+      val under = (1f - chance) * Hemisphere.cosinePdf(wi)
+      if topIsSmooth then under
+      else
+        val o = Hemisphere.above(wo)
+        val m = (o + Hemisphere.above(wi)).normalized
+        under + chance * MicrofacetReflection.pdf(top, o, m)
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val reflected = Fresnel.dielectric(Math.abs(wo.z), eta)
+    val chance = topChance(reflected, wo)
+    if choice >= chance then weigh(wo, Hemisphere.cosineSample(wo, u1, u2), out)
+    else if topIsSmooth then
+      val weight = Rgb.gray(reflected / chance)
+      out.set(Hemisphere.mirrored(wo), weight, chance, isSpecular = true)
+    else
+      val o = Hemisphere.above(wo)
+      val m = top.sample(o, u1, u2)
+      val i = Hemisphere.reflected(o, m, o dot m)
+      weigh(wo, if wo.z < 0f then Hemisphere.flipped(i) else i, out)
+
+  private def weigh(wo: Vec3, wi: Vec3, out: Bounce): Unit =
+    val density = pdf(wo, wi)
+    val value = if density > 0f then f(wo, wi) else Rgb.Black
+    if density <= 0f || value.isBlack then out.absorb()
+    else
+      val weight = value * (Hemisphere.absCos(wi) / density)
+      out.set(wi, weight, density, isSpecular = false)
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false
+
+  // Kept: the series of a spectrum takes long
+  override lazy val regularized: Bsdf = new CoatedDiffuse(series, top.regularized, coat.regularized)
+
+object CoatedDiffuse:
+
+  /** @param albedo   of the base, in [0, 1]
+    * @param baseHits how often light may meet the base
+    */
+  def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
+    new CoatedDiffuse(under => albedo.map(series(_, under, baseHits)), top, coat)
+
+  /** albedo · Σ (albedo · R)^k by Horner's scheme, for k below `baseHits`. */
+  def series(albedo: Float, coat: Coat, baseHits: Int): Float =
+    var sum = 0f
+    var k = 0
+    while k < baseHits do
+      sum = albedo * (1f + coat.internalReflectance * sum)
+      k += 1
+    sum
+
+/** [[CoatedDiffuse]]; `reflectance` is held to [0, 1].
+  *
+  * @param thickness  in mean free paths of the coat's absorption
+  * @param baseHits   how often light may meet the base
+  * @param bySpectrum applies a function to the reflectance, wavelength by wavelength, if that is
+  *                   known: what goes back and forth under the coat grows faster than its colour.
+  *                   For surfaces that are the same everywhere, as it takes its time
+  */
+final class CoatedDiffuseMaterial(
+    reflectance: RgbTexture,
+    roughness: Roughness,
+    eta: Float,
+    thickness: Float,
+    baseHits: Int,
+    coats: Coats,
+    bySpectrum: Option[(Float => Float) => Rgb] = None
+) extends Material,
+      Textured(reflectance, roughness):
+  private val coatAt: TrowbridgeReitz => Coat =
+    if roughness.isConstant then
+      val coat = coats.of(roughness.trowbridgeReitz(ShadingPoint()), eta, thickness)
+      _ => coat
+    else
+      val family = coats.family(eta, thickness)
+      Coats.between(family, _)
+
+  private val spectrum = bySpectrum.filter(_ => isConstant)
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val top = roughness.trowbridgeReitz(at)
+    val coat = coatAt(top)
+    spectrum match
+      case Some(colored) =>
+        new CoatedDiffuse(c => colored(CoatedDiffuse.series(_, c, baseHits)), top, coat)
+      case None => CoatedDiffuse(reflectance.albedo(at), top, coat, baseHits)
+
+object CoatedDiffuseMaterial:
+
+  /** The material for what is between coat and base: layers are walked only if the medium scatters
+    * or its thickness varies.
+    */
+  def apply(
+      reflectance: RgbTexture,
+      roughness: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      coats: Coats,
+      bySpectrum: Option[(Float => Float) => Rgb] = None
+  ): Material =
+    val summed =
+      for
+        thickness <- medium.thickness.constant
+        _ <- medium.albedo.constant.filter(_.max <= 0f)
+      yield
+        // Light meets the base first, then coat and base in turn
+        val hits = (medium.maxDepth + 1) / 2
+        new CoatedDiffuseMaterial(
+          reflectance, roughness, eta, thickness, hits, coats, bySpectrum
+        )
+    summed.getOrElse(LayeredMaterial(DiffuseLayers(reflectance, roughness, eta, medium)))

@@ -1,0 +1,175 @@
+package candela.bsdf.layered
+
+import candela.bsdf.{Fresnel, Hemisphere}
+import candela.bsdf.microfacet.{RoughDielectric, TrowbridgeReitz}
+import candela.color.Rgb
+import candela.math.*
+import candela.sampling.SampleHash
+
+/** A walk at random between the base of a layered surface and its outer side. Mutable; local to
+  * one question about the surface.
+  *
+  * @param seed of all its random numbers
+  */
+private[bsdf] final class LayerPath(layers: Layers, seed: Long):
+  private val top = layers.top
+  private var counter = SampleHash.mix64(seed)
+
+  /** What is left of the power. */
+  var throughput: Rgb = Rgb.White
+
+  /** Where it travels: upwards if z > 0. Zero: it has ended. */
+  var w: Vec3 = Vec3.Zero
+
+  /** Above the base, in mean free paths. */
+  var height: Float = layers.thickness
+
+  /** With which density `scatterAtBase` found `w`. */
+  var basePdf: Float = 0f
+
+  /** Have all its turns so far been specular? */
+  var isSpecular: Boolean = top.isSmooth
+
+  def next(): Float =
+    counter += SampleHash.Step
+    SampleHash.toUnit((SampleHash.mix64(counter) >>> 32).toInt)
+
+  def isOver: Boolean = w.z == 0f || throughput.isBlack
+
+  /** Goes down through the outer side. */
+  def start(below: Vec3, weight: Float): Unit =
+    w = below
+    throughput = Rgb.gray(weight)
+    height = layers.thickness
+
+  /** Goes on until something happens: a [[LayerPath.Base]], [[LayerPath.Top]] or
+    * [[LayerPath.Medium]].
+    */
+  def advance(): Int =
+    val up = w.z > 0f
+    val met = if up then LayerPath.Top else LayerPath.Base
+    if layers.isClear then
+      throughput = throughput * layers.attenuation(layers.thickness, w)
+      height = if up then layers.thickness else 0f
+      met
+    else
+      val far = -log(1f - next()) * w.z
+      val reached = height + far
+      if reached > 0f && reached < layers.thickness then
+        height = reached
+        LayerPath.Medium
+      else
+        height = if up then layers.thickness else 0f
+        met
+
+  def scatterAtBase(u1: Float, u2: Float): Unit =
+    val drawn = layers.base.sample(-w, next(), u1, u2)
+    if drawn.pdf > 0f then
+      throughput = throughput * drawn.weight
+      basePdf = if drawn.isSpecular then Float.PositiveInfinity else drawn.pdf
+      isSpecular = isSpecular && drawn.isSpecular
+      w = drawn.wi
+    else w = Vec3.Zero
+
+  def scatterInMedium(): Unit =
+    isSpecular = false
+    w = layers.phase.sample(-w, next(), next()).normalized
+
+  /** The outer side sends some of it back. */
+  def reflectAtTop(): Unit =
+    val o = inside
+    val m = top.facet(o, next(), next())
+    reflect(o, m, Fresnel.dielectric(Math.max(o dot m, 0f), 1f / top.eta))
+
+  /** The outer side sends it back, or lets it go to the direction that is returned; zero: it
+    * doesn't.
+    */
+  def meetTop(): Vec3 =
+    val o = inside
+    val m = top.facet(o, next(), next())
+    if next() < Fresnel.dielectric(Math.max(o dot m, 0f), 1f / top.eta) then
+      reflect(o, m, 1f)
+      Vec3.Zero
+    else
+      val i = top.refracted(o, m, 1f / top.eta)
+      w = Vec3.Zero
+      if i.isZero then i
+      else
+        throughput = throughput * top.weight(o, i, m)
+        Hemisphere.flipped(i)
+
+  /** Where it comes from, in a frame whose upper side is the inside. */
+  private def inside: Vec3 = Vec3(-w.x, -w.y, w.z)
+
+  private def reflect(o: Vec3, m: Vec3, part: Float): Unit =
+    val i = top.reflected(o, m)
+    w = Hemisphere.flipped(i)
+    if !i.isZero then throughput = throughput * (part * top.weight(o, i, m))
+
+  /** Ends it at random if little is left, after some events. */
+  def roulette(events: Int): Unit =
+    val left = throughput.max
+    if events > 3 && left < 0.25f then
+      if next() < left then throughput = throughput * (1f / left) else w = Vec3.Zero
+
+private[bsdf] object LayerPath:
+  inline val Base = 0
+  inline val Top = 1
+  inline val Medium = 2
+
+/** The interface between the outside and the inside of a layered surface, seen from either.
+  *
+  * Directions are in a frame in which the side of `o` is above: `o.z` ≥ 0. `relative` is the index
+  * beyond the interface over that on the side of `o`. Powers are counted, not radiances: those
+  * differ by the square of the index, which a path that comes out again has gained and lost.
+  *
+  * @param eta index of refraction inside over that outside; greater than 0
+  */
+private[bsdf] final class Boundary(val distribution: TrowbridgeReitz, val eta: Float):
+
+  /** Without a change of index nothing is bent, however rough the interface. */
+  val isSmooth: Boolean = distribution.isSmooth || eta == 1f
+
+  /** A facet that `o` meets. */
+  def facet(o: Vec3, u1: Float, u2: Float): Vec3 =
+    if isSmooth then Vec3.Z else distribution.sample(o, u1, u2)
+
+  /** What the roughness leaves of power that a drawn facet sends from `o` to `i`. */
+  def weight(o: Vec3, i: Vec3, m: Vec3): Float =
+    if isSmooth then 1f else distribution.sampleWeight(o, i, m)
+
+  /** Where the facet sends `o` on the other side, with z < 0; zero if nowhere. */
+  def refracted(o: Vec3, m: Vec3, relative: Float): Vec3 =
+    val cosM = o dot m
+    val cosT = if cosM > 0f then Fresnel.cosRefracted(cosM, relative) else -1f
+    if cosT <= 0f then Vec3.Zero
+    else
+      val i = Fresnel.refracted(o, m, cosM, cosT, relative)
+      if i.z < 0f then i else Vec3.Zero
+
+  /** Where the facet sends `o` on the same side; zero if nowhere. */
+  def reflected(o: Vec3, m: Vec3): Vec3 =
+    val cosM = o dot m
+    if cosM <= 0f then Vec3.Zero
+    else
+      val i = Hemisphere.reflected(o, m, cosM)
+      if i.z > 0f then i else Vec3.Zero
+
+  /** The part of the power that a facet of a rough interface sends from `o` to `i` beyond, per
+    * solid angle of `i` and cosine: the transmitted value times the square of the index.
+    */
+  def crossing(o: Vec3, i: Vec3): Float =
+    val m = RoughDielectric.facet(o, i, eta)
+    if m.isZero then 0f
+    else
+      val passed = 1f - Fresnel.dielectric(o dot m, eta)
+      val spread = 4f * (o dot m) * RoughDielectric.jacobian(o, i, m, eta)
+      passed * distribution.d(m) * distribution.visibility(o, i, m) * spread
+
+  /** The density, per solid angle of `i`, with which facets drawn for `o` send it there, of those
+    * that refract.
+    */
+  def crossingPdf(o: Vec3, i: Vec3): Float =
+    val m = RoughDielectric.facet(o, i, eta)
+    if m.isZero then 0f
+    else distribution.pdf(o, m) * RoughDielectric.jacobian(o, i, m, eta)

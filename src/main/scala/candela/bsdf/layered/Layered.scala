@@ -1,0 +1,250 @@
+package candela.bsdf.layered
+
+import candela.bsdf.{Bsdf, BsdfSample, Fresnel, Hemisphere}
+import candela.bsdf.microfacet.{MicrofacetReflection, TrowbridgeReitz}
+import candela.color.Rgb
+import candela.math.*
+import candela.sampling.{HenyeyGreenstein, SampleHash}
+
+/** What a layered surface consists of: a base under an interface, and what is between them.
+  *
+  * @param base      reflects only, all wavelengths alike; in the medium between the layers
+  * @param thickness of the medium, in mean free paths, at least 0
+  * @param albedo    of the medium: 0 only absorbs
+  * @param maxDepth  most events below the interface: at the base, in the medium, and back from the
+  *                  interface
+  * @param walks     that a value is the mean of, at least 1
+  * @param gloss     how rough a glossy base is: directions are looked for in a lobe like its own
+  * @param share     of the directions from below that are, in [0, 1); the rest goes by the cosine
+  */
+final class Layers(
+    topDistribution: TrowbridgeReitz,
+    eta: Float,
+    val base: Bsdf,
+    val thickness: Float,
+    val albedo: Rgb,
+    asymmetry: Float,
+    val maxDepth: Int,
+    val walks: Int,
+    gloss: TrowbridgeReitz = TrowbridgeReitz(1f, 1f),
+    val share: Float = 0f
+):
+  private[bsdf] val top = Boundary(topDistribution, eta)
+  private[bsdf] val phase = HenyeyGreenstein(clamp(asymmetry, -0.99f, 0.99f))
+  val isClear: Boolean = albedo.isBlack || thickness <= 0f
+
+  /** The lobe of the base as it looks from outside. Refraction makes it wider by `eta`. Two
+    * passages through a rough interface bend light by (eta − 1) times the slope of the facets each,
+    * which looks like mirrors of half that slope.
+    */
+  private[bsdf] val lobe: TrowbridgeReitz =
+    def along(base: Float, interface: Float) =
+      Math.min(sqrt(square(eta * base) + 0.5f * square((eta - 1f) * interface)), 1f)
+    if share <= 0f then gloss
+    else
+      TrowbridgeReitz(
+        along(gloss.alphaX, topDistribution.alphaX),
+        along(gloss.alphaY, topDistribution.alphaY)
+      )
+
+  private[bsdf] lazy val regularized: Layers = Layers(
+    topDistribution.regularized, eta, base.regularized, thickness, albedo, asymmetry, maxDepth,
+    walks, gloss.regularized, share
+  )
+
+  /** What is left of light after this distance across, in mean free paths. */
+  private[bsdf] def attenuation(distance: Float, w: Vec3): Float =
+    Coat.attenuation(distance, Math.abs(w.z)).toFloat
+
+/** Any base under a rough or smooth interface, with a medium in between that absorbs and scatters:
+  * the mean of random walks.
+  *
+  * Values are such means themselves, so each is a random number; which one, the directions and
+  * `seed` decide. Directions are drawn by walks, too: their weights are right on average, while
+  * `pdf` is only a guide to which of several ways to find a direction is best. Any such guide
+  * leaves the mean as it is.
+  *
+  * Source: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs",
+  * SIGGRAPH Asia 2018; PBRT 4th ed., §14.3. Unlike there, the two ways to cross the interface are
+  * weighted by densities of the same variable, so that their weights sum to one.
+  */
+final class Layered(layers: Layers, seed: Long) extends Bsdf:
+  import Layered.*
+  private val top = layers.top
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if !Hemisphere.same(wo, wi) then Rgb.Black
+    else
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
+      var sum = Rgb.Black
+      var walk = 0
+      while walk < layers.walks do
+        sum += connected(o, i, hash(hash(seed + walk, wo), wi))
+        walk += 1
+      val under = sum * (1f / (layers.walks * top.eta * top.eta))
+      if top.isSmooth then under
+      else
+        val m = (o + i).normalized
+        val facets = top.distribution.d(m) * top.distribution.visibility(o, i, m)
+        under + Rgb.gray(Fresnel.dielectric(o dot m, top.eta) * facets)
+
+  /** One walk from `o` that at each event looks for the way out to `i`. */
+  private def connected(o: Vec3, i: Vec3, seed: Long): Rgb =
+    val path = LayerPath(layers, seed)
+    val outer = top.facet(i, path.next(), path.next())
+    val inner = top.refracted(i, outer, top.eta)
+    val entry = top.facet(o, path.next(), path.next())
+    val entered = top.refracted(o, entry, top.eta)
+    if inner.isZero || entered.isZero then Rgb.Black
+    else
+      val exit = -inner
+      val passed = transmitted(i, outer) * top.weight(i, inner, outer)
+      val exitPdf = if top.isSmooth then Float.PositiveInfinity else top.crossingPdf(i, inner)
+      path.start(entered, transmitted(o, entry) * top.weight(o, entered, entry))
+      var sum = Rgb.Black
+      var events = 0
+      while events < layers.maxDepth && !path.isOver do
+        path.roulette(events)
+        if !path.isOver then
+          val met = path.advance()
+          events += 1
+          if met == LayerPath.Top then path.reflectAtTop()
+          else
+            val distance = layers.thickness - path.height
+            var pdf = 0f
+            if met == LayerPath.Base then
+              if !layers.base.isSpecular then
+                val w = heuristic(exitPdf, layers.base.pdf(-path.w, exit))
+                val found = path.throughput * layers.base.f(-path.w, exit)
+                sum += found * (w * passed * layers.attenuation(distance, exit))
+              path.scatterAtBase(path.next(), path.next())
+              pdf = path.basePdf
+            else
+              path.throughput = path.throughput * layers.albedo
+              val turned = layers.phase.value(-path.w, exit)
+              val w = heuristic(exitPdf, turned)
+              val kept = w * turned * passed * layers.attenuation(distance, exit) / exit.z
+              sum += path.throughput * kept
+              if top.isSmooth && layers.base.isSpecular then
+                sum += path.throughput * mirrored(path, exit) * (passed / exit.z)
+              val before = path.w
+              path.scatterInMedium()
+              pdf = layers.phase.value(-before, path.w)
+            if !top.isSmooth && path.w.z > 0f then
+              val crossing = top.crossing(i, -path.w)
+              if crossing > 0f then
+                val w = heuristic(pdf, top.crossingPdf(i, -path.w))
+                sum += path.throughput * (w * crossing * layers.attenuation(distance, path.w))
+      sum
+
+  /** What the medium at `path` sends to `exit` by way of a base that is a mirror, and on between
+    * it and a smooth interface: no walk finds these ways, as only one direction is right.
+    */
+  private def mirrored(path: LayerPath, exit: Vec3): Rgb =
+    val across = layers.attenuation(layers.thickness, exit)
+    val base = layers.base.sample(exit, 0.5f, 0.5f, 0.5f).weight
+    val up = layers.phase.value(-path.w, exit) *
+      layers.attenuation(layers.thickness - path.height, exit)
+    val down = layers.phase.value(-path.w, Hemisphere.flipped(exit)) *
+      layers.attenuation(path.height, exit)
+    val reflected = Fresnel.dielectric(exit.z, 1f / top.eta)
+    val trip = base * (reflected * across * across)
+    val first = base * (down * across) + trip * up
+    // All further trips
+    first / trip.map(c => 1f - Math.min(c, 0.999f))
+
+  private def transmitted(o: Vec3, m: Vec3): Float =
+    1f - Fresnel.dielectric(Math.max(o dot m, 0f), top.eta)
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if !Hemisphere.same(wo, wi) then 0f
+    else
+      val o = Hemisphere.above(wo)
+      val m = (o + Hemisphere.above(wi)).normalized
+      // Never all of it: at grazing angles, facets that turn to the light let it pass
+      val reflected = Math.min(Fresnel.dielectric(o.z, top.eta), 0.95f)
+      val share = layers.share
+      val gloss = if share > 0f then share * MicrofacetReflection.pdf(layers.lobe, o, m) else 0f
+      val under = (1f - reflected) * (gloss + (1f - share) * Hemisphere.cosinePdf(wi))
+      if top.isSmooth then under
+      else under + reflected * MicrofacetReflection.pdf(top.distribution, o, m)
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val o = Hemisphere.above(wo)
+    val m = top.facet(o, u1, u2)
+    val cosM = o dot m
+    if o.z == 0f || cosM <= 0f then BsdfSample.Absorbed
+    else
+      val reflected = Fresnel.dielectric(cosM, top.eta)
+      if choice < reflected then
+        val i = top.reflected(o, m)
+        if i.isZero then BsdfSample.Absorbed
+        else leave(wo, i, Rgb.gray(top.weight(o, i, m)), top.isSmooth, reflected)
+      else
+        val below = top.refracted(o, m, top.eta)
+        if below.isZero then BsdfSample.Absorbed
+        else
+          val numbers = Vec3(choice, u1, u2)
+          val path = LayerPath(layers, hash(hash(seed, wo), numbers))
+          path.start(below, top.weight(o, below, m))
+          walk(wo, path, u1, u2, 1f - reflected)
+
+  private def walk(wo: Vec3, path: LayerPath, u1: Float, u2: Float, chance: Float): BsdfSample =
+    var result = BsdfSample.Absorbed
+    var events = 0
+    while !path.isOver do
+      path.roulette(events)
+      if !path.isOver then
+        val met = path.advance()
+        if met == LayerPath.Top then
+          val wi = path.meetTop()
+          if !wi.isZero then result = leave(wo, wi, path.throughput, path.isSpecular, chance)
+        // A smooth interface has not used the well-spread numbers
+        else if met == LayerPath.Base then
+          if events == 0 && top.isSmooth then path.scatterAtBase(u1, u2)
+          else path.scatterAtBase(path.next(), path.next())
+        else
+          path.throughput = path.throughput * layers.albedo
+          path.scatterInMedium()
+        events += 1
+        if events > layers.maxDepth then path.w = Vec3.Zero
+    result
+
+  /** @param i      above
+    * @param chance with which it was found, if specular
+    */
+  private def leave(
+      wo: Vec3,
+      i: Vec3,
+      weight: Rgb,
+      isSpecular: Boolean,
+      chance: Float
+  ): BsdfSample =
+    val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
+    val density = if isSpecular then chance else pdf(wo, wi)
+    if density > 0f && !weight.isBlack then BsdfSample(wi, weight, density, isSpecular)
+    else BsdfSample.Absorbed
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false
+  override def regularized: Bsdf = Layered(layers.regularized, seed)
+
+private object Layered:
+
+  /** Mixes a direction, or any three numbers, into a seed. */
+  def hash(seed: Long, v: Vec3): Long =
+    val xy = bits(v.x).toLong << 32 | (bits(v.y) & 0xffffffffL)
+    SampleHash.mix64(SampleHash.mix64(seed ^ xy) + bits(v.z))
+
+  private def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
+
+  /** Weight of a direction found with density `a` that could have been found with `b`, or that
+    * nothing else can find (infinite `a`). Source: Veach 1997, §9.2.4, β = 2.
+    */
+  def heuristic(a: Float, b: Float): Float =
+    if a == Float.PositiveInfinity then 1f
+    else if a <= 0f then 0f
+    else
+      val r = b / a
+      1f / (1f + r * r)

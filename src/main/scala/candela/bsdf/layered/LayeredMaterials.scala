@@ -1,0 +1,128 @@
+package candela.bsdf.layered
+
+import candela.bsdf.{Bsdf, Lambert, Material, TabulatedReflectance, WrappedBsdf}
+import candela.bsdf.microfacet.{Conductor, MetalTexture, Mirror, Roughness, TrowbridgeReitz}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
+
+/** What is between the base of a [[Layered]] surface and its interface.
+  *
+  * @param thickness  in mean free paths; held to be ≥ 0
+  * @param albedo     held to [0, 1]
+  * @param asymmetry  of scattering
+  * @param maxDepth   see [[Layers]]
+  * @param walks      see [[Layers]]
+  */
+final class LayerMedium(
+    val thickness: FloatTexture,
+    val albedo: RgbTexture,
+    val asymmetry: FloatTexture,
+    val maxDepth: Int,
+    val walks: Int
+) extends Textured(thickness, albedo, asymmetry):
+
+  /** Over a diffuse base. */
+  private[bsdf] def layers(
+      top: TrowbridgeReitz,
+      eta: Float,
+      base: Bsdf,
+      at: ShadingPoint,
+      gloss: TrowbridgeReitz = LayerMedium.NoGloss,
+      share: Float = 0f
+  ): Layers = Layers(
+    top,
+    eta,
+    base,
+    Math.max(thickness(at), 0f),
+    albedo.albedo(at),
+    asymmetry(at),
+    maxDepth,
+    Math.max(walks, 1),
+    gloss,
+    share
+  )
+
+object LayerMedium:
+  private[bsdf] val NoGloss = TrowbridgeReitz(1f, 1f)
+
+/** The layers of a surface, at each of its points. */
+abstract class LayersTexture extends Varying:
+  def apply(at: ShadingPoint): Layers
+
+/** A diffuse base whose `reflectance` is held to [0, 1]. */
+final class DiffuseLayers(
+    reflectance: RgbTexture,
+    top: Roughness,
+    eta: Float,
+    medium: LayerMedium
+) extends LayersTexture,
+      Textured(reflectance, top, medium):
+  def apply(at: ShadingPoint): Layers =
+    medium.layers(top.trowbridgeReitz(at), eta, Lambert(reflectance.albedo(at)), at)
+
+/** A metal as base.
+  *
+  * @param metal how it reflects from within the coat
+  */
+final class ConductorLayers(
+    metal: MetalTexture,
+    bottom: Roughness,
+    top: Roughness,
+    eta: Float,
+    medium: LayerMedium
+) extends LayersTexture,
+      Textured(metal, bottom, top, medium):
+  private val share = if medium.albedo.constant.exists(_.isBlack) then 0.85f else 0.5f
+
+  def apply(at: ShadingPoint): Layers =
+    val gloss = bottom.trowbridgeReitz(at)
+    val base = Conductor(gloss, metal(at))
+    medium.layers(top.trowbridgeReitz(at), eta, base, at, gloss, share)
+
+/** A surface whose layers are walked: at each point with random numbers of its own, so that it is
+  * never constant.
+  */
+final class LayeredMaterial(layers: LayersTexture) extends Material:
+  private val fixed: Layers | Null = if layers.isConstant then layers(ShadingPoint()) else null
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val here = fixed
+    Layered(if here != null then here else layers(at), Layered.hash(0L, at.p))
+
+  override def isAnisotropic: Boolean = layers.isAnisotropic
+
+/** A smooth metal under a smooth coat, which together are a mirror; regularized, they are walked.
+  *
+  * @param mirror all that goes back and forth between the two, summed
+  * @param walked the same layers
+  */
+final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = SummedLayers(mirror, walked.bsdf(at))
+
+private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBsdf(mirror):
+  override def regularized: Bsdf = walked.regularized
+  override def atWavelength(nm: Float): Bsdf = this
+
+object CoatedConductorMaterial:
+
+  /** A metal under a coat: smooth on smooth if that can be summed, else by walks between the two.
+    *
+    * @param metal    as seen from within the coat
+    * @param mirrored what a smooth metal and a smooth coat reflect together at the cosine, if that
+    *                 is known
+    */
+  def apply(
+      metal: MetalTexture,
+      bottom: Roughness,
+      top: Roughness,
+      eta: Float,
+      medium: LayerMedium,
+      mirrored: Option[Float => Rgb]
+  ): Material =
+    val walked = LayeredMaterial(ConductorLayers(metal, bottom, top, eta, medium))
+    val isSmooth = bottom.isSmooth && (top.isSmooth || (top.isConstant && eta == 1f))
+    mirrored.filter(_ => isSmooth) match
+      case Some(curve) =>
+        SummedConductorMaterial(Mirror(Rgb.White, TabulatedReflectance.of(256)(curve)), walked)
+      case None => walked

@@ -1,0 +1,125 @@
+package candela.bsdf.measured
+
+import candela.bsdf.{Bsdf, BsdfSample, Hemisphere}
+import candela.color.Rgb
+import candela.math.*
+import candela.sampling.WarpTable
+
+/** Measured reflection in a parameterisation that follows the material: a table of facets' normals
+  * tells where to look, and the rest is measured there. Not reciprocal, as no measurement is.
+  *
+  * Tables are over the unit square: x is √(2θ/π) of a direction's angle to the normal, y its
+  * azimuth
+  * (from −π, over 2π). Those with parameters depend on the azimuth and angle of `wo`.
+  *
+  * @param ndf         the density of normals
+  * @param sigma       the area of facets that a direction sees
+  * @param visible     the density of normals that `wo` sees
+  * @param luminance   a density over even points of `visible`, for sampling
+  * @param spectra     what is measured there, in three channels
+  * @param isIsotropic are azimuths those relative to that of `wo`?
+  *
+  * Source: Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
+  * Rendering", SIGGRAPH Asia 2018.
+  */
+final class AdaptiveReflection(
+    ndf: WarpTable,
+    sigma: WarpTable,
+    visible: WarpTable,
+    luminance: WarpTable,
+    spectra: WarpTable,
+    isIsotropic: Boolean
+) extends Bsdf:
+  import AdaptiveReflection.*
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    val o = upper(wo, wo)
+    val i = upper(wo, wi)
+    val across = o + i
+    if !Hemisphere.same(wo, wi) || across.isZero then Rgb.Black
+    else
+      val theta = angle(o)
+      val phi = azimuth(o)
+      val m = across.normalized
+      val mx = side(angle(m))
+      val my = turn(azimuth(m), phi)
+      val place = visible.Blend(phi, theta)
+      place.invert(mx, my)
+      value(i, theta, phi, place.x, place.y, mx, my)
+
+  private def value(
+      i: Vec3,
+      theta: Float,
+      phi: Float,
+      x: Float,
+      y: Float,
+      mx: Float,
+      my: Float
+  ): Rgb =
+    val measured = spectra.Blend(phi, theta)
+    val seen = 4f * i.z * sigma.Blend(0f, 0f)(side(theta), (phi + Pi) * InvTwoPi)
+    if !(seen > 0f) then Rgb.Black
+    else
+      val scale = ndf.Blend(0f, 0f)(mx, my) / seen
+      Rgb(measured(x, y, 0), measured(x, y, 1), measured(x, y, 2))
+        .map(c => Math.max(c * scale, 0f))
+
+  /** The azimuth of a normal, as a coordinate of the tables. */
+  private def turn(normal: Float, wo: Float): Float =
+    val y = ((if isIsotropic then normal - wo else normal) + Pi) * InvTwoPi
+    y - Math.floor(y.toDouble).toFloat
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    val o = upper(wo, wo)
+    val i = upper(wo, wi)
+    val across = o + i
+    if !Hemisphere.same(wo, wi) || across.isZero then 0f
+    else
+      val theta = angle(o)
+      val phi = azimuth(o)
+      val m = across.normalized
+      val mx = side(angle(m))
+      val my = turn(azimuth(m), phi)
+      val place = visible.Blend(phi, theta)
+      place.invert(mx, my)
+      density(o, m, mx, place(mx, my) * luminance.Blend(phi, theta)(place.x, place.y))
+
+  /** From the square to solid angles of directions. */
+  private def density(o: Vec3, m: Vec3, mx: Float, onSquare: Float): Float =
+    val sine = sqrt(m.x * m.x + m.y * m.y)
+    onSquare / (4f * (o dot m) * Math.max(2f * Pi * Pi * mx * sine, 1e-6f))
+
+  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    val o = upper(wo, wo)
+    val theta = angle(o)
+    val phi = azimuth(o)
+    val bright = luminance.Blend(phi, theta)
+    bright.sample(u1, u2)
+    val place = visible.Blend(phi, theta)
+    place.sample(bright.x, bright.y)
+    val polar = 0.5f * Pi * place.x * place.x
+    val around = (2f * place.y - 1f) * Pi + (if isIsotropic then phi else 0f)
+    val m = Vec3(sin(polar) * cos(around), sin(polar) * sin(around), cos(polar))
+    val cosM = o dot m
+    val i = Hemisphere.reflected(o, m, cosM).normalized
+    if o.z == 0f || cosM <= 0f || i.z <= 0f then BsdfSample.Absorbed
+    else
+      val wi = upper(wo, i)
+      val found = pdf(wo, wi)
+      val color = if found > 0f then f(wo, wi) * (i.z / found) else Rgb.Black
+      if color.isBlack || !color.isFinite then BsdfSample.Absorbed
+      else BsdfSample(wi, color, found, isSpecular = false)
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false
+
+object AdaptiveReflection:
+
+  /** What is measured above holds below, turned about by both axes. */
+  private def upper(wo: Vec3, w: Vec3): Vec3 = if wo.z < 0f then -w else w
+
+  /** The angle to the normal, without the loss of digits of an arc cosine. */
+  private def angle(w: Vec3): Float =
+    Math.atan2(Math.sqrt(w.x.toDouble * w.x + w.y.toDouble * w.y), w.z.toDouble).toFloat
+  private def azimuth(w: Vec3): Float = Math.atan2(w.y.toDouble, w.x.toDouble).toFloat
+  private def side(theta: Float): Float = sqrt(theta * (2f / Pi))

@@ -1,0 +1,209 @@
+package candela.bsdf.microfacet
+
+import candela.bsdf.{Bounce, Bsdf, Fresnel, Hemisphere, LeanBsdf, Material, WrappedBsdf}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture, Textured}
+
+/** The rough interface of two transparent media: every facet reflects and refracts.
+  *
+  * What is scattered twice within the roughness is lost. Refraction scales radiance by the square
+  * of the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
+  *
+  * @param eta           index of refraction inside (below the surface) over that outside; not 1
+  * @param reflectance   multiplies the reflected light
+  * @param transmittance multiplies the refracted light
+  *
+  * Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
+  */
+final class RoughDielectric(
+    distribution: MicrofacetDistribution,
+    eta: Float,
+    reflectance: Rgb = Rgb.White,
+    transmittance: Rgb = Rgb.White
+) extends LeanBsdf:
+  import RoughDielectric.{facet, jacobian}
+
+  private val maxReflectance = reflectance.max
+  private val maxTransmittance = transmittance.max
+
+  /** The index on the other side over that on the side of `wo`. */
+  private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / eta else eta
+
+  /** The probability that a facet of this Fresnel term is chosen to reflect; NaN: it is black. */
+  private def reflects(fresnel: Float): Float =
+    val r = fresnel * maxReflectance
+    r / (r + (1f - fresnel) * maxTransmittance)
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if Hemisphere.isLevel(wo, wi) then Rgb.Black
+    else
+      val relative = relativeEta(wo)
+      val o = Hemisphere.above(wo)
+      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val m = facet(o, i, relative)
+      if m.isZero then Rgb.Black
+      else
+        val fresnel = Fresnel.dielectric(o dot m, relative)
+        val density = distribution.d(m) * distribution.visibility(o, i, m)
+        if i.z > 0f then reflectance * (fresnel * density)
+        else
+          val spread = 4f * (o dot m) * jacobian(o, i, m, relative) / (relative * relative)
+          transmittance * ((1f - fresnel) * density * spread)
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if Hemisphere.isLevel(wo, wi) then 0f
+    else
+      val relative = relativeEta(wo)
+      val o = Hemisphere.above(wo)
+      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val m = facet(o, i, relative)
+      if m.isZero then 0f else density(o, i, m, relative)
+
+  private def density(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val p = reflects(Fresnel.dielectric(o dot m, relative))
+    if p.isNaN then 0f
+    else if i.z > 0f then p * MicrofacetReflection.pdf(distribution, o, m)
+    else (1f - p) * distribution.pdf(o, m) * jacobian(o, i, m, relative)
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val relative = relativeEta(wo)
+    val o = Hemisphere.above(wo)
+    val m = distribution.sample(o, u1, u2)
+    val cosM = o dot m
+    if o.z < Hemisphere.Horizon || cosM <= 0f then out.absorb()
+    else
+      val fresnel = Fresnel.dielectric(cosM, relative)
+      val p = reflects(fresnel)
+      if p.isNaN then out.absorb()
+      else if choice < p then
+        val i = Hemisphere.reflected(o, m, cosM)
+        if i.z < Hemisphere.Horizon then out.absorb()
+        else leave(wo, o, i, m, reflectance * (fresnel / p), relative, 1f, out)
+      else
+        val cosT = Fresnel.cosRefracted(cosM, relative)
+        if cosT <= 0f then out.absorb()
+        else
+          val i = Fresnel.refracted(o, m, cosM, cosT, relative)
+          val passed = transmittance * ((1f - fresnel) / ((1f - p) * relative * relative))
+          if i.z > -Hemisphere.Horizon then out.absorb()
+          else leave(wo, o, i, m, passed, relative, relative, out)
+
+  private def leave(
+      wo: Vec3,
+      o: Vec3,
+      i: Vec3,
+      m: Vec3,
+      weight: Rgb,
+      relative: Float,
+      sampleEta: Float,
+      out: Bounce
+  ): Unit =
+    val pdf = density(o, i, m, relative)
+    if pdf > 0f && java.lang.Float.isFinite(pdf) then
+      val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
+      out.set(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
+    else out.absorb()
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = !transmittance.isBlack
+  override def regularized: Bsdf =
+    RoughDielectric(distribution.regularized, eta, reflectance, transmittance)
+
+object RoughDielectric:
+
+  /** The facet that scatters `o` (above) to `i`; zero if none faces both.
+    *
+    * @param relative index beyond the interface over that above it
+    */
+  private[bsdf] def facet(o: Vec3, i: Vec3, relative: Float): Vec3 =
+    val across = if i.z > 0f then o + i else o + i * relative
+    if across.isZero then Vec3.Zero
+    else
+      val unit = across.normalized
+      val m = if unit.z < 0f then -unit else unit
+      if (o dot m) > 0f && (i dot m) * i.z > 0f then m else Vec3.Zero
+
+  /** Solid angle of facet normals for that of refracted directions. */
+  private[bsdf] def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
+    val cosI = i dot m
+    Math.abs(cosI) / square(cosI + (o dot m) / relative)
+
+/** The interface of two transparent media, as rough as `distribution` says. */
+object Dielectric:
+  def apply(
+      distribution: MicrofacetDistribution,
+      eta: Float,
+      reflectance: Rgb = Rgb.White,
+      transmittance: Rgb = Rgb.White
+  ): Bsdf =
+    // With next to no change of index nothing is bent, however rough the interface: by 1e-4 at
+    // most, and Float directions could not tell which facet did it.
+    val isMatched = Math.abs(eta - 1f) < Matched
+    if distribution.isSmooth || isMatched then SmoothDielectric(eta, reflectance, transmittance)
+    else RoughDielectric(distribution, eta, reflectance, transmittance)
+
+  /** Of the index: media that differ by less are as good as the same. */
+  private inline val Matched = 1e-4f
+
+/** Glass, water: reflects and refracts.
+  *
+  * @param kr        multiplies the reflected light
+  * @param kt        multiplies the refracted light
+  * @param eta       index of refraction inside over that outside; 0 is taken for 1
+  * @param roughness where it is not smooth, `compresses` must hold
+  * @param compresses see [[SmoothDielectric]]
+  */
+final class DielectricMaterial(
+    kr: RgbTexture,
+    kt: RgbTexture,
+    eta: FloatTexture,
+    roughness: Roughness,
+    compresses: Boolean = true
+) extends Material,
+      Textured(kr, kt, eta, roughness):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val distribution = roughness(at)
+    val raw = eta(at)
+    val index = if raw == 0f then 1f else raw
+    val reflectance = kr.positive(at)
+    val transmittance = kt.positive(at)
+    if compresses then Dielectric(distribution, index, reflectance, transmittance)
+    else SmoothDielectric(index, reflectance, transmittance, compresses = false)
+
+object DielectricMaterial:
+
+  /** That of PBRT 4. */
+  def apply(eta: Float, roughness: Roughness): DielectricMaterial =
+    new DielectricMaterial(White, White, ConstantFloat(eta), roughness)
+
+  /** That of PBRT 2: always smooth, and refraction doesn't change radiance. */
+  def old(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): DielectricMaterial =
+    new DielectricMaterial(kr, kt, eta, Roughness.Smooth, compresses = false)
+
+  private val White = ConstantRgb(Rgb.White)
+
+/** A surface that scatters each wavelength in a way of its own.
+  *
+  * @param usual  what those see who don't ask for a wavelength
+  * @param single what one wavelength, in nm, does
+  */
+final class Dispersive(usual: Bsdf, single: Float => Bsdf) extends WrappedBsdf(usual):
+  override def isDispersive: Boolean = true
+  override def atWavelength(nm: Float): Bsdf = single(nm)
+  override def regularized: Bsdf = Dispersive(usual.regularized, nm => single(nm).regularized)
+
+/** Glass that splits light into its colours.
+  *
+  * @param eta   index of refraction inside over that outside, by wavelength in nm
+  * @param usual the one index for those who don't ask for a wavelength
+  */
+final class DispersiveMaterial(eta: Float => Float, usual: Float, roughness: Roughness)
+    extends Material,
+      Textured(roughness):
+  override def isDispersive: Boolean = true
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    val distribution = roughness(at)
+    Dispersive(Dielectric(distribution, usual), nm => Dielectric(distribution, eta(nm)))

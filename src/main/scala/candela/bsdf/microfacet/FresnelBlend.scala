@@ -1,0 +1,80 @@
+package candela.bsdf.microfacet
+
+import candela.bsdf.{Bounce, Bsdf, Hemisphere, LeanBsdf, Material}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{RgbTexture, Textured}
+
+/** A diffuse base under a glossy coat, as of varnish: what the coat reflects, the base lacks.
+  *
+  * Reciprocal. Each of the two is sampled half the time.
+  *
+  * @param diffuse  reflectance of the base, in [0, 1]
+  * @param specular reflectance of the coat at normal incidence, in [0, 1]; at grazing ones it is 1
+  *
+  * Source: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools
+  * 5(2), 2000; with Schlick's approximation for the coat.
+  */
+final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDistribution)
+    extends LeanBsdf:
+  private val base = diffuse * (Rgb.White - specular) * (28f / (23f * Pi))
+  private val absent = Rgb.White - specular
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if !Hemisphere.same(wo, wi) then Rgb.Black
+    else
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
+      val m = (o + i).normalized
+      val cosM = o dot m
+      val under = base * (penetration(o.z) * penetration(i.z))
+      if cosM <= 0f then under
+      else
+        val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
+        under + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
+
+  /** Roughly how much of the light at this cosine gets to the base, relative to the normal. */
+  private def penetration(cosine: Float): Float = 1f - fifthPower(1f - 0.5f * cosine)
+
+  private def fifthPower(x: Float): Float = square(x * x) * x
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if !Hemisphere.same(wo, wi) then 0f
+    else
+      val o = Hemisphere.above(wo)
+      val m = (o + Hemisphere.above(wi)).normalized
+      0.5f * (Hemisphere.cosinePdf(wi) + coatPdf(o, m))
+
+  /** Facets are drawn as they are seen from straight above: nothing in [[f]] shadows them, so that
+    * those which one sees from `wo` would rarely be the ones that matter near the horizon, and have
+    * weights of any size then.
+    */
+  private def coatPdf(o: Vec3, m: Vec3): Float =
+    val cosM = o dot m
+    if cosM > 0f then distribution.pdf(Vec3.Z, m) / (4f * cosM) else 0f
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val wi =
+      if choice < 0.5f then Hemisphere.cosineSample(wo, u1, u2) else sampleCoat(wo, u1, u2)
+    val density = pdf(wo, wi)
+    if density > 0f then
+      val weight = f(wo, wi) * (Hemisphere.absCos(wi) / density)
+      out.set(wi, weight, density, isSpecular = false)
+    else out.absorb()
+
+  private def sampleCoat(wo: Vec3, u1: Float, u2: Float): Vec3 =
+    val o = Hemisphere.above(wo)
+    val m = distribution.sample(Vec3.Z, u1, u2)
+    val i = Hemisphere.reflected(o, m, o dot m)
+    if wo.z < 0f then Hemisphere.flipped(i) else i
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false
+  override def regularized: Bsdf = FresnelBlend(diffuse, specular, distribution.regularized)
+
+/** [[FresnelBlend]]; colours are held to be ≥ 0. */
+final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness)
+    extends Material,
+      Textured(kd, ks, roughness):
+  def bsdf(at: ShadingPoint): Bsdf = FresnelBlend(kd.positive(at), ks.positive(at), roughness(at))

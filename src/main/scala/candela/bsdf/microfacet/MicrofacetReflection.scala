@@ -1,0 +1,64 @@
+package candela.bsdf.microfacet
+
+import candela.bsdf.{Bounce, Bsdf, Hemisphere, LeanBsdf, ReflectanceCurve}
+import candela.color.Rgb
+import candela.math.*
+
+/** Reflection by a rough surface of tiny mirrors, the same on both sides but for what `curve` says.
+  *
+  * @param scale multiplies what `curve` says the facets reflect
+  *
+  * Source: Torrance and Sparrow, "Theory for Off-Specular Reflection From Roughened Surfaces", JOSA
+  * 57, 1967; PBRT 4th ed., §9.6.
+  */
+final class MicrofacetReflection(
+    distribution: MicrofacetDistribution,
+    curve: ReflectanceCurve,
+    scale: Rgb = Rgb.White
+) extends LeanBsdf:
+
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if !Hemisphere.same(wo, wi) then Rgb.Black
+    else
+      val o = Hemisphere.above(wo)
+      val i = Hemisphere.above(wi)
+      val m = (o + i).normalized
+      val cosM = o dot m
+      // Both nearly level and opposite: rounding has put the facet's normal beside them, and no
+      // such direction is drawn either
+      if cosM <= 0f then Rgb.Black
+      else
+        val value = distribution.d(m) * distribution.visibility(o, i, m)
+        scale * curve(oriented(cosM, wo)) * value
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if !Hemisphere.same(wo, wi) then 0f
+    else
+      val o = Hemisphere.above(wo)
+      MicrofacetReflection.pdf(distribution, o, (o + Hemisphere.above(wi)).normalized)
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val o = Hemisphere.above(wo)
+    val m = distribution.sample(o, u1, u2)
+    val cosM = o dot m
+    val i = Hemisphere.reflected(o, m, cosM)
+    if o.z < Hemisphere.Horizon || cosM <= 0f || i.z < Hemisphere.Horizon then out.absorb()
+    else
+      val weight = scale * curve(oriented(cosM, wo)) * distribution.sampleWeight(o, i, m)
+      val density = MicrofacetReflection.pdf(distribution, o, m)
+      if density > 0f then
+        out.set(if wo.z < 0f then Hemisphere.flipped(i) else i, weight, density, false)
+      else out.absorb()
+
+  private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM
+
+  def isSpecular: Boolean = false
+  def isTransmissive: Boolean = false
+  override def regularized: Bsdf = MicrofacetReflection(distribution.regularized, curve, scale)
+
+object MicrofacetReflection:
+
+  /** The density of the direction that a facet `m`, drawn for `wo`, reflects it to; `wo.z` ≥ 0. */
+  private[bsdf] def pdf(distribution: MicrofacetDistribution, wo: Vec3, m: Vec3): Float =
+    val cosM = wo dot m
+    if cosM > 0f then distribution.pdf(wo, m) / (4f * cosM) else 0f

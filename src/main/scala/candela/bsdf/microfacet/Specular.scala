@@ -1,0 +1,120 @@
+package candela.bsdf.microfacet
+
+import candela.bsdf.{
+  Bounce, Bsdf, DielectricReflectance, Fresnel, FullReflectance, Hemisphere, Lambert, LeanBsdf,
+  Material, ReflectanceCurve
+}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.{FloatTexture, RgbTexture, Textured}
+
+/** What perfectly specular scattering has in common: only `sample` can find its directions. */
+sealed abstract class Specular extends LeanBsdf:
+  final def f(wo: Vec3, wi: Vec3): Rgb = Rgb.Black
+  final def pdf(wo: Vec3, wi: Vec3): Float = 0f
+  final def isSpecular: Boolean = true
+
+/** A smooth mirror on both sides.
+  *
+  * @param scale multiplies what `curve` says is reflected
+  */
+final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extends Specular:
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val weight = scale * curve(wo.z)
+    if weight.isBlack then out.absorb()
+    else out.set(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
+
+  def isTransmissive: Boolean = false
+  override def regularized: Bsdf =
+    MicrofacetReflection(TrowbridgeReitz.RegularizedMirror, curve, scale)
+
+/** The smooth interface of two transparent media.
+  *
+  * @param eta           index of refraction inside (below the surface) over that outside
+  * @param reflectance   multiplies the reflected light
+  * @param transmittance multiplies the refracted light
+  * @param compresses    does refraction change radiance by the square of the index, as it does in
+  *                      nature because the beam changes its solid angle? PBRT before version 3 left
+  *                      it out
+  */
+final class SmoothDielectric(
+    eta: Float,
+    reflectance: Rgb = Rgb.White,
+    transmittance: Rgb = Rgb.White,
+    compresses: Boolean = true
+) extends Specular:
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val reflected = Fresnel.dielectric(wo.z, eta)
+    val reflects = reflected * reflectance.max
+    val transmits = (1f - reflected) * transmittance.max
+    val total = reflects + transmits
+    if total <= 0f then out.absorb()
+    else if choice * total < reflects then
+      val weight = reflectance * (reflected * total / reflects)
+      out.set(Hemisphere.mirrored(wo), weight, reflects / total, isSpecular = true)
+    else refract(wo, (1f - reflected) * total / transmits, transmits / total, out)
+
+  private def refract(wo: Vec3, weight: Float, probability: Float, out: Bounce): Unit =
+    val relative = if wo.z < 0f then 1f / eta else eta
+    val cosT = Fresnel.cosRefracted(Math.abs(wo.z), relative)
+    // Rounding in Double and Float may put the critical angle one ulp apart.
+    if cosT <= 0f then out.absorb()
+    else
+      // From a cosine near 1 the sine, and what becomes of it, has half the digits
+      val x = -wo.x.toDouble / relative
+      val y = -wo.y.toDouble / relative
+      val sin2 = x * x + y * y
+      val depth = if sin2 < 0.5 then Math.sqrt(1.0 - sin2).toFloat else cosT
+      val wi = Vec3(x.toFloat, y.toFloat, if wo.z < 0f then depth else -depth).normalized
+      val scale = if compresses then weight / (relative * relative) else weight
+      out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
+
+  def isTransmissive: Boolean = !transmittance.isBlack
+
+  /** [[RoughDielectric]] does compress. */
+  override def regularized: Bsdf =
+    if compresses then
+      Dielectric(TrowbridgeReitz.RegularizedMirror, eta, reflectance, transmittance)
+    else this
+
+/** A pane with two parallel smooth sides: all that is reflected back and forth within it is
+  * counted, and what passes keeps its direction.
+  *
+  * @param eta index of refraction of the pane over that outside
+  *
+  * Source: Stokes, "On the intensity of the light reflected from or transmitted through a pile of
+  * plates", Proc. Royal Society 11, 1862; PBRT 4th ed., §9.5.
+  */
+final class ThinDielectric(eta: Float) extends Specular:
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val once = Fresnel.dielectric(Math.abs(wo.z), eta)
+    val reflected = 2f * once / (1f + once) // the geometric series of inner reflections
+    if choice < reflected then
+      out.set(Hemisphere.mirrored(wo), Rgb.White, reflected, isSpecular = true)
+    else out.set(-wo, Rgb.White, 1f - reflected, isSpecular = true)
+
+  def isTransmissive: Boolean = true
+
+/** Lets a part of the light go straight on, as if there were no surface. */
+final class Passthrough(transmittance: Rgb) extends Specular:
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    if transmittance.isBlack then out.absorb()
+    else out.set(-wo, transmittance, 1f, isSpecular = true)
+
+  def isTransmissive: Boolean = true
+
+/** A smooth mirror of the same reflectance at every angle. */
+final class MirrorMaterial(kr: RgbTexture) extends Material, Textured(kr):
+  def bsdf(at: ShadingPoint): Bsdf = Mirror(kr.positive(at))
+
+/** A smooth surface that reflects as an interface of index `eta` does, times `kr`, and lets nothing
+  * through that goes on straight: so where PBRT 2 has something beneath.
+  */
+final class ReflectingInterfaceMaterial(kr: RgbTexture, eta: FloatTexture)
+    extends Material,
+      Textured(kr, eta):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val scale = kr.positive(at)
+    if scale.isBlack then Lambert.Black else Mirror(scale, DielectricReflectance(eta(at)))

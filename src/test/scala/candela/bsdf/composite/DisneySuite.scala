@@ -1,0 +1,106 @@
+package candela.bsdf.composite
+
+import candela.bsdf.{Bsdf, BsdfLaws, Directions}
+import candela.bsdf.microfacet.TrowbridgeReitz
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.textures.{ConstantFloat, ConstantRgb}
+
+class DisneySuite extends BsdfLaws:
+  private def material(
+      color: Rgb = Rgb(0.6f, 0.4f, 0.2f),
+      metallic: Float = 0f,
+      roughness: Float = 0.6f,
+      specularTint: Float = 0f,
+      anisotropic: Float = 0f,
+      sheen: Float = 0f,
+      sheenTint: Float = 0.5f,
+      clearcoat: Float = 0f,
+      clearcoatGloss: Float = 0f,
+      transmission: Float = 0f,
+      isThin: Boolean = false,
+      flatness: Float = 0f,
+      diffTrans: Float = 1f
+  ): Bsdf =
+    def constant(x: Float) = ConstantFloat(x)
+    DisneyMaterial(
+      DisneyParameters(
+        ConstantRgb(color),
+        constant(metallic),
+        constant(1.5f),
+        constant(roughness),
+        constant(specularTint),
+        constant(anisotropic),
+        constant(sheen),
+        constant(sheenTint),
+        constant(clearcoat),
+        constant(clearcoatGloss),
+        constant(transmission),
+        isThin,
+        constant(flatness),
+        constant(diffTrans)
+      )
+    ).bsdf(ShadingPoint())
+
+  // From below, the interface reflects all beyond the critical angle, and the broad part as much as
+  // from above
+  obeysLaws("plain", material(), isPassive = false)
+  obeysLaws("tinted metal", material(metallic = 0.7f, specularTint = 0.5f, anisotropic = 0.6f))
+  obeysLaws("cloth", material(color = Rgb.gray(0.3f), sheen = 0.5f, sheenTint = 1f, roughness = 1f))
+  obeysLaws("clear coat", material(color = Rgb.gray(0.3f), clearcoat = 1f))
+  obeysLaws(
+    "sharp clear coat",
+    material(clearcoat = 1f, clearcoatGloss = 1f),
+    isNarrow = true,
+    isPassive = false
+  )
+  obeysLaws("refracting", material(transmission = 0.7f))
+  // What it refracts is compressed, what it passes as paper does is not
+  obeysLaws(
+    "sheet",
+    material(isThin = true, flatness = 0.5f, diffTrans = 1.2f, transmission = 0.3f),
+    isReciprocal = false
+  )
+  obeysLaws("black", material(color = Rgb.Black))
+
+  private val (wo, wi) = (Directions.at(40, 0), Directions.at(65, 130))
+
+  test("the values of Burley's formulas, written out"):
+    val c = Rgb(0.6f, 0.4f, 0.2f)
+    val d = (wi dot (wo + wi).normalized).toDouble
+    def weight(cosine: Double) = Math.pow(1 - cosine, 5)
+    val (o, i) = (weight(wo.z), weight(wi.z))
+    val retro = 2 * 0.6 * d * d
+    val base = (1 - o / 2) * (1 - i / 2) + retro * (o + i + o * i * (retro - 1))
+    val sheen = 0.8 * weight(d) * 1.0
+    val expected = c.r * base / Math.PI + sheen
+    val broad = DisneyDiffuse(c, Rgb.Black, c, Rgb.gray(0.8f), 0.6f)
+    assert(Math.abs(broad.f(wo, wi).r - expected) < 1e-5 * expected) // rounding
+
+  test("the sheen of full tint has the hue of the colour"):
+    val green = Rgb(0f, 0.4f, 0f)
+    val without = material(color = green).f(wo, wi)
+    val cloth = material(color = green, sheen = 1f, sheenTint = 1f).f(wo, wi)
+    assert(cloth.g > without.g && Math.abs(cloth.r - without.r) < 1e-6f)
+
+  test("facets of separable masking let pass no more than correlated ones"):
+    val separable = SeparableTrowbridgeReitz(0.3f, 0.5f)
+    val correlated = TrowbridgeReitz(0.3f, 0.5f)
+    val m = (wo + wi).normalized
+    val ratio = separable.visibility(wo, wi, m) / correlated.visibility(wo, wi, m)
+    assert(ratio < 1f && ratio > 0.5f)
+
+  test("without a change of index light passes straight on"):
+    def constant(x: Float) = ConstantFloat(x)
+    val zero = constant(0f)
+    val clear = DisneyMaterial(
+      DisneyParameters(
+        ConstantRgb(Rgb.White), zero, constant(1f), constant(0.5f), zero, zero, zero, zero, zero,
+        zero, constant(1f), isThin = false, zero, zero
+      )
+    ).bsdf(ShadingPoint())
+    val drawn = Iterator
+      .tabulate(200)(k => clear.sample(wo, k / 200f, 0.5f, 0.5f))
+      .filter(s => s.pdf > 0f && s.wi.z < 0f)
+      .toVector
+    assert(drawn.nonEmpty && drawn.forall(_.wi == -wo))
