@@ -49,8 +49,9 @@ object Architecture:
 
   /** Lowest first: a package may use those before it. */
   val runtime: Vector[String] = floors(
-    "base math color geometry sampling image textures shapes bsdf lights media cameras accel " +
-      "accel.building accel.tracing scene film integrators bidirectional render"
+    "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
+      "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras accel accel.building " +
+      "accel.tracing scene film integrators bidirectional render"
   )
   val file: Vector[String] = floors("base math scenefile")
 
@@ -62,7 +63,7 @@ object Architecture:
 
   private val measure = Set("base", "math", "color", "image")
   private val report = measure + "measure"
-  private val convert = measure ++ Set("bsdf", "lights", "scenefile")
+  private val convert = measure ++ Set("bsdf.microfacet", "lights", "scenefile")
   private val towers = (runtime ++ file).toSet
 
   /** What each package may use beside itself. */
