@@ -24,6 +24,9 @@ private[bsdf] object Hemisphere:
     */
   inline def flipped(w: Vec3): Vec3 = Vec3(w.x, w.y, -w.z)
 
+  /** `w` in a frame in which `wo` lies above the surface, or back from there. */
+  inline def seenFrom(wo: Vec3, w: Vec3): Vec3 = if wo.z < 0f then flipped(w) else w
+
   /** `w`, or its mirror image, whichever lies above the surface. */
   inline def above(w: Vec3): Vec3 = if w.z < 0f then flipped(w) else w
 

@@ -71,7 +71,7 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
       val o = Hemisphere.above(wo)
       val m = top.sample(o, u1, u2)
       val i = Hemisphere.reflected(o, m, o dot m)
-      weigh(wo, if wo.z < 0f then Hemisphere.flipped(i) else i, out)
+      weigh(wo, Hemisphere.seenFrom(wo, i), out)
 
   private def weigh(wo: Vec3, wi: Vec3, out: Bounce): Unit =
     val density = pdf(wo, wi)

@@ -221,7 +221,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       isSpecular: Boolean,
       chance: Float
   ): BsdfSample =
-    val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
+    val wi = Hemisphere.seenFrom(wo, i)
     val density = if isSpecular then chance else pdf(wo, wi)
     if density > 0f && !weight.isBlack then BsdfSample(wi, weight, density, isSpecular)
     else BsdfSample.Absorbed

@@ -33,61 +33,50 @@ final class AdaptiveReflection(
   import AdaptiveReflection.*
 
   def f(wo: Vec3, wi: Vec3): Rgb =
-    val o = upper(wo, wo)
     val i = upper(wo, wi)
-    val across = o + i
+    val across = upper(wo, wo) + i
     if !Hemisphere.same(wo, wi) || across.isZero then Rgb.Black
     else
-      val theta = angle(o)
-      val phi = azimuth(o)
-      val m = across.normalized
-      val mx = side(angle(m))
-      val my = turn(azimuth(m), phi)
-      val place = visible.Blend(phi, theta)
-      place.invert(mx, my)
-      value(i, theta, phi, place.x, place.y, mx, my)
+      val facet = Facet(upper(wo, wo), across.normalized)
+      val measured = spectra.Blend(facet.phi, facet.theta)
+      val area = sigma.Blend(0f, 0f)(side(facet.theta), (facet.phi + Pi) * InvTwoPi)
+      val seen = 4f * i.z * area
+      if !(seen > 0f) then Rgb.Black
+      else
+        val scale = ndf.Blend(0f, 0f)(facet.x, facet.y) / seen
+        val x = facet.place.x
+        val y = facet.place.y
+        Rgb(measured(x, y, 0), measured(x, y, 1), measured(x, y, 2))
+          .map(c => Math.max(c * scale, 0f))
 
-  private def value(
-      i: Vec3,
-      theta: Float,
-      phi: Float,
-      x: Float,
-      y: Float,
-      mx: Float,
-      my: Float
-  ): Rgb =
-    val measured = spectra.Blend(phi, theta)
-    val seen = 4f * i.z * sigma.Blend(0f, 0f)(side(theta), (phi + Pi) * InvTwoPi)
-    if !(seen > 0f) then Rgb.Black
-    else
-      val scale = ndf.Blend(0f, 0f)(mx, my) / seen
-      Rgb(measured(x, y, 0), measured(x, y, 1), measured(x, y, 2))
-        .map(c => Math.max(c * scale, 0f))
-
-  /** The azimuth of a normal, as a coordinate of the tables. */
-  private def turn(normal: Float, wo: Float): Float =
-    val y = ((if isIsotropic then normal - wo else normal) + Pi) * InvTwoPi
-    y - Math.floor(y.toDouble).toFloat
+  /** Where the tables have a facet.
+    *
+    * @param o upper direction that sees it
+    * @param m its normal
+    */
+  private final class Facet(o: Vec3, m: Vec3):
+    val theta: Float = angle(o)
+    val phi: Float = azimuth(o)
+    val x: Float = side(angle(m))
+    val y: Float =
+      val turn = ((if isIsotropic then azimuth(m) - phi else azimuth(m)) + Pi) * InvTwoPi
+      turn - Math.floor(turn.toDouble).toFloat
+    val place = visible.Blend(phi, theta)
+    place.invert(x, y)
 
   def pdf(wo: Vec3, wi: Vec3): Float =
     val o = upper(wo, wo)
-    val i = upper(wo, wi)
-    val across = o + i
+    val across = o + upper(wo, wi)
     if !Hemisphere.same(wo, wi) || across.isZero then 0f
     else
-      val theta = angle(o)
-      val phi = azimuth(o)
       val m = across.normalized
-      val mx = side(angle(m))
-      val my = turn(azimuth(m), phi)
-      val place = visible.Blend(phi, theta)
-      place.invert(mx, my)
-      density(o, m, mx, place(mx, my) * luminance.Blend(phi, theta)(place.x, place.y))
-
-  /** From the square to solid angles of directions. */
-  private def density(o: Vec3, m: Vec3, mx: Float, onSquare: Float): Float =
-    val sine = sqrt(m.x * m.x + m.y * m.y)
-    onSquare / (4f * (o dot m) * Math.max(2f * Pi * Pi * mx * sine, 1e-6f))
+      val facet = Facet(o, m)
+      val place = facet.place
+      val bright = luminance.Blend(facet.phi, facet.theta)
+      val onSquare = place(facet.x, facet.y) * bright(place.x, place.y)
+      // From the square to solid angles of directions
+      val sine = sqrt(m.x * m.x + m.y * m.y)
+      onSquare / (4f * (o dot m) * Math.max(2f * Pi * Pi * facet.x * sine, 1e-6f))
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val o = upper(wo, wo)

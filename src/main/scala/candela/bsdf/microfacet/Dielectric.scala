@@ -41,7 +41,7 @@ final class RoughDielectric(
     else
       val relative = relativeEta(wo)
       val o = Hemisphere.above(wo)
-      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val i = Hemisphere.seenFrom(wo, wi)
       val m = facet(o, i, relative)
       if m.isZero then Rgb.Black
       else
@@ -57,7 +57,7 @@ final class RoughDielectric(
     else
       val relative = relativeEta(wo)
       val o = Hemisphere.above(wo)
-      val i = if wo.z < 0f then Hemisphere.flipped(wi) else wi
+      val i = Hemisphere.seenFrom(wo, wi)
       val m = facet(o, i, relative)
       if m.isZero then 0f else density(o, i, m, relative)
 
@@ -102,7 +102,7 @@ final class RoughDielectric(
   ): Unit =
     val pdf = density(o, i, m, relative)
     if pdf > 0f && java.lang.Float.isFinite(pdf) then
-      val wi = if wo.z < 0f then Hemisphere.flipped(i) else i
+      val wi = Hemisphere.seenFrom(wo, i)
       out.set(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
     else out.absorb()
 

@@ -67,7 +67,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
     val o = Hemisphere.above(wo)
     val m = distribution.sample(Vec3.Z, u1, u2)
     val i = Hemisphere.reflected(o, m, o dot m)
-    if wo.z < 0f then Hemisphere.flipped(i) else i
+    Hemisphere.seenFrom(wo, i)
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false

@@ -47,7 +47,7 @@ final class MicrofacetReflection(
       val weight = scale * curve(oriented(cosM, wo)) * distribution.sampleWeight(o, i, m)
       val density = MicrofacetReflection.pdf(distribution, o, m)
       if density > 0f then
-        out.set(if wo.z < 0f then Hemisphere.flipped(i) else i, weight, density, false)
+        out.set(Hemisphere.seenFrom(wo, i), weight, density, false)
       else out.absorb()
 
   private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM

@@ -9,9 +9,14 @@ import candela.color.{Rgb, Spectrum}
 import candela.scenefile.Dialect
 
 /** Reflectance that was measured, and is in a file. */
-abstract class MeasuredRecipe(meaning: String, ending: String, dialects: Set[Dialect])
-    extends MaterialRecipe("measured", meaning, dialects):
-  private val filename = string("filename", s"a $ending file", shown = "none")("")
+abstract class MeasuredRecipe(
+    meaning: String,
+    ending: String,
+    dialects: Set[Dialect],
+    name: String = "measured",
+    parameter: String = "filename"
+) extends MaterialRecipe(name, meaning, dialects):
+  private val file = string(parameter, s"a $ending file", shown = "none")("")
 
   /** The reflection, or what is wrong with the file. */
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf]
@@ -20,9 +25,9 @@ abstract class MeasuredRecipe(meaning: String, ending: String, dialects: Set[Dia
   protected def isIsotropic: Boolean
 
   protected def make()(using site: Site): Material =
-    site.declaration.param("filename").filter(_ => filename().nonEmpty) match
+    site.declaration.param(parameter).filter(_ => file().nonEmpty) match
       case None =>
-        site.error("\"measured\" needs a `filename`")
+        site.error(s"\"$name\" needs a `$parameter`")
         Materials.default
       case Some(p) =>
         val basis = site.resources.basis
@@ -36,7 +41,7 @@ abstract class MeasuredRecipe(meaning: String, ending: String, dialects: Set[Dia
             ) match
               case Right(b) => Some(b)
               case Left(why) =>
-                val message = s"`${filename()}`: $why"
+                val message = s"`${file()}`: $why"
                 site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
                 None
           yield ConstantMaterial(bsdf, isAnisotropic = !isIsotropic)
@@ -57,24 +62,13 @@ object MeasuredBsdfRecipe
     AdaptiveFile.read(path, toRgb)
 
 object FourierRecipe
-    extends MaterialRecipe("fourier", "a measured or computed BSDF, as Fourier series", onlyV3):
-  private val bsdffile = string("bsdffile", "a .bsdf file", shown = "none")("")
-
-  protected def make()(using site: Site): Material =
-    site.declaration.param("bsdffile").filter(_ => bsdffile().nonEmpty) match
-      case None =>
-        site.error("\"fourier\" needs a `bsdffile`")
-        Materials.default
-      case Some(p) =>
-        val made =
-          for
-            path <-
-              site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
-            table <- BsdfFile.read(path) match
-              case Right(t) => Some(t)
-              case Left(why) =>
-                val message = s"`${bsdffile()}`: $why"
-                site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
-                None
-          yield ConstantMaterial(FourierBsdf(table))
-        made.getOrElse(StandIns.material(site.resources.basis))
+    extends MeasuredRecipe(
+      "a measured or computed BSDF, as Fourier series",
+      ".bsdf",
+      onlyV3,
+      name = "fourier",
+      parameter = "bsdffile"
+    ):
+  protected def isIsotropic: Boolean = true
+  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+    BsdfFile.read(path).map(FourierBsdf(_))
