@@ -1,7 +1,6 @@
 package candela.build
 
 import candela.base.Suggest
-import candela.bsdf.{InterfaceMaterial, Material}
 import candela.build.integrators.{IntegratorPlan, VolumeIntegrators, VolumeMethod}
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
@@ -13,14 +12,13 @@ import candela.scenefile.*
 
 /** What fills the space between a scene's surfaces, as far as its integrator sees it. */
 private[build] final class MediaBuilder(
-    description: SceneDescription,
-    plan: IntegratorPlan,
-    resources: Resources,
-    problems: Findings
+    context: BuildContext,
+    plan: IntegratorPlan
 ):
+  import context.{description, problems}
+
   private def site(d: Declaration, toWorld: AnimatedTransform): Site =
-    if toWorld.isAnimated then problems.warn(d.at, Motions.stands("a medium"))
-    Site(d, description.dialect, resources, problems, toWorld.start)
+    context.stillSite(d, toWorld, "a medium")
 
   private val made: Vector[(String, Option[Medium])] =
     description.media.map(m => m.name -> Media.all.build(site(m.medium, m.mediumToWorld)).flatten)
@@ -34,30 +32,21 @@ private[build] final class MediaBuilder(
       .toArray
   private val volumeMethod: VolumeMethod =
     description.volumeIntegrator
-      .flatMap(d => VolumeIntegrators.all.build(Site(d, description.dialect, resources, problems)))
+      .flatMap(d => VolumeIntegrators.all.build(context.site(d)))
       .getOrElse(VolumeMethod.Default)
 
-  private var isUsed = false
-
-  /** Index of the medium around the camera. */
-  val camera: Int =
-    val at = description.camera.fold(SceneBuilder.NoPlace)(_.at)
-    seen(index(description.cameraMedium, at))
+  /** Index of the medium around the camera, −1: none. */
+  private val camera: Int =
+    val at = description.camera.fold(BuildContext.NoPlace)(_.at)
+    index(description.cameraMedium, at)
 
   /** The media on both sides of a shape. */
   def border(s: ShapeDescription): MediumBorder =
-    MediumBorder(
-      seen(index(s.insideMedium, s.shape.at)),
-      seen(index(s.outsideMedium, s.shape.at))
-    )
+    MediumBorder(index(s.insideMedium, s.shape.at), index(s.outsideMedium, s.shape.at))
 
-  /** Volumes of pbrt-v2 have no borders: a surface that all light passes is no surface there. */
-  def isNothing(material: Material): Boolean =
-    description.dialect == Dialect.V2 && (material eq InterfaceMaterial)
-
-  private def seen(medium: Int): Int =
-    isUsed ||= medium >= 0
-    if plan.throughMedia.isDefined then medium else -1
+  /** What the integrator sees of that. */
+  def seen(border: MediumBorder): MediumBorder =
+    if plan.throughMedia.isDefined then border else MediumBorder(-1, -1)
 
   private def index(name: String, at: candela.base.SourcePos): Int =
     if name.isEmpty then -1
@@ -71,20 +60,21 @@ private[build] final class MediaBuilder(
         }
       )
 
-  /** @param borders by index of the scene's materials
-    * @param reach   diameter of the scene
+  /** The method that sees them, as far as there are any, and they in words.
+    *
+    * @param reach diameter of the scene
     */
   def method(
       scene: Scene,
       lightSamples: Array[Int],
-      borders: Array[MediumBorder],
-      hasInterfaces: Boolean,
+      materials: MaterialTable,
       reach: Float
   ): (RenderMethod, String) =
-    warnOfBlindness()
+    val isUsed = camera >= 0 || materials.touchesMedia
+    warnOfBlindness(isUsed)
     (plan.throughMedia, plan.throughVolumes) match
-      case (Some(make), _) if isUsed || hasInterfaces =>
-        val all = SceneMedia(media, borders, camera, reach, hasInterfaces)
+      case (Some(make), _) if isUsed || materials.hasInterfaces =>
+        val all = SceneMedia(media, materials.borders, camera, reach, materials.hasInterfaces)
         (RenderMethod.Tiles(make(scene, all)), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)
@@ -93,7 +83,7 @@ private[build] final class MediaBuilder(
         (RenderMethod.Tiles(integrator), s"${volumes.describe}, ${volumeMethod.describe}")
       case _ => (plan.method(scene, lightSamples), "none")
 
-  private def warnOfBlindness(): Unit =
+  private def warnOfBlindness(isUsed: Boolean): Unit =
     val blind =
       (isUsed && plan.throughMedia.isEmpty) || (regions.nonEmpty && plan.throughVolumes.isEmpty)
     if blind then

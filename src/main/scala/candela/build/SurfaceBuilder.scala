@@ -3,24 +3,118 @@ package candela.build
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks}
-import candela.build.shapes.SoupBuilder
+import candela.bsdf.InterfaceMaterial
+import candela.build.lights.{AreaLightPlan, AreaLights, MeshLights}
+import candela.build.recipe.*
+import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes, SoupBuilder}
+import candela.lights.Light
 import candela.scene.{ShapeInstance, Surfaces}
+import candela.scenefile.Dialect
+import candela.shapes.{BumpTangents, Shape, TriangleSoup}
+
+/** A light, and how often v2's and v3's direct lighting samples it. */
+private[build] final case class SampledLight(light: Light, samples: Int)
+
+/** Surfaces, and the lights among them as they number them. */
+private[build] final case class LitSurfaces(surfaces: Surfaces, lights: Vector[SampledLight])
 
 /** Collects the surfaces of the world, or those of an object that instances place in it. */
-final class SurfaceBuilder:
-  val soup: SoupBuilder = SoupBuilder()
+private[build] final class SurfaceBuilder(context: BuildContext, materials: MaterialTable):
+  private val soup = SoupBuilder()
   private val solids = ArrayBuffer.empty[ShapeInstance]
-
   private val meshMasks = ArrayBuffer.empty[Mask]
   private val solidMasks = ArrayBuffer.empty[Mask]
 
-  def add(solid: ShapeInstance, mask: Mask): Unit =
-    solids += solid
-    solidMasks += mask
+  /** In the order of their numbers; what makes them takes all triangles. */
+  private val lights = ArrayBuffer.empty[TriangleSoup => Vector[SampledLight]]
+  private var lightCount = 0
 
-  /** The holes of the mesh that was added to `soup` last. */
-  def maskMesh(mask: Mask): Unit = meshMasks += mask
+  private def addLights(count: Int, samples: Int)(make: TriangleSoup => Vector[Light]): Unit =
+    lights += (soup => make(soup).map(SampledLight(_, samples)))
+    lightCount += count
 
-  def result(tangents: Boolean): Surfaces =
+  def add(dressed: DressedShape): Unit =
+    val here = context.site(dressed.declared)
+    for plan <- Shapes.all.build(here).flatten do
+      val lamp =
+        dressed.shape.areaLight.flatMap(d => AreaLights.all.build(context.site(d)).flatten)
+      if lamp.isDefined || !isNothing(dressed.material) then
+        Placement(dressed, here, plan, lamp).place(plan.geometry)
+
+  /** Volumes of pbrt-v2 have no borders: a surface that all light passes is no surface there. */
+  private def isNothing(material: Int): Boolean =
+    context.isV2 && (materials.materials(material) eq InterfaceMaterial)
+
+  def result(): LitSurfaces =
+    val triangles = soup.result(materials.needsTangents)
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
-    Surfaces(soup.result(tangents), solids.toArray, masks)
+    LitSurfaces(
+      Surfaces(triangles, solids.toArray, masks),
+      lights.iterator.flatMap(_(triangles)).toVector
+    )
+
+  /** A shape where it stands. */
+  private final class Placement(
+      dressed: DressedShape,
+      here: Site,
+      plan: ShapePlan,
+      lamp: Option[AreaLightPlan]
+  ):
+    private val toWorld = dressed.shape.objectToWorld.start
+    private val isReversed = dressed.shape.reverseOrientation
+
+    def place(geometry: ShapeGeometry): Unit = geometry match
+      case mesh: ShapeGeometry.Triangles => addMesh(mesh)
+      case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
+      case ShapeGeometry.Solid(make) => addSolid(make(toWorld, isReversed), lamp, isInverted)
+      case ShapeGeometry.Solids(make, emits) =>
+        if lamp.isDefined && !emits then
+          here.warn(s"a ${dressed.shape.shape.name} can't emit light, as in pbrt: it is no lamp")
+        for shape <- make(toWorld, isReversed) do
+          addSolid(shape, lamp.filter(_ => emits), isInverted = false)
+      case ShapeGeometry.Several(parts) => parts.foreach(place)
+
+    /** pbrt-v3 and v4 turn the normals of mirrored quadrics inwards, v2 those of all disks. */
+    private def isInverted: Boolean =
+      if context.isV2 then dressed.declared.name == "disk" else toWorld.swapsHandedness
+
+    private def addSolid(
+        shape: Shape,
+        lamp: Option[AreaLightPlan],
+        isInverted: Boolean
+    ): Unit =
+      val lit = lamp.filter(_ => hasArea(shape))
+      val light = lit.fold(-1)(_ => lightCount)
+      for lamp <- lit do
+        val made = plan.holes.light(lamp.ofShape(shape, isInverted), shape)
+        addLights(1, lamp.samples)(_ => Vector(made))
+      solids += ShapeInstance(shape, dressed.material, light, isInverted)
+      solidMasks += plan.mask
+
+    private def hasArea(shape: Shape): Boolean =
+      val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
+      if !hasArea then here.warn("this light has no area: it emits nothing")
+      hasArea
+
+    private def addMesh(mesh: ShapeGeometry.Triangles): Unit =
+      val count = mesh.indices.length / 3
+      val most = SurfaceBuilder.MostTriangles
+      if soup.triangleCount.toLong + count > most then
+        here.error(s"more than $most triangles in the world or in one object")
+      else
+        val light = lamp.fold(-1)(_ => lightCount)
+        val flipNormals = !context.isV2
+        val first =
+          soup.add(mesh, toWorld, isReversed, flipNormals, dressed.material, light, bumps)
+        meshMasks += plan.mask
+        for lamp <- lamp do
+          addLights(count, lamp.samples)(MeshLights(lamp, plan.holes, first, count, here).of)
+
+    private def bumps: BumpTangents = context.dialect match
+      case Dialect.V4 => BumpTangents.Along
+      case Dialect.V2 if isReversed != toWorld.swapsHandedness => BumpTangents.TurnedSinking
+      case _ => BumpTangents.Turned
+
+private[build] object SurfaceBuilder:
+  /** 9 Floats a triangle must fit into one array. */
+  val MostTriangles = 200_000_000

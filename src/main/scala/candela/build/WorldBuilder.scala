@@ -1,255 +1,123 @@
 package candela.build
 
-import scala.collection.mutable
-import scala.collection.mutable.ArrayBuffer
-
 import candela.accel.{Accelerator, Instances, Primitives}
-import candela.bsdf.{InterfaceMaterial, Material}
 import candela.build.integrators.{Dispersions, IntegratorPlan}
-import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights, MeshLights}
-import candela.build.materials.{Materials, ShapeMaterials}
-import candela.build.recipe.*
+import candela.build.lights.{LightPlan, Lights}
 import candela.build.settings.{Accelerators, BvhRecipe}
-import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
-import candela.lights.{Light, LightSelection}
-import candela.math.{Motion, Transform}
-import candela.media.MediumBorder
+import candela.lights.LightSelection
 import candela.render.RenderMethod
-import candela.scene.{Footprints, Instanced, Scene, ShapeInstance, Surfaces}
-import candela.scenefile.*
-import candela.shapes.{BumpTangents, Shape}
+import candela.scene.{Footprints, Instanced, Scene, Surfaces}
+import candela.scenefile.{LightDescription, ShapeDescription}
 
 /** The world, ready to render, with what it holds in words. */
-final class World(
+private[build] final class World(
     val scene: Scene,
     val method: RenderMethod,
     val features: Vector[(String, String)],
     val moves: Boolean
 )
 
-/** Makes shapes, materials and lights of a description. */
-final class WorldBuilder(
-    description: SceneDescription,
-    integratorPlan: IntegratorPlan,
-    shutter: Shutter,
-    resources: Resources,
-    problems: Findings
+/** All surfaces of the world and of the objects in it, and how rays find them. */
+private[build] final class Structure(
+    val surfaces: Surfaces,
+    val instanced: Instanced,
+    val accelerator: Accelerator
 ):
-  private val materials = ArrayBuffer.empty[Material]
-  private val borders = ArrayBuffer.empty[MediumBorder]
-  private val materialOf = mutable.HashMap.empty[(MaterialRef, MediumBorder), Int]
-  private val madeOf = mutable.HashMap.empty[MaterialRef, Material]
-  private val world = SurfaceBuilder()
-  private val lights = ArrayBuffer.empty[Light]
-  private val lightSamples = ArrayBuffer.empty[Int]
+  def describeMasks: String =
+    val masks = (surfaces +: instanced.objects.toVector).map(_.masks)
+    val (meshes, shapes) = (masks.map(_.meshes).sum, masks.map(_.shapes).sum)
+    if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
 
-  /** Lights of mesh triangles can be made only when all triangles are known. */
-  private val meshLights = ArrayBuffer.empty[MeshLights]
-
-  private val media = MediaBuilder(description, integratorPlan, resources, problems)
-
-  private def site(d: Declaration, toWorld: Transform = Transform.Identity) =
-    Site(d, description.dialect, resources, problems, toWorld)
+/** Makes the world of a description in stages: materials, surfaces, lights, what finds them, the
+  * scene, and the method that renders it.
+  */
+private[build] final class WorldBuilder(
+    context: BuildContext,
+    integrator: IntegratorPlan,
+    shutter: Shutter
+):
+  import context.{description, problems}
 
   /** @param footprints made if a texture or a material has asked for them */
   def build(footprints: => Footprints): World =
     for t <- description.textures do
-      if t.textureToWorld.isAnimated then problems.warn(t.texture.at, Motions.stands("a texture"))
-      Textures.define(t, site(t.texture, t.textureToWorld.start))
-    for (name, d) <- description.namedMaterials do
-      resources.materials.define(name, () => Materials.build(site(d)))
+      Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
     val uses = ObjectUses(description, problems)
-    for s <- uses.world do add(s, world)
-    val objectBuilders = uses.shared.map: placed =>
-      val builder = SurfaceBuilder()
-      for s <- placed.shapes do add(s, builder)
+    val media = MediaBuilder(context, integrator)
+    val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
+    val materials = MaterialTable.of(context, media, shapes)
+
+    def collected(shapes: Vector[ShapeDescription]) =
+      val builder = SurfaceBuilder(context, materials)
+      for s <- shapes do builder.add(materials.dress(s))
       builder
-    val lightPlans = description.lights.map(plan)
+    val world = collected(uses.world)
+    val objects = uses.shared.map(o => collected(o.shapes))
+    val lightPlans = description.lights.map(l => l -> lightPlan(l))
     problems.stopAtErrors()
-    val tangents = materials.exists(_.isAnisotropic)
-    val surfaces = world.result(tangents)
-    val objects = objectBuilders.map(_.result(tangents))
-    for (light, k) <- meshLights.flatMap(_.of(surfaces.soup)) do lights(k) = light
-    // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
-    val complete = !integratorPlan.samplesBsdf || description.dialect != Dialect.V4
-    for (l, made) <- description.lights.zip(lightPlans) do addLight(l, made, complete)
-    val instanced = instances(objects, uses.shared.map(_.places))
-    val accelerator = accelerate(surfaces, instanced.instances)
-    val sources = lights.toArray
-    val selection = LightSelection.of(sources, integratorPlan.lights, accelerator.bounds)
+
+    val lit = world.result()
+    val lights = lit.lights ++ lightPlans.flatMap(light)
+    val placed = structure(lit.surfaces, objects.map(_.result().surfaces), uses.shared)
+    val all = lights.map(_.light).toArray
+    val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds)
     val scene = Scene(
-      surfaces,
-      instanced,
-      accelerator,
-      materials.toArray,
-      sources,
+      placed.surfaces,
+      placed.instanced,
+      placed.accelerator,
+      materials.materials,
+      all,
       selection,
-      sidesByGeometry = description.dialect != Dialect.V4,
-      Option.when(resources.footprintUses.nonEmpty)(footprints)
+      sidesByGeometry = !context.isV4,
+      Option.when(context.resources.footprintUses.nonEmpty)(footprints)
     )
-    if sources.isEmpty && integratorPlan.isLit && !problems.hasErrors then
-      for c <- description.camera do
-        problems.warn(c.at, "the scene has no light: its image will be black")
-    val (method, inMedia) = media.method(
-      scene,
-      lightSamples.toArray,
-      borders.toArray,
-      hasInterfaces = materials.exists(_ eq InterfaceMaterial),
-      reach = 2f * accelerator.bounds.radius
-    )
+    warnOfDarkness(scene)
+    val reach = 2f * placed.accelerator.bounds.radius
+    val (method, inMedia) =
+      media.method(scene, lights.map(_.samples).toArray, materials, reach)
     World(
       scene,
       method,
       Vector(
-        "accelerator" -> accelerator.describe,
-        "triangles" -> surfaces.soup.count.toString,
-        "other shapes" -> surfaces.solids.length.toString,
-        "instances" -> instanced.describe,
-        "masks" -> masked(surfaces +: objects),
-        "materials" -> s"${materials.length}, ${materials.count(_.isConstant)} of them constant",
-        "subsurface" -> beneath,
+        "accelerator" -> placed.accelerator.describe,
+        "triangles" -> placed.surfaces.soup.count.toString,
+        "other shapes" -> placed.surfaces.solids.length.toString,
+        "instances" -> placed.instanced.describe,
+        "masks" -> placed.describeMasks,
+        "materials" -> materials.describe,
+        "subsurface" -> materials.describeSubsurface(integrator),
         "dispersion" -> Dispersions.describe(scene, method, description, problems),
-        "ray differentials" -> resources.footprintsInWords,
+        "ray differentials" -> context.resources.footprintsInWords,
         "media" -> inMedia,
-        "lights" -> (if sources.isEmpty then "none" else selection.describe)
+        "lights" -> (if all.isEmpty then "none" else selection.describe)
       ),
-      instanced.instances.moving > 0
+      placed.instanced.instances.moving > 0
     )
 
-  private def masked(surfaces: Vector[Surfaces]): String =
-    val (meshes, shapes) = (surfaces.map(_.masks.meshes).sum, surfaces.map(_.masks.shapes).sum)
-    if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
+  private def lightPlan(l: LightDescription): Option[LightPlan] =
+    Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))
 
-  private def beneath: String =
-    val count = materials.count(_.isSubsurface)
-    if count == 0 then "none"
-    else if integratorPlan.goesBeneath then s"light travels beneath $count materials"
-    else s"$count materials show their surface alone: so this integrator does in pbrt, too"
-
-  private def instances(objects: Vector[Surfaces], places: Vector[Vector[Motion]]): Instanced =
-    val accelerators = objects.map(accelerate(_, Instances.Empty))
-    val all = places.zipWithIndex.flatMap((transforms, o) => transforms.map(t => (o, t)))
-    val placed = Instances.of(accelerators.toArray, all, shutter.open, shutter.close)
-    Instanced(objects.toArray, placed)
-
-  private def accelerate(surfaces: Surfaces, instances: Instances): Accelerator =
-    structure(surfaces.primitives(instances))
-
-  private lazy val structure: Primitives => Accelerator =
-    val asked = description.accelerator.flatMap(d => Accelerators.all.build(site(d)))
-    asked.getOrElse(BvhRecipe.accelerator(resources))
-
-  private def add(s: ShapeDescription, to: SurfaceBuilder): Unit =
-    val toWorld = s.objectToWorld.start
-    val (declared, itsMaterial) = shapeMaterials.split(s.shape, s.material)
-    val here = site(declared)
-    for plan <- Shapes.all.build(here).flatten do
-      val material = materialIndex(itsMaterial, media.border(s))
-      val light = s.areaLight.flatMap(d => AreaLights.all.build(site(d)).flatten)
-
-      def place(g: ShapeGeometry): Unit = g match
-        case mesh: ShapeGeometry.Triangles =>
-          addMesh(s, plan, mesh, toWorld, material, light, here, to)
-        case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
-        case ShapeGeometry.Solid(make) =>
-          // pbrt-v3 and v4 turn the normals of mirrored quadrics inwards, v2 those of all disks
-          val inverted =
-            if description.dialect == Dialect.V2 then declared.name == "disk"
-            else toWorld.swapsHandedness
-          val shape = make(toWorld, s.reverseOrientation)
-          addSolids(Vector(shape), plan, material, light, inverted, here, to)
-        case ShapeGeometry.Solids(make, emits) =>
-          if light.isDefined && !emits then
-            here.warn(s"a ${s.shape.name} can't emit light, as in pbrt: it is no lamp")
-          val shapes = make(toWorld, s.reverseOrientation)
-          addSolids(shapes, plan, material, light.filter(_ => emits), false, here, to)
-        case ShapeGeometry.Several(parts) => parts.foreach(place)
-
-      if light.isDefined || !media.isNothing(materials(material)) then place(plan.geometry)
-
-  private def addSolids(
-      shapes: Vector[Shape],
-      plan: ShapePlan,
-      material: Int,
-      light: Option[AreaLightPlan],
-      inverted: Boolean,
-      here: Site,
-      to: SurfaceBuilder
-  ): Unit =
-    for shape <- shapes do
-      val index = light.filter(_ => hasArea(shape, here)).fold(-1): lamp =>
-        lights += plan.holes.light(lamp.ofShape(shape, inverted), shape)
-        lightSamples += lamp.samples
-        lights.length - 1
-      to.add(ShapeInstance(shape, material, index, inverted), plan.mask)
-
-  private def hasArea(shape: Shape, here: Site): Boolean =
-    val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
-    if !hasArea then here.warn("this light has no area: it emits nothing")
-    hasArea
-
-  private def addMesh(
-      s: ShapeDescription,
-      plan: ShapePlan,
-      mesh: ShapeGeometry.Triangles,
-      toWorld: Transform,
-      material: Int,
-      light: Option[AreaLightPlan],
-      here: Site,
-      to: SurfaceBuilder
-  ): Unit =
-    val count = mesh.indices.length / 3
-    if to.soup.triangleCount.toLong + count > WorldBuilder.MostTriangles then
-      here.error(s"more than ${WorldBuilder.MostTriangles} triangles in the world or in one object")
-    else
-      val firstLight = light.fold(-1)(_ => lights.length)
-      val flipNormals = description.dialect != Dialect.V2
-      val bumps = description.dialect match
-        case Dialect.V4 => BumpTangents.Along
-        case Dialect.V2 if s.reverseOrientation != toWorld.swapsHandedness =>
-          BumpTangents.TurnedSinking
-        case _ => BumpTangents.Turned
-      val reversed = s.reverseOrientation
-      val first = to.soup.add(mesh, toWorld, reversed, flipNormals, material, firstLight, bumps)
-      to.maskMesh(plan.mask)
-      for lamp <- light do
-        meshLights += MeshLights(lamp, plan.holes, first, count, firstLight, here)
-        for _ <- 0 until count do
-          lights += null // made as soon as all triangles are known
-          lightSamples += lamp.samples
-
-  private def plan(l: LightDescription): Option[LightPlan] =
-    if l.lightToWorld.isAnimated then problems.warn(l.light.at, Motions.stands("a light"))
-    Lights.all.build(site(l.light))
-
-  private def addLight(l: LightDescription, made: Option[LightPlan], complete: Boolean): Unit =
+  private def light(l: LightDescription, plan: Option[LightPlan]): Option[SampledLight] =
+    // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
+    val complete = !integrator.samplesBsdf || !context.isV4
     for
-      plan <- made if !l.lightToWorld.start.isFlat
+      plan <- plan if !l.lightToWorld.start.isFlat
       light <- plan.make(l.lightToWorld.start, complete)
-    do
-      lights += light
-      lightSamples += plan.samples
+    yield SampledLight(light, plan.samples)
 
-  /** Index of the material, with its own for each border of media. */
-  private def materialIndex(ref: MaterialRef, border: MediumBorder): Int =
-    materialOf.getOrElseUpdate(
-      (ref, border), {
-        materials += madeOf.getOrElseUpdate(ref, material(ref))
-        borders += border
-        materials.length - 1
-      }
-    )
+  private def structure(world: Surfaces, objects: Vector[Surfaces], uses: Vector[PlacedObject]) =
+    val asked =
+      description.accelerator.flatMap(d => Accelerators.all.build(context.site(d)))
+    val accelerate: Primitives => Accelerator =
+      asked.getOrElse(BvhRecipe.accelerator(context.resources))
+    val places = uses.zipWithIndex.flatMap((use, o) => use.places.map(o -> _))
+    val accelerators = objects.map(o => accelerate(o.primitives()))
+    val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)
+    Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))
 
-  private def material(ref: MaterialRef): Material = ref match
-    case MaterialRef.Default => Materials.default
-    case MaterialRef.Inline(d) => Materials.build(site(d))
-    case MaterialRef.Named(name, at) => resources.materials(name, at, resources, problems)
-
-  private lazy val named: Map[String, Declaration] = description.namedMaterials.toMap
-  private lazy val shapeMaterials = ShapeMaterials(description.dialect, named)
-
-object WorldBuilder:
-  /** 9 Floats a triangle must fit into one array. */
-  private[build] val MostTriangles = 200_000_000
+  private def warnOfDarkness(scene: Scene): Unit =
+    if scene.lights.isEmpty && integrator.isLit && !problems.hasErrors then
+      for c <- description.camera do
+        problems.warn(c.at, "the scene has no light: its image will be black")

@@ -98,23 +98,20 @@ private object DiffuseLightRecipe:
   def luminance(picture: Picture, basis: ColorBasis): Float =
     picture.mean((c, _, _) => basis.toSrgb(c).luminance)
 
-/** The lights of an emitting mesh, to be.
+/** The lights of an emitting mesh, to be made as soon as all triangles are known.
   *
   * @param first of its triangles
-  * @param light number of the first triangle's light
   */
 private[build] final case class MeshLights(
     plan: AreaLightPlan,
     holes: EmitterHoles,
     first: Int,
     count: Int,
-    light: Int,
     site: Site
 ):
-  /** The lights with their numbers. */
-  def of(triangles: TriangleSoup): Seq[(Light, Int)] =
+  def of(triangles: TriangleSoup): Vector[Light] =
     val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
     val flat = samplers.count(s => !(s.area > 0f))
     if flat > 0 then
       site.warn(s"$flat of $count triangles of this light have no area: they emit nothing")
-    samplers.zipWithIndex.map((s, k) => (holes.light(plan.ofTriangle(s), s), light + k))
+    samplers.map(s => holes.light(plan.ofTriangle(s), s))

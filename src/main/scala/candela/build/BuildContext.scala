@@ -1,0 +1,67 @@
+package candela.build
+
+import java.nio.file.Path
+
+import candela.base.SourcePos
+import candela.build.recipe.*
+import candela.color.ColorBasis
+import candela.math.Transform
+import candela.scenefile.{AnimatedTransform, Declaration, Dialect, SceneDescription}
+
+/** What every stage of building needs: the description, what its statements refer to by name, and
+  * the problems found so far.
+  */
+private[build] final class BuildContext(
+    val description: SceneDescription,
+    val resources: Resources,
+    val problems: Findings
+):
+  def dialect: Dialect = description.dialect
+  def isV2: Boolean = dialect == Dialect.V2
+  def isV4: Boolean = dialect == Dialect.V4
+  def defaults: Defaults = Defaults(dialect)
+
+  def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
+    Site(d, dialect, resources, problems, toWorld)
+
+  /** A site for what can't move: it stands still as at the start.
+    *
+    * @param what in the warning
+    */
+  def stillSite(d: Declaration, toWorld: AnimatedTransform, what: String): Site =
+    if toWorld.isAnimated then problems.warn(d.at, Motions.stands(what))
+    site(d, toWorld.start)
+
+  /** What the statement says, or what `default` says if there is none or it can't be made. */
+  def made[A](statement: Option[Declaration], recipes: Recipes[A], default: String): A =
+    statement
+      .flatMap(d => recipes.build(site(d)))
+      .getOrElse(recipes.build(site(unwritten(recipes.category, default))).get)
+
+  /** A statement that is not in the file. */
+  def unwritten(category: String, name: String): Declaration =
+    Declaration(category, name, Vector.empty, BuildContext.NoPlace, BuildContext.NoFolder)
+
+private[build] object BuildContext:
+  val NoPlace: SourcePos = SourcePos("", 0, 0)
+  private val NoFolder = Path.of("")
+
+  def apply(description: SceneDescription, options: BuildOptions): BuildContext =
+    // pbrt-v4 multiplies spectra, the older ones sRGB components
+    val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
+    val problems = Findings(options.keepGoing, description.lost, description.errors)
+    new BuildContext(description, Resources(basis, options.crew, options.seed), problems)
+
+/** What each dialect does where the scene says nothing. */
+private[build] final case class Defaults(
+    film: String,
+    filter: String,
+    sampler: String,
+    integrator: String
+)
+
+private[build] object Defaults:
+  def apply(dialect: Dialect): Defaults = dialect match
+    case Dialect.V2 => Defaults("image", "box", "lowdiscrepancy", "directlighting")
+    case Dialect.V3 => Defaults("image", "box", "halton", "path")
+    case Dialect.V4 => Defaults("rgb", "gaussian", "zsobol", "volpath")

@@ -1,0 +1,78 @@
+package candela.build
+
+import scala.collection.mutable
+
+import candela.bsdf.{InterfaceMaterial, Material}
+import candela.build.integrators.IntegratorPlan
+import candela.build.materials.{Materials, ShapeMaterials}
+import candela.media.MediumBorder
+import candela.scenefile.{Declaration, MaterialRef, ShapeDescription}
+
+/** A shape and the number of its material.
+  *
+  * @param declared its statement, without parameters that are its material's
+  */
+private[build] final case class DressedShape(
+    shape: ShapeDescription,
+    declared: Declaration,
+    material: Int
+)
+
+/** The materials of all shapes, by number. A material has one for each pair of media that it
+  * separates.
+  *
+  * @param borders      of media, as the integrator sees them
+  * @param touchesMedia does any surface border on a medium, seen or not?
+  */
+private[build] final class MaterialTable private (
+    val materials: Array[Material],
+    val borders: Array[MediumBorder],
+    val touchesMedia: Boolean,
+    dressed: ShapeDescription => DressedShape
+):
+  def dress(shape: ShapeDescription): DressedShape = dressed(shape)
+
+  def needsTangents: Boolean = materials.exists(_.isAnisotropic)
+  def hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
+
+  def describe: String =
+    s"${materials.length}, ${materials.count(_.isConstant)} of them constant"
+
+  def describeSubsurface(integrator: IntegratorPlan): String =
+    val count = materials.count(_.isSubsurface)
+    if count == 0 then "none"
+    else if integrator.goesBeneath then s"light travels beneath $count materials"
+    else s"$count materials show their surface alone: so this integrator does in pbrt, too"
+
+private[build] object MaterialTable:
+
+  /** @param shapes all that may be rendered */
+  def of(
+      context: BuildContext,
+      media: MediaBuilder,
+      shapes: Vector[ShapeDescription]
+  ): MaterialTable =
+    val named = context.description.namedMaterials
+    for (name, d) <- named do
+      context.resources.materials.define(name, () => Materials.build(context.site(d)))
+    val shapeMaterials = ShapeMaterials(context.dialect, named.toMap)
+    def split(s: ShapeDescription) = shapeMaterials.split(s.shape, s.material)
+
+    val borders = shapes.map(media.border)
+    val worn = shapes.zip(borders).map((s, b) => (split(s)._2, media.seen(b))).distinct
+    val number = worn.zipWithIndex.toMap
+    val made = mutable.HashMap.empty[MaterialRef, Material]
+    new MaterialTable(
+      worn.map((ref, _) => made.getOrElseUpdate(ref, material(context, ref))).toArray,
+      worn.map(_._2).toArray,
+      borders.exists(b => b.inside >= 0 || b.outside >= 0),
+      s =>
+        val (declared, ref) = split(s)
+        DressedShape(s, declared, number((ref, media.seen(media.border(s)))))
+    )
+
+  private def material(context: BuildContext, ref: MaterialRef): Material = ref match
+    case MaterialRef.Default => Materials.default
+    case MaterialRef.Inline(d) => Materials.build(context.site(d))
+    case MaterialRef.Named(name, at) =>
+      context.resources.materials(name, at, context.resources, context.problems)

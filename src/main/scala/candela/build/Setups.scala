@@ -1,0 +1,141 @@
+package candela.build
+
+import candela.base.{Problem, SceneError, Severity}
+import candela.build.cameras.Cameras
+import candela.build.film.{FilmSettings, Films, Filters}
+import candela.build.integrators.IntegratorPlan
+import candela.build.sampling.{SamplerRequest, Samplers}
+import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
+import candela.film.{Filter, Layer, PixelBounds}
+import candela.math.*
+import candela.sampling.Sampler
+
+/** The image to render.
+  *
+  * @param width  of the full image, in pixels: that of the film, or less of a quick one
+  * @param layers what it is to hold beside its colours
+  */
+private[build] final case class ImageSetup(
+    film: FilmSettings,
+    width: Int,
+    height: Int,
+    filter: Filter,
+    layers: Vector[Layer]
+):
+  def frame: FilmFrame = FilmFrame(width, height, film.diagonal)
+
+  /** The pixels to render.
+    *
+    * @param window of the full image, if the integrator has one
+    */
+  def crop(window: Option[PixelBounds], options: BuildOptions): PixelBounds =
+    val (x0, x1, y0, y1) = options.cropWindow.getOrElse:
+      val c = film.crop
+      if film.inPixels then
+        (c(0) / film.width, c(1) / film.width, c(2) / film.height, c(3) / film.height)
+      else (c(0), c(1), c(2), c(3))
+    def edge(part: Float, size: Int) =
+      candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
+    val onFilm = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    val bounds = window.filter(_ => options.cropWindow.isEmpty).fold(onFilm): w =>
+      // An image may be made smaller than the film
+      def x(at: Int) = Math.ceil(at.toDouble * width / film.width).toInt
+      def y(at: Int) = Math.ceil(at.toDouble * height / film.height).toInt
+      PixelBounds(
+        Math.max(onFilm.x0, x(w.x0)),
+        Math.max(onFilm.y0, y(w.y0)),
+        Math.min(onFilm.x1, x(w.x1)),
+        Math.min(onFilm.y1, y(w.y1))
+      )
+    if bounds.width < 1 || bounds.height < 1 then
+      throw SceneError(
+        Problem(
+          Severity.Error,
+          None,
+          s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, holds no pixel of $width×$height"
+        )
+      )
+    bounds
+
+private[build] object ImageSetup:
+  def of(context: BuildContext, options: BuildOptions): ImageSetup =
+    val film = context.made(context.description.film, Films.all, context.defaults.film)
+    val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
+    val layers = (film.layers ++ options.layers).distinct
+    val part = if options.quick then 4 else 1
+    ImageSetup(
+      film,
+      Math.max(1, film.width / part),
+      Math.max(1, film.height / part),
+      filter,
+      layers
+    )
+
+/** Where samples are taken.
+  *
+  * @param samples   of each pixel, if someone else than the sampler says how many
+  * @param footprint of a sample, in pixels
+  */
+private[build] final case class SamplingSetup(
+    sampler: Sampler,
+    samples: Option[Int],
+    footprint: Float
+)
+
+private[build] object SamplingSetup:
+  /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
+  private val SharpestV4 = 0.125f
+
+  def of(
+      context: BuildContext,
+      options: BuildOptions,
+      sceneSeed: Int,
+      image: ImageSetup,
+      integrator: IntegratorPlan
+  ): SamplingSetup =
+    val samples =
+      options.spp.orElse(Option.when(options.quick)(1)).orElse(integrator.samples)
+    val request = SamplerRequest(samples, options.seed ^ sceneSeed, image.width, image.height)
+    val default = context.defaults.sampler
+    val sampler = context.made(context.description.sampler, Samplers.all, default)(request)
+    val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
+    SamplingSetup(
+      sampler,
+      samples,
+      if context.isV4 then Math.max(SharpestV4, density) else density
+    )
+
+/** The camera in its place.
+  *
+  * @param motion  if it moves
+  * @param toWorld where it stands at the start
+  */
+private[build] final case class CameraSetup(
+    camera: Camera,
+    shutter: Shutter,
+    motion: Option[Motion],
+    toWorld: Transform
+):
+  /** From the world to the camera, at any time. */
+  def fromWorld: Motion = motion.fold(Still(toWorld.inverse))(InverseMotion(_))
+
+  /** @param size of a sample's footprint, in pixels */
+  def cone(image: ImageSetup, size: Float): PixelCone =
+    PixelCone.of(camera, toWorld.point(Vec3.Zero), image.width, image.height, size)
+
+private[build] object CameraSetup:
+  def of(context: BuildContext, image: ImageSetup): CameraSetup =
+    val description = context.description
+    val fromWorld = description.worldToCamera
+    for c <- description.camera do
+      if fromWorld.start.isFlat then
+        context.problems.error(c.at, "the camera's transform is singular")
+      else if fromWorld.isAnimated && !Motions.moves(fromWorld) then
+        context.problems.warn(c.at, Motions.stands("this camera"))
+    val plan = context.made(description.camera, Cameras.all, "perspective")
+    val toWorld = fromWorld.start.inverse
+    val motion = Motions(description).camera
+    val camera = motion match
+      case Some(moving) => MovingCamera(plan.make(Transform.Identity, image.frame), moving)
+      case None => plan.make(toWorld, image.frame)
+    CameraSetup(camera, plan.shutter, motion, toWorld)
