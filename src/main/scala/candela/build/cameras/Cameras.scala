@@ -37,38 +37,6 @@ abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect
       Shutter(to, from)
     else Shutter(from, to)
 
-/** What cameras have that look at a film through one lens. */
-abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
-    extends CameraRecipe(name, meaning, dialects):
-  private val aspect = float("frameaspectratio", "width over height", shown = "the image's")(0f)
-  private val window =
-    numbers(
-      "screenwindow",
-      "float[4]",
-      "left right bottom top of the film",
-      shown = "by the aspect"
-    )
-  private val lens =
-    float("lensradius", "of the aperture; 0: a pinhole", unit = "scene units")(0f)
-  private val focus =
-    float("focaldistance", "to the plane in focus", unit = "scene units")(
-      if v2 then 1e30f else 1e6f
-    )
-  noMeaning("pbrt-v1 had it; nothing is cut off")(
-    float("hither", "nearest distance that is seen", onlyV2, "scene units")(1e-3f),
-    float("yon", "farthest distance that is seen", onlyV2, "scene units")(1e30f)
-  )
-
-  protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
-    val FilmFrame(width, height, _) = frame
-    val ratio = if aspect() > 0f then aspect() else width.toFloat / height
-    val screen = window() match
-      case Array(l, r, b, t) => (l, r, b, t)
-      case other =>
-        if other.nonEmpty then site.error("`screenwindow` takes left right bottom top")
-        ScreenWindow.of(ratio)
-    ProjectiveSetup(toWorld, width, height, screen, lens(), focus())
-
 private[build] object ScreenWindow:
 
   /** Its shorter side goes from -1 to 1. */
