@@ -7,8 +7,8 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** A vertex of a path on a surface. Directions point away from it, in world space unless a name says
-  * local; `wo` is where the path came from. Mutable, one per path that is being traced.
+/** A vertex of a path on a surface. Directions point away from it, in world space unless a name
+  * says local; `wo` is where the path came from. Mutable, one per path that is being traced.
   *
   * Order of use: [[hit]], then [[evaluate]] (or [[scatterBy]]), then the rest.
   */
@@ -82,8 +82,8 @@ class SurfaceVertex(scene: Scene):
     !scene.sidesByGeometry || bsdf.isTransmissive ||
       ((wi dot at.geometricNormal) > 0f) == ((wo dot at.geometricNormal) > 0f)
 
-  /** The local direction `w`, mirrored to the side of `other` where the geometric normal has decided
-    * that this is a reflection.
+  /** The local direction `w`, mirrored to the side of `other` where the geometric normal has
+    * decided that this is a reflection.
     */
   private def onSide(w: Vec3, other: Vec3): Vec3 =
     if !scene.sidesByGeometry || bsdf.isTransmissive || (w.z > 0f) == (other.z > 0f) then w
@@ -95,7 +95,7 @@ class SurfaceVertex(scene: Scene):
     sampler.next2D()
     scattering.draw(localWo, choice, sampler.x, sampler.y, bounce)
 
-  /** How light travels beneath the surface, if `bounce` was refracted into it; null: straight on. */
+  /** How light travels beneath the surface, if `bounce` was refracted into it; null: straight. */
   final def beneath: Bssrdf | Null =
     if ownLocalWo.z * bounce.wi.z < 0f then scene.bssrdf(at) else null
 
