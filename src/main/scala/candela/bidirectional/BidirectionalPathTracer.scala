@@ -131,8 +131,8 @@ final class BidirectionalPathTracer(
             if edges == 1 then 1f
             else
               val w = ray.direction
-              val p = lastP.toVec3
-              val sampled = scene.selection.probability(p, lastN.toVec3, i) * source.pdf(p, w)
+              val p = lastP
+              val sampled = scene.selection.probability(p, lastN, i) * source.pdf(p, w)
               val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
               metWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
         )
@@ -175,8 +175,8 @@ final class BidirectionalPathTracer(
     else
       val index = at.areaLight
       val perArea = vertex.cosine(wo) / (distance * distance)
-      val p = lastP.toVec3
-      val chosen = scene.selection.probability(p, lastN.toVec3, index)
+      val p = lastP
+      val chosen = scene.selection.probability(p, lastN, index)
       val sampled = chosen.toDouble * source.pdf(p, at) * perArea
       val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
       radiance * metWeight(sampled, lightPaths.chance(index).toDouble * emitted)

@@ -62,9 +62,10 @@ private[bidirectional] final class PhotonMapper(
   private def addOneLight(sampler: Sampler): Unit =
     if walk.sampleOneLight(sampler) then
       val light = walk.light
-      val pdf = walk.vertex.pdf(light.wi)
       walk.addLight(weight =
-        if pdf > Sharp then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
+        wi =>
+          val pdf = walk.vertex.localPdf(wi)
+          if pdf > Sharp then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
       )
 
 object PhotonMapper:

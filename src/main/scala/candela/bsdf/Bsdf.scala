@@ -93,7 +93,7 @@ final class Bounce:
   private var ownIsSpecular = false
   private var ownEta = 1f
 
-  def wi: Vec3 = ownWi.toVec3
+  def wi: MutableVec3 = ownWi
 
   /** f·|cos θi|/pdf; black: the path ends here. */
   def weight: Rgb = ownWeight.toRgb
@@ -117,7 +117,7 @@ final class Bounce:
 
   def take(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
 
-  def toSample: BsdfSample = BsdfSample(wi, weight, pdf, isSpecular, eta)
+  def toSample: BsdfSample = BsdfSample(wi.toVec3, weight, pdf, isSpecular, eta)
 
 /** A BSDF that draws its directions without garbage: what most surfaces are made of. */
 abstract class LeanBsdf extends Bsdf:

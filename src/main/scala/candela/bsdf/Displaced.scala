@@ -22,7 +22,7 @@ abstract class DisplacedMaterial(inner: Material) extends Material:
 final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
-    val p = at.p
+    val p = at.p.toVec3
     val u = at.u
     val v = at.v
     val here = height(at)

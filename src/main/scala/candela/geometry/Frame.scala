@@ -44,19 +44,25 @@ final class MutableFrame:
   private val ownT = MutableVec3(0f, 1f, 0f)
   private val ownN = MutableVec3(0f, 0f, 1f)
 
-  def s: Vec3 = ownS.toVec3
-  def t: Vec3 = ownT.toVec3
-  def n: Vec3 = ownN.toVec3
+  def s: MutableVec3 = ownS
+  def t: MutableVec3 = ownT
+  def n: MutableVec3 = ownN
 
   /** The present value. */
-  def toFrame: Frame = Frame(s, t, n)
+  def toFrame: Frame = Frame(ownS.toVec3, ownT.toVec3, ownN.toVec3)
 
   def set(f: Frame): Unit =
     ownS.set(f.s)
     ownT.set(f.t)
     ownN.set(f.n)
 
-  def toLocal(v: Vec3): Vec3 = Vec3(ownS dot v, ownT dot v, ownN dot v)
+  /** Becomes [[Frame.around]] its present normal. */
+  def alignToNormal(): Unit =
+    val around = Frame.around(ownN)
+    ownS.set(around.s)
+    ownT.set(around.t)
+
+  def toLocal(v: Vec3): Vec3 = Vec3(v dot ownS, v dot ownT, v dot ownN)
   def toWorld(v: Vec3): Vec3 = Vec3(
     ownS.x * v.x + ownT.x * v.y + ownN.x * v.z,
     ownS.y * v.x + ownT.y * v.y + ownN.y * v.z,

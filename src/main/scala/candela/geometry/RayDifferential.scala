@@ -13,13 +13,13 @@ final class RayDifferential:
 
   private val ownXOrigin, ownXDirection, ownYOrigin, ownYDirection = MutableVec3()
 
-  def xOrigin: Vec3 = ownXOrigin.toVec3
+  def xOrigin: MutableVec3 = ownXOrigin
   def xOrigin_=(v: Vec3): Unit = ownXOrigin.set(v)
-  def xDirection: Vec3 = ownXDirection.toVec3
+  def xDirection: MutableVec3 = ownXDirection
   def xDirection_=(v: Vec3): Unit = ownXDirection.set(v)
-  def yOrigin: Vec3 = ownYOrigin.toVec3
+  def yOrigin: MutableVec3 = ownYOrigin
   def yOrigin_=(v: Vec3): Unit = ownYOrigin.set(v)
-  def yDirection: Vec3 = ownYDirection.toVec3
+  def yDirection: MutableVec3 = ownYDirection
   def yDirection_=(v: Vec3): Unit = ownYDirection.set(v)
 
   def copy(from: RayDifferential): Unit =

@@ -5,7 +5,7 @@ import candela.math.*
 /** Where a ray met a surface, with all that textures, materials and lights ask about it.
   *
   * Mutable, one per worker; filled once for the closest hit, by the shape that was hit. Its vectors
-  * are stored in place, so a hit allocates nothing; getters return values, which may be kept.
+  * are stored in place, so a hit allocates nothing; the next hit overwrites them.
   *
   * @param wantsPartials are the partial derivatives asked for? Decided once for a scene: a shape
   *                      fills them in only then, by `setPartials`
@@ -16,16 +16,19 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
   private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = MutableVec3()
 
+  /** Work space of triangles. */
+  private[candela] val firstEdge, secondEdge = MutableVec3()
+
   /** World space. */
-  def p: Vec3 = ownP.toVec3
+  def p: MutableVec3 = ownP
   def p_=(v: Vec3): Unit = ownP.set(v)
 
   /** Conservative bound of the absolute error of `p`, per component. */
-  def pError: Vec3 = ownPError.toVec3
+  def pError: MutableVec3 = ownPError
   def pError_=(v: Vec3): Unit = ownPError.set(v)
 
   /** Unit normal of the true surface, on the side that the shape calls its outside. */
-  def geometricNormal: Vec3 = ownGeometricNormal.toVec3
+  def geometricNormal: MutableVec3 = ownGeometricNormal
   def geometricNormal_=(v: Vec3): Unit = ownGeometricNormal.set(v)
 
   /** Orthonormal; `frame.n` is the (interpolated) shading normal, in the hemisphere of
@@ -39,21 +42,21 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** How the point moves with `u` and `v`, and how the normal `frame.n` turns; of meshes
     * with normals, how these change that are interpolated, whatever their length.
     */
-  def dpdu: Vec3 = ownDpdu.toVec3
+  def dpdu: MutableVec3 = ownDpdu
   def dpdu_=(v: Vec3): Unit = ownDpdu.set(v)
-  def dpdv: Vec3 = ownDpdv.toVec3
+  def dpdv: MutableVec3 = ownDpdv
   def dpdv_=(v: Vec3): Unit = ownDpdv.set(v)
-  def dndu: Vec3 = ownDndu.toVec3
+  def dndu: MutableVec3 = ownDndu
   def dndu_=(v: Vec3): Unit = ownDndu.set(v)
-  def dndv: Vec3 = ownDndv.toVec3
+  def dndv: MutableVec3 = ownDndv
   def dndv_=(v: Vec3): Unit = ownDndv.set(v)
 
   /** What displacements are added to: `dpdu` and `dpdv`, but tangent to `frame.n` on meshes with
     * interpolated normals.
     */
-  def tangentU: Vec3 = ownTangentU.toVec3
+  def tangentU: MutableVec3 = ownTangentU
   def tangentU_=(v: Vec3): Unit = ownTangentU.set(v)
-  def tangentV: Vec3 = ownTangentV.toVec3
+  def tangentV: MutableVec3 = ownTangentV
   def tangentV_=(v: Vec3): Unit = ownTangentV.set(v)
 
   /** 1 if displacements rise along `frame.n`, −1 if they sink. */
@@ -63,9 +66,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
     * unknown, or not wanted: textures then show their finest detail.
     */
-  def dpdx: Vec3 = ownDpdx.toVec3
+  def dpdx: MutableVec3 = ownDpdx
   def dpdx_=(v: Vec3): Unit = ownDpdx.set(v)
-  def dpdy: Vec3 = ownDpdy.toVec3
+  def dpdy: MutableVec3 = ownDpdy
   def dpdy_=(v: Vec3): Unit = ownDpdy.set(v)
   var dudx, dvdx, dudy, dvdy: Float = 0f
 

@@ -57,5 +57,5 @@ final class DipoleLighting(
   private def irradiance(choice: Float, sampler: Sampler): Rgb =
     val p = entry.at.p
     if light.choose(p, entry.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
-    then light.scattered(entry, weight = 1f)
+    then light.scattered(entry, weight = _ => 1f)
     else Rgb.Black

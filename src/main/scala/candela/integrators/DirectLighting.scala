@@ -58,7 +58,7 @@ class DirectLighting(
       else
         light.scattered(
           vertex,
-          weight = LightTransport.powerHeuristic(light.pdf, vertex.pdf(light.wi))
+          weight = wi => LightTransport.powerHeuristic(light.pdf, vertex.localPdf(wi))
         )
     if light.isDelta then byLight else byLight + byBsdf(vertex, sampler)
 

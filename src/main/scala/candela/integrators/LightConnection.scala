@@ -82,15 +82,16 @@ final class LightConnection(
   /** Light of the sample that `vertex` scatters to its `wo`, not yet weighted with the path's
     * throughput.
     *
-    * @param weight of multiple importance sampling; evaluated only if the sample is visible and
-    *               BSDF sampling can find the light, else 1
+    * @param weight of multiple importance sampling, from the local direction to the light; evaluated
+    *               only if the sample is visible and BSDF sampling can find the light, else 1
     */
-  inline def scattered(vertex: SurfaceVertex, inline weight: Float): Rgb =
-    val f = vertex.received(wi)
+  inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
+    val localWi = vertex.at.frame.toLocal(wi)
+    val f = vertex.received(wi, localWi)
     if f.isBlack || isBlocked(vertex.at) then Rgb.Black
     else
-      val w = if isDelta then 1f else weight
-      arriving(f, vertex.shadingCosine(wi) * w / pdf)
+      val w = if isDelta then 1f else weight(localWi)
+      arriving(f, Math.abs(localWi.z) * w / pdf)
 
   /** f · radiance · factor, attenuated by volumes. */
   def arriving(f: Rgb, factor: Float): Rgb =

@@ -80,6 +80,7 @@ final class PathTracer(
     if walk.sampleOneLight(sampler) then
       val light = walk.light
       walk.addLight(weight =
-        if isBoundary && walk.vertex.crosses(light.wi) then 1f
-        else LightTransport.powerHeuristic(light.pdf, walk.vertex.pdf(light.wi))
+        wi =>
+          if isBoundary && walk.vertex.crosses(wi) then 1f
+          else LightTransport.powerHeuristic(light.pdf, walk.vertex.localPdf(wi))
       )

@@ -21,8 +21,8 @@ class SurfaceVertex(scene: Scene):
   private var scattering: Bsdf = SurfaceVertex.Black
 
   final def bsdf: Bsdf = scattering
-  final def wo: Vec3 = ownWo.toVec3
-  final def localWo: Vec3 = ownLocalWo.toVec3
+  final def wo: MutableVec3 = ownWo
+  final def localWo: MutableVec3 = ownLocalWo
 
   /** Computes the surface geometry where `ray` hit it. */
   final def hit(ray: Ray, hit: Hit): Unit =
@@ -52,8 +52,11 @@ class SurfaceVertex(scene: Scene):
     ownLocalWo.set(at.frame.toLocal(wo))
 
   /** The BSDF for light from `wi` that a camera path receives. */
-  final def received(wi: Vec3): Rgb =
-    if isOpen(wi) then bsdf.f(localWo, onSide(at.frame.toLocal(wi), localWo)) else Rgb.Black
+  final def received(wi: Vec3): Rgb = received(wi, at.frame.toLocal(wi))
+
+  /** Likewise, if the local direction is known. */
+  final def received(wi: Vec3, localWi: Vec3): Rgb =
+    if isOpen(wi) then bsdf.f(localWo, onSide(localWi, localWo)) else Rgb.Black
 
   /** The BSDF for light that a light path sends on to `wi`. */
   final def sent(wi: Vec3): Rgb =
@@ -63,7 +66,10 @@ class SurfaceVertex(scene: Scene):
       bsdf.f(towards, onSide(localWo, towards))
 
   /** Solid-angle density with which the path continues to `wi`. */
-  final def pdf(wi: Vec3): Float = bsdf.pdf(localWo, at.frame.toLocal(wi))
+  final def pdf(wi: Vec3): Float = localPdf(at.frame.toLocal(wi))
+
+  /** Likewise, to a local direction. */
+  final def localPdf(localWi: Vec3): Float = bsdf.pdf(localWo, localWi)
 
   /** Solid-angle density with which a path from `wi` would continue to `wo`. */
   final def reversePdf(wi: Vec3): Float = bsdf.pdf(at.frame.toLocal(wi), localWo)
@@ -74,8 +80,8 @@ class SurfaceVertex(scene: Scene):
   /** |cos| of the angle to the shading normal. */
   final def shadingCosine(w: Vec3): Float = at.frame.n absDot w
 
-  /** Does `wi` lie on the other side of the shading normal than `wo`? */
-  final def crosses(wi: Vec3): Boolean = (at.frame.n dot wi) * ownLocalWo.z < 0f
+  /** Does the local direction lie on the other side of the shading normal than `wo`? */
+  final def crosses(localWi: Vec3): Boolean = localWi.z * ownLocalWo.z < 0f
 
   /** False if the BSDF only reflects, and the geometric normal separates `wi` from `wo`. */
   final def isOpen(wi: Vec3): Boolean =

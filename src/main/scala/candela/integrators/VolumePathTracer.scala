@@ -64,9 +64,8 @@ final class VolumePathTracer(
   /** @param isBoundary as in [[PathTracer]] */
   private def addOneLight(sampler: Sampler, isBoundary: Boolean): Unit =
     if walk.sampleOneLight(sampler) then
-      val wi = walk.light.wi
       walk.addLight(scatterPdf =
-        if isBoundary && walk.vertex.crosses(wi) then 0f else walk.vertex.pdf(wi)
+        wi => if isBoundary && walk.vertex.crosses(wi) then 0f else walk.vertex.localPdf(wi)
       )
 
   private def surviveRoulette(sampler: Sampler): Unit =

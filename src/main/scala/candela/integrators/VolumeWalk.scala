@@ -104,7 +104,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     val found = LightTransport.environment(
       scene,
       ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP.toVec3, ray.direction))
+      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction))
     )
     radiance.add(weights.throughput * found)
     end()
@@ -116,7 +116,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
-        val weight = emissionWeight(at.areaLight, source.pdf(lastP.toVec3, at))
+        val weight = emissionWeight(at.areaLight, source.pdf(lastP, at))
         radiance.add(weights.throughput * (emitted * weight))
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
@@ -124,7 +124,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     // In units of the path's own density
     val density = weights.lightDensity
     if density > 0f then
-      val chosen = scene.selection.probability(lastP.toVec3, lastN.toVec3, light)
+      val chosen = scene.selection.probability(lastP, lastN, light)
       LightTransport.powerHeuristic(1f, density * chosen * pointPdf)
     else 1f
 
@@ -169,11 +169,14 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     !vertex.bsdf.isSpecular && scene.lights.length > 0 &&
     light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
-  /** Adds the light sample. Weight: light sampling against scattering with this density. */
-  inline def addLight(inline scatterPdf: Float): Unit =
-    val f = vertex.received(light.wi)
+  /** Adds the light sample. Weight: light sampling against scattering, whose density is that of the
+    * local direction to the light.
+    */
+  inline def addLight(inline scatterPdf: Vec3 => Float): Unit =
+    val localWi = vertex.at.frame.toLocal(light.wi)
+    val f = vertex.received(light.wi, localWi)
     if !f.isBlack && reaches() then
-      radiance.add(arriving(scatterPdf) * f * vertex.shadingCosine(light.wi))
+      radiance.add(arriving(scatterPdf(localWi)) * f * Math.abs(localWi.z))
 
   private def reaches(): Boolean =
     val at = vertex.at

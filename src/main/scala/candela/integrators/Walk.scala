@@ -122,7 +122,7 @@ final class Walk(
     val found = LightTransport.environment(
       scene,
       ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP.toVec3, ray.direction))
+      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction))
     )
     radiance.addProduct(throughput, found)
     end()
@@ -134,13 +134,13 @@ final class Walk(
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
-        val weight = emissionWeight(at.areaLight, source.pdf(lastP.toVec3, at))
+        val weight = emissionWeight(at.areaLight, source.pdf(lastP, at))
         radiance.add(throughput.toRgb * emitted * weight)
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
   private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
     if directionPdf > 0f then
-      val chosen = scene.selection.probability(lastP.toVec3, lastN.toVec3, light)
+      val chosen = scene.selection.probability(lastP, lastN, light)
       LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
     else 1f
 
@@ -172,7 +172,7 @@ final class Walk(
       light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
-  inline def addLight(inline weight: Float): Unit =
+  inline def addLight(inline weight: Vec3 => Float): Unit =
     radiance.addProduct(throughput, light.scattered(vertex, weight))
 
   /** Adds light that leaves the vertex towards the path. */

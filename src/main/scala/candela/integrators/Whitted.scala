@@ -24,6 +24,6 @@ final class Whitted(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null = n
       sampler.next2D()
       light.choose(i)
       if light.samplePoint(vertex.at.p, sampler.x, sampler.y) then
-        sum += light.scattered(vertex, weight = 1f)
+        sum += light.scattered(vertex, weight = _ => 1f)
       i += 1
     sum

@@ -53,7 +53,7 @@ final class LightSample:
   private val ownWi = MutableVec3(0f, 0f, 1f)
 
   /** Unit vector towards the light. */
-  def wi: Vec3 = ownWi.toVec3
+  def wi: MutableVec3 = ownWi
   def wi_=(v: Vec3): Unit = ownWi.set(v)
 
   /** Radiance that would arrive if nothing is in the way; for delta lights the irradiance on a

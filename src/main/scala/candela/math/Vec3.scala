@@ -3,10 +3,19 @@ package candela.math
 /** A point, direction or offset in space, or a normal: three Floats. What it stands for is said by
   * the name that holds it; [[Transform]] has one method for each meaning.
   *
-  * Immutable. Records that are reused, such as [[candela.geometry.ShadingPoint]], store theirs as
-  * [[MutableVec3]].
+  * Read-only. Immutable, too, unless it was made as a [[MutableVec3]]: records that are reused, such
+  * as [[candela.geometry.ShadingPoint]], hold those, and say so in the types of their members.
+  * Methods that take a `Vec3` only read it; to keep it, they take [[MutableVec3.toVec3]].
   */
-final class Vec3(val x: Float, val y: Float, val z: Float):
+sealed class Vec3(startX: Float, startY: Float, startZ: Float):
+  private[math] var ownX = startX
+  private[math] var ownY = startY
+  private[math] var ownZ = startZ
+
+  final def x: Float = ownX
+  final def y: Float = ownY
+  final def z: Float = ownZ
+
   def +(b: Vec3): Vec3 = Vec3(x + b.x, y + b.y, z + b.z)
   def -(b: Vec3): Vec3 = Vec3(x - b.x, y - b.y, z - b.z)
   def *(s: Float): Vec3 = Vec3(x * s, y * s, z * s)
@@ -49,6 +58,18 @@ final class Vec3(val x: Float, val y: Float, val z: Float):
     case _ => false
   override def hashCode: Int = (x, y, z).hashCode
   override def toString: String = s"($x, $y, $z)"
+
+/** A vector in a record that a worker reuses: overwriting it allocates nothing. */
+final class MutableVec3(x0: Float, y0: Float, z0: Float) extends Vec3(x0, y0, z0):
+  def this() = this(0f, 0f, 0f)
+
+  def set(v: Vec3): Unit =
+    ownX = v.x
+    ownY = v.y
+    ownZ = v.z
+
+  /** An immutable copy of the present value. */
+  def toVec3: Vec3 = Vec3(x, y, z)
 
 object Vec3:
   val Zero: Vec3 = Vec3(0f, 0f, 0f)

@@ -62,8 +62,10 @@ final class SphericalTriangle:
     )
     area
 
+  private val direction = MutableVec3()
+
   /** The unit direction for a point of the square; only if the triangle has a solid angle. */
-  def sample(u1: Float, u2: Float): Vec3 =
+  def sample(u1: Float, u2: Float): MutableVec3 =
     // The corner c moves along its arc until the part that is left has the share u1 of the area.
     val part = u1 * area
     val s = Math.sin(part) * cosAlpha - Math.cos(part) * sinAlpha
@@ -86,7 +88,10 @@ final class SphericalTriangle:
     val fy = my - by * cosBM
     val fz = mz - bz * cosBM
     val on = sine(w) / positive(length(fx, fy, fz))
-    Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
+    direction.set(
+      Vec3((bx * w + fx * on).toFloat, (by * w + fy * on).toFloat, (bz * w + fz * on).toFloat)
+    )
+    direction
 
   private def length(x: Double, y: Double, z: Double): Double = Math.sqrt(x * x + y * y + z * z)
   private def clamped(x: Double): Double = Math.max(-1.0, Math.min(1.0, x))

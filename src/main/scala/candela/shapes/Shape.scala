@@ -59,15 +59,15 @@ final class SurfaceSample:
   private val ownP, ownPError = MutableVec3()
   private val ownN = MutableVec3(0f, 0f, 1f)
 
-  def p: Vec3 = ownP.toVec3
+  def p: MutableVec3 = ownP
   def p_=(v: Vec3): Unit = ownP.set(v)
 
   /** Conservative bound of the error of `p`, per component. */
-  def pError: Vec3 = ownPError.toVec3
+  def pError: MutableVec3 = ownPError
   def pError_=(v: Vec3): Unit = ownPError.set(v)
 
   /** Unit normal on the outside. */
-  def n: Vec3 = ownN.toVec3
+  def n: MutableVec3 = ownN
   def n_=(v: Vec3): Unit = ownN.set(v)
 
   /** Per solid angle at the point that asked, or per area. */

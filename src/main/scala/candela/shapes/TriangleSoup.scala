@@ -65,19 +65,21 @@ final class TriangleSoup(
     val b2 = hit.v.toFloat
     place(3 * i0, 3 * i1, 3 * i2, hit.u, hit.v, at)
     facet(3 * i0, 3 * i1, 3 * i2, if mesh.flipped then -1.0 else 1.0, at)
-    var n = at.geometricNormal
+    val n = at.frame.n
+    n.set(at.geometricNormal)
     if mesh.normals.length > 0 then
-      n = shadingNormal(mesh, i0, i1, i2, b1, b2, otherwise = n)
+      shadingNormal(mesh, i0, i1, i2, b1, b2, n)
       if (at.geometricNormal dot n) < 0f then at.geometricNormal = -at.geometricNormal
     uv(mesh, i0, i1, i2, b1, b2, at)
-    if !tangents && !at.wantsPartials then at.frame.set(Frame.around(n))
+    if !tangents && !at.wantsPartials then at.frame.alignToNormal()
     else
       val p0 = vertex(triangle, 0)
-      val e1 = vertex(triangle, 1) - p0
-      val e2 = vertex(triangle, 2) - p0
-      val frame =
-        if tangents then Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)) else Frame.around(n)
-      at.frame.set(frame)
+      val e1 = at.firstEdge
+      val e2 = at.secondEdge
+      e1.set(vertex(triangle, 1) - p0)
+      e2.set(vertex(triangle, 2) - p0)
+      if tangents then at.frame.set(Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)))
+      else at.frame.alignToNormal()
       if at.wantsPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
@@ -121,7 +123,8 @@ final class TriangleSoup(
       at.geometricNormal =
         if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
 
-  /** The interpolated normal of unit length; `otherwise` if the corners' normals cancel. */
+  /** Sets `n` to the interpolated normal, of unit length; leaves it if the corners' normals cancel.
+    */
   private def shadingNormal(
       mesh: Mesh,
       i0: Int,
@@ -129,8 +132,8 @@ final class TriangleSoup(
       i2: Int,
       b1: Float,
       b2: Float,
-      otherwise: Vec3
-  ): Vec3 =
+      out: MutableVec3
+  ): Unit =
     val n = mesh.normals
     val b0 = 1f - b1 - b2
     val j0 = (i0 - mesh.firstVertex) * 3
@@ -142,8 +145,7 @@ final class TriangleSoup(
       b0 * n(j0 + 2) + b1 * n(j1 + 2) + b2 * n(j2 + 2)
     )
     val length2 = sum.lengthSquared
-    if length2 > 0f && length2 < Float.PositiveInfinity then sum * (1f / sqrt(length2))
-    else otherwise
+    if length2 > 0f && length2 < Float.PositiveInfinity then out.set(sum * (1f / sqrt(length2)))
 
   private def uv(
       mesh: Mesh,
