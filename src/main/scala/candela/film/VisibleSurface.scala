@@ -31,13 +31,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
-    meets = scene.closest(ray, hit)
-    if meets then scene.surface(ray, hit, at)
-    while meets && scene.isInterface(at) do
-      ray.set(at.offsetOrigin(ray.direction), ray.direction, Float.PositiveInfinity)
-      scene.passed(ray)
-      meets = scene.closest(ray, hit)
-      if meets then scene.surface(ray, hit, at)
+    meets = scene.closestBehindInterfaces(ray, hit, at)
     if meets then met(from, scene.bsdf(at))
 
   /** `at` holds what the ray met. */

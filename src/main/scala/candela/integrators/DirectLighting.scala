@@ -74,8 +74,7 @@ class DirectLighting(
       bsdfRays += 1
       val p = vertex.at.p
       val chosen = light.probability
-      if scene.closest(bsdfRay, bsdfHit) then
-        scene.surface(bsdfRay, bsdfHit, emitter)
+      if scene.closestBehindInterfaces(bsdfRay, bsdfHit, emitter) then
         if emitter.areaLight != light.index then Rgb.Black
         else
           val source = scene.surfaceLight(emitter)

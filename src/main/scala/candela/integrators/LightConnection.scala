@@ -20,6 +20,7 @@ final class LightConnection(
   private val choice = LightChoice()
   private val ray = Ray()
   private val hit = Hit()
+  private val border = ShadingPoint()
   private var rays = 0L
 
   /** The point on the light. */
@@ -67,14 +68,19 @@ final class LightConnection(
   /** Traces the shadow ray from a surface. */
   def isBlocked(at: ShadingPoint): Boolean = isBlocked(at.offsetOrigin(wi))
 
-  /** Traces the shadow ray from `origin`. */
+  /** Traces the shadow ray from `origin`, through interfaces. */
   def isBlocked(origin: Vec3): Boolean =
+    aim(origin)
+    rays += 1
+    if !scene.hasInterfaces then scene.isOccluded(ray, hit)
+    else !LightConnection.reaches(scene, ray, hit, border, _ => rays += 1, true, aim)
+
+  /** Sets the shadow ray. */
+  private def aim(origin: Vec3): Unit =
     if sample.isInfinite then ray.set(origin, wi, Float.PositiveInfinity)
     else
       val end = LightConnection.end(sample)
       ray.set(origin, end - origin, LightConnection.shadowEnd(sample.target.n absDot wi))
-    rays += 1
-    scene.isOccluded(ray, hit)
 
   /** What volumes leave of the light along the shadow ray traced last. */
   def transmittance(march: VolumeMarch): Rgb = march.dimming(ray, steps)
@@ -101,6 +107,37 @@ final class LightConnection(
     if march == null then arrived else arrived * transmittance(march)
 
 object LightConnection:
+  /** Follows a shadow ray through interfaces; false if another surface blocks it.
+    *
+    * @param crossed called at each interface, with the ray's direction
+    * @param segment called for each segment up to a surface or the end; false if it lets no light
+    *                through
+    * @param aim     sets the ray from a point behind an interface to the light
+    */
+  inline def reaches(
+      scene: Scene,
+      ray: Ray,
+      hit: Hit,
+      border: ShadingPoint,
+      inline crossed: Vec3 => Unit,
+      inline segment: => Boolean,
+      inline aim: Vec3 => Unit
+  ): Boolean =
+    var going = true
+    var arrives = true
+    while going do
+      going = scene.closest(ray, hit)
+      if going then
+        scene.surface(ray, hit, border)
+        arrives = scene.isInterface(border)
+      arrives = arrives && segment
+      going = going && arrives
+      if going then
+        val direction = ray.direction
+        crossed(direction)
+        aim(border.offsetOrigin(direction))
+    arrives
+
   /** End of a shadow ray, as a fraction of the distance to the light: the rounding error of the
     * difference of its end points, at most 2⁻²³ of its length, must not reach the light's own
     * surface. At grazing angles it ends sooner. Occluders closer to the light than that are lost.

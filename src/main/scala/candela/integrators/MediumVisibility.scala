@@ -49,20 +49,18 @@ private[integrators] final class MediumVisibility(
 
   private def passes(origin: Vec3, end: Vec3, first: Int): Boolean =
     var medium = first
-    ray.set(origin, end - origin, LightConnection.ShadowEnd)
-    var going = true
-    var arrives = true
-    while going do
-      rays += 1
-      going = scene.closest(ray, hit)
-      if going then
-        scene.surface(ray, hit, border)
-        arrives = scene.isInterface(border)
-      arrives = arrives && dim(medium)
-      going = going && arrives
-      if going then
-        val direction = ray.direction
+    def aim(from: Vec3): Unit = ray.set(from, end - from, LightConnection.ShadowEnd)
+    aim(origin)
+    rays += 1
+    LightConnection.reaches(
+      scene,
+      ray,
+      hit,
+      border,
+      crossed = direction =>
+        rays += 1
         medium = media.beyond(border, direction, medium)
-        val from = border.offsetOrigin(direction)
-        ray.set(from, end - from, LightConnection.ShadowEnd)
-    arrives
+      ,
+      segment = dim(medium),
+      aim = aim
+    )

@@ -33,10 +33,7 @@ class SurfaceVertex(scene: Scene):
   final def isInterface: Boolean = scene.isInterface(at)
 
   /** Continues the ray in its direction, through an interface. */
-  final def passThrough(ray: Ray): Unit =
-    val direction = ray.direction
-    ray.set(at.offsetOrigin(direction), direction, Float.PositiveInfinity)
-    scene.passed(ray)
+  final def passThrough(ray: Ray): Unit = scene.passThrough(ray, at)
 
   /** Evaluates the material, which may turn the frame. */
   final def evaluate(regularized: Boolean = false): Unit =

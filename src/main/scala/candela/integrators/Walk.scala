@@ -144,12 +144,8 @@ final class Walk(
       LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
     else 1f
 
-  /** Continues through an interface. Shadow rays stop there, so light sampling does not compete for
-    * what lies beyond.
-    */
-  def passThrough(): Unit =
-    vertex.passThrough(ray)
-    directionPdf = 0f
+  /** Continues through an interface. Shadow rays pass it, too, so light sampling goes on competing. */
+  def passThrough(): Unit = vertex.passThrough(ray)
 
   /** Evaluates the BSDF of the vertex: a scattering event. */
   def evaluate(sampler: Sampler): Unit =

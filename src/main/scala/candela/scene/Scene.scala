@@ -79,8 +79,10 @@ final class Scene(
     val rule = footprintRule
     if rule != null then rule.scattered(ray, at, wo, wi, isSpecular, eta)
 
-  /** Tells a ray that it goes straight on through an interface. */
-  def passed(ray: Ray): Unit =
+  /** Continues a ray in its direction, through the interface at `at`. */
+  def passThrough(ray: Ray, at: ShadingPoint): Unit =
+    val direction = ray.direction
+    ray.set(at.offsetOrigin(direction), direction, Float.PositiveInfinity)
     val rule = footprintRule
     if rule != null then rule.passed(ray)
 
@@ -94,6 +96,21 @@ final class Scene(
 
   /** Does light pass here as if nothing were there? */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
+
+  /** Are there surfaces where it does? Then shadow rays must look at what they hit. */
+  val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
+
+  /** Traces a ray through interfaces to the first other surface, and computes its geometry; false if
+    * the ray leaves the scene.
+    */
+  def closestBehindInterfaces(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    var found = closest(ray, hit)
+    if found then surface(ray, hit, at)
+    while found && isInterface(at) do
+      passThrough(ray, at)
+      found = closest(ray, hit)
+      if found then surface(ray, hit, at)
+    found
 
   def bsdf(at: ShadingPoint): Bsdf =
     val made = materials(at.material).bsdf(at)
