@@ -31,13 +31,14 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   protected val hasLens: Boolean = setup.lensRadius > 0f
 
   private val toCamera = setup.cameraToWorld.inverse
-  private val unit = setup.cameraToWorld.uniformScale.fold(0f)(_.toFloat)
+
+  /** World volume of a unit cube of camera space. */
+  private val volume = Math.abs(setup.cameraToWorld.determinant)
 
   /** Area of the screen. */
   protected val screenArea: Float = Math.abs((right - left) * (bottom - top))
 
-  // Where the camera's space is stretched, areas across its rays depend on their directions
-  override def isTraceable: Boolean = unit > 0f && screenArea > 0f
+  override def isTraceable: Boolean = volume > 0 && screenArea > 0f
 
   protected final def filmX(onScreen: Float): Float = (onScreen - left) / stepX
   protected final def filmY(onScreen: Float): Float = (onScreen - top) / stepY
@@ -63,7 +64,13 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
       true
 
   final override def density(eye: Vec3, p: Vec3): Float =
-    densityInside(toCamera.point(eye), toCamera.point(p)) / (unit * unit)
+    val from = toCamera.point(eye)
+    val to = toCamera.point(p)
+    // A linear map scales volumes by its determinant, and so areas across a direction by that over
+    // the stretch of the direction
+    val d = to - from
+    val stretch = world(d.x, d.y, d.z).length / d.length
+    (densityInside(from, to) * (stretch / volume)).toFloat
 
   /** Of rays from one point through all of the screen, which has this area at z = 1. */
   protected final def fanDensity(eye: Vec3, c: Vec3, area: Float): Float =
