@@ -35,10 +35,13 @@ private[bidirectional] final class MarkovWalker(
   def raysTraced: Long = paths.raysTraced
   def lastMaterial: Int = paths.lastMaterial
 
+  def begin(isStopped: () => Boolean): Boolean =
+    chains.begin(this, isStopped)
+    chains.start.isDefined
+
   def advance(chain: Int, paths: Long): Unit =
-    chains.help(this)
-    val mean = chains.mean
-    if mean > 0f then walk(chains(chain, this), mean, paths)
+    val start = chains.start.get
+    if start.mean > 0f then walk(chains(chain, start, this), start.mean, paths)
     else
       var i = 0L
       while i < paths do

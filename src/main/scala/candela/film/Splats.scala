@@ -32,6 +32,7 @@ final case class View(
     height: Int,
     crop: PixelBounds,
     filter: Filter,
+    samplesPerPixel: Int,
     shutter: Option[Shutter],
     differentialScale: Float
 ):

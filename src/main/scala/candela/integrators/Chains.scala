@@ -13,6 +13,11 @@ abstract class SharedChains:
   * walked by two at a time.
   */
 abstract class ChainWalker:
+  /** Makes ready what all chains need, with the other workers; false if it was told to stop on the
+    * way. Chains are advanced only after it.
+    */
+  def begin(isStopped: () => Boolean): Boolean
+
   /** Takes a chain on by so many paths. */
   def advance(chain: Int, paths: Long): Unit
 

@@ -20,6 +20,9 @@ private[render] final class ChainWorker(
       Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
 
   protected def work(chain: Int, wave: Int): Boolean =
+    walker.begin(() => board.isStopped) && advance(chain, wave)
+
+  private def advance(chain: Int, wave: Int): Boolean =
     val end = paths(chain, schedule.endSample(wave))
     var left = end - paths(chain, schedule.firstSample(wave))
     while left > 0 && !board.isStopped do

@@ -56,7 +56,17 @@ final class RenderPlan(
     * @param splats receives what paths from the lights bring
     */
   def view(splats: Splats): View =
-    View(camera, splats, width, height, crop, filter, shutter, differentialScale)
+    View(
+      camera,
+      splats,
+      width,
+      height,
+      crop,
+      filter,
+      sampler.samplesPerPixel,
+      shutter,
+      differentialScale
+    )
 
 /** Layers of an image, and the surface that they are taken from. */
 final case class LayerPlan(layers: Vector[Layer], surface: VisibleSurface)

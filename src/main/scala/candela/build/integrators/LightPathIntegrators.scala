@@ -32,7 +32,11 @@ object MltRecipe
       sinceV3
     )
     with Regularizing:
-  private val bootstrap = integer("bootstrapsamples", "paths to start with")(100000)
+  private val bootstrap = integer(
+    "bootstrapsamples",
+    "least number of paths to start with; more until the brightness has a standard error of 0.3 %, " +
+      "or until they are half as many as all mutations"
+  )(100000)
   private val chains = integer("chains", "Markov chains")(1000)
   private val mutations = integer("mutationsperpixel", "mutations of paths, for each pixel")(100)
   private val largeStep = float("largestepprobability", "of a path that is all new")(0.3f)

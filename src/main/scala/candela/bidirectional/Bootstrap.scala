@@ -1,0 +1,113 @@
+package candela.bidirectional
+
+import candela.sampling.Discrete
+
+import java.util.concurrent.atomic.AtomicInteger
+import java.util.concurrent.locks.LockSupport
+
+/** Independent paths, from which the brightness of the image is known and at which chains start.
+  *
+  * They come in rounds. The first has as many as were asked for; each other one has as many as all
+  * before it, until the standard error of the mean is [[Bootstrap.Precision]] of it, or until they
+  * are [[Bootstrap.Share]] of all paths of the rendering. Whoever needs the result helps to find it,
+  * and it does not depend on who did.
+  *
+  * @param asked     paths of the first round
+  * @param mutations paths of all chains together
+  */
+private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
+  import Bootstrap.*
+
+  private val most = Math.max(asked.toLong, Math.min((mutations * Share).toLong, MostPaths)).toInt
+  @volatile private var round = Round(asked, Sums(0, 0, 0), None)
+  @volatile private var result: Option[Start] = None
+  @volatile private var failure: Option[Throwable] = None
+
+  /** None before [[help]] has returned. */
+  def start: Option[Start] = result
+
+  /** Returns when the result is known, or when it is no longer wanted.
+    *
+    * @param strength of the path of some number
+    */
+  def help(isStopped: () => Boolean)(strength: Int => Float): Unit =
+    try
+      while result.isEmpty && !isStopped() do
+        work(round, isStopped, strength)
+        for e <- failure do throw e
+        if result.isEmpty then LockSupport.parkNanos(Pause)
+    catch
+      case e: Throwable =>
+        failure = Some(e)
+        throw e
+
+  private def work(round: Round, isStopped: () => Boolean, strength: Int => Float): Unit =
+    var part = round.next.getAndIncrement()
+    while part < round.parts && !isStopped() do
+      val end = Math.min(round.strengths.length, (part + 1) * PartSize)
+      var i = part * PartSize
+      while i < end do
+        round.strengths(i) = strength(round.first + i)
+        i += 1
+      if round.done.incrementAndGet() == round.parts then finish(round)
+      part = round.next.getAndIncrement()
+
+  private def finish(last: Round): Unit =
+    val sums = last.sums
+    val starts = last.starts
+    val left = most - sums.count
+    if left <= 0 || sums.relativeError <= Precision then
+      val (first, picks) = starts.getOrElse((last.first, Discrete(last.strengths)))
+      result = Some(Start(sums.mean.toFloat, first, picks))
+    else round = Round(Math.min(Math.min(sums.count, LargestRound), left), sums, starts)
+
+private[bidirectional] object Bootstrap:
+
+  /** Relative standard error of the brightness: below what is seen, or noise leaves to be measured. */
+  private[bidirectional] val Precision = 0.003
+
+  /** Of the paths of the rendering. */
+  private[bidirectional] val Share = 0.5
+
+  private val MostPaths = 1L << 30
+  private val LargestRound = 1 << 20
+  private val PartSize = 256
+
+  /** Nanoseconds; short beside a round. */
+  private val Pause = 50_000L
+
+  /** @param mean  brightness of a path; 0 if none has brought light
+    * @param first number of the path that is pick 0
+    * @param picks where to start, by brightness
+    */
+  final class Start(val mean: Float, first: Int, picks: Discrete):
+    /** The number of the path that is chosen by `u`, in [0, 1). */
+    def path(u: Float): Int = first + picks.sample(u)
+
+  private final case class Sums(count: Int, total: Double, squares: Double):
+    def mean: Double = total / count
+    def relativeError: Double =
+      val variance = squares / count - mean * mean
+      if total > 0 then Math.sqrt(Math.max(0.0, variance) / count) / mean
+      else Double.PositiveInfinity
+
+  /** @param before    sums of the earlier rounds
+    * @param earlier   starts of the first of them that has found light
+    */
+  private final class Round(size: Int, before: Sums, earlier: Option[(Int, Discrete)]):
+    val strengths = new Array[Float](size)
+    val first: Int = before.count
+    val parts: Int = (size + PartSize - 1) / PartSize
+    val next = AtomicInteger()
+    val done = AtomicInteger()
+
+    /** Of all rounds until this, which is done. */
+    def sums: Sums =
+      var total, squares = 0.0
+      for s <- strengths do
+        total += s
+        squares += s.toDouble * s
+      Sums(before.count + size, before.total + total, before.squares + squares)
+
+    def starts: Option[(Int, Discrete)] = earlier.orElse:
+      Option.when(strengths.exists(_ > 0f))((first, Discrete(strengths)))
