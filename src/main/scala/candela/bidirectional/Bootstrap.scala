@@ -8,9 +8,9 @@ import java.util.concurrent.locks.LockSupport
 /** Independent paths, from which the brightness of the image is known and at which chains start.
   *
   * They come in rounds. The first has as many as were asked for; each other one has as many as all
-  * before it, until the standard error of the mean is [[Bootstrap.Precision]] of it, or until they
-  * are [[Bootstrap.Share]] of all paths of the rendering. Whoever needs the result helps to find it,
-  * and it does not depend on who did.
+  * before it, until the relative standard error of the mean is [[Bootstrap.Precision]], or until
+  * they are [[Bootstrap.Share]] of the mutations. Whoever needs the result helps to find it, and it
+  * does not depend on who did.
   *
   * @param asked     paths of the first round
   * @param mutations paths of all chains together
@@ -56,18 +56,21 @@ private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
     val sums = last.sums
     val starts = last.starts
     val left = most - sums.count
-    if left <= 0 || sums.relativeError <= Precision then
+    if left <= 0 || (sums.count >= Fewest && sums.relativeError <= Precision) then
       val (first, picks) = starts.getOrElse((last.first, Discrete(last.strengths)))
       result = Some(Start(sums.mean.toFloat, first, picks))
     else round = Round(Math.min(Math.min(sums.count, LargestRound), left), sums, starts)
 
 private[bidirectional] object Bootstrap:
 
-  /** Relative standard error of the brightness: below what is seen, or noise leaves to be measured. */
+  /** Relative standard error of the brightness that is good enough. */
   private[bidirectional] val Precision = 0.003
 
-  /** Of the paths of the rendering. */
+  /** Of the number of mutations. */
   private[bidirectional] val Share = 0.5
+
+  /** Fewer do not tell their own error. */
+  private val Fewest = 1000
 
   private val MostPaths = 1L << 30
   private val LargestRound = 1 << 20

@@ -34,6 +34,9 @@ final class BootstrapSuite extends AnyFunSuite:
   test("where all paths are alike, those that were asked for suffice"):
     assert(run(asked = 1000, mutations = 100_000_000)(_ => 2f)._2 == 1000)
 
+  test("a few that are alike by chance are not trusted"):
+    assert(run(asked = 2, mutations = 100_000)(path => if path < 40 then 1f else 2f)._2 > 1000)
+
   test("they are half as many as all mutations at most, but as many as asked for"):
     assert(run(asked = 1000, mutations = 20_000)(rare)._2 == 10_000)
     assert(run(asked = 1000, mutations = 400)(rare)._2 == 1000)

@@ -34,8 +34,8 @@ object MltRecipe
     with Regularizing:
   private val bootstrap = integer(
     "bootstrapsamples",
-    "least number of paths to start with; more until the brightness has a standard error of 0.3 %, " +
-      "or until they are half as many as all mutations"
+    "least number of paths to start with; more until the brightness has a standard error of " +
+      "0.3 %, or until they are half as many as all mutations"
   )(100000)
   private val chains = integer("chains", "Markov chains")(1000)
   private val mutations = integer("mutationsperpixel", "mutations of paths, for each pixel")(100)

@@ -45,8 +45,8 @@ object MetropolisRecipe
   private val mutations = integer("samplesperpixel", "mutations, for each pixel")(100)
   private val bootstrap = integer(
     "bootstrapsamples",
-    "least number of paths to start with; more until the brightness has a standard error of 0.3 %, " +
-      "or until they are half as many as all mutations"
+    "least number of paths to start with; more until the brightness has a standard error of " +
+      "0.3 %, or until they are half as many as all mutations"
   )(100000)
   noMeaning("the chains find all light, by paths from both ends: the same mean")(
     integer("directsamples", "samples of direct light in each pixel")(4),
