@@ -90,4 +90,4 @@ class DirectLighting(
 
   private def attenuated(light: Rgb): Rgb =
     val march = volumes
-    if march == null then light else light * march.dimming(bsdfRay, VolumeMarch.StepsToLights)
+    if march == null then light else light * march.transmittance(bsdfRay, VolumeMarch.StepsToLights)

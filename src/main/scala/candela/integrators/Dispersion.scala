@@ -4,27 +4,26 @@ import candela.bsdf.Bsdf
 import candela.color.Rgb
 import candela.sampling.{Sampler, Wavelengths}
 
-/** Which wavelength a path has, once it has met a surface that splits light. Mutable; one for each
-  * worker.
-  */
+/** The wavelength of a path, sampled at its first dispersive surface. Mutable, one per worker. */
 final class Dispersion(wavelengths: Wavelengths):
 
-  // In nm; 0: the path has all of them
+  // In nm; 0: the path still carries all wavelengths
   private var wavelength = 0f
 
-  /** By which the path's colour changed where `choose` was asked last. */
+  /** Factor of the throughput from the last [[choose]]. */
   var weight: Rgb = Rgb.White
 
-  /** A new path sets out. */
+  /** Starts a new path. */
   def begin(): Unit = wavelength = 0f
 
-  /** What the path sees of the surface. */
-  def choose(met: Bsdf, sampler: Sampler): Bsdf =
+  /** The BSDF for the path's wavelength, which is sampled now if `bsdf` is the first dispersive one.
+    */
+  def choose(bsdf: Bsdf, sampler: Sampler): Bsdf =
     weight = Rgb.White
-    if !met.isDispersive then met
+    if !bsdf.isDispersive then bsdf
     else
       if wavelength == 0f then
         val u = sampler.next1D()
         wavelength = wavelengths.sample(u)
         weight = wavelengths.weight(u)
-      met.atWavelength(wavelength)
+      bsdf.atWavelength(wavelength)

@@ -29,3 +29,49 @@ abstract class SceneIntegrator(scene: Scene) extends Integrator:
   protected def over(scene: Scene): Integrator
   final def copy(): Integrator = over(scene)
   final def reported(report: PathReport): Integrator = over(scene.reported(report))
+
+/** The passes of one rendering, shared by all workers: sample k of every pixel uses what pass k has
+  * prepared. At most [[SharedPasses.Open]] passes are in use at a time.
+  */
+abstract class SharedPasses:
+  /** The integrator of one worker, reporting its path if a report is given. */
+  def integrator(report: Option[PathReport]): PassIntegrator
+
+object SharedPasses:
+  /** The current pass and the next, so that no worker waits at the end of a pass. */
+  inline val Open = 2
+
+/** Estimates radiance with what a pass has prepared. */
+trait PassIntegrator extends Integrator:
+  /** Starts the samples with this index. */
+  def begin(pass: Int): Unit
+
+/** The Markov chains of one rendering, shared by all workers. They write to the film's
+  * [[candela.film.Splats]] only.
+  */
+abstract class SharedChains:
+  def count: Int
+
+  /** Scratch memory of one worker. */
+  def walker(): ChainWalker
+
+/** Advances chains; mutable, one per worker. A chain may move from one worker to another, but is
+  * never advanced by two at a time.
+  */
+abstract class ChainWalker:
+  /** Prepares what all chains need, together with the other workers, before chains advance; false if
+    * stopped on the way.
+    */
+  def begin(isStopped: () => Boolean): Boolean
+
+  /** Advances a chain by `paths` mutations. */
+  def advance(chain: Int, paths: Long): Unit
+
+  /** Pixel of the last proposed path. */
+  def x: Int
+  def y: Int
+
+  /** Number of discarded paths, whose radiance was NaN or infinite. */
+  def refused: Long
+  def raysTraced: Long
+  def lastMaterial: Int

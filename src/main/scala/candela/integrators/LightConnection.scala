@@ -83,7 +83,7 @@ final class LightConnection(
       ray.set(origin, end - origin, LightConnection.shadowEnd(sample.target.n absDot wi))
 
   /** What volumes leave of the light along the shadow ray traced last. */
-  def transmittance(march: VolumeMarch): Rgb = march.dimming(ray, steps)
+  def transmittance(march: VolumeMarch): Rgb = march.transmittance(ray, steps)
 
   /** Light of the sample that `vertex` scatters to its `wo`, not yet weighted with the path's
     * throughput.

@@ -6,10 +6,9 @@ import candela.math.*
 import candela.media.{MediumWork, SceneMedia}
 import candela.scene.Scene
 
-/** What comes of a sampled light's way to a point through media, and through surfaces that are
-  * their borders only. One per worker.
+/** Transmittance of shadow rays through media and interfaces. Mutable, one per worker.
   *
-  * @param work its `shadow` holds the answer
+  * @param work `shadow` receives the transmittance
   */
 private[integrators] final class MediumVisibility(
     scene: Scene,
@@ -23,11 +22,11 @@ private[integrators] final class MediumVisibility(
 
   def raysTraced: Long = rays
 
-  /** For a new path from the camera. */
+  /** Starts a new camera path. */
   def start(time: Float): Unit = ray.time = time
 
-  /** Sets `work.shadow` to what is left of the light at `origin`, which lies in `medium`; false if
-    * that is nothing.
+  /** Sets `work.shadow` to the transmittance between the light and `origin`, which lies in
+    * `medium`; false if it is zero.
     */
   def reaches(origin: Vec3, light: LightSample, medium: Int): Boolean =
     work.shadow.start(work.weights.hero, 1f)

@@ -7,10 +7,10 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Finds where light that leaves a surface may have entered it: on probe rays that run along one of
-  * three axes, near the place where it leaves. Owned by one worker.
+/** Samples the point where light that exits a translucent surface entered it, by probe rays along
+  * one of three axes. Mutable, one per worker.
   *
-  * @param acrossMaterials does any material serve that light travels beneath? Else only the same
+  * @param acrossMaterials if true, light may enter any material with a BSSRDF, else only the same
   *
   * Source: King et al., "BSSRDF Importance Sampling", SIGGRAPH 2013 Talks; PBRT 3rd ed., §15.4.1.
   */
@@ -25,12 +25,11 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
 
   def raysTraced: Long = traced
 
-  /** Draws a place where light enters that leaves at `at`.
+  /** Samples a point of entry for light that exits at `at`.
     *
-    * @param inside how it travels
-    * @param entry  becomes the place; may be `at` itself
-    * @return       the factor of the light that enters there, over the density of the place; black:
-    *               there is none, and `entry` is as it was
+    * @param entry set to the point of entry; may be `at` itself
+    * @return      BSSRDF over the area density of the point; black if there is none, and `entry` is
+    *              unchanged
     */
   def enter(
       at: ShadingPoint,
@@ -41,7 +40,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
   ): Rgb =
     val choice = sampler.next1D()
     sampler.next2D()
-    // Half of the rays are normal to the surface, and a quarter along either tangent
+    // Half of the probe rays follow the normal, a quarter each tangent
     val axis = if choice < 0.5f then 2 else if choice < 0.75f then 0 else 1
     val within = if axis == 2 then 2f * choice else 4f * choice - (2f + axis)
     val channel = Math.min((3f * within).toInt, 2)
@@ -68,10 +67,10 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
         val density = pdf(p, frame, inside, entry)
         if density > 0f then inside((p - entry.p).length) * (found / density) else Rgb.Black
 
-  /** Chooses one of the places on the segment where light could get in, all alike.
+  /** Chooses uniformly among the intersections of the segment with surfaces that light can enter.
     *
-    * @param u of which the choice is made
-    * @return  how many there are
+    * @param u uniform in [0, 1)
+    * @return  number of these intersections
     */
   private def walk(start: Vec3, direction: Vec3, length: Float, material: Int, u: Float): Int =
     var from = start
@@ -88,7 +87,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
         scene.surface(ray, hit, point)
         if isEntry(point.material, material) then
           found += 1
-          // The n-th takes the place of the earlier ones with probability 1/n
+          // Reservoir sampling: the n-th replaces the earlier choice with probability 1/n
           if choice * found < 1f then
             choice *= found
             val free = chosen
@@ -99,7 +98,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
           else choice = (choice * found - 1f) / (found - 1)
         from = point.offsetOrigin(direction)
         rest = length - ((from - start) dot direction)
-        // Where surfaces touch, several are crossed at one distance
+        // Surfaces that touch are crossed at one distance
         crossings += 1
         goesOn = rest > 0f && crossings < SubsurfaceProbe.MostCrossings
     found
@@ -107,7 +106,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
   private def isEntry(there: Int, here: Int): Boolean =
     if acrossMaterials then scene.isSubsurface(there) else scene.isSameMaterial(there, here)
 
-  /** The density of the entry for each unit of its area, by all axes. */
+  /** Area density of the point of entry, summed over the axes (MIS by the balance heuristic). */
   private def pdf(p: Vec3, frame: Frame, inside: Bssrdf, entry: ShadingPoint): Float =
     val d = frame.toLocal(entry.p - p)
     val n = frame.toLocal(entry.geometricNormal)
@@ -116,5 +115,5 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
       0.5f * Math.abs(n.z) * inside.density(sqrt(d.x * d.x + d.y * d.y))
 
 object SubsurfaceProbe:
-  /** More than any body has; no ray goes on for ever. */
+  /** Limit of crossings, so that every probe ray ends. */
   private inline val MostCrossings = 10000

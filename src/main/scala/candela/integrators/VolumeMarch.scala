@@ -7,10 +7,9 @@ import candela.media.Regions
 import candela.sampling.{RandomStream, Sampler}
 import candela.scene.Scene
 
-/** Light that volumes emit and, if `scatters`, that they scatter once towards the camera, summed in
-  * steps along a ray: pbrt-v2's volume integrators. The size of the steps is part of the picture:
-  * like these, it takes the transmittance up to the last step's sample for that of the whole way,
-  * and steps four times as large towards lights.
+/** Ray marching through pbrt-v2's volumes: emission and, if `scatters`, single scattering. The step
+  * size affects the image: as in pbrt-v2, the transmittance up to the last step's sample stands for
+  * that of the whole segment, and steps towards lights are four times as large.
   *
   * Mutable, one per worker.
   *
@@ -29,12 +28,12 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
   def raysTraced: Long = light.raysTraced
   def copy(): VolumeMarch = VolumeMarch(scene, regions, stepSize, scatters)
 
-  /** For a new path from the camera. */
+  /** Starts a new camera path. */
   def start(ray: Ray, sampler: Sampler): Unit =
     light.begin(ray.time)
     random.seed(sampler.next1D(), sampler.next1D())
 
-  /** Follows the ray as far as `ray.tMax`. */
+  /** Marches along the ray up to `ray.tMax`. */
   def march(ray: Ray, sampler: Sampler): Unit =
     added = Rgb.Black
     transmitted = Rgb.White
@@ -56,7 +55,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
         regions.addDepth(ray, before, t, unit, 0.5f * stepSize, random.next(), work)
         before = t
         val left = work.transmittance * boost
-        // Where hardly any light comes from, most of the work is left to chance
+        // Russian roulette where hardly any light gets through
         if left.luminance < VolumeMarch.Faint then
           if random.next() < 0.5f then boost *= 2f
           else
@@ -84,7 +83,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
       added = Rgb(sumR, sumG, sumB) * (step * unit)
       transmitted = work.transmittance * boost
 
-  /** Light of one source that is scattered to `wo`, per scene unit. */
+  /** Direct light of one sampled light, scattered to `wo`, per scene unit. */
   private def scattered(p: Vec3, wo: Vec3): Rgb =
     if !light.choose(p, Vec3.Zero, random.next()) ||
       !light.samplePoint(p, random.next(), random.next()) || light.isBlocked(p)
@@ -94,22 +93,22 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
       val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * light.sample.radiance
       sent * light.transmittance(this) * (phase / light.pdf)
 
-  /** What the volumes leave of light that comes along the ray, as far as `ray.tMax`.
+  /** Transmittance along the ray up to `ray.tMax`.
     *
-    * @param steps their size, in that of the steps towards the camera
+    * @param steps step size, in units of that towards the camera
     */
-  def dimming(ray: Ray, steps: Float): Rgb =
+  def transmittance(ray: Ray, steps: Float): Rgb =
     work.clearDepth()
     val unit = ray.direction.length
     regions.addDepth(ray, 0f, ray.tMax, unit, steps * stepSize, random.next(), work)
     work.transmittance
 
 object VolumeMarch:
-  /** For the next worker. */
+  /** A copy for the next worker. */
   def copy(march: VolumeMarch | Null): VolumeMarch | Null =
     if march == null then null else march.copy()
 
   private val Faint = 1e-3f
 
-  /** Times the size of steps along the camera's ray; so in pbrt-v2. */
+  /** Step size towards lights, in units of that along the camera ray, as in pbrt-v2. */
   inline val StepsToLights = 4f

@@ -113,7 +113,7 @@ final class Walk(
   /** Attenuates the path along the ray just traced. */
   def attenuateByVolumes(): Unit =
     val march = volumes
-    if march != null then throughput.scale(march.dimming(ray, steps))
+    if march != null then throughput.scale(march.transmittance(ray, steps))
 
   /** Adds the environment's radiance and ends the path. Weight: BSDF sampling against light
     * sampling.
