@@ -16,8 +16,7 @@ final class Dispersion(wavelengths: Wavelengths):
   /** Starts a new path. */
   def begin(): Unit = wavelength = 0f
 
-  /** The BSDF for the path's wavelength, which is sampled now if `bsdf` is the first dispersive one.
-    */
+  /** The BSDF for the path's wavelength, sampled now if `bsdf` is the first dispersive one. */
   def choose(bsdf: Bsdf, sampler: Sampler): Bsdf =
     weight = Rgb.White
     if !bsdf.isDispersive then bsdf

@@ -59,7 +59,7 @@ abstract class SharedChains:
   * never advanced by two at a time.
   */
 abstract class ChainWalker:
-  /** Prepares what all chains need, together with the other workers, before chains advance; false if
+  /** Prepares, together with the other workers, what all chains need before they advance; false if
     * stopped on the way.
     */
   def begin(isStopped: () => Boolean): Boolean

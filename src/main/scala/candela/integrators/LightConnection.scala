@@ -88,8 +88,9 @@ final class LightConnection(
   /** Light of the sample that `vertex` scatters to its `wo`, not yet weighted with the path's
     * throughput.
     *
-    * @param weight of multiple importance sampling, from the local direction to the light; evaluated
-    *               only if the sample is visible and BSDF sampling can find the light, else 1
+    * @param weight of multiple importance sampling, given the local direction to the light;
+    *               evaluated only if the sample is visible and BSDF sampling can find the light,
+    *               else 1
     */
   inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
     val localWi = vertex.at.frame.toLocal(wi)

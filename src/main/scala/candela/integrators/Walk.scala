@@ -144,7 +144,7 @@ final class Walk(
       LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
     else 1f
 
-  /** Continues through an interface. Shadow rays pass it, too, so light sampling goes on competing. */
+  /** Continues through an interface. Shadow rays pass it, too: light sampling keeps competing. */
   def passThrough(): Unit = vertex.passThrough(ray)
 
   /** Evaluates the BSDF of the vertex: a scattering event. */

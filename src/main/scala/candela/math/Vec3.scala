@@ -3,9 +3,9 @@ package candela.math
 /** A point, direction or offset in space, or a normal: three Floats. What it stands for is said by
   * the name that holds it; [[Transform]] has one method for each meaning.
   *
-  * Read-only. Immutable, too, unless it was made as a [[MutableVec3]]: records that are reused, such
-  * as [[candela.geometry.ShadingPoint]], hold those, and say so in the types of their members.
-  * Methods that take a `Vec3` only read it; to keep it, they take [[MutableVec3.toVec3]].
+  * Read-only, and immutable unless created as a [[MutableVec3]]: reused records such as
+  * [[candela.geometry.ShadingPoint]] hold those, and the types of their members say so. A method
+  * may read any `Vec3`; whoever stores one that may be mutable stores [[MutableVec3.toVec3]].
   */
 sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   private[math] var ownX = startX

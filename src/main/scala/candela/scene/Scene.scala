@@ -100,7 +100,7 @@ final class Scene(
   /** Are there surfaces where it does? Then shadow rays must look at what they hit. */
   val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
 
-  /** Traces a ray through interfaces to the first other surface, and computes its geometry; false if
+  /** Traces a ray through interfaces to the first other surface and computes its geometry; false if
     * the ray leaves the scene.
     */
   def closestBehindInterfaces(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
