@@ -17,11 +17,7 @@ final class Disk(
     innerRadius: Float,
     phiMax: Float,
     reversed: Boolean
-) extends Shape:
-  private val toWorld = objectToWorld.m
-  private val toObject = objectToWorld.inverseM
-  private val doubleError =
-    Quadric.doubleError(objectToWorld, radius.toDouble, radius.toDouble, Math.abs(height.toDouble))
+) extends SurfaceOfRevolution(objectToWorld, radius, Math.abs(height)):
   private val normal =
     val n = objectToWorld.normal(Vec3.Z).normalized
     if reversed then -n else n
@@ -34,59 +30,41 @@ final class Disk(
 
   def normals: (Vec3, Float) = (normal, 1f)
 
-  def bounds: Bounds3 = Quadric.worldBounds(objectToWorld, radius, height, height)
+  def bounds: Bounds3 = worldBounds(radius, height, height)
 
-  def intersect(ray: Ray, hit: Hit): Boolean =
-    val t = distance(ray)
-    if t > 0.0 && t < ray.tMax then
-      ray.tMax = t.toFloat
-      true
-    else false
-
-  def isHit(ray: Ray): Boolean =
-    val t = distance(ray)
-    t > 0.0 && t < ray.tMax
+  def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, distance(ray))
+  def isHit(ray: Ray): Boolean = isWithin(ray, distance(ray))
 
   /** How far it is along the ray to the disk's plane. */
   private def plane(ray: Ray): Double =
-    val m = toObject
-    val oz = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
-    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
-    (height - oz) / dz
+    (height - objectZ(ray.ox, ray.oy, ray.oz)) / alongZ(ray)
 
   private def distance(ray: Ray): Double =
-    val m = toObject
     val t = plane(ray)
     if !(t > 0.0 && t < ray.tMax) then -1.0
     else
-      val x = m(0) * (ray.ox + t * ray.dx) + m(1) * (ray.oy + t * ray.dy) +
-        m(2) * (ray.oz + t * ray.dz) + m(3)
-      val y = m(4) * (ray.ox + t * ray.dx) + m(5) * (ray.oy + t * ray.dy) +
-        m(6) * (ray.oz + t * ray.dz) + m(7)
+      val wx = ray.ox + t * ray.dx
+      val wy = ray.oy + t * ray.dy
+      val wz = ray.oz + t * ray.dz
+      val x = objectX(wx, wy, wz)
+      val y = objectY(wx, wy, wz)
       val r2 = x * x + y * y
       val inside = r2 <= radius.toDouble * radius && r2 >= innerRadius.toDouble * innerRadius &&
-        (phiMax >= TwoPi || angle(x, y) <= phiMax)
+        (phiMax >= TwoPi || phi(x, y) <= phiMax)
       if inside then t else -1.0
 
-  private def angle(x: Double, y: Double): Double =
-    val a = Math.atan2(y, x)
-    if a < 0 then a + 2 * Math.PI else a
-
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    val m = toObject
-    val t = Quadric.refined(plane(ray), ray.tMax)
+    val t = refined(plane(ray), ray.tMax)
     val wx = ray.ox + t * ray.dx
     val wy = ray.oy + t * ray.dy
     val wz = ray.oz + t * ray.dz
-    val x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
-    val y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
+    val x = objectX(wx, wy, wz)
+    val y = objectY(wx, wy, wz)
     // Put back into the plane: the point is exact but for the rounding of the way to world space
-    at.p = Quadric.place(toWorld, x, y, height.toDouble)
-    at.pError = TriangleSoup.roundingError(at.p) + doubleError
+    put(x, y, height, at)
     val local = Vec3(x.toFloat, y.toFloat, height)
     at.geometricNormal = normal
-    val phi = angle(local.x.toDouble, local.y.toDouble).toFloat
-    at.u = phi / phiMax
+    at.u = phi(local.x, local.y).toFloat / phiMax
     at.v = (radius - sqrt(square(local.x) + square(local.y))) / (radius - innerRadius)
     at.frame.set(Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f))))
     if at.wantsPartials then
@@ -101,8 +79,8 @@ final class Disk(
 
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
     val r = sqrt(lerp(u1, square(innerRadius), square(radius)))
-    val phi = u2 * phiMax
-    out.p = objectToWorld.point(Vec3(r * cos(phi), r * sin(phi), height))
+    val angle = u2 * phiMax
+    out.p = objectToWorld.point(Vec3(r * cos(angle), r * sin(angle), height))
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
     out.n = normal
     out.pdf = 1f / area

@@ -17,9 +17,11 @@ final class Quadric(
     profile: Profile,
     phiMax: Float,
     reversed: Boolean
-) extends Shape:
-  private val toWorld = objectToWorld.m
-  private val toObject = objectToWorld.inverseM
+) extends SurfaceOfRevolution(
+      objectToWorld,
+      profile.radius,
+      Math.max(Math.abs(profile.zMin), Math.abs(profile.zMax))
+    ):
   private val g0 = profile.g0
   private val g1 = profile.g1
   private val g2 = profile.g2
@@ -29,37 +31,24 @@ final class Quadric(
   private val full = phiMax >= TwoPi
   private val outside = if reversed != profile.vSpan < 0 then -1f else 1f
   private lazy val sampling = RevolutionSampling(objectToWorld, profile, phiMax)
-  private val reach = Math.max(Math.abs(zMin), Math.abs(zMax))
-  private val doubleError =
-    Quadric.doubleError(objectToWorld, profile.radius, profile.radius, reach)
 
-  def bounds: Bounds3 = Quadric.worldBounds(
-    objectToWorld,
+  def bounds: Bounds3 = worldBounds(
     Math.nextUp(profile.radius.toFloat),
     Math.nextDown(zMin.toFloat),
     Math.nextUp(zMax.toFloat)
   )
 
-  def intersect(ray: Ray, hit: Hit): Boolean =
-    val t = nearest(ray)
-    if t > 0.0 && t < ray.tMax then
-      ray.tMax = t.toFloat
-      true
-    else false
-
-  def isHit(ray: Ray): Boolean =
-    val t = nearest(ray)
-    t > 0.0 && t < ray.tMax
+  def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, nearest(ray))
+  def isHit(ray: Ray): Boolean = isWithin(ray, nearest(ray))
 
   /** The smallest distance > 0 at which the ray meets the surface, or −1. */
   private def nearest(ray: Ray): Double =
-    val m = toObject
-    val dx = m(0) * ray.dx + m(1) * ray.dy + m(2) * ray.dz
-    val dy = m(4) * ray.dx + m(5) * ray.dy + m(6) * ray.dz
-    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
-    val ex = m(0) * ray.ox + m(1) * ray.oy + m(2) * ray.oz + m(3)
-    val ey = m(4) * ray.ox + m(5) * ray.oy + m(6) * ray.oz + m(7)
-    val ez = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
+    val dx = alongX(ray)
+    val dy = alongY(ray)
+    val dz = alongZ(ray)
+    val ex = objectX(ray.ox, ray.oy, ray.oz)
+    val ey = objectY(ray.ox, ray.oy, ray.oz)
+    val ez = objectZ(ray.ox, ray.oy, ray.oz)
     val shift = -(ex * dx + ey * dy + (ez - zMiddle) * dz) / (dx * dx + dy * dy + dz * dz)
     val ox = ex + shift * dx
     val oy = ey + shift * dy
@@ -88,14 +77,13 @@ final class Quadric(
     z >= zMin && z <= zMax && (full || profile.angle(x, y, z) <= phiMax)
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    val m = toObject
-    val t = Quadric.refined(nearest(ray), ray.tMax)
+    val t = refined(nearest(ray), ray.tMax)
     val wx = ray.ox + t * ray.dx
     val wy = ray.oy + t * ray.dy
     val wz = ray.oz + t * ray.dz
-    var x = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
-    var y = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
-    var z = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
+    var x = objectX(wx, wy, wz)
+    var y = objectY(wx, wy, wz)
+    var z = objectZ(wx, wy, wz)
     // Behind a hole the t is a Float, a millionth off; two of Newton's steps along the gradient
     // bring the point onto the surface
     var steps = 2
@@ -108,8 +96,7 @@ final class Quadric(
         y -= k * y
         z += k * s
       steps -= 1
-    at.p = Quadric.place(toWorld, x, y, z)
-    at.pError = TriangleSoup.roundingError(at.p) + doubleError
+    put(x, y, z, at)
     val slope = profile.slope(z)
     val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
     // A tip points up, as far as it has a direction at all
@@ -152,41 +139,3 @@ final class Quadric(
     out.n = out.n * outside
 
   def areaPdf(p: Vec3): Float = sampling.perArea(p)
-
-object Quadric:
-  /** The largest error, per component, that Double arithmetic makes of a point in a box of this
-    * half extent around the origin of object space, on its way to the world and back: some 2⁶
-    * round-offs of the largest number on the way. It counts where such a point is close to the
-    * world's origin, as on a ground that is a sphere of radius 1e6.
-    */
-  private[shapes] def doubleError(toWorld: Transform, x: Double, y: Double, z: Double): Vec3 =
-    val m = toWorld.m
-    def row(r: Int) = (1.4e-14 * (Math.abs(m(r)) * x + Math.abs(m(r + 1)) * y +
-      Math.abs(m(r + 2)) * z + Math.abs(m(r + 3)))).toFloat
-    Vec3(row(0), row(4), row(8))
-
-  /** The distance of a hit that shortened a ray to `t`, as found again in Double; `t` itself if
-    * what was found is another one, as behind a hole.
-    */
-  private[shapes] def refined(found: Double, t: Float): Double =
-    if Math.abs(found - t) <= 1e-6 * t then found else t.toDouble
-
-  /** The box around the placed cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
-  private[shapes] def worldBounds(
-      objectToWorld: Transform,
-      radius: Float,
-      zMin: Float,
-      zMax: Float
-  ): Bounds3 =
-    val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
-    val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))
-    def reach(axis: Int) = Math.max(Math.abs(world.min(axis)), Math.abs(world.max(axis)))
-    val pad = TriangleSoup.roundingError(Vec3(reach(0), reach(1), reach(2)))
-    Bounds3(world.min - pad, world.max + pad)
-
-  private[shapes] def place(m: IArray[Double], x: Double, y: Double, z: Double): Vec3 =
-    Vec3(
-      (m(0) * x + m(1) * y + m(2) * z + m(3)).toFloat,
-      (m(4) * x + m(5) * y + m(6) * z + m(7)).toFloat,
-      (m(8) * x + m(9) * y + m(10) * z + m(11)).toFloat
-    )

@@ -59,7 +59,7 @@ private[shapes] final class RevolutionSampling(
     val phi = profile.seam(z) + u2.toDouble * phiMax
     val x = r * Math.cos(phi)
     val y = r * Math.sin(phi)
-    out.p = Quadric.place(objectToWorld.m, x, y, z)
+    out.p = SurfaceOfRevolution.place(objectToWorld.m, x, y, z)
     out.pError = TriangleSoup.roundingError(out.p)
     out.n = objectToWorld
       .normal(Vec3(x.toFloat, y.toFloat, -profile.slope(z).toFloat))

@@ -21,9 +21,7 @@ final class Sphere(
     zMax: Float,
     phiMax: Float,
     reversed: Boolean
-) extends Shape:
-  private val toWorld = objectToWorld.m
-  private val toObject = objectToWorld.inverseM
+) extends SurfaceOfRevolution(objectToWorld, radius, radius):
   private val full = zMin <= -radius && zMax >= radius && phiMax >= TwoPi
   private val thetaMin = Math.acos(clamp(zMin / radius, -1f, 1f).toDouble)
   private val thetaMax = Math.acos(clamp(zMax / radius, -1f, 1f).toDouble)
@@ -31,32 +29,21 @@ final class Sphere(
 
   private val uniformScale: Option[Float] = objectToWorld.uniformScale.map(_.toFloat)
   private val worldRadius = radius * uniformScale.getOrElse(1f)
-  private val doubleError =
-    Quadric.doubleError(objectToWorld, radius.toDouble, radius.toDouble, radius.toDouble)
   private val conical = full && uniformScale.isDefined
 
-  def bounds: Bounds3 = Quadric.worldBounds(objectToWorld, radius, zMin, zMax)
+  def bounds: Bounds3 = worldBounds(radius, zMin, zMax)
 
-  def intersect(ray: Ray, hit: Hit): Boolean =
-    val t = nearest(ray)
-    if t > 0.0 && t < ray.tMax then
-      ray.tMax = t.toFloat
-      true
-    else false
-
-  def isHit(ray: Ray): Boolean =
-    val t = nearest(ray)
-    t > 0.0 && t < ray.tMax
+  def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, nearest(ray))
+  def isHit(ray: Ray): Boolean = isWithin(ray, nearest(ray))
 
   /** The smallest distance > 0 at which the ray meets the sphere, or −1. */
   private def nearest(ray: Ray): Double =
-    val m = toObject
-    val ox = m(0) * ray.ox + m(1) * ray.oy + m(2) * ray.oz + m(3)
-    val oy = m(4) * ray.ox + m(5) * ray.oy + m(6) * ray.oz + m(7)
-    val oz = m(8) * ray.ox + m(9) * ray.oy + m(10) * ray.oz + m(11)
-    val dx = m(0) * ray.dx + m(1) * ray.dy + m(2) * ray.dz
-    val dy = m(4) * ray.dx + m(5) * ray.dy + m(6) * ray.dz
-    val dz = m(8) * ray.dx + m(9) * ray.dy + m(10) * ray.dz
+    val ox = objectX(ray.ox, ray.oy, ray.oz)
+    val oy = objectY(ray.ox, ray.oy, ray.oz)
+    val oz = objectZ(ray.ox, ray.oy, ray.oz)
+    val dx = alongX(ray)
+    val dy = alongY(ray)
+    val dz = alongZ(ray)
     val a = dx * dx + dy * dy + dz * dz
     val b = ox * dx + oy * dy + oz * dz
     val r2 = radius.toDouble * radius
@@ -79,28 +66,25 @@ final class Sphere(
       else -1.0
 
   private def isKept(x: Double, y: Double, z: Double): Boolean =
-    full || (z >= zMin && z <= zMax && Sphere.phi(x, y) <= phiMax)
+    full || (z >= zMin && z <= zMax && phi(x, y) <= phiMax)
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     // Once more in Double: from a million radii away the Float t is a twentieth of one off
-    val m = toObject
-    val t = Quadric.refined(nearest(ray), ray.tMax)
+    val t = refined(nearest(ray), ray.tMax)
     val wx = ray.ox + t * ray.dx
     val wy = ray.oy + t * ray.dy
     val wz = ray.oz + t * ray.dz
-    val px = m(0) * wx + m(1) * wy + m(2) * wz + m(3)
-    val py = m(4) * wx + m(5) * wy + m(6) * wz + m(7)
-    val pz = m(8) * wx + m(9) * wy + m(10) * wz + m(11)
+    val px = objectX(wx, wy, wz)
+    val py = objectY(wx, wy, wz)
+    val pz = objectZ(wx, wy, wz)
     val scale = radius / Math.sqrt(px * px + py * py + pz * pz)
     val x = px * scale
     val y = py * scale
     val z = pz * scale
-    at.p = Quadric.place(toWorld, x, y, z)
-    at.pError = TriangleSoup.roundingError(at.p) + doubleError
+    put(x, y, z, at)
     val outward = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat)).normalized
     at.geometricNormal = if reversed then -outward else outward
-    val phi = Sphere.phi(x, y)
-    at.u = (phi / phiMax).toFloat
+    at.u = (phi(x, y) / phiMax).toFloat
     at.v = ((Math.acos(Math.max(-1.0, Math.min(1.0, z / radius))) - thetaMin) /
       (thetaMax - thetaMin)).toFloat
     val dpdu = objectToWorld.vector(Vec3(-y.toFloat, x.toFloat, 0f))
@@ -146,11 +130,10 @@ final class Sphere(
     // In Double up to the world point, for whose rounding alone `pError` stands (SpawnedRaySuite)
     val z = zMin + u1.toDouble * (zMax.toDouble - zMin)
     val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
-    val phi = u2.toDouble * phiMax
-    val x = r * Math.cos(phi)
-    val y = r * Math.sin(phi)
-    out.p = Quadric.place(toWorld, x, y, z)
-    out.pError = TriangleSoup.roundingError(out.p) + doubleError
+    val angle = u2.toDouble * phiMax
+    val x = r * Math.cos(angle)
+    val y = r * Math.sin(angle)
+    put(x, y, z, out)
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat))
     // dA(world) = |det M| · |M⁻ᵀ n| dA(object) for the unit normal n
     val stretch = Math.abs(objectToWorld.determinant).toFloat * n.length / radius
@@ -167,8 +150,3 @@ final class Sphere(
     val stretch =
       Math.abs(objectToWorld.determinant).toFloat * objectToWorld.normal(q).length / radius
     1f / (phiMax * radius * (zMax - zMin) * stretch)
-
-object Sphere:
-  private def phi(x: Double, y: Double): Double =
-    val a = Math.atan2(y, x)
-    if a < 0 then a + 2 * Math.PI else a
