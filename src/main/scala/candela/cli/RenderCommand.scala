@@ -1,13 +1,15 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Version}
-import candela.film.{PixelBounds, SpectralBands}
-import candela.image.{ImageError, ImageFiles}
-import candela.render.{Cancellation, Progress, Renderer, Rendering}
-
+import java.io.PrintStream
 import java.nio.file.Path
 
 import scala.util.{Failure, Success, Try}
+
+import candela.base.{Problem, SceneError, Version}
+import candela.film.{PixelBounds, SpectralBands}
+import candela.image.{ImageError, ImageFiles}
+import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.scene.PathReport
 
 /** `candela render`: from scenes to image files. */
 final class RenderCommand(
@@ -126,3 +128,60 @@ final class RenderCommand(
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
       terminal.out.println(Summary.result(written, rendering, loaded.standIns))
       terminal.out.flush()
+
+/** What a plan is made of, one line each: the choices that the builder made. */
+object Explanation:
+  def print(plan: RenderPlan, to: PrintStream): Unit =
+    val width = plan.features.map(_._1.length).maxOption.getOrElse(0)
+    for (what, value) <- plan.features do to.println(s"  ${what.padTo(width, ' ')}  $value")
+
+/** `candela render --pixel x,y --sample n --debug`: the path of one sample, in words. */
+private[cli] object PixelTrace:
+  def run(plan: RenderPlan, options: Options, out: PrintStream): ExitCode =
+    val (x, y) = options.pixel.getOrElse((0, 0))
+    val crop = plan.crop
+    if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then
+      val size = s"x ${crop.x0} until ${crop.x1}, y ${crop.y0} until ${crop.y1}"
+      throw SceneError(Problem.general(s"there is no pixel $x,$y in the image: $size"))
+    out.println(s"pixel ($x, $y), sample ${options.sample}")
+    Renderer.trace(plan, x, y, options.sample, PathReport(out.println)) match
+      case Some(light) => out.println(s"adds $light")
+      case None => out.println("is left out: infinite or no number")
+    out.flush()
+    ExitCode.Done
+
+/** The lines at the end of a rendering. */
+object Summary:
+
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; or what there
+    * is of an interrupted one.
+    *
+    * @param standIns how much is missing and was replaced
+    */
+  def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
+    val missing = if standIns > 0 then s", ${Figures.count(standIns, "stand-in")}" else ""
+    val names = written.mkString(", ")
+    if r.isComplete then
+      val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
+      val size = s"${r.film.width}x${r.film.height}"
+      s"wrote $names  $size, ${r.samplesDone} spp, ${Figures.duration(r.seconds)}, $rates$missing"
+    else
+      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel$missing"
+
+  def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
+    Vector(
+      "parse" -> loaded.parseSeconds,
+      "build" -> loaded.buildSeconds,
+      "render" -> rendering.seconds,
+      "write" -> writeSeconds
+    ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
+
+  def refused(r: Refused): String =
+    val material = if r.material < 0 then "" else s", material ${r.material}"
+    s"warning: ${Figures.count(r.count, "sample")} left out for being infinite or no number, " +
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; to see its path, add " +
+      s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
+
+  private def rate(count: Long, r: Rendering): String =
+    Figures.metric(count / Math.max(r.seconds, 1e-9))

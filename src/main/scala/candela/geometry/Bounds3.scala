@@ -27,3 +27,11 @@ object Bounds3:
     val inf = Float.PositiveInfinity
     Bounds3(Vec3(inf, inf, inf), Vec3(-inf, -inf, -inf))
   def of(points: Iterable[Vec3]): Bounds3 = points.foldLeft(Empty)((b, p) => b.union(p))
+
+/** All points within `radius` of a point: what light from infinitely far away is aimed at. */
+final case class Ball(center: Vec3, radius: Float):
+  /** Of the disc that it is seen as from any direction. */
+  val area: Float = Pi * radius * radius
+
+object Ball:
+  def around(box: Bounds3): Ball = Ball(if box.isEmpty then Vec3.Zero else box.center, box.radius)
