@@ -28,7 +28,7 @@ private[bidirectional] final class LightPaths(
   private val ray = Ray()
   private val hit = Hit()
   private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
-  private var kept = Array.fill(LightPaths.Some)(PathVertex(scene))
+  private var kept = Array.fill(LightPaths.InitialSize)(PathVertex(scene))
   private var used = 0
 
   var raysTraced: Long = 0L
@@ -111,4 +111,4 @@ private[bidirectional] final class LightPaths(
 
 private object LightPaths:
   /** Points to begin with; there will be more if a path has more. */
-  private val Some = 8
+  private val InitialSize = 8

@@ -86,10 +86,10 @@ private[bidirectional] object PrimarySamples:
 
   /** Some of the dimensions, in the order in which they are asked for. */
   final class Numbers(owner: PrimarySamples) extends Sampler:
-    private var values = new Array[Float](Some)
-    private var changed = new Array[Int](Some)
-    private var oldValues = new Array[Float](Some)
-    private var oldChanged = new Array[Int](Some)
+    private var values = new Array[Float](InitialSize)
+    private var changed = new Array[Int](InitialSize)
+    private var oldValues = new Array[Float](InitialSize)
+    private var oldChanged = new Array[Int](InitialSize)
     private var known = 0
     private var next = 0
 
@@ -145,4 +145,4 @@ private[bidirectional] object PrimarySamples:
   private inline val Never = -1
 
   /** Dimensions to begin with. */
-  private inline val Some = 32
+  private inline val InitialSize = 32

@@ -69,8 +69,7 @@ final class Discrete(weights: Array[Float]):
 
   private val cdf = new Array[Float](weights.length + 1)
 
-  /** The sum of the weights. */
-  val total: Double = Cdf.write(weights, 0, weights.length, cdf, 0)
+  Cdf.write(weights, 0, weights.length, cdf, 0): Unit
 
   def size: Int = cdf.length - 1
 

@@ -183,9 +183,6 @@ final class TriangleSoup(
       else (e1 * v2 - e2 * v1) * Math.signum(determinant)
 
 object TriangleSoup:
-  val Empty: TriangleSoup =
-    TriangleSoup(Array.empty, Array.empty, Array.empty, Array.empty, tangents = false)
-
   /** Rounding a Double point to Float is off by half an ulp; one more for what uses it. */
   def roundingError(p: Vec3): Vec3 =
     Vec3(Math.abs(p.x) * gamma(2), Math.abs(p.y) * gamma(2), Math.abs(p.z) * gamma(2))

@@ -2,14 +2,14 @@ package candela.accel
 
 import candela.accel.tracing.{Bvh, Grid}
 import candela.math.*
-import candela.shapes.{Shape, TriangleSoup}
+import candela.shapes.Shape
 import candela.testing.{Draws, Soups}
 
 /** Sets of primitives that are hard for one accelerator or another. */
 object AcceleratorScenes:
 
   private def mixed(triangles: Seq[Soups.Triangle], shapes: Seq[Shape] = Nil): Primitives =
-    val soup = if triangles.isEmpty then TriangleSoup.Empty else Soups.of(triangles)
+    val soup = if triangles.isEmpty then Soups.Empty else Soups.of(triangles)
     Primitives(soup, shapes.toArray)
 
   /** Instances of three objects (triangles, shapes, both), turned, stretched and mirrored. */
@@ -69,14 +69,14 @@ object AcceleratorScenes:
         Soups.shapes(draws, 40, 0.3f)(anywhere)
       ),
       "instances" ->
-        Primitives(TriangleSoup.Empty, Array.empty, instances(draws, 60, 0.1f)(anywhere)),
+        Primitives(Soups.Empty, Array.empty, instances(draws, 60, 0.1f)(anywhere)),
       "triangles, spheres, disks and instances" -> Primitives(
         Soups.of(Soups.around(draws, 100, 0.3f)(anywhere)),
         Soups.shapes(draws, 20, 0.3f)(anywhere).toArray,
         instances(draws, 20, 0.2f)(anywhere)
       ),
       "instances far from the origin" -> Primitives(
-        TriangleSoup.Empty,
+        Soups.Empty,
         Array.empty,
         instances(draws, 40, 0.1f)(far + anywhere)
       ),

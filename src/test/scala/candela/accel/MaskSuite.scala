@@ -67,7 +67,7 @@ class MaskSuite extends AnyFunSuite:
       def apply(at: ShadingPoint): Float = if at.p.z > 0f then 0f else 1f
     val sphere = Soups.sphere(Transform.Identity, 1f)
     val masks = Masks(Array.empty, Array(HoleMask(Top, whole)))
-    val world = Bvh(Primitives(TriangleSoup.Empty, Array(sphere), Instances.Empty, masks))
+    val world = Bvh(Primitives(Soups.Empty, Array(sphere), Instances.Empty, masks))
     assert(world.closest(down(0.1f, 0.2f, from = 3f), hit))
     assert(Math.abs(ray.at(ray.tMax).z + Math.sqrt(0.95).toFloat) < 1e-5f)
     ray.set(Vec3(-3f, 0f, 0.5f), Vec3(1f, 0f, 0f), Float.PositiveInfinity)
@@ -78,7 +78,7 @@ class MaskSuite extends AnyFunSuite:
     for alpha <- Seq(0f, 0.2f, 0.7f, 1f) do
       val disk = Disk(Transform.Identity, 0f, 1f, 0f, TwoPi, false)
       val masks = Masks(Array.empty, Array(StochasticMask(ConstantFloat(alpha))))
-      val world = Bvh(Primitives(TriangleSoup.Empty, Array(disk), Instances.Empty, masks))
+      val world = Bvh(Primitives(Soups.Empty, Array(disk), Instances.Empty, masks))
       val n = 20000
       var met = 0
       for _ <- 0 until n do
@@ -96,7 +96,7 @@ class MaskSuite extends AnyFunSuite:
     val mask = StochasticMask(ConstantFloat(0.5f))
     val masks = Masks(Array.empty, Array(mask, mask))
     val world =
-      Bvh(Primitives(TriangleSoup.Empty, disks.map(d => d), Instances.Empty, masks))
+      Bvh(Primitives(Soups.Empty, disks.map(d => d), Instances.Empty, masks))
     val n = 20000
     val met = (0 until n).count: _ =>
       world.isOccluded(down(draws.between(-0.5f, 0.5f), draws.between(-0.5f, 0.5f)), hit)

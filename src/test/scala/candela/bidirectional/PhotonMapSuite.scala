@@ -9,15 +9,14 @@ import candela.color.Rgb
 import candela.lights.{LightSelection, PointLight}
 import candela.math.*
 import candela.scene.{Instanced, Scene, Surfaces}
-import candela.shapes.TriangleSoup
-import candela.testing.Draws
+import candela.testing.{Draws, Soups}
 
 final class PhotonMapSuite extends AnyFunSuite:
   private val albedo = 0.6f
 
   private def scene: Scene =
     val light = PointLight(Vec3.Zero, Rgb.White)
-    val surfaces = Surfaces(TriangleSoup.Empty, Array.empty)
+    val surfaces = Surfaces(Soups.Empty, Array.empty)
     Scene(
       surfaces,
       Instanced(Array.empty, Instances.Empty),

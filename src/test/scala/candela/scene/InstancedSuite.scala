@@ -6,7 +6,7 @@ import candela.accel.*
 import candela.accel.tracing.Bvh
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.shapes.{Disk, Shape, TriangleSoup}
+import candela.shapes.{Disk, Shape}
 import candela.testing.{Draws, Soups}
 
 /** An object that stands elsewhere looks as if its surfaces had been built there. */
@@ -20,7 +20,7 @@ class InstancedSuite extends AnyFunSuite:
     Instanced(Array(surfaces), Instances.of(Array(Bvh(primitives)), Vector((0, Still(toWorld)))))
 
   private def solid(shape: Shape): Surfaces =
-    Surfaces(TriangleSoup.Empty, Array(ShapeInstance(shape, material = 0, light = -1)))
+    Surfaces(Soups.Empty, Array(ShapeInstance(shape, material = 0, light = -1)))
 
   private def placement(draws: Draws): Transform =
     val size = draws.magnitude(1e-2, 1e3)

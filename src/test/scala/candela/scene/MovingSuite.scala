@@ -6,7 +6,6 @@ import candela.accel.*
 import candela.accel.tracing.Bvh
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.shapes.TriangleSoup
 import candela.testing.{Draws, Soups}
 
 /** An object that moves is at any time where it would stand if it stood still then. */
@@ -120,7 +119,7 @@ class MovingSuite extends AnyFunSuite:
     val instances = Instances.of(objects, Vector((0, way), (0, Still(Transform.Identity))))
     assert(instances.count == 2 && instances.moving == 1)
     assert(instances.bounds(0).extent.x < 3f && instances.bounds(1).extent.x > 10f)
-    val world = Bvh(Primitives(TriangleSoup.Empty, Array.empty, instances))
+    val world = Bvh(Primitives(Soups.Empty, Array.empty, instances))
     ray.set(Vec3(9f, 0f, 5f), Vec3(0f, 0f, -1f), Float.PositiveInfinity)
     ray.time = 0f
     assert(!world.isOccluded(ray, hit))

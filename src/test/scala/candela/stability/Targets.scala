@@ -17,7 +17,7 @@ final class Target(surfaces: Surfaces, motion: Motion):
   private val instanced = Instanced(Array(surfaces), instances)
   private val accelerator: Accelerator =
     if isPlain then BruteForce(primitives)
-    else BruteForce(Primitives(TriangleSoup.Empty, Array.empty, instances))
+    else BruteForce(Primitives(Soups.Empty, Array.empty, instances))
 
   def bounds: Bounds3 = accelerator.bounds
   def isHit(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
@@ -32,7 +32,7 @@ object Target:
 
   def apply(shapes: Seq[Shape], motion: Motion = AtRest): Target =
     val solids = shapes.map(s => ShapeInstance(s, material = 0, light = -1))
-    new Target(Surfaces(TriangleSoup.Empty, solids.toArray), motion)
+    new Target(Surfaces(Soups.Empty, solids.toArray), motion)
 
   def mesh(soup: TriangleSoup, motion: Motion = AtRest): Target =
     new Target(Surfaces(soup, Array.empty), motion)

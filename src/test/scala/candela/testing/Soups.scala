@@ -8,6 +8,9 @@ object Soups:
 
   type Triangle = (Vec3, Vec3, Vec3)
 
+  val Empty: TriangleSoup =
+    TriangleSoup(Array.empty, Array.empty, Array.empty, Array.empty, tangents = false)
+
   private def flat(points: Iterable[Vec3]): Array[Float] =
     points.flatMap(p => Seq(p.x, p.y, p.z)).toArray
 

@@ -9,7 +9,6 @@ private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
 private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
 private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
 private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
-private[build] val notV3: Set[Dialect] = Set(Dialect.V2, Dialect.V4)
 
 /** Dialects in words. */
 object Dialects:
