@@ -1,10 +1,10 @@
 package candela.base
 
-/** How a line of a file is cut to a width that can be read, and where its caret then stands.
+/** Truncates a source line to a readable width and positions its caret.
   *
-  * Lines of up to 200 characters are shown whole. Of a longer one, an excerpt whose caret is at
-  * column 150 or before keeps the beginning; any other starts with `…` and has the caret at column
-  * 80. So the excerpt and the true column tell together where the caret belongs.
+  * Lines of up to 200 characters are shown whole. The excerpt of a longer line keeps the beginning
+  * if its caret is at column 150 or before; otherwise it starts with `…` and has the caret at
+  * column 80. So excerpt and true column together determine the caret.
   */
 object Excerpt:
   private val Longest = 200
@@ -12,9 +12,9 @@ object Excerpt:
   private val CutCaret = 80
   private val Ellipsis = "…"
 
-  /** @param before the line's text left of the place (its last 200 characters are enough)
-    * @param after  the rest (its first 200 characters are enough)
-    * @param column the place, counted from 1 in the whole line
+  /** @param before text left of the position (its last 200 characters suffice)
+    * @param after text from the position on (its first 200 characters suffice)
+    * @param column position in the whole line, counted from 1
     */
   def of(before: String, after: String, column: Int): String =
     val isWhole = length(before) == column - 1
@@ -25,11 +25,11 @@ object Excerpt:
       val end = if length(after) > right then first(after, right) + Ellipsis else after
       Ellipsis + last(before, CutCaret - 2) + end
 
-  /** The column of the caret under `excerpt` for a problem at `column` of the whole line. */
+  /** Caret column under `excerpt` for a problem at `column` of the whole line. */
   def caret(excerpt: String, column: Int): Int =
     if column > LastPlain && excerpt.startsWith(Ellipsis) then CutCaret else column
 
-  // Characters are code points: an emoji is one column, not two.
+  // Counts code points: an emoji is one column, not two.
   private def length(s: String): Int = s.codePointCount(0, s.length)
 
   private def first(s: String, count: Int): String =

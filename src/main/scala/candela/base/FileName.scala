@@ -3,16 +3,16 @@ package candela.base
 import java.nio.file.Path
 import java.util.Locale
 
-/** Names of files and their suffixes, which say the format. */
+/** File names, and the suffixes that determine the format. */
 object FileName:
 
-  /** What follows the last dot, in lower case; empty if there is no dot. */
+  /** The text after the last dot, in lower case; empty if there is no dot. */
   def suffix(path: Path): String =
     val name = last(path)
     val dot = name.lastIndexOf('.')
     if dot < 0 then "" else name.substring(dot + 1).toLowerCase(Locale.ROOT)
 
-  /** The name without folders and suffix; a leading dot begins no suffix. */
+  /** The name without folders and suffix; a leading dot starts no suffix. */
   def stem(path: Path): String =
     val name = last(path)
     val dot = name.lastIndexOf('.')

@@ -1,6 +1,6 @@
 package candela.base
 
-/** Runs `body` for 0 until `count`, compiled to a plain `while`: no range, no boxing. */
+/** Runs `body` for 0 until `count` as a plain `while`, without range or boxing. */
 inline def loop(count: Int)(inline body: Int => Unit): Unit =
   var i = 0
   while i < count do

@@ -2,12 +2,12 @@ package candela.base
 
 import scala.collection.mutable.ArrayBuffer
 
-/** Numbers of a list whose length is not known yet, without boxes.
+/** Growable buffer of unboxed numbers.
   *
-  * They are in pieces of the same size, which are joined at the end: that takes memory twice for a
-  * moment, where an array that doubles takes it up to four times.
+  * Stores fixed-size chunks and joins them at the end: peak memory is twice the result, against
+  * four times for a doubling array.
   *
-  * @tparam A the array of such numbers
+  * @tparam A array type of the numbers
   */
 abstract class NumberBuffer[A](newArray: Int => A):
   private val pieces = ArrayBuffer.empty[A]
@@ -15,7 +15,7 @@ abstract class NumberBuffer[A](newArray: Int => A):
 
   def length: Int = size
 
-  /** The piece in which the number of that index is, or will be. */
+  /** The chunk that holds the number at index `i`. */
   protected def pieceOf(i: Int): A =
     val k = i >>> NumberBuffer.Bits
     if k == NumberBuffer.Most then throw OutOfMemoryError("a list of more than 2^31 numbers")
@@ -28,7 +28,7 @@ abstract class NumberBuffer[A](newArray: Int => A):
       val count = Math.min(size - start, NumberBuffer.Piece)
       if count > 0 then System.arraycopy(pieces(k), 0, to, at + start, count)
 
-  /** The numbers so far; the buffer is empty afterwards. */
+  /** Returns the numbers and empties the buffer. */
   def take(): A =
     val all = newArray(size)
     copyTo(all, 0)

@@ -1,20 +1,20 @@
 package candela.base
 
-/** Who does pieces of work, perhaps several at a time. Handed down to whoever has such work: only
-  * `render` makes threads.
+/** Executes divisible work, possibly in parallel. Callers receive one as an argument: only `render`
+  * creates threads.
   */
 abstract class Parallel:
 
-  /** So many pieces are done at the same time, at most. */
+  /** Maximum number of concurrent tasks. */
   def threads: Int
 
-  /** Runs `task` for each of 0 until `count`, in any order, and returns when all are done. What a
-    * task throws is thrown here.
+  /** Runs `task` for each of 0 until `count`, in any order; returns when all are done. Rethrows
+    * what a task throws.
     */
   def each(count: Int)(task: Int => Unit): Unit
 
-  /** Runs `task` for ranges (from, until) that make up 0 until `count`, none of them small enough
-    * that the calls would count. Which ranges these are is left open.
+  /** Runs `task` for ranges (from, until) that partition 0 until `count`, each large enough to
+    * amortise the call. The partition is unspecified.
     */
   final def ranges(count: Int)(task: (Int, Int) => Unit): Unit =
     val pieces =
@@ -25,12 +25,12 @@ abstract class Parallel:
 
 object Parallel:
 
-  /** One piece after the other, in the caller's thread. */
+  /** Runs tasks sequentially in the caller's thread. */
   val Alone: Parallel = new Parallel:
     def threads: Int = 1
     def each(count: Int)(task: Int => Unit): Unit = loop(count)(task(_))
 
-  /** For each thread, so that all end at about the same time. */
+  /** Tasks per thread, for load balance. */
   private val Pieces = 4
 
   private val SmallestRange = 1 << 12

@@ -2,8 +2,8 @@ package candela.base
 
 import scala.math.Ordering.Implicits.seqOrdering
 
-/** A place in a text file; lines and columns count from 1. `includedFrom` is the statement that
-  * brought this file in, if it is not the scene file itself.
+/** A position in a text file; lines and columns count from 1. `includedFrom` is the statement that
+  * included the file, unless it is the main scene file.
   */
 final case class SourcePos(
     file: String,
@@ -13,20 +13,20 @@ final case class SourcePos(
 ):
   override def toString: String = s"$file:$line:$column"
 
-  /** Lines and columns, from the main file's inwards. */
+  /** Lines and columns, from the main file inwards. */
   private[base] def path: List[(Int, Int)] =
     includedFrom.fold(Nil)(_.path) :+ (line, column)
 
 enum Severity:
   case Warning, Error
 
-/** Something that a person should know about their input.
+/** A problem with the user's input.
   *
-  * @param message what was expected and what was found, on one line
-  * @param help    what to write instead
-  * @param excerpt the text of the line at `at`, without its line end
-  * @param standIn something is missing, and this takes its place: of a warning, it has done so; of
-  *                an error, it would if the user had asked to keep going
+  * @param message expected and found, on one line
+  * @param help the cure, e.g. what to write instead
+  * @param excerpt text of the line at `at`, without its line end
+  * @param standIn the placeholder for a missing item: already in use if a warning; if an error,
+  *   used under --keep-going
   */
 final case class Problem(
     severity: Severity,
@@ -39,7 +39,7 @@ final case class Problem(
 
 object Problem:
 
-  /** In the order in which the scene is read; what has no place comes last. */
+  /** Problems in the order in which the scene is read; those without a position come last. */
   def byPlace(problems: Vector[Problem]): Vector[Problem] =
     val (placed, others) = problems.partition(_.at.nonEmpty)
     placed.sortBy(_.at.map(_.path)) ++ others
@@ -50,8 +50,8 @@ object Problem:
   def warning(at: SourcePos, message: String, help: Option[String] = None): Problem =
     Problem(Severity.Warning, Some(at), line(message), help.map(line))
 
-  /** One line that a terminal can show, whatever names the file has: no control characters, and not
-    * longer than a few lines of a terminal.
+  /** `text` as a single printable line, whatever names it contains: no control characters, and at
+    * most a few terminal lines long.
     */
   private def line(text: String): String =
     val shown = text.map(c => if c.isControl then '?' else c)
@@ -60,10 +60,10 @@ object Problem:
 
   private inline val Longest = 500
 
-  /** Something that the scene names is not there.
+  /** Problem about an item that the scene names but that doesn't exist.
     *
-    * @param standIn  what takes its place: "it is left out"
-    * @param keepGoing let it; otherwise it is an error
+    * @param standIn the placeholder used, or the consequence: "skipped"
+    * @param keepGoing if true, a warning; otherwise an error
     */
   def missing(
       at: SourcePos,
@@ -76,14 +76,11 @@ object Problem:
       if keepGoing then (Severity.Warning, s"$message; $standIn") else (Severity.Error, message)
     Problem(severity, Some(at), line(text), help.map(line), standIn = Some(standIn))
 
-  /** An error that belongs to no place in a scene file, e.g. an output folder that can't be
-    * written.
-    */
+  /** An error without a position in a scene file, e.g. an output folder that can't be written. */
   def general(message: String, help: Option[String] = None): Problem =
     Problem(Severity.Error, None, message, help)
 
-/** Thrown where reading cannot go on; caught once, in `cli`. It is no bug, so it has no stack
-  * trace.
+/** Thrown where reading can't continue; caught only in `cli`. Not a bug, so it has no stack trace.
   */
 final class SceneError(val problems: Vector[Problem])
     extends RuntimeException(problems.map(_.message).mkString("; "), null, false, false):

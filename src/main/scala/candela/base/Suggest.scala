@@ -6,32 +6,32 @@ import java.nio.file.{Files, InvalidPathException, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-/** The nearest known name, for "did you mean". */
+/** Finds the nearest known name, for "did you mean". */
 object Suggest:
 
-  /** The known name that differs from `name` by the fewest edits, if that is few enough to be a
-    * slip: at most a third of the longer name's length. Upper and lower case count as equal.
+  /** The known name with the smallest edit distance to `name`, ignoring case, if it is small enough
+    * for a typo: at most a third of the longer name's length.
     */
   def nearest(name: String, known: Iterable[String]): Option[String] =
     def most(k: String) = math.max(1, math.max(name.length, k.length) / 3)
     val lower = name.toLowerCase
     known.toVector.sorted
-      // no fewer edits than lengths differ: most names need no table
+      // The distance is at least the difference in length, so most names need no table.
       .filter(k => math.abs(k.length - name.length) <= most(k))
       .map(k => (k, distance(lower, k.toLowerCase)))
       .filter((k, d) => d <= most(k))
       .minByOption(_._2)
       .map(_._1)
 
-  /** A ready help line: the near miss, else all known names. */
+  /** Help text: the nearest name, else all known names. */
   def help(name: String, known: Iterable[String]): Option[String] =
     nearest(name, known).map(k => s"did you mean `$k`?").orElse {
       Option.when(known.nonEmpty)(known.toVector.sorted.distinct.mkString("known: ", ", ", ""))
     }
 
-  /** The same for a file that is not there: the nearest name in its folder.
+  /** The nearest name in the folder of a missing file.
     *
-    * @param at makes the path; some names, such as those with a zero byte, are no path's
+    * @param at creates the path; fails for invalid names, such as those with a zero byte
     */
   def file(at: => Path): Option[String] =
     try near(at)
@@ -44,10 +44,11 @@ object Suggest:
     val name = Option(path.getFileName).map(_.toString)
     name.flatMap(nearest(_, names)).map(n => s"did you mean `$n`?")
 
-  /** Edits (insert, delete, replace, swap of neighbours) from `a` to `b`.
+  /** Edit distance (insertion, deletion, substitution, transposition of neighbours) from `a` to
+    * `b`.
     *
-    * Source: Damerau, "A technique for computer detection and correction of spelling errors",
-    * CACM 7(3), 1964 (the restricted form).
+    * Source: Damerau, "A technique for computer detection and correction of spelling errors", CACM
+    * 7(3), 1964 (the restricted form).
     */
   def distance(a: String, b: String): Int =
     val d = Array.ofDim[Int](a.length + 1, b.length + 1)

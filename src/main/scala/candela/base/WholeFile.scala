@@ -4,20 +4,20 @@ import java.io.IOException
 import java.nio.file.{AtomicMoveNotSupportedException, Files, Path}
 import java.nio.file.{StandardCopyOption, StandardOpenOption}
 
-/** Files that are there whole or not at all, whenever writing is interrupted. */
+/** Atomic file writes: a file is complete or absent, even if writing is interrupted. */
 object WholeFile:
 
   def write(path: Path, bytes: Array[Byte]): Unit =
     write(path): file =>
       val _ = Files.write(file, bytes)
 
-  /** Lets `body` write a new file beside `path`, which then takes its place.
+  /** Lets `body` write a temporary file beside `path`, then renames it to `path`.
     *
     * @throws IOException if it can't be written, or is a folder
     */
   def write(path: Path)(body: Path => Unit): Unit =
     if Files.isDirectory(path) then throw IOException("it is a folder")
-    // Not Files.createTempFile, which would make the file readable for its owner only.
+    // Files.createTempFile would make the file readable by its owner only.
     val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
     val temporary = path.resolveSibling(s".${path.getFileName}.$unique.tmp")
     try

@@ -14,7 +14,7 @@ import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
 
-/** `candela bench`: how fast programs come to which error. */
+/** `candela bench`: measures error against time for one or more renderers. */
 final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   private val asked = options.bench
   private val cancellation = Cancellation()
@@ -32,7 +32,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
         for path <- paths do terminal.out.println(s"wrote $path")
         terminal.out.flush()
       else if !cancellation.isRequested then
-        throw SceneError(Problem.general("nothing could be run"))
+        throw SceneError(Problem.general("no program could run any scene"))
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
   private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
@@ -47,7 +47,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       write(paths, _)
     )
 
-  /** Each file is whole at any time, even if the machine stops while it is written anew. */
+  /** Each file is written whole, so an interrupted run leaves the previous version. */
   private def write(paths: Vector[Path], results: SuiteReport): Unit =
     for path <- paths do
       WholeFile.write(path, text(path, results).getBytes(UTF_8))
@@ -56,16 +56,16 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     if Files.isDirectory(source) then
       SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
     else if Files.isRegularFile(source) then SuiteFile.read(source)
-    else throw SceneError(Problem.general(s"there is no suite `$source`"))
+    else throw SceneError(Problem.general(s"no such suite: `$source`"))
 
   private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
 
-  /** Sample counts of the command line are for all scenes. */
+  /** Sample counts on the command line apply to all scenes. */
   private def withoutOwnWork(suite: Suite): Suite =
     if asked.samples.isEmpty then suite
     else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
 
-  /** Without `--report` a page beside the current folder's other files, by the suite's name. */
+  /** Default without `--report`: an HTML page in the current folder, named after the suite. */
   private def reports(source: Path): Vector[Path] =
     val name = source.toAbsolutePath.getFileName.toString.stripSuffix(".conf")
     val names = if options.reports.isEmpty then Vector(s"$name.html") else options.reports
@@ -78,7 +78,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       throw SceneError(Problem.general(s"can't write `$path`", help))
     val folder = path.toAbsolutePath.getParent
     if !Files.isDirectory(folder) then
-      throw SceneError(Problem.general(s"can't write `$path`: there is no folder `$folder`"))
+      throw SceneError(Problem.general(s"can't write `$path`: no such folder: `$folder`"))
 
   private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match
     case "html" => SuitePage.html(results, asked.pictures)
@@ -86,8 +86,8 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     case "csv" => SuiteData.csv(results)
     case _ => SuiteChart.svg(results)
 
-  /** This very program as people start it, so that its launcher chooses what suits each scene; else
-    * the same Java, with the same options and classes.
+  /** The command that starts this program: the launcher if known, because it chooses JVM options
+    * per scene; otherwise the same Java with the same options and class path.
     */
   private def self: Vector[String] =
     sys.props.get("candela.launcher").filter(l => Files.isExecutable(Path.of(l)))
@@ -100,7 +100,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       .filterNot(f => f.startsWith("-agentlib") || f.startsWith("-javaagent"))
     (java +: flags) ++ Vector("-cp", classPath(runtime.getClassPath), "candela.cli.Main")
 
-  /** The programs run in another folder. */
+  /** Absolute paths, because the programs run in another folder. */
   private def classPath(path: String): String =
     val separator = java.io.File.pathSeparator
     path.split(separator).map(p => Path.of(p).toAbsolutePath.toString).mkString(separator)
@@ -109,14 +109,14 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     val scratch = Files.createTempDirectory("candela-bench")
     try body(scratch)
     finally
-      // Links are deleted, not followed.
+      // Deletes links without following them.
       Using.resource(Files.walk(scratch)): files =>
         files.iterator.asScala.toVector.reverse.foreach(Files.deleteIfExists(_))
 
-/** What `bench` is asked for beside the suite; empty or None is what the suite says.
+/** Options of `bench`; empty or None keeps the suite's setting.
   *
-  * @param references where the references of a folder of scenes are, if not beside them
-  * @param pictures   whether the page has all images to look at
+  * @param references folder of the references of a folder of scenes, if not that folder
+  * @param pictures whether the page contains all images
   */
 final case class BenchOptions(
     samples: Option[Vector[Int]] = None,
@@ -127,7 +127,7 @@ final case class BenchOptions(
     pictures: Boolean = true
 )
 
-/** The options of `bench`, one row each. */
+/** Option table of `bench`, one row each. */
 private[cli] object BenchTable:
   private type Row = OParser[?, Options]
 
@@ -143,12 +143,12 @@ private[cli] object BenchTable:
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[Seq[Int]]("samples").valueName("N,...")
       .text("samples per pixel; overrides the suite")
-      .validate(n => if n.forall(_ >= 1) then success else failure("--samples: expected from 1"))
+      .validate(n => if n.forall(_ >= 1) then success else failure("--samples must be at least 1"))
       .action((n, o) => change(o)(_.copy(samples = Some(n.toVector.distinct.sorted)))),
     opt[Int]("seeds").valueName("N")
       .text("independent images per sample count; overrides the suite")
       .validate: n =>
-        if n >= 1 then success else failure(s"--seeds: expected a number from 1, found `$n`")
+        if n >= 1 then success else failure(s"--seeds must be at least 1, found `$n`")
       .action((n, o) => change(o)(_.copy(seeds = Some(n)))),
     opt[Seq[String]]("programs").valueName("NAME,...")
       .text("restrict the suite to these programs")

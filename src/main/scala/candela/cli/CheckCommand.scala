@@ -1,6 +1,6 @@
 package candela.cli
 
-/** `candela check`: parses and builds scenes, says what they hold and what is wrong with them. */
+/** `candela check`: parses and builds scenes, prints their contents, and reports problems. */
 final class CheckCommand(
     options: Options,
     terminal: Terminal,
@@ -52,7 +52,7 @@ final class CheckCommand(
       lights -> "light",
       d.textures.size -> "texture",
       loaded.warnings.distinct.size -> "warning",
-      loaded.standIns -> "stand-in"
+      loaded.standIns -> "placeholder"
     ).collect { case (n, noun) if n > 0 => Figures.count(n, noun) }
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
     (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")

@@ -6,10 +6,10 @@ import candela.base.Suggest
 import candela.film.Layer
 import candela.scenefile.Dialect
 
-/** From the words of a command line to [[Options]], or to what to print instead. */
+/** Parses a command line to [[Options]], or to the text to print instead. */
 object CommandLine:
 
-  /** What to print instead of running a command. */
+  /** Text to print instead of running a command. */
   final case class Answer(out: String, err: String, code: ExitCode)
 
   def parse(args: Seq[String]): Either[Answer, Options] =
@@ -25,20 +25,20 @@ object CommandLine:
       case _ => false
     options match
       case Some(understood) if !asked => Right(understood)
-      // Who asks for help need not have everything else right.
+      // A request for help overrides other errors.
       case _ if asked => Left(Answer(lines(out), "", ExitCode.Done))
       case _ => Left(Answer(lines(out), lines(errors), ExitCode.BadUsage))
 
   private val setup: OParserSetup = new DefaultOParserSetup {}
 
-  /** `render` is what is meant if no command is named. */
+  /** Inserts the default command, `render`, if none is named. */
   private def withCommand(args: Seq[String]): Seq[String] =
     val words = Command.values.map(_.word) ++ Seq("--help", "--version")
     if args.headOption.exists(words.contains) then args else Command.Render.word +: args
 
   private def lines(texts: List[String]): String = texts.map(_ + "\n").mkString
 
-  /** Unknown options offer the nearest one that the command has. */
+  /** Suggests the command's nearest option for an unknown one. */
   private def explained(error: String, args: Seq[String]): String = error match
     case s"Unknown option $option" =>
       val command = withCommand(args).head
@@ -56,24 +56,23 @@ enum Command(val word: String):
   case Describe extends Command("describe")
   case Convert extends Command("convert")
 
-/** The part of the image to render: fractions of its width and height, 0 to 1. */
+/** Part of the image to render, in fractions [0, 1] of width and height. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
 
-/** A command line, understood; what is None was not said.
+/** A parsed command line; None if an option was not given.
   *
-  * @param files     the scenes; for `compare`, the image and its reference; for `describe`, what to
-  *                  describe
-  * @param outfiles  where to write the image, instead of the scene's file name
-  * @param pixel     with `sample`, what `debug` looks at instead of rendering an image
-  * @param markdown  whether `describe` writes the whole reference
-  * @param to        the dialect that `convert` writes
-  * @param out       where it writes the scene
-  * @param toPly     meshes of at least as many triangles go into PLY files
-  * @param layers    what images hold beside colours and what the scene asks for
-  * @param reference what reports judge the image by
-  * @param reports   where to write them
-  * @param bench     what `bench` is asked for
-  * @param compare   what `compare` is asked for
+  * @param files scenes; for `compare`, the image and its reference; for `describe`, category and
+  *   type
+  * @param outfiles output images, instead of the file named by the scene
+  * @param pixel with `sample`, the sample that `debug` traces instead of rendering
+  * @param markdown whether `describe` prints the whole reference
+  * @param to target dialect of `convert`
+  * @param toPly minimum number of triangles for writing a mesh as a PLY file
+  * @param layers AOVs in addition to the scene's
+  * @param reference reference image for reports
+  * @param reports report files
+  * @param bench options of `bench`
+  * @param compare options of `compare`
   */
 final case class Options(
     command: Command = Command.Render,
@@ -101,5 +100,5 @@ final case class Options(
     to: Option[Dialect] = None,
     toPly: Option[Int] = None
 ):
-  /** As many threads as were asked for, or else as there are processors. */
+  /** The requested number of threads, or else the number of processors. */
   def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

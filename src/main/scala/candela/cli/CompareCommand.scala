@@ -11,7 +11,9 @@ import candela.base.FileName
 import candela.image.{Contents, ImageError, ImageFiles, OutputFormat}
 import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric, Metrics, PixelWindow}
 
-/** `candela compare`: how an image differs from its reference, or a folder of them from theirs. */
+/** `candela compare`: measures the error of an image, or of each image of a folder, against a
+  * reference.
+  */
 final class CompareCommand(options: Options, terminal: Terminal, report: Report):
   private val asked = options.compare
 
@@ -52,12 +54,14 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
           s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $name"
         )
 
-  /** Every image of the folder, against the one of the same name, or all against one. */
+  /** Compares each image of a folder with the reference of the same name, or all with one
+    * reference.
+    */
   private def compareSet(images: Path, references: Path): ExitCode =
     if asked.writesPictures then
-      throw ImageError("--difference and --heatmap are of two images, not of folders")
+      throw ImageError("--difference and --heatmap need two images, not folders")
     val set = ReferenceSet.of(images, references)
-    for file <- set.missing do terminal.err.println(s"$file has no reference in $references")
+    for file <- set.missing do terminal.err.println(s"$file: no reference in $references")
     val comparisons =
       set.pairs.map((image, reference) => image -> Comparison(pairOf(image, reference)))
     terminal.out.print(ReferenceSet.table(comparisons).map(_ + "\n").mkString)
@@ -65,19 +69,21 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     val unknown = if set.missing.isEmpty then ExitCode.Done else ExitCode.BadInput
     codes.foldLeft(unknown)(_ worseOf _)
 
-  /** With limits, pixels that can't be compared are a failure too: NaN must not pass for equal. */
+  /** If limits are set, NaN and infinite pixels fail the comparison too: NaN must not pass as
+    * equal.
+    */
   private def judge(comparison: Comparison, name: String): ExitCode =
     val skipped = comparison.metrics.skipped
     val wrong =
       if asked.limits.isEmpty then Vector.empty
-      else if skipped > 0 then Vector(s"${Figures.count(skipped, "pixel")} can't be compared")
+      else if skipped > 0 then Vector(s"NaN or infinite in ${Figures.count(skipped, "pixel")}")
       else asked.limits.flatMap(_.broken(comparison))
     wrong.foreach(text => terminal.err.println(name + text))
     if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput
 
-/** A picture beside its reference, and what `compare` says about them.
+/** An image with its reference, and their error metrics.
   *
-  * @param flip only of colours
+  * @param flip mean FLIP error; None if there are no colour channels
   */
 final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Double]):
 
@@ -98,7 +104,7 @@ final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Doub
     ) ++ Option.when(m.skipped > 0):
       s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
 
-  /** A table of the channels. */
+  /** Table of per-channel metrics. */
   def perChannel: Vector[String] =
     val head = Vector("channel", "MSE", "RMSE", "MAE", "relative MSE", "mean", "reference", "ratio")
     val rows = metrics.perChannel.map: c =>
@@ -116,31 +122,32 @@ object Comparison:
   def decibels(psnr: Double): String =
     if psnr.isInfinite then "infinite" else s"${Figures.fixed(psnr, 2)} dB"
 
-  /** Columns as wide as they need to be, numbers to the right. */
+  /** Pads columns to their widest cell; numbers are right-aligned. */
   def aligned(rows: Vector[Vector[String]]): Vector[String] =
     val widths = rows.head.indices.map(i => rows.map(_(i).length).max)
     rows.map: row =>
       val cells = row.zip(widths).tail.map((cell, width) => " " * (width - cell.length) + cell)
       (row.head.padTo(widths.head, ' ') +: cells).mkString("  ")
 
-/** Images and what they are to be compared with.
+/** Images paired with their references.
   *
   * @param missing images without a reference
   */
 final case class ReferenceSet(pairs: Vector[(Path, Path)], missing: Vector[Path])
 
 object ReferenceSet:
-  /** References are a folder, with names that but for the ending are the same, or one image.
+  /** Pairs images with references: one for all, or a folder searched by name without suffix.
     *
-    * @throws ImageError if there are no images
+    * @throws ImageError if the folder contains no images
     */
   def of(images: Path, references: Path): ReferenceSet =
     val found = files(images)
-    if found.isEmpty then throw ImageError(s"$images: there are no images in this folder")
+    if found.isEmpty then throw ImageError(s"$images: no images in this folder")
     if Files.isDirectory(references) then
       val known = files(references).groupBy(FileName.stem)
       val matched = found.map: image =>
-        // Of several the one of the same format; else EXR, as the order of suffixes has it.
+        // Of several candidates, prefers the image's own format, then the order of the suffixes,
+        // EXR first.
         val same = known.getOrElse(FileName.stem(image), Vector.empty)
         image -> same.minByOption: r =>
           val suffix = FileName.suffix(r)
@@ -154,7 +161,7 @@ object ReferenceSet:
       val others = found.filterNot(_.toAbsolutePath.normalize == one)
       ReferenceSet(others.map(image => (image, references)), Vector.empty)
 
-  /** A line for each comparison, and their means. */
+  /** One row per comparison, and the means. */
   def table(comparisons: Vector[(Path, Comparison)]): Vector[String] =
     val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias")
     def row(name: String, c: Comparison) =
@@ -178,13 +185,13 @@ object ReferenceSet:
         ImageFiles.readable.contains(FileName.suffix(f))
       ).sorted
 
-/** What `compare` is asked for beside the pictures.
+/** Options of `compare`.
   *
-  * @param channels   to compare, instead of R, G and B (or all, if a picture has no colours)
-  * @param difference where to write |a − b|
-  * @param heatMap    where to write the error of each pixel, as colours
-  * @param heatMapMax the error that gets the brightest colour
-  * @param limits     above which (PSNR: below which) the comparison fails
+  * @param channels channels to compare instead of R, G, B (or of all, if an image has no RGB)
+  * @param difference file for the absolute difference |a − b|
+  * @param heatMap file for the per-pixel error in false colours
+  * @param heatMapMax error at the top of the colour scale
+  * @param limits bounds that make the comparison fail: upper bounds, but a lower bound for PSNR
   */
 final case class CompareOptions(
     crop: Option[PixelWindow] = None,
@@ -196,23 +203,23 @@ final case class CompareOptions(
     heatMapMax: Option[Double] = None,
     limits: Vector[Limit] = Vector.empty
 ):
-  /** FLIP takes longer than all other figures together. */
+  /** FLIP takes longer than all other metrics together. */
   def writesPictures: Boolean = difference.isDefined || heatMap.isDefined
 
-/** What a comparison must not exceed.
+/** Bound on a metric.
   *
-  * @param option as on the command line, without dashes
-  * @param figure in words
+  * @param option option name, without dashes
+  * @param figure display name of the metric
   */
 final case class Limit(option: String, figure: String, value: Double):
 
-  /** What is wrong, if something is; a figure that isn't known is. */
+  /** The violation, if any; a metric that can't be computed violates its bound. */
   def broken(c: Comparison): Option[String] = option match
     case "min-psnr" => Option.unless(c.metrics.psnr >= value)(said(c.metrics.psnr, "below"))
     case other =>
       val found = Limit.figures(other)(c)
       Option.unless(found.exists(_ <= value)):
-        found.fold(s"there is no $figure of these pictures")(said(_, "above"))
+        found.fold(s"$figure can't be computed for these images")(said(_, "above"))
 
   private def said(found: Double, where: String): String =
     s"$figure ${Figures.scientific(found)} is $where --$option $value"
@@ -227,18 +234,18 @@ object Limit:
     "max-flip" -> (c => c.flip)
   )
 
-  /** Option, figure, and the text of its help. */
+  /** Option, metric, and help text. */
   val all: Vector[(String, String, String)] = Vector(
-    ("max-mse", "MSE", "the mean squared error"),
-    ("max-rmse", "RMSE", "the root mean squared error"),
-    ("max-mae", "MAE", "the mean absolute error"),
-    ("max-relmse", "relative MSE", "the relative mean squared error"),
-    ("max-flip", "FLIP", "the mean FLIP error"),
-    ("max-bias", "bias", "the largest |mean ratio − 1| of a channel"),
-    ("min-psnr", "PSNR", "the peak signal-to-noise ratio in dB")
+    ("max-mse", "MSE", "mean squared error"),
+    ("max-rmse", "RMSE", "root mean squared error"),
+    ("max-mae", "MAE", "mean absolute error"),
+    ("max-relmse", "relative MSE", "relative mean squared error"),
+    ("max-flip", "FLIP", "mean FLIP error"),
+    ("max-bias", "bias", "the largest |mean ratio − 1| of any channel"),
+    ("min-psnr", "PSNR", "peak signal-to-noise ratio in dB")
   )
 
-/** The options of `compare`, one row each. */
+/** Option table of `compare`, one row each. */
 private[cli] object CompareTable:
   private type Row = OParser[?, Options]
 
@@ -248,7 +255,7 @@ private[cli] object CompareTable:
   private given Read[PixelWindow] = Read.reads: text =>
     text.split(",", -1).map(_.trim.toIntOption) match
       case Array(Some(x0), Some(x1), Some(y0), Some(y1)) if 0 <= x0 && 0 <= y0 && x1 != x0 =>
-        // As in imgtool: a negative end is a size.
+        // As in imgtool, a negative end is a size.
         PixelWindow(x0, if x1 < 0 then x0 - x1 else x1, y0, if y1 < 0 then y0 - y1 else y1)
       case _ => throw IllegalArgumentException("expected x0,x1,y0,y1 in pixels, e.g. 0,64,0,32")
 
@@ -264,7 +271,7 @@ private[cli] object CompareTable:
     val where = if option.startsWith("min") then "below" else "above"
     opt[Double](option).valueName("X").text(s"exit with 1 if $text is $where X")
       .validate: x =>
-        if x >= 0 then success else failure(s"--$option: expected a number from 0, found `$x`")
+        if x >= 0 then success else failure(s"--$option must be at least 0, found `$x`")
       .action: (x, o) =>
         change(o)(c => c.copy(limits = c.limits :+ Limit(option, figure, x)))
 
@@ -292,6 +299,6 @@ private[cli] object CompareTable:
       .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
     opt[Double]("heatmap-max").valueName("X")
       .text("top of its scale (default: 1 for flip, else the 99th percentile)")
-      .validate(x => if x > 0 then success else failure("--heatmap-max: expected more than 0"))
+      .validate(x => if x > 0 then success else failure("--heatmap-max must be greater than 0"))
       .action((x, o) => change(o)(_.copy(heatMapMax = Some(x))))
   ) ++ Limit.all.map(limit)

@@ -8,7 +8,7 @@ import java.io.{BufferedWriter, OutputStreamWriter, Writer}
 import java.nio.charset.StandardCharsets
 import java.nio.file.{Files, Path}
 
-/** `candela convert`: writes a scene in another dialect, or tidily in its own. */
+/** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
@@ -47,12 +47,10 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     def fail(why: String) = throw SceneError(Problem.general(s"can't write `$path`: $why"))
     if Files.isDirectory(path) then fail("it is a folder")
     else if !folder.exists(Files.isDirectory(_)) then
-      fail(s"there is no folder `${folder.getOrElse(path)}`")
-    else if !folder.exists(Files.isWritable) then fail("its folder is write-protected")
+      fail(s"no such folder: `${folder.getOrElse(path)}`")
+    else if !folder.exists(Files.isWritable) then fail("no write permission in its folder")
 
-  /** The text that is read must not be lost: what is written has neither its comments nor its
-    * includes.
-    */
+  /** Refuses to overwrite an input: the output keeps neither its comments nor its includes. */
   private def keepSource(path: Path, scene: SceneDescription): Unit =
     var sources = Set(options.files.head)
     val _ = Declarations.map(scene): d =>
@@ -61,5 +59,5 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     val isSource = Files.exists(path) &&
       sources.exists(s => Files.exists(Path.of(s)) && Files.isSameFile(Path.of(s), path))
     if isSource then
-      val help = Some("--outfile FILE with another name keeps both")
-      throw SceneError(Problem.general(s"`$path` is what is being read", help))
+      val help = Some("choose another name with --outfile FILE")
+      throw SceneError(Problem.general(s"`$path` is an input file; refusing to overwrite it", help))

@@ -8,7 +8,7 @@ import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.scenefile.Dialect
 
-/** `candela describe`: what scene files can say, from the tables that scenes are built by. */
+/** `candela describe`: prints the scene reference, generated from the recipes that build scenes. */
 final class DescribeCommand(options: Options, terminal: Terminal, report: Report):
   private val described = Described(options.dialect.fold(Dialect.values.toSet)(Set(_)))
   private val text = ReferenceText(described, terminal.columns)
@@ -35,9 +35,9 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
       if categories.isEmpty then
         unknown("category", category, Language.categories.flatMap(c => c.name +: c.aliases))
       else of(categories, name, Vector.empty)
-    case _ => throw SceneError(Problem.general("describe takes a category, a type, or both"))
+    case _ => throw SceneError(Problem.general("describe expects a category, a type, or both"))
 
-  /** The types of that name. */
+  /** The types called `name`. */
   private def of(in: Vector[Category], name: String, others: Vector[String]): Vector[String] =
     val types = in.flatMap(described.types)
     types.filter(_.name.equalsIgnoreCase(name)) match
@@ -60,12 +60,12 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
     val where = options.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
     throw SceneError(
       Problem.general(
-        s"no ${kind.toLowerCase} is called `$word`$where",
+        s"unknown ${kind.toLowerCase} `$word`$where",
         help.orElse(Some("`candela describe` lists all categories"))
       )
     )
 
-/** A parameter in words. */
+/** A parameter, formatted for display. */
 final case class DescribedParameter(
     name: String,
     typeName: String,
@@ -74,7 +74,7 @@ final case class DescribedParameter(
     meaning: String
 )
 
-/** A type of a category in words, with what the dialects asked for know of it. */
+/** A type of a category, formatted for display and restricted to the requested dialects. */
 final case class DescribedType(
     category: Category,
     name: String,
@@ -83,17 +83,17 @@ final case class DescribedType(
     pending: Option[String],
     parameters: Vector[DescribedParameter]
 ):
-  /** As a scene file writes it; options have no name of their own. */
+  /** The statement as written in a scene file; options have no type name. */
   def title: String = category.name match
     case s"Texture ($values)" => s"Texture \"…\" \"$values\" \"$name\""
     case "Option" => "Option"
     case "MakeNamedMedium" => s"MakeNamedMedium \"…\" \"string type\" \"$name\""
     case statement => s"$statement \"$name\""
 
-/** Turns the tables of the bridge into words. */
+/** Formats the recipes for display. */
 final class Described(asked: Set[Dialect]):
 
-  /** The types that the dialects know, in the order of the table. */
+  /** The types of the requested dialects, in table order. */
   def types(category: Category): Vector[DescribedType] =
     for recipe <- category.recipes.all if recipe.dialects.exists(asked)
     yield DescribedType(
@@ -107,7 +107,7 @@ final class Described(asked: Set[Dialect]):
 
   private def parameters(recipe: Recipe[?]): Vector[DescribedParameter] =
     val known = recipe.fields.filter(_.dialects.exists(d => recipe.dialects(d) && asked(d)))
-    // What changes the picture comes first
+    // Parameters that affect the image come first.
     for field <- known.sortBy(recipe.support(_).ordinal)
     yield DescribedParameter(
       field.name,
@@ -120,7 +120,7 @@ final class Described(asked: Set[Dialect]):
   private def named(dialects: Set[Dialect]): String =
     Dialect.values.filter(dialects).map(Dialects.name).mkString(" ")
 
-  /** One default, or each with its dialects: `80 (v2 v3), 5 (v4)`. */
+  /** The default, or each default with its dialects: `80 (v2 v3), 5 (v4)`. */
   private def default(field: Field[?], recipe: Recipe[?]): String =
     val dialects =
       Dialect.values.toVector.filter(d => field.dialects(d) && recipe.dialects(d) && asked(d))
@@ -139,11 +139,11 @@ final class Described(asked: Set[Dialect]):
       case Support.NoMeaning(reason) => s"; no effect: $reason"
     s"${field.doc}$unit$support"
 
-/** The reference as it looks on a terminal. */
+/** Formats the reference for a terminal. */
 final class ReferenceText(described: Described, columns: Int):
   private val table = TextTable(columns)
 
-  /** All categories. */
+  /** Lists all categories. */
   def categories: Vector[String] =
     val rows =
       for c <- Language.categories; types = described.types(c) if types.nonEmpty
@@ -156,7 +156,7 @@ final class ReferenceText(described: Described, columns: Int):
         "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters."
       )
 
-  /** A category's types; the parameters themselves, if there is but one type. */
+  /** Lists a category's types; of a single type, its parameters. */
   def category(c: Category): Vector[String] =
     described.types(c) match
       case Vector(only) => parameters(only)
@@ -176,7 +176,7 @@ final class ReferenceText(described: Described, columns: Int):
       if rows.isEmpty then Vector("  no parameters") else table.lines(names +: rows)
     head ++ later ++ ("" +: body)
 
-/** The reference as a page of documentation. */
+/** Formats the reference as a Markdown page. */
 final class ReferenceMarkdown(described: Described):
 
   def page: Vector[String] =
@@ -209,13 +209,12 @@ final class ReferenceMarkdown(described: Described):
 
 private object ReferenceMarkdown:
   val Introduction: String =
-    """# What scene files can say
+    """# Scene reference
       |
-      |Every type and parameter of pbrt-v2, v3 and v4, with what Candela makes of it. This page is
-      |printed by `candela describe --markdown`; `./sbt "run describe --markdown --outfile
-      |docs/REFERENCE.md"` makes it anew.
+      |All types and parameters of pbrt-v2, v3 and v4, and Candela's support for them. This page is
+      |generated: `./sbt "run describe --markdown --outfile docs/REFERENCE.md"`.
       |
-      |A type of values is what stands before the parameter's name: `"float radius" 2`. `float
-      |texture` and `spectrum texture` are a value or `"texture NAME" "TEXTURE"`. A `spectrum` is
-      |written as `rgb`, `spectrum` or `blackbody`, in v2 and v3 also as `color` or `xyz`. Units are
-      |in brackets.""".stripMargin
+      |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum
+      |texture` accept a value or `"texture NAME" "TEXTURE"`. A `spectrum` is given as `rgb`,
+      |`spectrum` or `blackbody`; in v2 and v3 also as `color` or `xyz`. Units are in
+      |brackets.""".stripMargin

@@ -2,10 +2,10 @@ package candela.cli
 
 import java.util.Locale
 
-/** Numbers as people read them; the same in every locale. */
+/** Formats numbers for display, independently of the locale. */
 object Figures:
 
-  /** Three digits and the metric prefix: `1.31 M`, `950`, `12.0 k`. */
+  /** Three significant digits with a metric prefix: `1.31 M`, `950`, `12.0 k`. */
   def metric(value: Double): String =
     val (scaled, prefix) =
       if value >= 1e9 then (value / 1e9, " G")
@@ -21,7 +21,7 @@ object Figures:
     else if seconds < 59.95 then s"${fixed(seconds, 1)} s"
     else clock(seconds)
 
-  /** Minutes and seconds, hours if there are any: `0:07`, `12:00`, `1:00:00`. */
+  /** Minutes and seconds, and hours if not zero: `0:07`, `12:00`, `1:00:00`. */
   def clock(seconds: Double): String =
     val s = Math.round(seconds)
     if s < 3600 then "%d:%02d".formatLocal(Locale.ROOT, s / 60, s % 60)

@@ -9,25 +9,24 @@ import scala.util.Try
 
 import sun.misc.{Signal, SignalHandler}
 
-/** What happens on Ctrl-C. */
+/** Handles Ctrl-C. */
 abstract class Interrupts:
 
-  /** Runs `body`; meanwhile an interrupt is a request to `cancellation`. */
+  /** Runs `body`; an interrupt meanwhile requests `cancellation`. */
   def during[A](cancellation: Cancellation)(body: => A): A
 
 object Interrupts:
 
-  /** For programs within programs: Ctrl-C is somebody else's business. */
+  /** For embedding: the host program handles Ctrl-C. */
   object Ignored extends Interrupts:
     def during[A](cancellation: Cancellation)(body: => A): A = body
 
-  /** @param isInteractive whether Ctrl-C leaves its `^C` on the line */
+  /** @param isInteractive whether the terminal echoes `^C` on the line */
   def fromSignals(err: PrintStream, isInteractive: Boolean): Interrupts =
     Signals(err, if isInteractive then "\n" else "")
 
-  /** The first SIGINT cancels, the second quits at once. Another request to end (SIGTERM: a batch
-    * system, or sbt that passes a Ctrl-C on) cancels too, and waits until `body` has written its
-    * image.
+  /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
+    * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
   private final class Signals(err: PrintStream, lineEnd: String) extends Interrupts:
     private val interrupt = Signal("INT")
@@ -40,15 +39,15 @@ object Interrupts:
       val onInterrupt: SignalHandler = _ =>
         if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
         else
-          // said first: a rendering may end as soon as it is asked to, and its result is said next
+          // Printed first, because a cancelled rendering may end, and print its result, at once.
           err.println(s"${lineEnd}stopping; Ctrl-C again quits and writes nothing")
           cancellation.request()
       Runtime.getRuntime.addShutdownHook(onShutdown)
-      // Refused if Java was told (-Xrs) to leave signals alone.
+      // Fails if Java runs with -Xrs, which reserves signals.
       val previous = Try(Signal.handle(interrupt, onInterrupt)).toOption
       try body
       finally
         previous.foreach(Signal.handle(interrupt, _))
         ended.countDown()
-        // Refused while the process ends, and then not needed.
+        // Fails during shutdown, when it is not needed.
         val _ = Try(Runtime.getRuntime.removeShutdownHook(onShutdown))

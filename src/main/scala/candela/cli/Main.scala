@@ -2,7 +2,7 @@ package candela.cli
 
 import java.io.PrintStream
 
-/** The program. The only place that exits. */
+/** Entry point; the only place that exits. */
 object Main:
 
   def main(args: Array[String]): Unit =
@@ -37,20 +37,20 @@ object Main:
           case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number
 
-/** How a run ended, from best to worst; `number` is what the shell sees. */
+/** Result of a run, from best to worst; `number` is the process's exit code. */
 enum ExitCode(val number: Int):
   case Done extends ExitCode(0)
 
-  /** A scene, an image or a folder is not as it should be; or a comparison is above its limit. */
+  /** A scene, image or folder is invalid; or a comparison exceeds its limit. */
   case BadInput extends ExitCode(1)
 
-  /** The command line is not understood. */
+  /** The command line is invalid. */
   case BadUsage extends ExitCode(2)
 
-  /** Candela itself is at fault. */
+  /** An internal error. */
   case Bug extends ExitCode(3)
 
-  /** Ended by Ctrl-C: 128 and the number of SIGINT, as shells have it. */
+  /** Interrupted by Ctrl-C: 128 plus the number of SIGINT, the shell convention. */
   case Interrupted extends ExitCode(130)
 
   def worseOf(other: ExitCode): ExitCode = if other.ordinal > ordinal then other else this

@@ -7,7 +7,7 @@ import candela.scenefile.Dialect
 
 import scopt.{OParser, Read}
 
-/** All commands and their options, one row each: parsing, checking and help. */
+/** All commands and their options, one row each, for parsing, validation and help. */
 private[cli] object OptionTable:
   private type Row = OParser[?, Options]
 
@@ -37,11 +37,11 @@ private[cli] object OptionTable:
   private given Read[Layer] = Read.reads: text =>
     Layer.values
       .find(_.word.equalsIgnoreCase(text.trim))
-      .getOrElse(throw IllegalArgumentException(s"expected some of $layers"))
+      .getOrElse(throw IllegalArgumentException(s"expected one or more of $layers"))
 
   private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
     if number.gteq(n, number.fromInt(least)) then success
-    else failure(s"--$name: expected a number from $least, found `$n`")
+    else failure(s"--$name must be at least $least, found `$n`")
 
   private def file(name: String, text: String): OParser[String, Options] =
     arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
@@ -49,7 +49,7 @@ private[cli] object OptionTable:
   private def scenes: Row =
     file("scene.pbrt...", "scene files; each is rendered or checked by itself").unbounded()
 
-  // What several commands have is made anew for each: scopt gives a row one parent.
+  // Options of several commands are methods: scopt gives a row one parent.
   private def dialect(text: String): Row =
     opt[Dialect]("dialect").valueName("v2|v3|v4").text(text)
       .action((d, o) => o.copy(dialect = Some(d)))
@@ -106,11 +106,12 @@ private[cli] object OptionTable:
       .text("trace one sample and print the events along its path; writes no image")
       .action((_, o) => o.copy(debug = true)),
     opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
-      .text(s"add layers to the ${OutputFormat.listed(Contents.Channels)} image: $layers")
+      .text(s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers")
       .action((l, o) => o.copy(layers = o.layers ++ l)),
     opt[String]("film").valueName("gbuffer")
-      .text("add all layers of pbrt-v4's gbuffer film")
-      .validate(f => if f == "gbuffer" then success else failure(s"--film: only gbuffer, not `$f`"))
+      .text("add all AOVs of pbrt-v4's gbuffer film")
+      .validate: f =>
+        if f == "gbuffer" then success else failure(s"--film must be gbuffer, found `$f`")
       .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer)),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
       .text("write error over time as .html, .json or .csv; the image is unaffected")
@@ -156,7 +157,7 @@ private[cli] object OptionTable:
     verbose("")
   )
 
-  /** The long options of a command, without dashes. */
+  /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
       case Some(Command.Render) => renderOptions
@@ -209,12 +210,12 @@ private[cli] object OptionTable:
       |""".stripMargin.stripTrailing),
     checkConfig: o =>
       if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
-        failure("--outfile names one image, but there are several scenes")
+        failure("--outfile needs a single scene, found several")
       else if o.debug != o.pixel.isDefined then
-        failure("--debug and --pixel x,y go together")
+        failure("--debug and --pixel x,y must be given together")
       else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then
-        failure("--report is about one scene, but there are several")
+        failure("--report needs a single scene, found several")
       else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty then
-        failure("--reference is what --report compares with: say where to write the report")
+        failure("--reference needs --report FILE")
       else success
   )

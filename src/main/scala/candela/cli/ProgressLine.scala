@@ -5,10 +5,9 @@ import candela.render.Progress
 import java.io.PrintStream
 import java.util.Locale
 
-/** Shows how far a rendering is: on a terminal one line that is redrawn; elsewhere, in logs, a line
-  * now and then.
+/** Progress of a rendering: one redrawn line on a terminal, occasional lines in a log.
   *
-  * Not a library's bar, since those know only terminals: a log gets no carriage returns here.
+  * No library's progress bar: those support terminals only, and a log must get no carriage returns.
   */
 final class ProgressLine(err: PrintStream, isInteractive: Boolean):
   import ProgressLine.*
@@ -19,7 +18,7 @@ final class ProgressLine(err: PrintStream, isInteractive: Boolean):
 
   def update(progress: Progress): Unit = if isInteractive then redraw(progress) else log(progress)
 
-  /** Makes place for what is printed next. */
+  /** Clears the line for subsequent output. */
   def finish(): Unit =
     if shownLength > 0 then
       err.print("\r" + " " * shownLength + "\r")
@@ -43,11 +42,11 @@ final class ProgressLine(err: PrintStream, isInteractive: Boolean):
 
 object ProgressLine:
 
-  /** Slower than the eye, so that a terminal far away is not flooded. */
+  /** Slow enough not to flood a remote terminal. */
   private val RedrawSeconds = 0.1
   private val LogSeconds = 10.0
 
-  /** A log gets a line for every tenth of the work at most. */
+  /** Maximum number of lines in a log. */
   private val LogSteps = 10
   private val BarWidth = 28
 

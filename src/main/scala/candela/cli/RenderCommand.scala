@@ -11,7 +11,7 @@ import candela.image.{ImageError, ImageFiles}
 import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
 import candela.scene.PathReport
 
-/** `candela render`: from scenes to image files. */
+/** `candela render`: renders scenes to image files. */
 final class RenderCommand(
     options: Options,
     terminal: Terminal,
@@ -40,7 +40,7 @@ final class RenderCommand(
     code
 
   private def load(scene: String): LoadedScene =
-    // Said before the scene is read, which may take long.
+    // Warns before parsing, which may take long.
     OutputFiles.asked(options.outfiles).check()
     val loaded = loader.load(scene, options)
     report.warnings(loaded.warnings, all = options.verbose)
@@ -57,7 +57,7 @@ final class RenderCommand(
 
   private def overwrite(path: Path, scene: String, other: String): SceneError =
     val message = s"the image of `$scene` would overwrite that of `$other`: $path"
-    SceneError(Problem.general(message, Some("render one at a time, with --outfile")))
+    SceneError(Problem.general(message, Some("render them separately, with --outfile")))
 
   private def render(scene: String, loaded: LoadedScene, paths: Vector[Path]): ExitCode =
     val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
@@ -78,7 +78,7 @@ final class RenderCommand(
       else if cancellation.isRequested then ExitCode.Interrupted
       else ExitCode.Done
 
-  /** Writes every file that can be written, and returns those. */
+  /** Writes every file that can be written; returns those written. */
   private def write(
       paths: Vector[Path],
       scene: String,
@@ -105,7 +105,7 @@ final class RenderCommand(
     val plan = loaded.plan
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val crop = Option.when(plan.crop != PixelBounds(0, 0, plan.width, plan.height)):
-      "crop" -> s"x $x0 until $x1, y $y0 until $y1 of ${plan.width}x${plan.height}"
+      "crop" -> s"x $x0 to $x1, y $y0 to $y1 of ${plan.width}x${plan.height}"
     Vector(
       "software" -> s"Candela ${Version.current}",
       "scene" -> scene,
@@ -129,37 +129,37 @@ final class RenderCommand(
       terminal.out.println(Summary.result(written, rendering, loaded.standIns))
       terminal.out.flush()
 
-/** What a plan is made of, one line each: the choices that the builder made. */
+/** Prints the features of a plan, one line each: the choices that the builder made. */
 object Explanation:
   def print(plan: RenderPlan, to: PrintStream): Unit =
     val width = plan.features.map(_._1.length).maxOption.getOrElse(0)
     for (what, value) <- plan.features do to.println(s"  ${what.padTo(width, ' ')}  $value")
 
-/** `candela render --pixel x,y --sample n --debug`: the path of one sample, in words. */
+/** `candela render --pixel x,y --sample n --debug`: traces one sample and logs its path. */
 private[cli] object PixelTrace:
   def run(plan: RenderPlan, options: Options, out: PrintStream): ExitCode =
     val (x, y) = options.pixel.getOrElse((0, 0))
     val crop = plan.crop
     if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then
-      val size = s"x ${crop.x0} until ${crop.x1}, y ${crop.y0} until ${crop.y1}"
-      throw SceneError(Problem.general(s"there is no pixel $x,$y in the image: $size"))
+      val size = s"x in [${crop.x0}, ${crop.x1}), y in [${crop.y0}, ${crop.y1})"
+      throw SceneError(Problem.general(s"--pixel $x,$y is outside the image: $size"))
     out.println(s"pixel ($x, $y), sample ${options.sample}")
     Renderer.trace(plan, x, y, options.sample, PathReport(out.println)) match
-      case Some(light) => out.println(s"adds $light")
-      case None => out.println("is left out: infinite or no number")
+      case Some(light) => out.println(s"contributes $light")
+      case None => out.println("discarded: NaN or infinite")
     out.flush()
     ExitCode.Done
 
-/** The lines at the end of a rendering. */
+/** The final lines of a rendering. */
 object Summary:
 
-  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; or what there
-    * is of an interrupted one.
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of an
+    * interrupted rendering, the samples done.
     *
-    * @param standIns how much is missing and was replaced
+    * @param standIns number of missing items replaced by placeholders
     */
   def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
-    val missing = if standIns > 0 then s", ${Figures.count(standIns, "stand-in")}" else ""
+    val missing = if standIns > 0 then s", ${Figures.count(standIns, "placeholder")}" else ""
     val names = written.mkString(", ")
     if r.isComplete then
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
@@ -179,8 +179,8 @@ object Summary:
 
   def refused(r: Refused): String =
     val material = if r.material < 0 then "" else s", material ${r.material}"
-    s"warning: ${Figures.count(r.count, "sample")} left out for being infinite or no number, " +
-      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; to see its path, add " +
+    s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; trace it with " +
       s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
 
   private def rate(count: Long, r: Rendering): String =

@@ -7,9 +7,9 @@ import candela.measure.{CurvePoint, Errors, PixelWindow}
 import candela.render.{Pass, RenderPlan, Witness}
 import candela.report.{PassSpan, Picture}
 
-/** Looks at an image after each pass and measures how wrong it still is.
+/** Measures the error of the image after each pass.
   *
-  * @param reference of the same size as the image; without one, errors are estimated from the noise
+  * @param reference same size as the image; None: errors are estimated from the noise
   */
 final class RenderRecorder(development: Development, reference: Option[Image]) extends Witness:
   private val foundPoints = Vector.newBuilder[CurvePoint]
@@ -21,10 +21,10 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
   def points: Vector[CurvePoint] = foundPoints.result()
   def passes: Vector[PassSpan] = foundPasses.result()
 
-  /** Seconds that measuring took. */
+  /** Time spent on measuring, in seconds. */
   def seconds: Double = spent
 
-  /** The image as it became, its first pass, and the reference. */
+  /** The final image, the first pass, and the reference. */
   def pictures: Vector[Picture] =
     def named(i: (Image, Int)) = Picture(Figures.count(i._2, "sample"), i._1)
     val begin = first.filter(f => last.exists(_._2 != f._2))
@@ -48,9 +48,9 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
 
 object RenderRecorder:
 
-  /** Reads the reference, of which a cropped plan gets its part.
+  /** Reads the reference and crops it to the plan's crop window.
     *
-    * @throws SceneError if it has not the size of the image
+    * @throws SceneError if its size differs from the image's
     */
   def of(plan: RenderPlan, reference: Option[String]): RenderRecorder =
     RenderRecorder(plan.development, reference.map(fitting(plan, _)))
@@ -65,4 +65,4 @@ object RenderRecorder:
     else
       val found = s"${image.width}×${image.height}"
       val wanted = s"${plan.width}×${plan.height}"
-      throw SceneError(Problem.general(s"the reference `$name` has $found pixels, not $wanted"))
+      throw SceneError(Problem.general(s"reference `$name` must be $wanted pixels, found $found"))

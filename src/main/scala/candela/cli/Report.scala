@@ -6,9 +6,9 @@ import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos}
 import candela.image.ImageError
 import candela.render.RenderFailure
 
-/** The one place where problems become text and exit codes.
+/** Turns problems into text and exit codes; no other class does.
   *
-  * @param canKeepGoing does the command have the option `--keep-going`?
+  * @param canKeepGoing whether the command has the option `--keep-going`
   */
 final class Report(
     err: PrintStream,
@@ -19,10 +19,10 @@ final class Report(
 
   private var errorCount = 0
 
-  /** Errors so far. */
+  /** Number of errors so far. */
   def errors: Int = errorCount
 
-  /** Runs a command on one input; what goes wrong is said, and ends only this input. */
+  /** Runs a command on one input; reports its failure and returns its exit code. */
   def guarded(body: => ExitCode): ExitCode =
     try body
     catch
@@ -32,7 +32,7 @@ final class Report(
       case e: IOException => errors(Vector(Problem.general(ioMessage(e))))
       case e: Throwable => if isMemory(e) then outOfMemory() else bug(e)
 
-  /** Prints problems, of which at least one is an error, by place, and how many there are. */
+  /** Prints problems, at least one of them an error, in source order, and their count. */
   def errors(problems: Vector[Problem]): ExitCode =
     val (errors, warnings) = problems.partition(_.severity == Severity.Error)
     errorCount += errors.distinct.size
@@ -44,17 +44,17 @@ final class Report(
     if more > 0 then err.println(s"and ${Figures.count(more, "more error")}")
     else if count > 1 then err.println(Figures.count(count, "error"))
     if canKeepGoing && errors.forall(_.standIn.nonEmpty) then
-      err.println(" --keep-going uses stand-ins for what is missing")
+      err.println(" --keep-going replaces what is missing with placeholders")
     ExitCode.BadInput
 
-  /** Prints each warning once, by place.
+  /** Prints each warning once, in source order.
     *
-    * @param all else the same message at many places is printed for the first one
+    * @param all if false, prints equal messages only for their first position
     */
   def warnings(problems: Vector[Problem], all: Boolean): Unit =
     if !isQuiet then grouped(problems, all).foreach(printAll)
 
-  /** Problems by place, and at how many places there is the same one. */
+  /** Problems in source order, with the number of positions that share each message. */
   private def grouped(problems: Vector[Problem], all: Boolean): Vector[(Problem, Int)] =
     val ordered = Problem.byPlace(problems.distinct)
     if all then ordered.map((_, 1))
@@ -65,7 +65,7 @@ final class Report(
   private def printAll(problem: Problem, places: Int): Unit =
     print(problem)
     if places > 1 then
-      err.println(s" and at ${Figures.count(places - 1, "more place")}; --verbose shows all")
+      err.println(s" and at ${Figures.count(places - 1, "more position")}; --verbose shows all")
 
   private def print(problem: Problem): Unit = err.println(ProblemText.format(problem))
 
@@ -76,8 +76,8 @@ final class Report(
 
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
-    val message = s"the ${limit}B of memory that Java may take are not enough"
-    val help = "let Java take more, e.g. with the environment variable JAVA_TOOL_OPTIONS=-Xmx8g"
+    val message = s"out of memory: Java's heap is limited to ${limit}B"
+    val help = "raise the limit, e.g. with the environment variable JAVA_TOOL_OPTIONS=-Xmx8g"
     errors(Vector(Problem.general(message, Some(help))))
 
   private def bug(e: Throwable): ExitCode =
@@ -86,17 +86,17 @@ final class Report(
       case other => ("", other)
     err.println(s"error: this is a bug in Candela: $cause$place")
     if isVerbose then cause.printStackTrace(err)
-    else err.println(" please report it with the scene; --verbose shows where in the program it is")
+    else err.println(" please report it with the scene; --verbose prints the stack trace")
     ExitCode.Bug
 
 object Report:
-  /** As many as a person still reads. */
+  /** Limit for readability. */
   private[cli] val MostErrors = 20
 
-/** The one place that says how a problem looks as text:
+/** Formats a problem as text; no other class does:
   *
   * {{{
-  * scenes/camera.pbrt:14:15: error: LookAt takes 9 numbers, but number 4 is `Camera`
+  * scenes/camera.pbrt:14:15: error: LookAt expects 9 numbers; number 4 is `Camera`
   *  14 | LookAt 0 0 5  Camera
   *     |               ^
   *  usage: LookAt eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z
@@ -105,7 +105,7 @@ object Report:
   */
 object ProblemText:
 
-  /** The problem in some lines, without a line end after the last. */
+  /** The problem as lines, without a final line end. */
   def format(p: Problem): String =
     val severity = if p.severity == Severity.Error then "error" else "warning"
     val head = p.at.fold("")(at => s"$at: ") + s"$severity: ${p.message}"
@@ -116,7 +116,7 @@ object ProblemText:
   private def excerpt(at: SourcePos, text: String): Vector[String] =
     val number = at.line.toString
     val before = Excerpt.caret(text, at.column) - 1
-    // tabs stay tabs, so that the caret keeps its place however wide they are shown
+    // Keeps tabs, so the caret lines up at any tab width.
     val characters = text.codePoints.limit(before).toArray
     val shift = characters.map(c => if c == '\t' then '\t' else ' ').mkString
     Vector(s" $number | $text", s" ${" " * number.length} | ${shift.padTo(before, ' ')}^")

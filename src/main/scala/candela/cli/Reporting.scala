@@ -7,14 +7,14 @@ import candela.base.{FileName, Problem, SceneError, Version}
 import candela.render.Rendering
 import candela.report.{Machine, RenderData, RenderPage, RenderReport, Span}
 
-/** The report about one rendering: asked for before it begins, written when it is done. */
+/** Report about one rendering: checked before rendering starts, written when it ends. */
 final class Reporting(options: Options, scene: String, loaded: LoadedScene):
   private val paths: Vector[Path] = ReportFiles.checked(options.reports)
   private val machine = Machine.here()
 
   val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
 
-  /** Writes it, and returns where to; nothing if no pass was finished. */
+  /** Writes the reports and returns their paths; writes none if no pass completed. */
   def write(rendering: Rendering, threads: Int, writeSeconds: Double): Vector[Path] =
     if recorder.pictures.forall(_.isReference) then Vector.empty
     else
@@ -57,17 +57,17 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
       "rays" -> Figures.metric(rendering.rays.toDouble)
     ) ++
       options.reference.map("reference" -> _) ++
-      Option.when(options.quick)("quick" -> "a quarter of width and height, one sample") ++
+      Option.when(options.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
       options.cropWindow.map(w => "crop window" -> s"${w.x0},${w.x1},${w.y0},${w.y1}") ++
-      Option.when(options.keepGoing)("stand-ins" -> loaded.standIns.toString)
+      Option.when(options.keepGoing)("placeholders" -> loaded.standIns.toString)
 
-/** Where reports go: `.html` for people, `.json` and `.csv` for machines. */
+/** Report files: `.html` for readers, `.json` and `.csv` for programs. */
 object ReportFiles:
   private val Suffixes = Vector("html", "json", "csv")
 
-  /** Looks, before rendering, whether the files can be written.
+  /** Verifies before rendering that the files can be written.
     *
-    * @throws SceneError if not
+    * @throws SceneError if one can't
     */
   def checked(names: Vector[String]): Vector[Path] =
     val paths = names.map(OutputFiles.path).distinct
@@ -77,7 +77,7 @@ object ReportFiles:
         val help = Some("reports are written as .html, .json or .csv")
         Some(Problem.general(s"can't write the report `$path`", help))
       else if !Files.isDirectory(folder) then
-        Some(Problem.general(s"can't write `$path`: there is no folder `$folder`"))
+        Some(Problem.general(s"can't write `$path`: no such folder: `$folder`"))
       else if Files.isDirectory(path) then
         Some(Problem.general(s"can't write the report `$path`: it is a folder"))
       else None

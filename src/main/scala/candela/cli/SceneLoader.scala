@@ -10,7 +10,7 @@ import java.nio.file.{Files, InvalidPathException, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-/** A scene that is ready to render, how it was described, and what it took.
+/** A scene ready to render, its description, and the load times.
   *
   * @param warnings of parser and builder
   */
@@ -21,13 +21,13 @@ final case class LoadedScene(
     parseSeconds: Double,
     buildSeconds: Double
 ):
-  /** What is missing and was replaced. */
+  /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
 
-/** From a scene's file name to what can be rendered. */
+/** Parses and builds a scene. */
 abstract class SceneLoader:
 
-  /** @throws SceneError if the scene is not as it should be */
+  /** @throws SceneError if the scene has errors */
   def load(scene: String, options: Options): LoadedScene
 
 object SceneLoader:
@@ -47,13 +47,13 @@ object SceneLoader:
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
     BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing, o.layers, Crew(o.threadCount))
 
-  /** The file, if there is one. */
+  /** The path of an existing scene file. */
   def existing(scene: String): Path =
     val file =
       try Path.of(scene)
       catch
         case e: InvalidPathException =>
-          throw SceneError(Problem.general(s"`$scene` is no file name: ${e.getReason}"))
+          throw SceneError(Problem.general(s"`$scene` is not a valid file name: ${e.getReason}"))
     if Files.isDirectory(file) then
       val help = "name a scene file in it".concat(scenesIn(file).mkString(": ", ", ", ""))
       throw SceneError(Problem.general(s"`$scene` is a folder", Some(help)))
@@ -61,7 +61,7 @@ object SceneLoader:
       val folder = Option(file.toAbsolutePath.getParent)
       val near = folder.flatMap(f => Suggest.nearest(file.getFileName.toString, scenesIn(f)))
       val help = near.map(name => s"did you mean `${file.resolveSibling(name)}`?")
-      throw SceneError(Problem.general(s"there is no scene file `$scene`", help))
+      throw SceneError(Problem.general(s"no such scene file: `$scene`", help))
     else file
 
   private def scenesIn(folder: Path): Vector[String] =

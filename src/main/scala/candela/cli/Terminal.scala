@@ -5,12 +5,12 @@ import java.nio.file.{Files, Path}
 
 import scala.util.Try
 
-/** Where a run of the program prints, and how it hears of Ctrl-C.
+/** Output streams of a run, and its interrupts.
   *
-  * @param out           for results
-  * @param err           for problems and progress
+  * @param out results
+  * @param err problems and progress
   * @param isInteractive whether a line on `err` can be redrawn
-  * @param columns       how wide text should be
+  * @param columns text width, in characters
   */
 final class Terminal(
     val out: PrintStream,
@@ -28,14 +28,14 @@ object Terminal:
 
   private val UsualColumns = 80
 
-  /** What the shell says, if it does; else what the terminal says, if there is one. */
+  /** Width from the shell's COLUMNS, else from the terminal, else the usual one. */
   private def columns: Int =
     def number(text: String) = text.trim.toIntOption.filter(_ >= 20)
     sys.env.get("COLUMNS").flatMap(number)
       .orElse(Option(System.console()).flatMap(_ => sizeOfTerminal.flatMap(number)))
       .getOrElse(UsualColumns)
 
-  /** Java can't tell; `stty` is wherever terminals are. */
+  /** Java has no API for the terminal size; `stty` exists wherever terminals do. */
   private def sizeOfTerminal: Option[String] = Try:
     val stty = ProcessBuilder("stty", "size").redirectInput(ProcessBuilder.Redirect.INHERIT).start()
     val text = String(stty.getInputStream.readAllBytes())
@@ -44,13 +44,13 @@ object Terminal:
 
   private def isInteractive: Boolean =
     val attached = Option(System.console()).exists: console =>
-      // From JDK 22 on there may be a console without a terminal, and a method that says so.
+      // Since JDK 22 a console may exist without a terminal; `isTerminal` tells them apart.
       val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
       isTerminal.fold(_ => true, java.lang.Boolean.TRUE.equals)
     val isDumb = sys.env.get("TERM").contains("dumb")
     attached && !isDumb && !errIsRedirected
 
-  /** The console is about input and output alone; where there is /proc, it tells about errors. */
+  /** System.console ignores stderr; /proc, where it exists, has its target. */
   private def errIsRedirected: Boolean =
     Try(Files.readSymbolicLink(Path.of("/proc/self/fd/2")))
       .fold(_ => false, target => !target.startsWith("/dev"))

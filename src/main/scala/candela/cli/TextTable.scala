@@ -1,8 +1,8 @@
 package candela.cli
 
-/** Rows of cells as lines: columns are as wide as they need to be, and the last one wraps.
+/** Lays out rows of cells: each column as wide as needed, the last one wrapped.
   *
-  * @param columns of the terminal
+  * @param columns terminal width, in characters
   */
 final class TextTable(columns: Int):
 
@@ -28,13 +28,15 @@ final class TextTable(columns: Int):
 object TextTable:
   private val Gap = 2
 
-  /** Of a column beside the last, the most that leaves room for that: longer cells wrap, too. */
+  /** Candidate limits for all columns but the last; the widest that leaves it room is used, and
+    * longer cells wrap.
+    */
   private val Widest = 26 to 12 by -1
 
-  /** Of the last column, however narrow the terminal is. */
+  /** Minimum width of the last column, however narrow the terminal. */
   private val LeastText = 24
 
-  /** Breaks between words; words that are too long stay whole. */
+  /** Breaks between words; words longer than a line stay whole. */
   def wrap(text: String, width: Int): Vector[String] =
     text
       .split(' ')

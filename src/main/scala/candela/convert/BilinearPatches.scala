@@ -3,7 +3,7 @@ package candela.convert
 import candela.math.{lerp, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
 
-/** A v4 `bilinearmesh` as triangles: two for a flat patch, a grid for another. */
+/** Triangulates a v4 `bilinearmesh`: two triangles per planar patch, a grid per curved one. */
 object BilinearPatches:
 
   def triangles(d: Declaration): Declaration =
@@ -42,7 +42,7 @@ object BilinearPatches:
 
   private def vec(p: Array[Float], i: Int) = Vec3(p(3 * i), p(3 * i + 1), p(3 * i + 2))
 
-  /** Corners come as (0, 0), (1, 0), (0, 1), (1, 1). */
+  /** Bilinear interpolation of corners in the order (0, 0), (1, 0), (0, 1), (1, 1). */
   private def at(c: Array[Float], u: Float, v: Float): Float =
     lerp(v, lerp(u, c(0), c(1)), lerp(u, c(2), c(3)))
 

@@ -15,13 +15,13 @@ import candela.scenefile.{
   ShapeDescription
 }
 
-/** A scene in another dialect, and what was lost on the way. */
+/** A converted scene, and the warnings about what was dropped or approximated. */
 final case class Converted(scene: SceneDescription, warnings: Vector[Problem])
 
 object Converter:
 
-  /** @param folder where the scene will be written; files beside it are written at once
-    * @param toPly  meshes of at least as many triangles go into files
+  /** @param folder folder of the output scene; files that accompany it are written immediately
+    * @param toPly minimum number of triangles for moving a mesh to a PLY file
     */
   def convert(
       scene: SceneDescription,
@@ -30,7 +30,7 @@ object Converter:
       toPly: Option[Int] = None
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
-      throw SceneError(Problem.general("v2 has no meshes in PLY files: leave --to-ply out"))
+      throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
     val files = SideFiles(folder)
     val moved = Declarations.map(scene)(FileNames(folder).moved)
     val start = Converted(moved, Vector.empty)
@@ -47,14 +47,14 @@ object Converter:
     case (Dialect.V3, Dialect.V4) => Vector(ToV4View.pass)
     case (Dialect.V4, Dialect.V3) => Vector(ToV3View.pass)
     case _ =>
-      val message = s"a ${from.toString.toLowerCase} scene can't be written as v2"
-      throw SceneError(Problem.general(message, Some("--to v3 is the nearest")))
+      val message = s"can't convert a ${from.toString.toLowerCase} scene to v2"
+      throw SceneError(Problem.general(message, Some("use --to v3")))
 
-/** Walks over a description. */
+/** Traverses the declarations of a description. */
 object Declarations:
 
-  /** The scene with `change` applied to every declaration; what several shapes share is changed
-    * once, and still shared.
+  /** The scene with `change` applied to every declaration; a declaration shared by several shapes
+    * is changed once and stays shared.
     */
   def map(scene: SceneDescription)(change: Declaration => Declaration): SceneDescription =
     val materials = mutable.HashMap.empty[Declaration, Declaration]
@@ -85,8 +85,8 @@ object Declarations:
       volumes = scene.volumes.map(v => v.copy(light = change(v.light)))
     )
 
-/** Names of files in parameters, which are relative to the folder of the scene: what they become
-  * for a scene in another folder.
+/** Rewrites file names in parameters, relative to the folder of the scene, for a scene in another
+  * folder.
   */
 final class FileNames(to: Path):
 
@@ -106,14 +106,14 @@ final class FileNames(to: Path):
       if written.isEmpty || file.isAbsolute then written
       else target.relativize(from.resolve(file).normalize).toString.replace('\\', '/')
     catch
-      // such a name names nothing here, nor there; or the folders have no common root
+      // Such a name refers to nothing in either folder; or the folders have no common root.
       case _: IllegalArgumentException => written
 
 object FileNames:
   private val Names =
     Set("filename", "mapname", "bsdffile", "lensfile", "emissionfilename", "normalmap", "aperture")
 
-  /** These write a file of that name, which goes where it is wanted. */
+  /** These name output files, which are left to the user. */
   private val Outputs = Set("Film", "Integrator", "SurfaceIntegrator", "Renderer")
 
   private def isFile(d: Declaration, p: Param): Boolean = p.paramType match
@@ -121,7 +121,7 @@ object FileNames:
     case ParamType.Spectrum => p.strings.exists(exists(d, _))
     case _ => false
 
-  /** An aperture may also be called "star"; all else are files. */
+  /** An aperture may also be a keyword such as "star"; all other values are files. */
   private def isNoWord(p: Param, d: Declaration): Boolean =
     p.name != "aperture" || p.strings.exists(exists(d, _))
 

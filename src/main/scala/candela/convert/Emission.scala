@@ -4,14 +4,14 @@ import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Param, ParamType}
 
-/** How strong lights are. In v3 the colour counts as it is; v4 brings every spectrum that is no RGB
-  * colour to luminance 1 first.
+/** Scale of lights. v3 uses colours as given; v4 first normalises all spectra except RGB to
+  * luminance 1.
   */
 object Emission:
 
-  /** v3's colour and coloured `scale` into v4's colour and plain `scale`. */
+  /** Converts v3's colour and coloured `scale` to v4's colour and scalar `scale`. */
   def toV4(color: String): Step =
-    Step(s"`$color`, `scale`", s"`$color`, and `scale` without colour"): s =>
+    Step(s"`$color`, `scale`", s"`$color`, scalar `scale`"): s =>
       val base = s.take(color)
       val factor = s.take("scale").flatMap(s.colorOf).getOrElse(Rgb.White)
       if !Values.isGray(factor) then
@@ -21,9 +21,9 @@ object Emission:
         val own = base.fold(1f)(p => add(p, color, s))
         if own * factor.r != 1f then s.addFloat("scale", own * factor.r)
 
-  /** v4's into v3's, with what `power` and the like make of it.
+  /** Converts v4's colour and scale to v3's, including `power` and similar parameters.
     *
-    * @param absolute the factor that such a parameter stands for, given its value
+    * @param absolute the factor equivalent to such a parameter, given its value
     */
   def toV3(color: String, power: String, absolute: (Float, Statement) => Option[Float]): Step =
     Step(s"`$color`, `scale`, `$power`", s"`$color`, `scale`"): s =>
@@ -32,7 +32,7 @@ object Emission:
       for p <- s.take(power); value <- s.numberOf(p) if value > 0f do
         absolute(value, s) match
           case Some(f) => factor *= f
-          case None => s.warn(p.at, s"`$power` can't be said in v3, nor calculated here: left out")
+          case None => s.warn(p.at, s"`$power` has no computable equivalent in v3; ignored")
       for p <- base do
         p.paramType match
           case ParamType.Rgb => s.addRaw(p)
@@ -47,13 +47,13 @@ object Emission:
 
   private def rgb(p: Param, s: Statement): Rgb = s.colorOf(p).getOrElse(Rgb.White)
 
-  /** Adds the colour as v4 writes it; the factor that it lost. */
+  /** Adds the colour in v4's form; returns the factor removed from it. */
   private def add(p: Param, name: String, s: Statement): Float = p.paramType match
     case ParamType.Blackbody =>
       s.addRaw(Param(ParamType.Blackbody, name, p.at, p.valuesAt, floats = p.floats.take(1)))
       (if p.floats.length > 1 then p.floats(1) else 1f) * luminance(Spectrum.blackbody(p.floats(0)))
     case ParamType.Spectrum =>
-      // As v3 sees it, for it multiplies colours and not spectra
+      // In v3's RGB, because v3 multiplies colours, not spectra.
       s.addRgb(name, positive(rgb(p, s)))(using p.at)
       1f
     case ParamType.Rgb =>
@@ -65,5 +65,5 @@ object Emission:
 
   private def luminance(x: Spectrum): Float = Colorimetry.rgb(x(_), White.EqualEnergy).luminance
 
-  /** A saturated spectrum is outside of what sRGB can show. */
+  /** Clamps negative components, of saturated spectra outside the sRGB gamut. */
   private def positive(c: Rgb): Rgb = c.map(Math.max(_, 0f))

@@ -2,7 +2,7 @@ package candela.convert
 
 import candela.scenefile.{Dialect, ShapeDescription}
 
-/** What stands before `WorldBegin`, lights and shapes, from v2 to v3. */
+/** Options, lights and shapes, from v2 to v3. */
 object FromV2:
   import Steps.*
 
@@ -38,13 +38,13 @@ object FromV2:
     Rule("gaussian" -> "gaussian")(extents, keep("alpha")),
     Rule("mitchell" -> "mitchell")(extents, keep("B", "C")),
     Rule("sinc" -> "sinc")(
-      Step("`xwidth`, `ywidth`, `tau`", "the same; v2 stretches the curve to its width")(s =>
+      Step("`xwidth`, `ywidth`, `tau`", "unchanged; v2 scales the filter to its width")(s =>
         val tau = s.look("tau").flatMap(s.numberOf).getOrElse(3f)
         val widths = Seq("xwidth", "ywidth").map(s.look(_).flatMap(s.numberOf).getOrElse(4f))
         if widths.exists(_ != tau) then
           s.warn(
             s.declaration.at,
-            "a sinc filter is narrower or wider in v3, unless its `tau` is " +
+            "a sinc filter has another width in v3, unless its `tau` equals " +
               "its width"
           )
       ),
@@ -62,7 +62,7 @@ object FromV2:
     Rule("lowdiscrepancy|bestcandidate" -> "02sequence")(samples*),
     Rule("random" -> "random")(samples*),
     Rule("halton" -> "halton")(samples*),
-    Rule.near("adaptive" -> "02sequence", "it takes the most samples everywhere")(
+    Rule.near("adaptive" -> "02sequence", "takes the maximum number of samples in every pixel")(
       rename("maxsamples" -> "pixelsamples"),
       otherwise("pixelsamples", "`pixelsamples` 32")(_.addInteger("pixelsamples", 32)),
       drop("minsamples", "method")
@@ -76,13 +76,13 @@ object FromV2:
 
   private def oneMore = Step(
     "`maxdepth`",
-    "`maxdepth`, one more: v2 lights a vertex that it does " +
+    "`maxdepth` plus one: v2 lights one vertex that it does " +
       "not count"
   )(s => s.addInteger("maxdepth", s.takeInteger("maxdepth", 5) + 1))
 
   private def unbiased(names: String) =
-    Rule.near(names -> "path", "its picture is what that one estimates")(
-      Step("all", "left out")(s => s.declaration.params.foreach(p => s.take(p.name)))
+    Rule.near(names -> "path", "the same image, estimated by path tracing")(
+      Step("all", "ignored")(s => s.declaration.params.foreach(p => s.take(p.name)))
     )
 
   private val integrators = Table("Integrator", fallback = "path")(
@@ -91,10 +91,10 @@ object FromV2:
     Rule("whitted" -> "whitted")(keep("maxdepth")),
     Rule.near(
       "ambientocclusion" -> "ambientocclusion",
-      "its rays count by the cosine of their angle, and all of them make π"
+      "rays are weighted by the cosine; an unoccluded point has value π"
     )(
       keep("nsamples"),
-      lose("maxdist", "it looks at all distances")
+      lose("maxdist", "unlimited distance")
     ),
     unbiased(
       "photonmap|exphotonmap|igi|irradiancecache|dipolesubsurface|diffuseprt|glossyprt|useprobes"
@@ -146,15 +146,15 @@ object FromV2:
 
   private val quadrics = Set("sphere", "cylinder", "paraboloid", "disk", "cone", "hyperboloid")
 
-  /** A lamp's light falls on the same side in both; the side that looks bright may be the other. */
+  /** The illuminated side is the same in both versions; the visibly bright side may differ. */
   private def lamp(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     val isDisk = s.shape.name == "disk"
     val isMirrored = s.objectToWorld.start.swapsHandedness
     if s.areaLight.nonEmpty && quadrics(s.shape.name) && isDisk != isMirrored then
       val text =
         if isDisk then
-          "v2 shows this disk bright on the side that it does not light, v3 on the other"
-        else "v2 shows this mirrored lamp bright outside, v3 inside"
+          "v2 shows this disk bright on its unlit side, v3 on the other"
+        else "v2 shows this reflected area light bright outside, v3 inside"
       run.warn(s.shape.at, text)
     Vector(s)
 

@@ -9,11 +9,11 @@ object FromV2Surfaces:
 
   private val bump = keep("bumpmap")
   private val index = rename("index" -> "eta")
-  private val highlight = "v2's highlights have another shape; they are as wide"
+  private val highlight = "highlights of equal width, but another shape than in v2"
 
-  /** The exponents of the two directions; only their widths can be said. */
+  /** Exponents along the two directions; converted to lobes of equal width. */
   private val substrateRoughness =
-    Step("`uroughness`, `vroughness`", "alpha of a distribution as wide"): s =>
+    Step("`uroughness`, `vroughness`", "alpha of equal lobe width"): s =>
       for name <- Seq("uroughness", "vroughness") if !s.has(name) do s.put(number(s, name, 0.1f))
       RoughnessSteps.v2(0.1f).run(s)
 
@@ -45,7 +45,7 @@ object FromV2Surfaces:
       RoughnessSteps.v2(0.1f),
       bump
     ),
-    Rule.near("shinymetal" -> "uber", "a mirror below a gloss stands in")(
+    Rule.near("shinymetal" -> "uber", "a mirror under a glossy coating")(
       keep("Ks", "Kr"),
       otherwise("Kd", "`Kd` 0")(_.addRgb("Kd", Rgb.Black)),
       RoughnessSteps.v2(0.1f),
@@ -60,7 +60,7 @@ object FromV2Surfaces:
 
   private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
 
-  /** v2 raises values to a power, after it has scaled them; v3 knows no power but sRGB's curve. */
+  /** v2 applies an exponent after the scale; v3 supports only sRGB's curve. */
   private val gamma =
     Step("`filename`, `gamma`, `scale`", "`filename`, `gamma` false, `scale`; or a new image"): s =>
       val p = s.take("gamma")
@@ -72,11 +72,11 @@ object FromV2Surfaces:
           if scale != 1f then s.addFloat("scale", scale)
         else
           val meant = (x: Float, _: Int) => pow(Math.max(scale * x, 0f), power)
-          s.addString("filename", Pictures.baked(s, file)(meant))(using file.at)
+          s.addString("filename", RewrittenImages.baked(s, file)(meant))(using file.at)
 
-  /** v2 reads only TGA files from the bottom up. */
+  /** v2 flips only TGA files vertically. */
   private val upright =
-    Step("`vscale`, `vdelta` of other files than .tga", "turned upside down"): s =>
+    Step("`vscale`, `vdelta` except of .tga files", "flipped vertically"): s =>
       val file = s.look("filename").flatMap(_.strings.headOption).getOrElse("").toLowerCase
       val isUv = s.look("mapping").forall(_.strings.headOption.contains("uv"))
       if !file.endsWith(".tga") then
@@ -84,7 +84,7 @@ object FromV2Surfaces:
           val (scale, delta) = (s.takeNumber("vscale", 1f), s.takeNumber("vdelta", 0f))
           s.addFloat("vscale", -scale)
           s.addFloat("vdelta", 1f - delta)
-        else s.warn(s.declaration.at, "v3 has this image upside down")
+        else s.warn(s.declaration.at, "v3 flips this image vertically")
 
   private def common = Seq(
     Rule("constant" -> "constant")(keep("value")),

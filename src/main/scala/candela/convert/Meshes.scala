@@ -5,13 +5,13 @@ import java.nio.file.{Files, InvalidPathException, Path}
 
 import candela.scenefile.{Declaration, ParamType}
 
-/** What can be told about meshes. */
+/** Properties of meshes. */
 object Meshes:
 
-  /** Has every vertex a shading normal? */
+  /** Whether every vertex has a shading normal. */
   def hasNormals(shape: Declaration): Boolean = shape.name match
     case "trianglemesh" | "bilinearmesh" => shape.param("N").exists(_.floats.nonEmpty)
-    case "loopsubdiv" => true // those of the limit surface
+    case "loopsubdiv" => true // of the limit surface
     case "plymesh" => shape.param("filename").exists(p => plyHasNormals(shape, p.strings.head))
     case _ => false
 
@@ -33,7 +33,7 @@ object Meshes:
 
   private val LongestHeader = 16384
 
-  /** A mesh that a PLY file can hold: it needs no more than positions, normals and coordinates. */
+  /** Whether a PLY file can hold the mesh: only positions, normals and texture coordinates. */
   def fitsPly(shape: Declaration): Boolean =
     def numbers(name: String) = shape.param(name).fold(0)(_.floats.length)
     val count = numbers("P") / 3

@@ -2,7 +2,7 @@ package candela.convert
 
 import java.lang.Math.abs
 
-/** Numbers as text: the fewest digits that read back to the same number. */
+/** Formats numbers with the fewest digits that round-trip. */
 object NumberText:
 
   def of(value: Float): String =
@@ -19,7 +19,7 @@ object NumberText:
   private def sign(isNegative: Boolean) = if isNegative then "-" else ""
   private def zero(isNegative: Boolean) = if isNegative then "-0" else "0"
 
-  /** Java writes now and then a digit more than needed before version 19 (JDK-4511638). */
+  /** Before version 19 Java sometimes writes a digit too many (JDK-4511638). */
   private val writesMore = Runtime.version.feature < 19
 
   private def shortest(text: String, isSame: String => Boolean): java.math.BigDecimal =

@@ -6,9 +6,10 @@ import candela.base.{Problem, SourcePos}
 import candela.math.Transform
 import candela.scenefile.*
 
-/** The tables from one dialect to another.
+/** Conversion tables from one dialect to the next.
   *
-  * @param defaults what the dialect that is read means where a scene is silent, by category
+  * @param defaults implementations that the source dialect uses where the scene names none, by
+  *   category
   */
 final class Pass(
     val from: Dialect,
@@ -21,7 +22,7 @@ final class Pass(
 ):
   def table(category: String): Table = tables.find(_.category == category).get
 
-/** One scene on its way through a pass. */
+/** State of converting one scene. */
 final class PassRun(val pass: Pass, val scene: SceneDescription, val files: SideFiles):
   private val problems = mutable.LinkedHashSet.empty[Problem]
   private val textures = mutable.LinkedHashMap.from(
@@ -32,7 +33,7 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
   private val shared = mutable.HashMap.empty[Declaration, Option[Declaration]]
   private var place = GraphicsState.Identity
 
-  /** Where the texture stands that is being converted. */
+  /** Transform of the texture being converted. */
   def textureToWorld: AnimatedTransform = place
 
   val values: Values = Values(pass.from, pass.to, (p, message) => warn(p.at, message))
@@ -43,12 +44,12 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
   def texture(name: String, valueType: String): Option[TextureDescription] =
     textures.get((name, valueType))
 
-  /** All materials that shapes may have. */
+  /** All materials that shapes may use. */
   lazy val materials: Vector[Declaration] =
     val used = (scene.shapes ++ scene.objects.values.flatten).map(_.material).distinct
     scene.namedMaterials.map(_._2) ++ used.collect { case MaterialRef.Inline(d) => d }
 
-  /** A texture of the other dialect, of which the scene that is read has nothing. */
+  /** Adds a texture to the output; returns its unique name. */
   def define(t: TextureDescription): String =
     val names = Iterator(t.name) ++ Iterator.from(2).map(i => s"${t.name} ($i)")
     val name = names.find(taken.add).get
@@ -61,16 +62,16 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
       case Some(rule) => Some(Statement(d, this, rule).result())
       case None =>
         val dialect = pass.to.toString.toLowerCase
-        val instead = table.fallback.fold("it is left out")(f => s"\"$f\" stands in for it")
-        warn(d.at, s"$dialect has no ${category.toLowerCase} \"${d.name}\", nor the like: $instead")
+        val instead = table.fallback.fold("ignored")(f => s"using \"$f\"")
+        warn(d.at, s"$dialect has no equivalent of ${category.toLowerCase} \"${d.name}\"; $instead")
         table.fallback.map(name => d.copy(name = name, params = Vector.empty))
 
-  /** A declaration that several shapes may share: converted once. */
+  /** Converts a declaration that several shapes may share, once. */
   private def sharing(d: Declaration, category: String): Option[Declaration] =
     shared.getOrElseUpdate(d, convert(d, category))
 
   def result(): SceneDescription =
-    // Textures first: what is defined on the way belongs between those before and those after it
+    // Textures first: added textures must follow those they use and precede those that use them.
     val allTextures = scene.textures.flatMap: t =>
       val placed = pass.texture(t)
       place = placed.textureToWorld
@@ -98,7 +99,7 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
       renderer = scene.renderer.flatMap(convert(_, "Renderer")),
       volumeIntegrator = scene.volumeIntegrator.flatMap(convert(_, "VolumeIntegrator")),
       options = scene.options.filter: o =>
-        if pass.to != Dialect.V4 then warn(o.at, s"Option \"${o.name}\" is v4's: it is left out")
+        if pass.to != Dialect.V4 then warn(o.at, s"Option \"${o.name}\" exists only in v4; ignored")
         pass.to == Dialect.V4
       ,
       namedMaterials = materials,
@@ -126,7 +127,7 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
     )
 
 object PassRun:
-  /** Turned around, for textures that pbrt-v2 and v3 place by the inverse transform. */
+  /** With the transform inverted: pbrt-v2 and v3 place some textures by the inverse. */
   def inverse(t: TextureDescription): TextureDescription =
     t.copy(textureToWorld = GraphicsState.inverse(t.textureToWorld))
 

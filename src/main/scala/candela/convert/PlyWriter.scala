@@ -5,10 +5,10 @@ import java.nio.{ByteBuffer, ByteOrder}
 import candela.base.loop
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription, ShapeDescription}
 
-/** Puts large meshes of a scene into binary PLY files (little-endian, 32-bit floats). */
+/** Moves large meshes to binary PLY files (little-endian, 32-bit floats). */
 object PlyWriter:
 
-  /** The scene with every mesh of at least `least` triangles in a file of its own. */
+  /** The scene with every mesh of at least `least` triangles moved to its own file. */
   def extract(scene: SceneDescription, least: Int, files: SideFiles): SceneDescription =
     def shape(s: ShapeDescription) =
       val d = s.shape

@@ -4,16 +4,17 @@ import candela.bsdf.microfacet.Roughness
 import candela.math.sqrt
 import candela.scenefile.{Dialect, Param, ParamType}
 
-/** Roughness as the other dialect says it. A number becomes the width `alpha` of the distribution
-  * of facets, with `remaproughness` false: that means the same in v3 and v4. A texture can't be
-  * calculated with, so it stays, and means something else if it is remapped.
+/** Converts roughness. A number becomes the microfacet distribution's `alpha`, with
+  * `remaproughness` false, which is equivalent in v3 and v4. Textures are kept as they are, so
+  * remapped textures change their meaning.
   */
 object RoughnessSteps:
 
-  /** v3's parameters into v4's.
+  /** Converts v3's parameters to v4's.
     *
-    * @param default      of `roughness`, if the material has it, or of `uroughness`, `vroughness`
-    * @param smoothAtZero is roughness 0 a perfect surface, as glass's?
+    * @param default default of `roughness`, or of `uroughness` and `vroughness` if the material has
+    *   these
+    * @param smoothAtZero whether roughness 0 is specular, as of glass
     */
   def v3(default: Float, smoothAtZero: Boolean = false): Step =
     Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
@@ -25,18 +26,18 @@ object RoughnessSteps:
         else Math.max(if remap then Roughness.polynomialAlpha(r) else r, 1e-3f)
       write(s, default, remap, alpha)
 
-  /** v2's exponents into v3's: 1 / roughness is that of Blinn's distribution, and the `alpha` of a
-    * core as wide √(2 / (e + 2)) (Walter et al. 2007, §5.2).
+  /** Converts v2's roughness, 1 / exponent of Blinn's distribution, to v3's: the `alpha` of equal
+    * lobe width is √(2 / (e + 2)) (Walter et al. 2007, §5.2).
     */
   def v2(default: Float): Step =
-    Step("`roughness`, `uroughness`, `vroughness`", "alpha of a distribution as wide"): s =>
+    Step("`roughness`, `uroughness`, `vroughness`", "alpha of equal lobe width"): s =>
       def alpha(r: Float) = sqrt(2f / (1f / Math.max(r, 1e-4f) + 2f))
       if hasTexture(s) then
         for n <- Names; p <- s.look(n) do
-          s.warn(p.at, s"a texture of v2's `${p.name}` stays as it is, but means another roughness")
+          s.warn(p.at, s"texture of `${p.name}` is unchanged, but maps differently in v3")
       write(s, default, remap = true, alpha)
 
-  /** v4's into v3's, which has no roughness below 0.001. */
+  /** Converts v4's parameters to v3's, whose minimum roughness is 0.001. */
   def v4(default: Float, smoothAtZero: Boolean = false): Step =
     Step("`roughness`, `uroughness`, `vroughness`, `remaproughness`", "alpha, not remapped"): s =>
       val remap = s.takeBool("remaproughness", true)
@@ -55,7 +56,7 @@ object RoughnessSteps:
   private def write(s: Statement, default: Float, remap: Boolean, alpha: Float => Float): Unit =
     val given_ = Names.flatMap(n => s.take(n).map(n -> _))
     val textured = given_.exists((_, p) => isTexture(p, s))
-    // Beside a remapped texture, numbers are remapped too
+    // Beside a remapped texture, numbers are remapped too.
     def said(r: Float) =
       val a = alpha(r)
       if textured && remap && s.run.pass.to == Dialect.V4 then a * a
@@ -64,7 +65,7 @@ object RoughnessSteps:
     for (name, p) <- given_ do
       if isTexture(p, s) then
         if remap && s.run.pass.from != Dialect.V2 then
-          s.warn(p.at, s"the texture of `$name` stays, but ${s.target} maps its values differently")
+          s.warn(p.at, s"texture of `$name` is unchanged, but maps differently in ${s.target}")
         s.add(name, p)
       else s.numberOf(p).foreach(r => s.addFloat(name, said(r))(using p.at))
     if given_.isEmpty then s.addFloat("roughness", alpha(default))

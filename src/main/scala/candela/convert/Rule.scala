@@ -1,17 +1,17 @@
 package candela.convert
 
-/** What a row of a table does with some parameters.
+/** Converts some parameters of a statement.
   *
-  * @param source what they are called in the dialect that is read, for the documentation
-  * @param target what becomes of them, in words or as a name
+  * @param source source parameters, for the documentation
+  * @param target target parameters or effect, for the documentation
   */
 final class Step(val source: String, val target: String)(val run: Statement => Unit)
 
-/** One row of a table: what becomes of a kind of statement. Steps run in their order; parameters
-  * that none of them takes don't exist in this dialect, and are left out with a warning.
+/** Table row: converts one kind of statement. Steps run in order; parameters that no step takes are
+  * unknown in the source dialect, and dropped with a warning.
   *
-  * @param to   the name in the other dialect; a step may choose another one
-  * @param note in what way the result is not the same, named in a warning wherever it is used
+  * @param to name in the target dialect; a step may override it
+  * @param note difference from the source, given in a warning at each use
   */
 final class Rule(
     val from: Seq[String],
@@ -24,13 +24,13 @@ object Rule:
   def apply(names: (String, String))(steps: Step*): Rule =
     new Rule(names._1.split('|').toSeq, names._2, None, steps)
 
-  /** With a note, because the two are not the same. */
+  /** An approximate rule; the note names the difference. */
   def near(names: (String, String), note: String)(steps: Step*): Rule =
     new Rule(names._1.split('|').toSeq, names._2, Some(note), steps)
 
-/** All rules for one kind of statement.
+/** All rules of one kind of statement.
   *
-  * @param fallback what stands in for a statement that has no rule; None: it is left out
+  * @param fallback replacement of statements without a rule; None: they are dropped
   */
 final class Table(val category: String, val fallback: Option[String], val rules: Seq[Rule]):
   def rule(name: String): Option[Rule] = rules.find(_.from.contains(name))
@@ -39,12 +39,12 @@ object Table:
   def apply(category: String, fallback: String = "")(rules: Rule*): Table =
     new Table(category, Option.when(fallback.nonEmpty)(fallback), rules)
 
-/** The kinds of steps. */
+/** Kinds of steps. */
 object Steps:
 
-  /** The same name and meaning. */
+  /** Keeps name and value. */
   def keep(names: String*): Step =
-    Step(names.mkString("`", "`, `", "`"), "the same"): s =>
+    Step(names.mkString("`", "`, `", "`"), "unchanged"): s =>
       names.foreach(n => s.take(n).foreach(s.add(n, _)))
 
   def rename(names: (String, String)*): Step =
@@ -53,20 +53,20 @@ object Steps:
       names.map(_._2).mkString("`", "`, `", "`")
     )(s => names.foreach((from, to) => s.take(from).foreach(s.add(to, _))))
 
-  /** No meaning for the picture. */
+  /** Drops parameters that don't affect the image. */
   def drop(names: String*): Step =
-    Step(names.mkString("`", "`, `", "`"), "left out: no part of the picture"): s =>
+    Step(names.mkString("`", "`, `", "`"), "ignored: does not affect the image"): s =>
       names.foreach(s.take)
 
-  /** What the other dialect can't say: a warning, unless the value has no effect anyway. */
+  /** Drops a parameter that the target dialect lacks; warns unless its value is neutral. */
   def lose(name: String, instead: String)(isNeutral: (Param, Statement) => Boolean): Step =
-    Step(s"`$name`", s"lost: $instead"): s =>
+    Step(s"`$name`", s"dropped: $instead"): s =>
       for p <- s.take(name) if !isNeutral(p, s) do
-        s.warn(p.at, s"`$name` of \"${s.name}\" can't be said in ${s.target}: $instead")
+        s.warn(p.at, s"`$name` of \"${s.name}\" is not supported in ${s.target}; $instead")
 
   def lose(name: String, instead: String): Step = lose(name, instead)((_, _) => false)
 
-  /** Writes what the other dialect has another default for. */
+  /** Writes a default explicitly where the target dialect's differs. */
   def otherwise(name: String, text: String)(write: Statement => Unit): Step =
     Step(s"no `$name`", text)(s => if !s.has(name) then write(s))
 
@@ -77,7 +77,7 @@ object Steps:
 
   def isNumber(value: Float)(p: Param, s: Statement): Boolean = s.numberOf(p).contains(value)
 
-/** Textures of noise, which are the same in all dialects but for one. */
+/** Noise textures, equal in all dialects except for marble. */
 private[convert] object Noise:
   val octaves: Step = Steps.keep("octaves", "roughness")
 
@@ -87,8 +87,8 @@ private[convert] object Noise:
     Rule("windy" -> "windy")()
   )
 
-  /** pbrt-v3 goes on along the first curves between the colours; v2 and v4 have all six. */
+  /** pbrt-v3 extrapolates the first segment of the colour spline; v2 and v4 use all six colours. */
   val marble: Rule = Rule.near(
     "marble" -> "marble",
-    "pbrt-v3's marble runs beyond the colours of v2's and v4's"
+    "pbrt-v3's marble extrapolates the colours of v2's and v4's"
   )(Steps.keep("octaves", "roughness", "scale", "variation"))

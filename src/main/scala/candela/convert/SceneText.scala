@@ -7,8 +7,8 @@ import candela.scenefile.*
 
 /** Writes a description as a scene file of its dialect.
   *
-  * Every transform is written whole, so that no statement depends on those before it. Shapes that
-  * follow one another and share all but the transform share a block.
+  * Writes every transform in full, so that no statement depends on earlier ones. Consecutive shapes
+  * that differ only in their transform share a block.
   */
 final class SceneText private (out: Writer, scene: SceneDescription):
   private val text = Statements(out, scene.dialect)
@@ -16,7 +16,7 @@ final class SceneText private (out: Writer, scene: SceneDescription):
 
   private val isV4 = scene.dialect == Dialect.V4
 
-  /** The medium outside of all blocks is the camera's; each block says what it has instead. */
+  /** The exterior medium outside all blocks is the camera's; blocks override it. */
   private val outside = scene.cameraMedium
 
   private def write(): Unit =
@@ -70,9 +70,7 @@ final class SceneText private (out: Writer, scene: SceneDescription):
 
   private def isStill(t: AnimatedTransform): Boolean = !t.isAnimated && t.start.isIdentity
 
-  /** In v2 and v3 a definition would be forgotten at `AttributeEnd`; v4 frowns on
-    * `TransformBegin`.
-    */
+  /** v2 and v3 would discard a definition at `AttributeEnd`; v4 deprecates `TransformBegin`. */
   private def placed(t: AnimatedTransform, isMore: Boolean)(body: => Unit): Unit =
     val kind = if isV4 then "Attribute" else "Transform"
     if isStill(t) && !isMore then body
@@ -106,7 +104,7 @@ final class SceneText private (out: Writer, scene: SceneDescription):
         text.defaults("medium", m.medium)
         text.declaration("MakeNamedMedium", Vector(m.name), typed(m.medium))
 
-  /** With its class as a parameter. */
+  /** The declaration with its class as a parameter. */
   private def typed(d: Declaration): Declaration =
     val kind = Param(ParamType.String, "type", d.at, d.at, strings = Vector(d.name))
     d.copy(params = kind +: d.params)
@@ -176,8 +174,8 @@ final class SceneText private (out: Writer, scene: SceneDescription):
 object SceneText:
   def write(scene: SceneDescription, out: Writer): Unit = SceneText(out, scene).write()
 
-/** What shapes of one block share. Declarations are compared by their places: that is cheap, and
-  * right for statements of one file.
+/** Attributes shared by the shapes of a block. Compares declarations by position: cheap, and exact
+  * within one file.
   */
 private final case class Surroundings(
     material: MaterialRef,
@@ -201,6 +199,6 @@ private object Surroundings:
       s.shape.params.filter(_.isDefault), s.shape.colorSpace
     )
 
-  /** Of shapes that say nothing. */
+  /** Attributes of shapes that specify none. */
   def none(outside: String): Surroundings =
     Surroundings(MaterialRef.Default, None, false, "", outside, Vector.empty, "srgb")

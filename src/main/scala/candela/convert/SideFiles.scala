@@ -8,27 +8,27 @@ import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.scenefile.Param
 
-/** Files that lie beside a written scene. They are named by what is in them: what is there already
-  * under such a name is the same, or not ours to touch.
+/** Files that accompany an output scene, named by a hash of their content: an existing file of that
+  * name is either equal, or not ours to overwrite.
   */
 final class SideFiles(val folder: Path):
 
-  /** Puts the bytes into a file, whole or not at all; its name. */
+  /** Writes the bytes to a file atomically; returns its name. */
   def add(kind: String, extension: String, bytes: Array[Byte]): String =
     val hash = MessageDigest.getInstance("SHA-256").digest(bytes)
     val name = s"$kind-${hash.take(8).map(b => f"$b%02x").mkString}.$extension"
     val path = folder.resolve(name)
     if !Files.exists(path) then WholeFile.write(path, bytes)
     else if !java.util.Arrays.equals(Files.readAllBytes(path), bytes) then
-      throw SceneError(Problem.general(s"`$path` exists and holds something else"))
+      throw SceneError(Problem.general(s"`$path` exists with different content"))
     name
 
-/** Pictures written anew as EXR, with linear values, beside the scene: where the other dialect does
-  * not read the format, or can't say what is to become of the numbers in the file.
+/** Rewrites images as linear EXR beside the scene, if the target dialect can't read the format or
+  * express the processing of the stored values.
   */
-object Pictures:
+object RewrittenImages:
 
-  /** A picture with the values that its file means by itself, times a colour. */
+  /** The image as linear values, times a colour. */
   def asExr(s: Statement, p: Param, tint: Rgb = Rgb.White): String =
     val factors = Array(tint.r, tint.g, tint.b)
     written(s, p): image =>
@@ -36,13 +36,12 @@ object Pictures:
       loop(made.data.length)(i => made.data(i) *= factors(i % 3))
       made
 
-  /** A single pixel. */
+  /** An image of a single pixel. */
   def plain(s: Statement, color: Rgb): String =
     val image = Image(1, 1, Image.RgbNames, Array(color.r, color.g, color.b))
     s.run.files.add("image", "exr", ImageFiles.exr(image))
 
-  /** A picture with `change` applied to the numbers of its file (8 bits: 0 to 1), given a channel.
-    */
+  /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel. */
   def baked(s: Statement, p: Param)(change: (Float, Int) => Float): String =
     written(s, p): image =>
       val sources = image.colorChannels.toArray
@@ -52,11 +51,11 @@ object Pictures:
           made.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
       made
 
-  /** The new file's name, or the old one after a warning. */
+  /** Name of the new file; of the old one, after a warning, if it can't be read. */
   private def written(s: Statement, p: Param)(change: Image => Image): String =
     val name = p.strings.head
     def failed(why: String) =
-      s.warn(p.at, s"the image stays as it is, for it can't be read: $why")
+      s.warn(p.at, s"can't read the image, leaving it unchanged: $why")
       name
     try
       val image = ImageFiles.read(s.declaration.folder.resolve(name.replace('\\', '/')))

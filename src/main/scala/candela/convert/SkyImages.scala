@@ -8,10 +8,10 @@ import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{EqualAreaMap, LatLongMap, SphereMap}
 import candela.scenefile.Param
 
-/** Pictures of all directions: equirectangular in v2 and v3, square and equal-area in v4. */
+/** Converts environment maps: equirectangular in v2 and v3, square equal-area in v4. */
 object SkyImages:
 
-  /** Writes the picture that `p` names for the other dialect; its name.
+  /** Writes the environment map named by `p` for the target dialect; returns its name.
     *
     * @param tint factor of its colours
     */
@@ -32,15 +32,16 @@ object SkyImages:
       Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
     catch
       case e: ImageError =>
-        s.warn(p.at, s"the image can't be converted, so it is left out: ${e.getMessage}")
+        s.warn(p.at, s"can't convert the image, ignoring it: ${e.getMessage}")
         None
       case _: InvalidPathException =>
-        s.warn(p.at, s"`$name` is no file name: it is left out")
+        s.warn(p.at, s"`$name` is not a valid file name; ignored")
         None
 
-  /** Each pixel is the mean of the source over the pixel's directions.
+  /** Each pixel averages the source over the pixel's directions.
     *
-    * @param smooth is the source read bilinearly, or by its nearest pixel?
+    * @param smooth whether to interpolate the source bilinearly instead of reading its nearest
+    *   pixel
     */
   def resampled(
       source: Image,
@@ -65,7 +66,7 @@ object SkyImages:
         loop(3)(c => made.data((y * width + x) * 3 + c) = (sum(c) / (Parts * Parts)).toFloat)
     made
 
-  /** Samples of a pixel along each of its sides. */
+  /** Samples per pixel along each axis. */
   private val Parts = 4
 
   private def nearest(image: Image, x: Float, y: Float, sum: Array[Double]): Unit =

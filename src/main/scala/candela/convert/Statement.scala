@@ -6,41 +6,39 @@ import candela.base.SourcePos
 import candela.color.Rgb
 import candela.scenefile.*
 
-/** A statement on its way into another dialect: steps take parameters from it, and add those of the
-  * other dialect.
-  */
+/** A statement during conversion: steps take its parameters and add those of the target dialect. */
 final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule):
   private val open = mutable.LinkedHashMap.from(declaration.params.map(p => p.name -> p))
   private val made = mutable.ArrayBuffer.empty[Param]
 
-  /** The name in the other dialect. */
-  var becomes: String = rule.to
+  /** The name in the target dialect. */
+  var targetName: String = rule.to
 
   def name: String = declaration.name
 
-  /** How messages call the dialect that is written. */
+  /** The target dialect's name, for messages. */
   def target: String = run.pass.to.toString.toLowerCase
 
-  /** Chooses another name than the rule's. */
-  def become(name: String): Unit = becomes = name
+  /** Overrides the rule's target name. */
+  def convertTo(name: String): Unit = targetName = name
 
   def has(name: String): Boolean = open.contains(name) || made.exists(_.name == name)
 
-  /** The parameter, which is not looked at again. */
+  /** Removes and returns a parameter. */
   def take(name: String): Option[Param] = open.remove(name)
 
-  /** Gives the statement another parameter, for later steps. */
+  /** Adds a source parameter for later steps. */
   def put(p: Param): Unit = open(p.name) = p
 
   def hasMade(t: ParamType): Boolean = made.exists(_.paramType == t)
 
-  /** The parameter, which stays. */
+  /** Returns a parameter without removing it. */
   def look(name: String): Option[Param] = open.get(name)
 
-  /** Does the scene file say it? */
+  /** Whether the scene file specifies the parameter. */
   def wasGiven(name: String): Boolean = declaration.params.exists(_.name == name)
 
-  /** Adds a parameter under a name, its value in the way of the other dialect. */
+  /** Adds a parameter under the given name, its value in the target dialect's form. */
   def add(name: String, p: Param): Unit =
     val adapted = run.values.adapt(p, name, declaration)
     adapted.foreach(a => made += Values.renamed(a, name))
@@ -61,9 +59,9 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
 
   def warn(at: SourcePos, message: String): Unit = run.warn(at, message)
 
-  // What parameters hold, if that can be told
+  // Constant values of parameters, if known.
 
-  /** A number that is the same everywhere. */
+  /** A constant number. */
   def numberOf(p: Param): Option[Float] = p.paramType match
     case ParamType.Float if p.floats.length == 1 => Some(p.floats(0))
     case ParamType.Integer if p.ints.length == 1 => Some(p.ints(0).toFloat)
@@ -72,7 +70,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
         t.texture.param("value").fold(Some(1f))(numberOf)
     case _ => run.values.color(p, declaration).filter(Values.isGray).map(_.r)
 
-  /** A colour that is the same everywhere. */
+  /** A constant colour. */
   def colorOf(p: Param): Option[Rgb] = p.paramType match
     case ParamType.Texture =>
       run.texture(p.strings.head, "spectrum").filter(_.texture.name == "constant").flatMap: t =>
@@ -90,13 +88,14 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   def takeColor(name: String, default: Rgb): Rgb =
     take(name).flatMap(colorOf).getOrElse(default)
 
-  /** The statement of the other dialect. Defaults that came from `Attribute` may fit none here. */
+  /** The statement in the target dialect. Defaults from `Attribute` may not apply to this type. */
   def result(): Declaration =
     for step <- rule.steps do step.run(this)
-    for note <- rule.note if becomes == rule.to do
-      warn(declaration.at, s"${declaration.category} \"$name\" is \"$becomes\" in $target: $note")
+    for note <- rule.note if targetName == rule.to do
+      val what = s"${declaration.category} \"$name\""
+      warn(declaration.at, s"$what is converted to \"$targetName\" in $target: $note")
     for p <- open.values if !p.isDefault do
-      warn(p.at, s"`${p.name}` is no parameter of \"$name\": it is left out")
+      warn(p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
     val (new_, old) = made.toVector.partition(_.at == declaration.at)
     val ordered = old.sortBy(p => (p.at.line, p.at.column)) ++ new_
-    declaration.copy(name = becomes, params = ordered, colorSpace = "srgb")
+    declaration.copy(name = targetName, params = ordered, colorSpace = "srgb")

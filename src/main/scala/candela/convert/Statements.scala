@@ -5,7 +5,7 @@ import java.io.Writer
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, Param, ParamType}
 
-/** Writes single statements: indentation, quotes, and how a dialect spells types and values. */
+/** Writes single statements: indentation, quotes, and a dialect's spelling of types and values. */
 final class Statements(out: Writer, dialect: Dialect):
   private var indent = 0
   private var colorSpace = "srgb"
@@ -17,7 +17,7 @@ final class Statements(out: Writer, dialect: Dialect):
 
   def blank(): Unit = out.write('\n')
 
-  /** A block; what it changes is forgotten at its end. */
+  /** A block, which restores the state at its end. */
   def block(begin: String, end: String)(body: => Unit): Unit =
     val outside = colorSpace
     line(begin)
@@ -27,7 +27,7 @@ final class Statements(out: Writer, dialect: Dialect):
     line(end)
     colorSpace = outside
 
-  /** `Attribute` statements: what may fit none of the statements that it speaks to. */
+  /** `Attribute` statements: parameters that may apply to none of their targets. */
   def defaults(target: String, d: Declaration): Unit =
     val params = d.params.filter(_.isDefault)
     if params.nonEmpty then statement("Attribute", Vector(target), params)
@@ -35,14 +35,14 @@ final class Statements(out: Writer, dialect: Dialect):
   def declaration(directive: String, d: Declaration): Unit =
     declaration(directive, Vector(d.name), d)
 
-  /** @param names what is quoted after the directive */
+  /** @param names quoted names after the directive */
   def declaration(directive: String, names: Vector[String], d: Declaration): Unit =
     if d.colorSpace != colorSpace then
       colorSpace = d.colorSpace
       line(s"ColorSpace ${Statements.quoted(colorSpace)}")
     statement(directive, names, d.params.filterNot(_.isDefault))
 
-  /** On one line, if that is not too long; else a line for each parameter. */
+  /** Writes a short statement on one line, a longer one with a line per parameter. */
   def statement(directive: String, names: Vector[String], params: Vector[Param]): Unit =
     val head = (directive +: names.map(Statements.quoted)).mkString(" ")
     val parts = params.map(p => (heading(p), values(p)))
@@ -77,15 +77,15 @@ final class Statements(out: Writer, dialect: Dialect):
       indent -= 1
       line("]")
 
-  /** The parameter's type and name. */
+  /** The parameter's type and name, quoted. */
   private def heading(p: Param): String =
     Statements.quoted(s"${Statements.spelling(p.paramType, dialect)} ${p.name}")
 
-  /** Lazily, for lists may be very long. */
+  /** Lazy, because lists may be very long. */
   private def values(p: Param): Seq[String] = p.paramType match
     case ParamType.Integer => p.ints.view.map(_.toString).toSeq
     case ParamType.Bool =>
-      // Quotes around them are the older dialects' habit; v4 allows them no more
+      // v2 and v3 scenes conventionally quote booleans; v4 rejects quotes.
       p.bools.map(b => if dialect == Dialect.V4 then b.toString else s"\"$b\"")
     case _ if p.strings.nonEmpty => p.strings.map(Statements.quoted)
     case _ => p.floats.view.map(NumberText.of).toSeq
@@ -99,7 +99,7 @@ final class Statements(out: Writer, dialect: Dialect):
       line("ActiveTransform All")
     else transform(t.start)
 
-  /** Scene files have matrices column by column. */
+  /** Matrices in scene files are in column order. */
   private def transform(t: Transform): Unit =
     if t.isIdentity then line("Identity")
     else

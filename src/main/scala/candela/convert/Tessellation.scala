@@ -3,10 +3,10 @@ package candela.convert
 import candela.math.{clamp, radians, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
 
-/** Shapes that only the older dialects have, as meshes. */
+/** Tessellates shapes that v4 lacks. */
 object Tessellation:
 
-  /** A trianglemesh in place of the shape, if it is one of these. */
+  /** The shape as a trianglemesh, if v4 lacks its type. */
   def of(d: Declaration): Option[Declaration] =
     def number(name: String, default: Float) =
       d.param(name).flatMap(_.floats.headOption).getOrElse(default)
@@ -44,7 +44,7 @@ object Tessellation:
     val vertices =
       for j <- 0 to Along; i <- 0 to Around yield (i.toFloat / Around, j.toFloat / Along)
     def normal(u: Float, v: Float) =
-      // Within the surface: at a tip ∂p/∂u vanishes
+      // Offset into the surface, because ∂p/∂u vanishes at a tip.
       val (u0, u1) = (Math.max(u - Step, 0f), Math.min(u + Step, 1f))
       val (v0, v1) = (Math.max(v - Step, 0f), Math.min(v + Step, 1f))
       val inner = clamp(v, Step, 1 - Step)
@@ -59,7 +59,7 @@ object Tessellation:
 
   private val Step = 1e-3f
 
-  /** Two triangles for each square of a grid of vertices. */
+  /** Two triangles per cell of a vertex grid. */
   private def squares(nx: Int, ny: Int): Array[Int] =
     (for
       y <- 0 until ny - 1

@@ -14,7 +14,7 @@ object ToV3Lights:
   private val distant: Factor = (illuminance, _) => Some(illuminance)
   private val unknown: Factor = (_, _) => None
 
-  /** The power of a cone with a soft border, as v4 counts it. */
+  /** Power of a cone with a soft edge, by v4's formula. */
   private def spot(power: Float, s: Statement) =
     def angle(name: String, default: Float) = s.look(name).flatMap(s.numberOf).getOrElse(default)
     val (total, delta) = (angle("coneangle", 30f), angle("conedeltaangle", 5f))
@@ -48,13 +48,13 @@ object ToV3Lights:
     val light = Emission.toV3("I", "power", unknown)
     Step("`filename`, `scale`, `fov`", "`mapname`, `scale`, `fov`"): s =>
       s.addFloat("fov", s.takeNumber("fov", 90f))
-      for p <- s.take("filename") do s.addString("mapname", Pictures.asExr(s, p))(using p.at)
+      for p <- s.take("filename") do s.addString("mapname", RewrittenImages.asExr(s, p))(using p.at)
       light.run(s)
 
   val table: Table = Table("LightSource")(
     Rule("point" -> "point")(keep("from"), Emission.toV3("I", "power", point)),
     Rule("distant" -> "distant")(keep("from", "to"), Emission.toV3("L", "illuminance", distant)),
-    Rule.near("spot" -> "spot", "the light falls off otherwise at the border of its cone")(
+    Rule.near("spot" -> "spot", "different falloff at the edge of the cone")(
       Emission.toV3("I", "power", spot),
       keep("from", "to", "coneangle", "conedeltaangle")
     ),
@@ -62,20 +62,20 @@ object ToV3Lights:
     Rule("projection" -> "projection")(projection),
     Rule("infinite" -> "infinite")(
       infinite,
-      lose("portal", "the light is sampled from all directions")((_, _) => true)
+      lose("portal", "sampled over all directions")((_, _) => true)
     )
   )
 
-  /** A light's `power` becomes its `scale` before this, where the shape is known: [[powered]]. */
+  /** [[powered]] first converts a light's `power` to its `scale`, where the shape is known. */
   val area: Table = Table("AreaLightSource")(
     Rule("diffuse" -> "diffuse")(
       keep("twosided"),
       Emission.toV3("L", "power", unknown),
-      lose("filename", "the surface shines evenly")
+      lose("filename", "uniform emission")
     )
   )
 
-  /** The shape with a light whose `power` is a `scale`, if its area can be told. */
+  /** The shape with its light's `power` converted to a `scale`, if its area is known. */
   def powered(s: ShapeDescription): ShapeDescription =
     val known =
       for
@@ -97,7 +97,7 @@ object ToV3Lights:
         light.copy(params = light.params.filterNot(p => Set("power", "scale")(p.name)) :+ made)
     known.fold(s)(light => s.copy(areaLight = Some(light)))
 
-/** Areas of shapes in world space, where they are easily told. */
+/** Areas of shapes in world space, where easily computed. */
 object Areas:
 
   def of(s: ShapeDescription): Option[Float] =
@@ -119,7 +119,7 @@ object Areas:
         uniform(t).map(_ * phi * radius * Math.abs(number("zmax", 1f) - number("zmin", -1f)))
       case _ => None
 
-  /** The factor of areas, if the transform is a rotation, a shift and one scale. */
+  /** The factor of areas, if the transform is a similarity. */
   private def uniform(t: Transform): Option[Float] =
     val axes = Seq(Vec3.X, Vec3.Y, Vec3.Z).map(t.vector)
     val lengths = axes.map(_.length)

@@ -8,39 +8,39 @@ import candela.scenefile.{Param, ParamType}
 object ToV3Materials:
   import Steps.*
 
-  private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; a `normalmap` is lost"): s =>
+  private val bump = Step("`displacement`, `normalmap`", "`bumpmap`; `normalmap` is dropped"): s =>
     for p <- s.take("displacement") do s.add("bumpmap", p)
-    for p <- s.take("normalmap") do s.warn(p.at, "v3 has no normal maps: the surface is smooth")
+    for p <- s.take("normalmap") do s.warn(p.at, "v3 does not support normal maps; ignored")
 
   private def reflectance(default: Float): Seq[Step] = Seq(
     rename("reflectance" -> "Kd"),
     otherwise("Kd", s"`Kd` $default")(_.addRgb("Kd", Rgb.gray(default)))
   )
 
-  /** A number, of an index of refraction that may be a spectrum: at 589 nm. */
+  /** Index of refraction as a number; of a spectrum, the value at 589 nm. */
   private def eta(name: String, default: Float): Step = Step(s"`$name`", "`eta`, at 589 nm"): s =>
     val value = s.take(name).flatMap: p =>
       if p.paramType == ParamType.Spectrum then
         val spectrum = s.run.values.spectrum(p, s.declaration)
         if spectrum.exists(_.values.distinct.length > 1) then
-          s.warn(p.at, "v3 has no dispersion: the index of refraction at 589 nm is used")
+          s.warn(p.at, "v3 does not support dispersion; using the index of refraction at 589 nm")
         spectrum.map(_(589.3f))
       else s.numberOf(p)
     s.addFloat("eta", value.getOrElse(default))
 
-  /** Fresnel's reflectance at normal incidence. */
+  /** Fresnel reflectance at normal incidence. */
   private def normalReflectance(eta: Float): Float =
     val r = (eta - 1) / (eta + 1)
     r * r
 
-  /** v3's plastic always reflects as an index of 1.5; `Ks` makes it what this coat reflects. */
-  private val gloss = Step("`eta`", "`Ks`, that reflects as much at normal incidence"): s =>
+  /** v3's plastic always has index 1.5; `Ks` compensates to the coating's normal reflectance. */
+  private val gloss = Step("`eta`", "`Ks` of equal reflectance at normal incidence"): s =>
     val eta = s.take("eta").flatMap(p =>
       s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
     ).getOrElse(1.5f)
     s.addRgb("Ks", Rgb.gray(normalReflectance(eta) / normalReflectance(1.5f)))
 
-  /** The absorption that makes v4's metal of a given reflectance, with an index of 1. */
+  /** Absorption `k` for which a v4 conductor of index 1 has the given reflectance. */
   private def absorption(r: Float): Float =
     val x = Math.min(Math.max(r, 0f), 0.9999f)
     2f * safeSqrt(x) / safeSqrt(1f - x)
@@ -54,8 +54,8 @@ object ToV3Materials:
               s.addRgb("eta", Rgb.White)(using p.at)
               s.addRgb("k", c.map(absorption))(using p.at)
             case None =>
-              s.warn(p.at, "a metal's reflectance has no texture in v3: a mirror without roughness")
-              s.become("mirror")
+              s.warn(p.at, "metal can't have a `reflectance` texture in v3; using \"mirror\"")
+              s.convertTo("mirror")
               s.add("Kr", p)
         case None =>
           for name <- Seq("eta", "k"); p <- s.take(prefix + name) do s.add(name, p)
@@ -63,11 +63,11 @@ object ToV3Materials:
   private def rough(default: Float, smoothAtZero: Boolean = false): Step =
     val step = RoughnessSteps.v4(default, smoothAtZero)
     Step(step.source, step.target): s =>
-      if s.becomes == "mirror" then
+      if s.targetName == "mirror" then
         Seq("roughness", "uroughness", "vroughness", "remaproughness").foreach(s.take)
       else step.run(s)
 
-  /** Glass has a roughness for each direction only. */
+  /** Glass has only the two directional roughnesses. */
   private val glassRoughness: Step =
     val step = rough(0f, smoothAtZero = true)
     Step(step.source, "`uroughness`, `vroughness`: alpha, not remapped"): s =>
@@ -82,10 +82,10 @@ object ToV3Materials:
 
   private val coats = Seq("thickness", "albedo", "g", "maxdepth", "nsamples")
 
-  /** What a pane transmits goes straight on: v3 says that by opacity. `R / (1 + R)`, twice, is what
-    * both of its sides reflect.
+  /** Light transmitted by a pane passes through unscattered, which v3 expresses as opacity. Both
+    * sides together reflect `2R / (1 + R)`.
     */
-  private val pane = Step("`eta`", "`opacity` and `Kr`, right at normal incidence"): s =>
+  private val pane = Step("`eta`", "`opacity` and `Kr`, exact at normal incidence"): s =>
     val n = s.take("eta").flatMap(p =>
       s.numberOf(p).orElse(s.run.values.spectrum(p, s.declaration).map(_(589.3f)))
     ).getOrElse(1.5f)
@@ -105,7 +105,7 @@ object ToV3Materials:
           case Some(p) if s.colorOf(p).isEmpty => s.add(to, p)
           case p => s.addRgb(to, p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.25f)) * scale)
       if scale != 1f && s.hasMade(ParamType.Texture) then
-        s.warn(s.declaration.at, "`scale` does not reach textures in v3")
+        s.warn(s.declaration.at, "`scale` does not apply to textures in v3")
       s.addRgb("Kd", Rgb.White)
       s.addRgb("Ks", Rgb.Black)
 
@@ -117,21 +117,21 @@ object ToV3Materials:
       for p <- s.take("amount") do
         s.numberOf(p) match
           case Some(a) => s.addRgb("amount", Rgb.gray(a))(using p.at)
-          case None => s.warn(p.at, "`amount` can't be a float texture in v3: 0.5 is used")
+          case None => s.warn(p.at, "`amount` can't be a float texture in v3; using 0.5")
 
   private val subsurface = Seq(
     keep("name", "sigma_a", "sigma_s", "mfp", "g", "scale"),
     eta("eta", 1.33f),
     Step("`reflectance`", "`Kd` of \"kdsubsurface\"")(s =>
       for p <- s.take("reflectance") do
-        s.become("kdsubsurface")
+        s.convertTo("kdsubsurface")
         s.add("Kd", p)
     ),
     glassRoughness,
     bump
   )
 
-  private val coatNote = "a coat above a diffuse base is another model in v3; the picture is near"
+  private val coatNote = "v3's model of a coated diffuse base"
 
   val table: Table = Table("Material", fallback = "matte")(
     Rule("diffuse" -> "matte")((reflectance(0.5f) :+ bump)*),
@@ -139,7 +139,7 @@ object ToV3Materials:
       reflectance(0.5f) ++ Seq(gloss, rough(0f), bump, drop(coats*))*
     ),
     Rule("conductor" -> "metal")(metal(""), rough(0f), bump),
-    Rule.near("coatedconductor" -> "metal", "it has no coat")(
+    Rule.near("coatedconductor" -> "metal", "without coating")(
       metal("conductor."),
       rename(
         "conductor.roughness" -> "roughness",
@@ -151,7 +151,7 @@ object ToV3Materials:
       bump
     ),
     Rule("dielectric" -> "glass")(eta("eta", 1.5f), glassRoughness, bump),
-    Rule.near("thindielectric" -> "uber", "what it reflects towards grazing angles differs")(
+    Rule.near("thindielectric" -> "uber", "different reflectance at grazing angles")(
       pane,
       bump
     ),

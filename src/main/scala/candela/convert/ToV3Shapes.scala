@@ -6,18 +6,18 @@ import candela.scenefile.*
 object ToV3Shapes:
   import Steps.*
 
-  /** v3 has no partly transparent quadrics. */
-  private val opaque = lose("alpha", "the shape is opaque")(isNumber(1f))
+  /** v3 has no alpha on quadrics. */
+  private val opaque = lose("alpha", "opaque")(isNumber(1f))
 
-  /** A number between 0 and 1 must be a texture in v3. */
+  /** In v3, a number between 0 and 1 must be a texture. */
   private val alpha = Step("`alpha`", "`alpha`, a texture if it is a number between 0 and 1"): s =>
     for p <- s.take("alpha") do
       s.numberOf(p).filter(_ => p.paramType != ParamType.Texture) match
         case Some(x) if x > 0f && x < 1f =>
-          s.warn(p.at, "v3 cuts shapes out where `alpha` is 0, and nowhere else: it is opaque")
+          s.warn(p.at, "v3 treats only `alpha` 0 as transparent; the shape is opaque")
         case Some(x) => s.addFloat("alpha", x)(using p.at)
         case None =>
-          s.warn(p.at, "v3 cuts shapes out where `alpha` is 0; what is between is opaque")
+          s.warn(p.at, "v3 treats only `alpha` 0 as transparent; values above are opaque")
           s.add("alpha", p)
 
   val table: Table = Table("Shape")(
@@ -31,7 +31,7 @@ object ToV3Shapes:
     Rule("plymesh" -> "plymesh")(
       keep("filename"),
       alpha,
-      lose("displacement", "the mesh stays as it is"),
+      lose("displacement", "undisplaced mesh"),
       drop("edgelength")
     ),
     Rule("loopsubdiv" -> "loopsubdiv")(keep("levels", "P", "indices", "scheme"), opaque),
@@ -41,27 +41,27 @@ object ToV3Shapes:
     )
   )
 
-  /** Where a mesh has normals, v3 does not look at `ReverseOrientation`, while v4 turns them. */
+  /** v3 ignores `ReverseOrientation` of meshes with normals, while v4 flips the normals. */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     val meshed =
       if s.shape.name != "bilinearmesh" then s
       else
         run.warn(
           s.shape.at,
-          "v3 has no \"bilinearmesh\": a trianglemesh stands in, a fine mesh " +
-            "where it is not flat"
+          "v3 has no \"bilinearmesh\"; using \"trianglemesh\", finely tessellated " +
+            "where it is curved"
         )
         s.copy(shape = BilinearPatches.triangles(s.shape))
     val turned =
       if meshed.reverseOrientation && Meshes.hasNormals(meshed.shape) then
         if meshed.shape.name == "plymesh" then
-          run.warn(s.shape.at, "v3 does not turn a mesh that has normals in its file")
+          run.warn(s.shape.at, "v3 does not reverse the orientation of a PLY mesh with normals")
           meshed
         else meshed.copy(shape = reversed(meshed.shape), reverseOrientation = false)
       else meshed
     Vector(ToV3Lights.powered(turned))
 
-  /** With its normals turned; those of a subdivided mesh follow the order of its corners. */
+  /** The mesh with its normals flipped; for a subdivision surface, its vertex order reversed. */
   private def reversed(d: Declaration): Declaration =
     val isSubdivided = d.name == "loopsubdiv"
     d.copy(params = d.params.map: p =>

@@ -10,8 +10,8 @@ object ToV3Textures:
 
   private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
 
-  /** v3 knows sRGB's curve alone, and no inversion: what else there is goes into a new image, and
-    * so does a format that it does not read.
+  /** v3 supports sRGB's curve only, and no inversion: other encodings are baked into a new image,
+    * as are formats that it can't read.
     */
   private val file: Step =
     Step("`filename`, `encoding`, `invert`", "`filename`, `gamma`; or a new image as EXR"): s =>
@@ -30,19 +30,19 @@ object ToV3Textures:
           if isPng && encoding == "linear" then s.addBool("gamma", false)
         else
           val meant = (x: Float, _: Int) => if inverts then 1f - decode(x) else decode(x)
-          s.addString("filename", Pictures.baked(s, p)(meant))(using p.at)
+          s.addString("filename", RewrittenImages.baked(s, p)(meant))(using p.at)
 
-  private val filter: Step = Step("`filter`", "`trilinear`, the nearest to all but \"ewa\""): s =>
+  private val filter: Step = Step("`filter`", "`trilinear`, for all but \"ewa\""): s =>
     val p = s.take("filter")
     val kind = p.flatMap(_.strings.headOption).getOrElse("bilinear").toLowerCase
     if kind != "ewa" then s.addBool("trilinear", true)
     for q <- p if kind == "point" do
-      s.warn(q.at, "v3 interpolates between texels: \"point\" can't be said")
+      s.warn(q.at, "v3 does not support \"point\" filtering; using \"trilinear\"")
 
-  private val wrap: Step = Step("`wrap`", "`wrap`; \"octahedralsphere\" is lost"): s =>
+  private val wrap: Step = Step("`wrap`", "`wrap`; \"octahedralsphere\" is dropped"): s =>
     for p <- s.take("wrap") do
       if p.strings.headOption.contains("octahedralsphere") then
-        s.warn(p.at, "v3 has no wrap \"octahedralsphere\": \"repeat\" is used")
+        s.warn(p.at, "v3 does not support wrap \"octahedralsphere\"; using \"repeat\"")
       else s.add("wrap", p)
 
   private def common = Seq(
@@ -60,13 +60,13 @@ object ToV3Textures:
     Rule("dots" -> "dots")(keep("inside", "outside"), mapping),
     Rule("ptex" -> "ptex")(
       keep("filename"),
-      lose("scale", "the texture is as in its file")(isNumber(1f)),
+      lose("scale", "unscaled")(isNumber(1f)),
       Step("`encoding`", "`gamma`, of \"gamma …\"")(s =>
         val words = s.takeString("encoding", "gamma 2.2").split(' ')
         words.lastOption.flatMap(_.toFloatOption).foreach(s.addFloat("gamma", _))
       )
     ),
-    Rule.near("directionmix" -> "mix", "the mean of both stands in")(
+    Rule.near("directionmix" -> "mix", "the average of both")(
       keep("tex1", "tex2"),
       drop("dir"),
       otherwise("amount", "`amount` 0.5")(_.addFloat("amount", 0.5f))
@@ -80,7 +80,8 @@ object ToV3Textures:
     ))) ++ Noise.rules)*
   )
 
-  /** v3 multiplies two colours: a float texture becomes gray by a mix of black and white. */
+  /** v3 multiplies two colours, so a float texture is converted to gray by mixing black and white.
+    */
   private val scale: Step = Step("`tex`, `scale`", "`tex1`, `tex2`"): s =>
     for p <- s.take("tex") do s.add("tex1", p)
     for p <- s.take("scale") do

@@ -3,7 +3,7 @@ package candela.convert
 import candela.math.square
 import candela.scenefile.Dialect
 
-/** What stands before `WorldBegin`, and media, from v4 to v3. */
+/** Options and media, from v4 to v3. */
 object ToV3View:
   import Steps.*
 
@@ -11,13 +11,13 @@ object ToV3View:
   private val projective =
     keep("frameaspectratio", "screenwindow", "lensradius", "focaldistance")
 
-  private val mapping = Step("`mapping`", "\"equirectangular\" is all that v3 has"): s =>
+  private val mapping = Step("`mapping`", "\"equirectangular\", the only one of v3"): s =>
     val p = s.take("mapping")
     if !p.exists(_.strings.headOption.contains("equirectangular")) then
       s.warn(
         p.fold(s.declaration.at)(_.at),
-        "v3 has no equal-area camera: this one is " +
-          "equirectangular"
+        "v3 does not support the equal-area mapping; using " +
+          "\"equirectangular\""
       )
 
   private val cameras = Table("Camera", fallback = "perspective")(
@@ -28,20 +28,20 @@ object ToV3View:
       keep("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       otherwise("simpleweighting", "`simpleweighting` false")(_.addBool("simpleweighting", false)),
-      lose("aperture", "it is round")
+      lose("aperture", "circular aperture")
     )
   )
 
-  private val exposure = Step("`iso`", "`scale`, times how long the shutter is open"): s =>
+  private val exposure = Step("`iso`", "`scale`, times the exposure time"): s =>
     val factor = s.takeNumber("iso", 100f) / 100f * ToV4View.shutterTime(s)
     if factor != 1f then s.addFloat("scale", factor)
 
   private val components = Step("`maxcomponentvalue`", "`maxsampleluminance`, with a warning"): s =>
     for p <- s.take("maxcomponentvalue"); x <- s.numberOf(p) do
-      s.warn(p.at, "v3 limits the luminance of a sample, v4 its largest component")
+      s.warn(p.at, "v3 clamps a sample's luminance, v4 its largest component")
       s.addFloat("maxsampleluminance", x)(using p.at)
 
-  /** A window of pixels as parts of the image. */
+  /** A window of pixels, in fractions of the image. */
   private val pixelBounds = Step("`pixelbounds`", "`cropwindow`"): s =>
     def size(name: String, default: Int) =
       s.look(name).flatMap(_.ints.headOption).getOrElse(default).toFloat
@@ -56,19 +56,19 @@ object ToV3View:
     exposure,
     components,
     drop("savefp16"),
-    lose("sensor", "the CIE 1931 observer takes the image")((p, _) =>
+    lose("sensor", "CIE 1931 observer")((p, _) =>
       p.strings.headOption.contains("cie1931")
     ),
-    lose("whitebalance", "colours stay as they are")(isNumber(0f))
+    lose("whitebalance", "no white balance")(isNumber(0f))
   )
 
   private val films = Table("Film", fallback = "image")(
     Rule("rgb" -> "image")(film*),
     Rule.near(
       "gbuffer" -> "image",
-      "only colours are written"
+      "writes colour only"
     )((film :+ drop("coordinatesystem"))*),
-    Rule.near("spectral" -> "image", "only colours are written")(
+    Rule.near("spectral" -> "image", "writes colour only")(
       (film :+ drop("nbuckets", "lambdamin", "lambdamax"))*
     )
   )
@@ -78,7 +78,7 @@ object ToV3View:
 
   private val gaussian = Seq(
     extents,
-    otherwise("xwidth", "`xwidth`, `ywidth` 1.5 where they are not given")(s =>
+    otherwise("xwidth", "`xwidth`, `ywidth` 1.5 by default")(s =>
       for axis <- Seq("x", "y") if !s.has(s"${axis}width") do s.addFloat(s"${axis}width", 1.5f)
     ),
     Step("`sigma`", "`alpha`: 1 / 2 sigma²")(s =>
@@ -108,7 +108,7 @@ object ToV3View:
       val name = p.strings.headOption.filter(Set("uniform", "power"))
       name.foreach(s.addString("lightsamplestrategy", _)(using p.at))
 
-  private val regularize = lose("regularize", "surfaces stay as they are")((p, _) =>
+  private val regularize = lose("regularize", "no regularisation")((p, _) =>
     p.bools == Vector(false)
   )
 
@@ -138,16 +138,16 @@ object ToV3View:
           s.addInteger("iterations", p.ints*)
       )
     ),
-    Rule.near("ambientocclusion" -> "ambientocclusion", "its picture is brighter by π")(
+    Rule.near("ambientocclusion" -> "ambientocclusion", "the image is scaled by π")(
       keep("cossample"),
-      lose("maxdistance", "it looks at all distances")
+      lose("maxdistance", "unlimited distance")
     )
   )
 
   private val medium = keep("sigma_a", "sigma_s", "scale", "g", "preset")
   private val glow = Seq(
-    lose("Le", "the medium does not shine")(isColor(0f)),
-    lose("Lescale", "the medium does not shine")((_, s) => !s.wasGiven("Le"))
+    lose("Le", "no emission")(isColor(0f)),
+    lose("Lescale", "no emission")((_, s) => !s.wasGiven("Le"))
   )
 
   private val media = Table("Medium")(
@@ -155,13 +155,13 @@ object ToV3View:
     Rule("uniformgrid" -> "heterogeneous")(
       (Seq(medium, keep("density", "nx", "ny", "nz", "p0", "p1")) ++ glow ++
         Seq(
-          lose("temperature", "the medium does not shine"),
+          lose("temperature", "no emission"),
           drop("temperatureoffset", "temperaturecutoff", "temperaturescale")
         ))*
     )
   )
 
-  // v4 has none of these
+  // v4 has none of these.
   private val none = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
 
   val pass: Pass = Pass(
@@ -177,7 +177,7 @@ object ToV3View:
       "Sampler" -> "zsobol"
     ),
     ToV3Shapes.placed,
-    // The same in the other direction
+    // As in the opposite direction.
     ToV4Textures.placed,
     ToV4Lights.placed
   )

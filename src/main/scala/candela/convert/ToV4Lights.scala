@@ -10,8 +10,8 @@ object ToV4Lights:
 
   private val samples = drop("samples", "nsamples")
 
-  /** The image, in v4's layout. `L` (or `I`) and `scale` are factors of its pixels in v3; v4 has
-    * one number.
+  /** The image in v4's layout. In v3, `L` (or `I`) and `scale` are factors of its pixels; v4 has
+    * only a number.
     */
   private def image(color: String, optional: Boolean): Step =
     Step(
@@ -24,7 +24,7 @@ object ToV4Lights:
         case Some(p) =>
           val factor = s.takeColor(color, Rgb.White) * s.takeColor("scale", Rgb.White)
           val isGray = Values.isGray(factor)
-          // "goniometric" keeps its colour, and multiplies
+          // "goniometric" keeps its colour as a factor.
           val tint = if isGray || !optional then Rgb.White else factor
           for name <- SkyImages.converted(p, s, toSquare = true, tint) do
             s.addString("filename", name)(using p.at)
@@ -37,16 +37,16 @@ object ToV4Lights:
       val factor = s.takeColor("I", Rgb.White) * s.takeColor("scale", Rgb.White)
       val y = factor.luminance
       if y != 1f then s.addFloat("scale", y)
-      // v4 knows no colour but the image's, and no projection without one
+      // v4 has no colour besides the image's, and requires an image.
       val tint = if y > 0f && !Values.isGray(factor) then factor * (1f / y) else Rgb.White
       s.take("mapname") match
-        case Some(p) => s.addString("filename", Pictures.asExr(s, p, tint))(using p.at)
-        case None => s.addString("filename", Pictures.plain(s, tint))
+        case Some(p) => s.addString("filename", RewrittenImages.asExr(s, p, tint))(using p.at)
+        case None => s.addString("filename", RewrittenImages.plain(s, tint))
 
   val table: Table = Table("LightSource")(
     Rule("point" -> "point")(keep("from"), Emission.toV4("I"), samples),
     Rule("distant" -> "distant")(keep("from", "to"), Emission.toV4("L"), samples),
-    Rule.near("spot" -> "spot", "the light falls off otherwise at the border of its cone")(
+    Rule.near("spot" -> "spot", "different falloff at the edge of the cone")(
       keep("from", "to", "coneangle", "conedeltaangle"),
       Emission.toV4("I"),
       samples
@@ -60,7 +60,7 @@ object ToV4Lights:
     Rule("diffuse|area" -> "diffuse")(keep("twosided"), Emission.toV4("L"), samples)
   )
 
-  /** v3 projects its image upside down, compared with v4. */
+  /** v3's projected image is flipped vertically relative to v4's. */
   def placed(l: LightDescription): LightDescription =
     if l.light.name != "projection" then l
     else

@@ -12,46 +12,46 @@ object ToV4Materials:
   private val white = isColor(1f)
   private val black = isColor(0f)
 
-  private val kr = lose("Kr", "reflection has its full strength")(white)
-  private val kt = lose("Kt", "refraction has its full strength")(white)
+  private val kr = lose("Kr", "reflection is not attenuated")(white)
+  private val kt = lose("Kt", "refraction is not attenuated")(white)
 
-  /** An index of refraction: v4 has no textures of it. */
+  /** Index of refraction, which v4 does not texture. */
   private def eta(default: Float): Step =
     Step("`eta`, `index`", "`eta`"): s =>
       val (index, named) = (s.take("index"), s.take("eta"))
       for p <- named.orElse(index) do
         val value = s.numberOf(p)
         if value.isEmpty then
-          s.warn(p.at, s"an index of refraction can't vary in v4: $default is used")
+          s.warn(p.at, s"the index of refraction can't be a texture in v4; using $default")
         s.addFloat("eta", value.getOrElse(default))(using p.at)
 
-  /** The coat's index of refraction: it then reflects at normal incidence what `Ks` says. */
+  /** The coating's index of refraction for which its normal reflectance equals `Ks`. */
   private def coat(defaultKs: Float, fresnel: Float): Step =
-    Step("`Ks`", "`eta` of a coat that reflects as much at normal incidence"): s =>
+    Step("`Ks`", "`eta` of a coating of equal reflectance at normal incidence"): s =>
       val p = s.take("Ks")
       val ks = p.flatMap(s.colorOf).getOrElse(Rgb.gray(defaultKs))
       if p.exists(s.colorOf(_).isEmpty) then
-        s.warn(p.get.at, "the gloss of v4 has no texture: it is even all over")
-      else if !Values.isGray(ks) then s.warn(p.get.at, "the gloss of v4 has no colour")
+        s.warn(p.get.at, "v4's coating can't be textured; using a constant")
+      else if !Values.isGray(ks) then s.warn(p.get.at, "v4's coating can't be coloured; using gray")
       val root = sqrt(Math.min(Math.max(ks.luminance * fresnel, 1e-4f), 0.9f))
       s.addFloat("eta", (1f + root) / (1f - root))
 
-  private val coatNote = "its coat takes light from the base below, and is another model; the " +
-    "picture is near"
+  private val coatNote = "another coating model, which also attenuates " +
+    "the base"
 
-  /** A surface without gloss is `diffuse`, and nothing is lost. */
+  /** A material with a black specular lobe is exactly `diffuse`. */
   private def plainIfBlack(names: String*): Step =
     Step(names.mkString("`", "` and `", "` black"), "\"diffuse\""): s =>
       val absent = names.forall(n => s.look(n).exists(isColor(0f)(_, s)))
       if absent then
-        s.become("diffuse")
+        s.convertTo("diffuse")
         (names ++ Seq("roughness", "uroughness", "vroughness", "remaproughness", "eta", "index"))
           .foreach(s.take)
 
   private def unlessPlain(step: Step): Step =
     Step(step.source, step.target)(s => if !isPlain(s) then step.run(s))
 
-  private def isPlain(s: Statement) = s.becomes == "diffuse"
+  private def isPlain(s: Statement) = s.targetName == "diffuse"
 
   private def reflectance(default: Float): Seq[Step] = Seq(
     rename("Kd" -> "reflectance"),
@@ -62,21 +62,21 @@ object ToV4Materials:
 
   private val uber: Step = Step(
     "`Kr`, `Kt`, `opacity`",
-    "lost, unless without effect; `Kt` without " +
+    "dropped, unless neutral; `Kt` without " +
       "`Kd` makes it \"dielectric\""
   ): s =>
     def isBlack(name: String, default: Float) =
       s.look(name).fold(default == 0f)(isColor(0f)(_, s))
     if isBlack("Kd", 0.25f) && !isBlack("Kt", 0f) then
-      s.become("dielectric")
+      s.convertTo("dielectric")
       Seq("Kd", "Ks", "Kr", "Kt").foreach(s.take)
-    for (name, why) <- Seq("Kr" -> "it has no second, smooth gloss", "Kt" -> "it is not clear") do
+    for (name, why) <- Seq("Kr" -> "no second, specular lobe", "Kt" -> "no transmission") do
       for p <- s.take(name) if !isColor(0f)(p, s) do
-        s.warn(p.at, s"`$name` of \"uber\" can't be said in v4: $why")
+        s.warn(p.at, s"`$name` of \"uber\" is not supported in v4; $why")
     for p <- s.take("opacity") if !isColor(1f)(p, s) do
-      s.warn(p.at, "`opacity` of \"uber\" can't be said in v4: it is opaque")
+      s.warn(p.at, "`opacity` of \"uber\" is not supported in v4; opaque")
 
-  /** v4 has two textures where v3 has one and two factors. */
+  /** v4 has two textures where v3 has one texture and two factors. */
   private val translucent: Step =
     Step("`Kd`, `reflect`, `transmit`", "`reflectance` and `transmittance`, multiplied"): s =>
       val kd = s.take("Kd")
@@ -84,11 +84,11 @@ object ToV4Materials:
         val p = s.take(factor)
         val f = p.flatMap(s.colorOf).getOrElse(Rgb.gray(0.5f))
         if p.exists(s.colorOf(_).isEmpty) then
-          s.warn(p.get.at, s"`$factor` can't have a texture in v4: 0.5 is used")
+          s.warn(p.get.at, s"`$factor` can't be a texture in v4; using 0.5")
         kd.map(k => (k, s.colorOf(k))) match
           case Some((k, None)) =>
             if !Values.isGray(f) then
-              s.warn(k.at, s"`$factor` can't have a colour beside a texture")
+              s.warn(k.at, s"`$factor` can't be coloured beside a texture in v4; using gray")
             s.addTexture(name, product(s, k.strings.head, f.luminance))(using k.at)
           case colored => s.addRgb(name, colored.flatMap(_._2).getOrElse(Rgb.gray(0.25f)) * f)
 
@@ -106,7 +106,7 @@ object ToV4Materials:
   private val mix: Step =
     Step(
       "`namedmaterial1`, `namedmaterial2`, `amount`",
-      "`materials` in the other order, `amount`"
+      "`materials` in reverse order, `amount`"
     ): s =>
       val names = Seq("namedmaterial2", "namedmaterial1").map(s.takeString(_, ""))
       s.addString("materials", names*)
@@ -114,7 +114,7 @@ object ToV4Materials:
         s.numberOf(p).orElse(s.colorOf(p).map(_.average)) match
           case Some(a) =>
             if s.colorOf(p).exists(!Values.isGray(_)) then
-              s.warn(p.at, "`amount` has no colour in v4: its mean is used")
+              s.warn(p.at, "`amount` can't be coloured in v4; using its average")
             s.addFloat("amount", a)(using p.at)
           case None =>
             s.addTexture("amount", ToV4Textures.floatTwin(s, p))(using p.at)
@@ -131,7 +131,7 @@ object ToV4Materials:
   val table: Table = Table("Material", fallback = "diffuse")(
     Rule("matte" -> "diffuse")(
       rename("Kd" -> "reflectance"),
-      lose("sigma", "the surface is Lambert's")(isNumber(0f)),
+      lose("sigma", "Lambertian")(isNumber(0f)),
       bump
     ),
     Rule.near("plastic" -> "coateddiffuse", coatNote)(
@@ -154,7 +154,7 @@ object ToV4Materials:
       bump
     ),
     Rule("metal" -> "conductor")(keep("eta", "k"), RoughnessSteps.v3(0.01f), bump),
-    Rule.near("mirror" -> "conductor", "it reflects more towards grazing angles")(
+    Rule.near("mirror" -> "conductor", "higher reflectance at grazing angles")(
       rename("Kr" -> "reflectance"),
       otherwise("reflectance", "`reflectance` 0.9")(_.addRgb("reflectance", Rgb.gray(0.9f))),
       otherwise("roughness", "`roughness` 0")(_.addFloat("roughness", 0f)),
@@ -162,10 +162,10 @@ object ToV4Materials:
     ),
     Rule("translucent" -> "diffusetransmission")(
       translucent,
-      lose("Ks", "it has no gloss")(black),
-      otherwise("Ks", "a warning that the gloss is lost")(s =>
+      lose("Ks", "no glossy lobe")(black),
+      otherwise("Ks", "warning: the glossy lobe is dropped")(s =>
         if !s.wasGiven("Ks") then
-          s.warn(s.declaration.at, "the gloss of \"translucent\" can't be said in v4")
+          s.warn(s.declaration.at, "v4 has no glossy lobe for \"translucent\"; ignored")
       ),
       drop("roughness", "remaproughness"),
       bump
@@ -177,7 +177,7 @@ object ToV4Materials:
       rename("color" -> "reflectance"),
       keep("sigma_a", "eumelanin", "pheomelanin", "eta", "beta_m", "beta_n", "alpha")
     ),
-    Rule.near("disney" -> "diffuse", "only its colour is kept")(
+    Rule.near("disney" -> "diffuse", "only the base colour is kept")(
       rename("color" -> "reflectance"),
       drop(
         "metallic", "eta", "roughness", "speculartint", "anisotropic", "sheen", "sheentint",
@@ -189,14 +189,14 @@ object ToV4Materials:
     Rule("|none" -> "interface")()
   )
 
-  // Neither holds for what has become a dielectric
+  // Neither applies once the material is a dielectric.
   private def reflectanceOfUber: Seq[Step] = reflectance(0.25f).map: step =>
-    Step(step.source, step.target)(s => if s.becomes != "dielectric" then step.run(s))
+    Step(step.source, step.target)(s => if s.targetName != "dielectric" then step.run(s))
 
   private def uberCoat: Step =
     val gloss = coat(0.25f, 0.04f)
     Step("`Ks`, `eta`, `index`", "`eta`"): s =>
-      if s.becomes == "dielectric" then eta(1.5f).run(s)
+      if s.targetName == "dielectric" then eta(1.5f).run(s)
       else
         Seq("eta", "index").foreach(s.take)
         gloss.run(s)

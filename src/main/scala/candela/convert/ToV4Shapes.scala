@@ -6,8 +6,8 @@ import candela.scenefile.*
 object ToV4Shapes:
   import Steps.*
 
-  /** v3 cuts out what is exactly 0, and nothing else; in v4 alpha is the chance to be there. */
-  private val alpha: Step = Step("`alpha`", "`alpha`, 1 where not 0, if that can be told"): s =>
+  /** v3 treats only `alpha` 0 as transparent; v4 interprets alpha as opacity, stochastically. */
+  private val alpha: Step = Step("`alpha`", "`alpha`, 1 where not 0, if known"): s =>
     for p <- s.take("alpha") do
       if p.paramType == ParamType.Texture then
         val t = s.run.texture(p.strings.headOption.getOrElse(""), "float")
@@ -19,7 +19,7 @@ object ToV4Shapes:
         else
           s.add("alpha", p)
           if !isPlain then
-            s.warn(p.at, "v3 cuts out where `alpha` is 0; v4 thins out also where it is below 1")
+            s.warn(p.at, "v3 treats only `alpha` 0 as transparent, v4 all values below 1")
       else s.numberOf(p).foreach(x => s.addFloat("alpha", if x == 0f then 0f else 1f)(using p.at))
 
   private val Plain = Set("constant", "checkerboard", "dots")
@@ -32,11 +32,11 @@ object ToV4Shapes:
         val x = if s.numberOf(q).contains(0f) then 0f else 1f
         Param(ParamType.Float, q.name, q.at, q.valuesAt, floats = Array(x))
     val made = s.run.convert(t.texture.copy(params = params), "float texture").get
-    s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} or nothing", texture = made))
+    s.run.define(ToV4Textures.placed(t).copy(name = s"${t.name} cutout", texture = made))
 
-  private val shadow = lose("shadowalpha", "shadows follow `alpha`")(isNumber(1f))
+  private val shadow = lose("shadowalpha", "shadows use `alpha`")(isNumber(1f))
 
-  /** v2 and v3 take texture coordinates as plain numbers too, by either name. */
+  /** v2 and v3 also accept texture coordinates as plain numbers, by either name. */
   private val uv: Step = Step("`uv`, `st`", "`point2 uv`"): s =>
     val (uv, st) = (s.take("uv"), s.take("st"))
     for p <- uv.orElse(st) do s.add("uv", Values.typed(p, ParamType.Point2))
@@ -66,14 +66,14 @@ object ToV4Shapes:
     )
   )
 
-  /** Shapes that v4 has no more become meshes; and where a mesh has normals, v3 does not look at
-    * `ReverseOrientation`, while v4 turns them.
+  /** Tessellates shapes that v4 lacks. v3 ignores `ReverseOrientation` of meshes with normals,
+    * while v4 flips the normals.
     */
   def placed(s: ShapeDescription, run: PassRun): Vector[ShapeDescription] =
     Tessellation.of(s.shape) match
       case Some(mesh) =>
-        val how = if s.shape.name == "heightfield" then "the same triangles" else "a fine mesh"
-        run.warn(s.shape.at, s"v4 has no \"${s.shape.name}\": a trianglemesh stands in, $how")
+        val how = if s.shape.name == "heightfield" then "same triangles" else "finely tessellated"
+        run.warn(s.shape.at, s"v4 has no \"${s.shape.name}\"; using \"trianglemesh\", $how")
         Vector(s.copy(shape = mesh))
       case None if s.reverseOrientation && Meshes.hasNormals(s.shape) =>
         Vector(s.copy(reverseOrientation = false))

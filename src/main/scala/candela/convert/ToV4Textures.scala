@@ -9,8 +9,8 @@ object ToV4Textures:
 
   private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
 
-  /** v3 decodes PNG and TGA unless told otherwise; v4 all files of 8 bits, and can be told
-    * otherwise of PNG alone. What it can't be told is written into a new image.
+  /** By default v3 decodes PNG and TGA, v4 all 8-bit formats; v4 can override this for PNG only.
+    * Other encodings are baked into a new image.
     */
   private val encoding: Step =
     Step("`filename`, `gamma`", "`filename`, `encoding`; or a new image"): s =>
@@ -24,7 +24,7 @@ object ToV4Textures:
           s.addString("encoding", "linear")
         else
           val meant = (x: Float, _: Int) => if decodes then Srgb.decode(x) else x
-          s.addString("filename", Pictures.baked(s, p)(meant))(using p.at)
+          s.addString("filename", RewrittenImages.baked(s, p)(meant))(using p.at)
 
   private val filter: Step = Step("`trilinear`", "`filter`: \"ewa\", or \"trilinear\""): s =>
     s.addString("filter", if s.takeBool("trilinear", false) then "trilinear" else "ewa")
@@ -59,8 +59,8 @@ object ToV4Textures:
     ))) ++ Noise.rules)*
   )
 
-  /** v4 multiplies a colour with a number. */
-  private val scale: Step = Step("`tex1`, `tex2`", "`tex` and `scale`, which has no colour"): s =>
+  /** v4 multiplies a colour by a number. */
+  private val scale: Step = Step("`tex1`, `tex2`", "`tex` and scalar `scale`"): s =>
     val factors = Vector("tex1", "tex2").flatMap(s.take)
     def gray(p: Param) = s.colorOf(p).filter(Values.isGray).map(_.r)
     def color(p: Param) = s.colorOf(p)
@@ -79,13 +79,13 @@ object ToV4Textures:
               gray(by) match
                 case Some(g) => s.addFloat("scale", g)(using by.at)
                 case None =>
-                  s.warn(by.at, "v4 multiplies no two colours: of one only the brightness is used")
+                  s.warn(by.at, "v4 can't multiply two colours; using the luminance of one")
                   color(by) match
                     case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
                     case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
       case one => one.foreach(s.add("tex", _))
 
-  /** An image map times a colour: a new image. */
+  /** An image map times a colour, as a new image. */
   private def tint(s: Statement, p: Param, by: Rgb): Option[String] =
     for
       t <- s.run.texture(p.strings.headOption.getOrElse(""), "spectrum")
@@ -96,7 +96,7 @@ object ToV4Textures:
       val isBytes = name.endsWith(".png") || name.endsWith(".tga")
       val decodes = t.texture.param("gamma").flatMap(_.bools.headOption).getOrElse(isBytes)
       val factors = Array(by.r, by.g, by.b)
-      val written = Pictures.baked(s, file): (x, c) =>
+      val written = RewrittenImages.baked(s, file): (x, c) =>
         factors(c) * (if decodes then Srgb.decode(x) else x)
       val others = t.texture.params.filterNot(q => q.name == "gamma" || q.name == "filename")
       val image = Param(ParamType.String, "filename", file.at, file.at, strings = Vector(written))
@@ -104,7 +104,7 @@ object ToV4Textures:
       val made = s.run.convert(d, "spectrum texture").get
       s.run.define(placed(t).copy(name = s"${t.name} tinted", texture = made))
 
-  /** A float texture of the same kind as a spectrum texture: its brightness. */
+  /** A float texture with the luminance of a spectrum texture. */
   def floatTwin(s: Statement, p: Param): String =
     val name = p.strings.head
     val twin =
@@ -112,7 +112,7 @@ object ToV4Textures:
         t <- s.run.texture(name, "spectrum")
         d <- s.run.convert(grayed(s, t.texture), "float texture")
       yield s.run.define(t.copy(name = s"$name as number", valueType = "float", texture = d))
-    s.warn(p.at, s"where v4 wants a number, it gets the brightness of the texture \"$name\"")
+    s.warn(p.at, s"v4 needs a float texture here; using the luminance of \"$name\"")
     twin.getOrElse(name)
 
   private def grayed(s: Statement, d: Declaration): Declaration =
@@ -122,7 +122,7 @@ object ToV4Textures:
         Param(ParamType.Float, p.name, p.at, p.valuesAt, floats = Array(c.luminance))
       else p)
 
-  /** Colours between black and white, by a float texture. */
+  /** Interpolates between black and white by a float texture. */
   private def byNumber(kind: String)(steps: Step*): Rule =
     Rule(kind -> "mix")(
       Step("all", s"a float texture \"$kind\" between black and white"): s =>
@@ -133,7 +133,7 @@ object ToV4Textures:
         s.addTexture("amount", s.run.define(made))
     )
 
-  private val uv = Rule.near("uv" -> "bilerp", "it does not repeat beyond 0 … 1")(
+  private val uv = Rule.near("uv" -> "bilerp", "does not repeat outside [0, 1]")(
     Step("no colours", "red along u, green along v"): s =>
       for (name, c) <- Seq(
           "v00" -> Rgb(0, 0, 0),
@@ -156,8 +156,8 @@ object ToV4Textures:
     ))*
   )
 
-  /** Where the two read a transform differently: v3 has planar mappings in world space, and turns
-    * points in space by the texture's transform instead of its inverse.
+  /** v3 has planar mappings in world space, and transforms points in space by the texture's
+    * transform instead of its inverse.
     */
   def placed(t: TextureDescription): TextureDescription =
     val d = t.texture

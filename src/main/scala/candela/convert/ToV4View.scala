@@ -3,7 +3,7 @@ package candela.convert
 import candela.math.sqrt
 import candela.scenefile.Dialect
 
-/** What stands before `WorldBegin`, and media, from v3 to v4. */
+/** Options and media, from v3 to v4. */
 object ToV4View:
   import Steps.*
 
@@ -37,26 +37,26 @@ object ToV4View:
       keep("lensfile", "aperturediameter", "focusdistance"),
       shutter,
       planes,
-      Step("`simpleweighting`", "what the film gathers, with a warning")(s =>
+      Step("`simpleweighting`", "the film's exposure, with a warning")(s =>
         val p = s.take("simpleweighting")
         if !p.exists(_.bools == Vector(false)) then
           s.warn(
             p.fold(s.declaration.at)(_.at),
-            "v4's images are as bright as the film gathers light"
+            "v4 always weights by the film's exposure"
           )
       )
     )
   )
 
-  /** v4 writes other formats than v3 does. */
-  private val filename: Step = Step("`filename`", "`filename`, as .exr if v4 can't write it"): s =>
+  /** v4 writes other formats than v3. */
+  private val filename: Step = Step("`filename`", "`filename`, or .exr if v4 can't write it"): s =>
     for p <- s.take("filename") do
       val name = p.strings.headOption.getOrElse("")
       val isKnown = Seq(".exr", ".png", ".pfm", ".qoi").exists(name.toLowerCase.endsWith)
       if isKnown then s.add("filename", p)
       else s.addString("filename", s"${name.replaceFirst("\\.[A-Za-z]+$", "")}.exr")(using p.at)
 
-  /** v4's film gathers light as long as the shutter is open; those of v2 and v3 don't count it. */
+  /** v4's film integrates over the exposure time; those of v2 and v3 don't. */
   private[convert] def shutterTime(s: Statement): Float =
     def time(name: String, default: Float) =
       val p = s.run.scene.camera.flatMap(_.param(name))
@@ -68,13 +68,13 @@ object ToV4View:
     Rule("image" -> "rgb")(
       keep("xresolution", "yresolution", "cropwindow", "diagonal"),
       filename,
-      Step("`scale`", "`iso`, 100 times; divided by the time that the shutter is open")(s =>
+      Step("`scale`", "`iso`, times 100, divided by the exposure time")(s =>
         val factor = s.takeNumber("scale", 1f) / shutterTime(s)
         if factor != 1f then s.addFloat("iso", 100f * factor)
       ),
       Step("`maxsampleluminance`", "`maxcomponentvalue`, with a warning")(s =>
         for p <- s.take("maxsampleluminance"); x <- s.numberOf(p) do
-          s.warn(p.at, "v4 limits the largest component of a sample, v3 its luminance")
+          s.warn(p.at, "v4 clamps a sample's largest component, v3 its luminance")
           s.addFloat("maxcomponentvalue", x)(using p.at)
       ),
       pixelBounds,
@@ -82,7 +82,7 @@ object ToV4View:
     )
   )
 
-  /** An integrator's window of pixels is the film's in v4. */
+  /** An integrator's pixel bounds belong to the film in v4. */
   private def pixelBounds: Step = Step("the integrator's `pixelbounds`", "`pixelbounds`"): s =>
     for i <- s.run.scene.integrator; p <- i.param("pixelbounds") do s.addRaw(p)
 
@@ -90,7 +90,7 @@ object ToV4View:
     for axis <- Seq("x", "y"); p <- s.take(s"${axis}width") do s.add(s"${axis}radius", p)
 
   private def extentsOf(default: Float): Step =
-    otherwise("xradius", s"`xradius`, `yradius` $default where they are not given"): s =>
+    otherwise("xradius", s"`xradius`, `yradius` $default by default"): s =>
       for axis <- Seq("x", "y") if !s.has(s"${axis}radius") do s.addFloat(s"${axis}radius", default)
 
   private val filters = Table("PixelFilter", fallback = "box")(
@@ -129,15 +129,15 @@ object ToV4View:
     drop("rrthreshold", "pixelbounds")
   )
 
-  /** Nothing in v4 follows mirror reflections alone. */
-  private val direct = Step("`maxdepth`", "`maxdepth` 1, if the scene has no smooth surface"): s =>
+  /** v4 has no integrator that follows specular paths only. */
+  private val direct = Step("`maxdepth`", "`maxdepth` 1, if no surface is specular"): s =>
     val depth = s.takeInteger("maxdepth", 5)
     if smoothMaterials(s).isEmpty then s.addInteger("maxdepth", 1)
     else
       s.warn(
         s.declaration.at,
-        s"v4 has no \"${s.name}\": beyond mirrors and glass, \"path\" adds " +
-          "light that comes by way of other surfaces"
+        s"v4 has no \"${s.name}\"; using \"path\", which adds " +
+          "indirect light from non-specular surfaces"
       )
       s.addInteger("maxdepth", depth)
 
@@ -148,8 +148,8 @@ object ToV4View:
   private val sppm = Seq(
     keep("maxdepth", "photonsperiteration", "radius"),
     drop("imagewritefrequency"),
-    lose("iterations", "v4 takes as many as there are samples of a pixel"),
-    lose("numiterations", "v4 takes as many as there are samples of a pixel")
+    lose("iterations", "v4 uses the number of samples per pixel"),
+    lose("numiterations", "v4 uses the number of samples per pixel")
   )
 
   private val integrators = Table("Integrator", fallback = "path")(
@@ -166,7 +166,7 @@ object ToV4View:
         "sigma")
     ),
     Rule("sppm" -> "sppm")(sppm*),
-    Rule.near("ambientocclusion" -> "ambientocclusion", "its picture is darker by π")(
+    Rule.near("ambientocclusion" -> "ambientocclusion", "the image is scaled by 1/π")(
       keep("cossample"),
       drop("nsamples", "pixelbounds")
     )
@@ -175,7 +175,7 @@ object ToV4View:
   private val bvh = keep("splitmethod", "maxnodeprims")
   private val kdtree = keep("intersectcost", "traversalcost", "emptybonus", "maxprims", "maxdepth")
 
-  /** Whatever finds the surfaces, they are the same. */
+  /** The accelerator does not affect the image. */
   private[convert] val accelerators = Table("Accelerator")(
     Rule("bvh" -> "bvh")(bvh),
     Rule("kdtree" -> "kdtree")(kdtree)
@@ -191,7 +191,7 @@ object ToV4View:
     )
   )
 
-  // v2's, which are no more when this pass begins
+  // v2 only; removed before this pass.
   private val none = Seq(Table("Renderer")(), Table("VolumeIntegrator")(), Table("Volume")())
 
   val pass: Pass = Pass(

@@ -6,12 +6,12 @@ import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.*
 
-/** What the values of parameters mean in one dialect, and how another one writes them. */
+/** Converts parameter values between dialects. */
 final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
 
-  /** The value in the other dialect's way; None if it has none.
+  /** The value in the target dialect's form; None if it has none.
     *
-    * @param name what it is called there
+    * @param name parameter name in the target dialect
     */
   def adapt(p: Param, name: String, d: Declaration): Option[Param] =
     val isUnbounded = Values.Unbounded(name)
@@ -25,17 +25,17 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       case ParamType.Spectrum => colored(p, d, isUnbounded)
       case _ => Some(p)
 
-  /** As RGB; what reflects is between 0 and 1 in v4. */
+  /** As RGB; v4 requires reflectances in [0, 1]. */
   private def colored(p: Param, d: Declaration, isUnbounded: Boolean): Option[Param] =
     color(p, d).map: c =>
       val most = if isUnbounded || to != Dialect.V4 then Float.PositiveInfinity else 1f
       val bounded = c.map(x => Math.max(0f, Math.min(x, most)))
       if bounded != c && p.paramType == ParamType.Rgb then
-        warn(p, s"`${p.name}` has values that v4 does not allow; they are cut to 0 … 1")
+        warn(p, s"`${p.name}` must be in [0, 1] in v4; clamping")
       Values.rgb(p, bounded)
 
-  /** Indices of refraction and the like by wavelength: v2 and v3 continue them beyond the first and
-    * last wavelength, v4 does not; only v4 knows spectra by name.
+  /** Spectral indices of refraction and similar: v2 and v3 extrapolate past the first and last
+    * wavelength, v4 does not; only v4 has named spectra.
     */
   private def indices(p: Param, d: Declaration): Option[Param] =
     if to == Dialect.V4 && p.strings.nonEmpty then Some(p)
@@ -48,7 +48,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
         val all = if to == Dialect.V4 then pairs ++ ends.map(x => (x, s(x))) else pairs
         Values.pairs(p, all.sortBy(_._1).toIndexedSeq)
 
-  /** The colour that the dialect that is read makes of a parameter. */
+  /** The colour of a parameter in the source dialect. */
   def color(p: Param, d: Declaration): Option[Rgb] = p.paramType match
     case ParamType.Rgb if p.floats.length == 3 =>
       Some(Rgb(p.floats(0), p.floats(1), p.floats(2)))
@@ -66,7 +66,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
 
   private def white: White = if from == Dialect.V4 then White.D65 else White.EqualEnergy
 
-  /** A function of wavelength: pairs, a known name, or a file of pairs. */
+  /** A function of wavelength: pairs, a named spectrum, or a file of pairs. */
   def spectrum(p: Param, d: Declaration): Option[Spectrum] =
     val outside = if from == Dialect.V4 then Spectrum.Outside.Zero else Spectrum.Outside.Clamped
     def of(numbers: Array[Float]) =
@@ -77,7 +77,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       case Some(name) =>
         Colorimetry.named(name).orElse:
           val read = numbersOf(name, d).flatMap(of)
-          if read.isEmpty then warn(p, s"there is no spectrum `$name`: `${p.name}` is left out")
+          if read.isEmpty then warn(p, s"no such spectrum: `$name`; ignoring `${p.name}`")
           read
 
   private def numbersOf(name: String, d: Declaration): Option[Array[Float]] =
@@ -89,12 +89,12 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       lines.flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+")).flatMap(_.toFloatOption).toArray
 
 object Values:
-  /** Not between 0 and 1, though colours. */
+  /** Parameters with values outside [0, 1], though colours. */
   private val Unbounded =
     Set("eta", "k", "sigma_a", "sigma_s", "mfp", "Le", "conductor.eta", "conductor.k",
       "interface.eta")
 
-  /** Where v4 wants a colour or a spectrum, never a plain number. */
+  /** Parameters for which v4 requires a colour or a spectrum, not a number. */
   private val Spectral = Set("reflectance", "transmittance", "k", "sigma_a", "sigma_s", "albedo")
 
   def isGray(c: Rgb): Boolean = c.r == c.g && c.g == c.b
@@ -111,7 +111,7 @@ object Values:
     val floats = values.flatMap((x, y) => Vector(x, y)).toArray
     Param(ParamType.Spectrum, p.name, p.at, p.valuesAt, floats = floats)
 
-  /** The same number at all wavelengths. */
+  /** A constant spectrum. */
   def constant(p: Param): Param = pairs(p, Vector((360f, p.floats(0)), (830f, p.floats(0))))
 
   def typed(p: Param, t: ParamType): Param =

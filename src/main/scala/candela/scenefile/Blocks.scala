@@ -2,19 +2,19 @@ package candela.scenefile
 
 import candela.base.{Problem, SceneError, SourcePos}
 
-/** The graphics state and the blocks that saved earlier ones.
+/** The graphics state and its stack of open blocks.
   *
-  * @param isV4 in which `TransformEnd` brings back everything, not the transforms only, and blocks
-  *             must be balanced
-  * @param warn hears of blocks that are not, where that is no error
+  * @param isV4 whether the scene is v4, in which `TransformEnd` restores the whole state, not only
+  *   the transforms, and unbalanced blocks are errors
+  * @param warn receives warnings about unbalanced blocks in v2 and v3
   */
 final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
   private var open = List.empty[OpenBlock]
 
-  /** What holds now. */
+  /** The current graphics state. */
   var state = GraphicsState()
 
-  /** Has a statement been skipped, so that blocks may be unbalanced for that reason alone? */
+  /** Whether a statement was skipped, which may itself unbalance the blocks. */
   var isDoubtful = false
 
   def begin(directive: String, at: SourcePos): Unit =
@@ -28,11 +28,11 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
         open = rest
       case _ => recover(begin, at)
 
-  /** Closes what can be closed, and complains: v4 stops here, the older ones go on. */
+  /** Closes what it can, and reports the mismatch: an error in v4, a warning in v2 and v3. */
   private def recover(begin: String, at: SourcePos): Unit =
     val name = begin.replace("Begin", "End")
     val isOld = !isV4()
-    // in v2 and v3 objects are attribute blocks, and the end of either ends the innermost
+    // In v2 and v3 objects are attribute blocks: either end closes the innermost of both.
     val ends =
       if isOld && begin != "TransformBegin" then Set("AttributeBegin", "ObjectBegin")
       else Set(begin)
@@ -47,7 +47,7 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
         case None => s"$name without $begin"
       val help = crossed.map(block => s"write ${block.end} first")
       if !isOld then throw SceneError(Problem.error(at, message, help))
-      val done = rest.headOption.fold("it is ignored")(b => s"it ends the ${b.begin} at ${b.at}")
+      val done = rest.headOption.fold("ignored")(b => s"closing the ${b.begin} at ${b.at}")
       warn(Problem.warning(at, s"$message; $done", help))
 
   private def close(block: OpenBlock): Unit =
@@ -55,19 +55,17 @@ final class Blocks(isV4: () => Boolean, warn: Problem => Unit):
     val isMore = block.begin != "TransformBegin" || transforms == block.saved || isV4()
     state = if isMore then block.saved else transforms
 
-  /** Problems of all blocks that were never closed. */
+  /** Problems for all blocks left open. */
   def unclosed: Vector[Problem] =
     if isDoubtful then Vector.empty
     else
       open.reverse.toVector.map: block =>
-        val help = Some(s"write ${block.end} after it")
+        val help = Some(s"add a matching ${block.end}")
         val message = s"${block.begin} is never closed"
         if isV4() then Problem.error(block.at, message, help)
         else Problem.warning(block.at, message, help)
 
-  /** Runs `body` with blocks of its own on top of the present state, and then forgets what it
-    * changed.
-    */
+  /** Runs `body` with an empty block stack, then restores stack and state. */
   def isolated(body: => Unit): Vector[Problem] =
     val (savedOpen, savedState) = (open, state)
     open = Nil

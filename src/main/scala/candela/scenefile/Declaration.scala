@@ -6,7 +6,7 @@ import candela.base.SourcePos
 enum Dialect:
   case V2, V3, V4
 
-/** What a parameter's list holds, after the type's many spellings are folded together. */
+/** Element type of a parameter, with its dialects' spellings unified. */
 enum ParamType(val spelling: String):
   case Float extends ParamType("float")
   case Integer extends ParamType("integer")
@@ -20,7 +20,7 @@ enum ParamType(val spelling: String):
   case Point2 extends ParamType("point2")
   case Vector2 extends ParamType("vector2")
 
-  /** `point`, `point3`: triples; likewise for vectors and normals. */
+  /** `point`, `point3`: triples; vectors and normals too. */
   case Point3 extends ParamType("point3")
   case Vector3 extends ParamType("vector3")
   case Normal extends ParamType("normal")
@@ -29,19 +29,21 @@ enum ParamType(val spelling: String):
   case Rgb extends ParamType("rgb")
   case Xyz extends ParamType("xyz")
 
-  /** A temperature in kelvin (and, in v2 and v3, a scale after each). */
+  /** Temperature in kelvin (in v2 and v3 each followed by a scale). */
   case Blackbody extends ParamType("blackbody")
 
-  /** Wavelength–value pairs in `floats`; or a file's or measured spectrum's name in `strings`. */
+  /** Wavelength–value pairs in `floats`; or the name of a file or measured spectrum in `strings`.
+    */
   case Spectrum extends ParamType("spectrum")
 
 /** One `"type name" [ values ]` of a statement, as written.
   *
-  * @param at       where the quoted type and name begin
-  * @param valuesAt where the values begin
-  * @param floats   the numbers of every numeric type but `integer` (empty otherwise); `bools`,
-  *                 `ints` and `strings` likewise for theirs
-  * @param isDefault came from an `Attribute` statement, which speaks to many: it may fit none here
+  * @param at position of the quoted type and name
+  * @param valuesAt position of the first value
+  * @param floats values of numeric types except `integer`, otherwise empty; `bools`, `ints` and
+  *   `strings` hold the values of their types
+  * @param isDefault whether it comes from an `Attribute` statement, which applies to many
+  *   declarations, not all of which know it
   */
 final class Param(
     val paramType: ParamType,
@@ -61,11 +63,10 @@ final class Param(
 
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *
-  * @param category what kind of thing is declared, for messages: `Shape`, `Material`, `Camera`, …
-  * @param at       where the quoted name stands
-  * @param folder   the folder of the scene (main) file, against which file names in parameters
-  *                 resolve
-  * @param colorSpace of the parameters' colours, as v4 calls it
+  * @param category statement, for messages: `Shape`, `Material`, `Camera`, …
+  * @param at position of the quoted name
+  * @param folder folder of the main scene file; file names in parameters are relative to it
+  * @param colorSpace v4's name for the colour space of the parameters
   */
 final case class Declaration(
     category: String,

@@ -2,19 +2,19 @@ package candela.scenefile
 
 import scala.collection.mutable
 
-/** Collects what a file uses, and says which dialect it most likely is. Reading never depends on
-  * it.
+/** Collects a file's directives and names, and estimates its dialect. Parsing never depends on the
+  * estimate.
   */
 final class DialectGuess:
   private val seen = mutable.HashMap.empty[String, mutable.HashSet[String]]
 
-  /** The file has this directive, type, or implementation of a category. */
+  /** Records a directive, parameter type, or implementation of a category. */
   def uses(category: String, name: String): Unit =
     if name.nonEmpty then
       val names = seen.getOrElseUpdate(category, mutable.HashSet.empty)
       if !names.contains(name) then names += name
 
-  /** The dialect that all evidence together favours; of equals the newest. */
+  /** The dialect with the highest total weight; ties go to the newest. */
   def dialect: Dialect =
     val found = DialectGuess.Table.filter(e => seen.get(e.category).exists(s => e.names.exists(s)))
     val absent = if seen.get("directive").exists(_("WorldEnd")) then Nil else List(NoWorldEnd)
@@ -23,15 +23,15 @@ final class DialectGuess:
 
   private val NoWorldEnd = Evidence("directive", Set.empty, 0, 0, 6)
 
-/** How strongly any of these names speaks for each dialect, once however often it occurs: 10
-  * settles it, 6 is known to no other, 1 to 3 are habits.
+/** Weight of any of these names for each dialect, counted once: 10 is decisive, 6 is known to no
+  * other dialect, 1 to 3 are conventions.
   */
 private final case class Evidence(category: String, names: Set[String], v2: Int, v3: Int, v4: Int)
 
 object DialectGuess:
 
-  /** Sources: the names that each of pbrt-v2, -v3 and -v4 makes objects of, and counts over public
-    * scene files (which prefer `color` and `point` in v2, `rgb` in v3, `point3` in v4).
+  /** Sources: the implementation names of pbrt-v2, -v3 and -v4, and frequencies in public scene
+    * files (which prefer `color` and `point` in v2, `rgb` in v3, `point3` in v4).
     */
   private val Table: List[Evidence] = List(
     row("directive", 10, 0, 0)("SurfaceIntegrator VolumeIntegrator Renderer Volume"),

@@ -3,19 +3,19 @@ package candela.scenefile
 import candela.base.{Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
-/** Where in a file a directive may stand: before `WorldBegin`, after it, or both. */
+/** Valid position of a directive: before `WorldBegin`, after it, or both. */
 enum Place:
   case Options, World, Anywhere
 
-/** One kind of statement.
+/** A directive.
   *
-  * @param usage what follows the name, for messages
+  * @param usage arguments, for messages
   */
 final class Directive(val name: String, val usage: String, val place: Place)(
     val run: (Arguments, SceneWriter) => Unit
 )
 
-/** All statements of all dialects. */
+/** All directives of all dialects. */
 object Directives:
   import Place.*
 
@@ -54,27 +54,27 @@ object Directives:
     ,
     Directive("Scale", "x y z", Anywhere): (in, scene) =>
       val v = in.numbers(3)
-      val scale = orFlat(in, "a scale of zero")(Transform.scale(v(0), v(1), v(2))):
+      val scale = orFlat(in, "zero scale")(Transform.scale(v(0), v(1), v(2))):
         Transform.flat(Vector[Double](v(0), 0, 0, 0, 0, v(1), 0, 0, 0, 0, v(2), 0, 0, 0, 0, 1))
       scene.transform(_ * scale)
     ,
     Directive("Rotate", "degrees axis.x axis.y axis.z", Anywhere): (in, scene) =>
       val v = in.numbers(4)
-      val rotation = regular(in.at, "an axis of length 0")(Transform.rotate(v(0), v(1), v(2), v(3)))
+      val rotation = regular(in.at, "axis of length 0")(Transform.rotate(v(0), v(1), v(2), v(3)))
       scene.transform(_ * rotation)
     ,
     Directive("LookAt", "eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z", Anywhere):
       (in, scene) =>
         val v = in.numbers(9)
-        val why = "an eye at its target, or an up direction along the view"
+        val why = "eye equals look-at point, or up is parallel to the view direction"
         val view = regular(in.at, why)(Transform.lookAt(v.take(3), v.slice(3, 6), v.drop(6)))
         scene.transform(_ * view)
     ,
-    Directive("Transform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
+    Directive("Transform", "[ 16 numbers in column order ]", Anywhere): (in, scene) =>
       val matrix = matrixOf(in)
       scene.transform(_ => matrix)
     ,
-    Directive("ConcatTransform", "[ 16 numbers, column by column ]", Anywhere): (in, scene) =>
+    Directive("ConcatTransform", "[ 16 numbers in column order ]", Anywhere): (in, scene) =>
       val matrix = matrixOf(in)
       scene.transform(_ * matrix)
     ,
@@ -89,20 +89,21 @@ object Directives:
   )
 
   private def regular(at: SourcePos, why: String)(t: Option[Transform]): Transform =
-    t.getOrElse(throw SceneError(Problem.error(at, s"$why: this transform can't be inverted")))
+    t.getOrElse(throw SceneError(Problem.error(at, s"transform can't be inverted: $why")))
 
-  /** pbrt lets meshes be flattened, and some scenes do. */
+  /** pbrt accepts transforms that flatten meshes, and some scenes use them. */
   private def orFlat(in: Arguments, why: String)(t: Option[Transform])(
       flat: => Transform
   ): Transform =
     t.getOrElse:
-      val message = s"$why: meshes become flat, all else that is placed by it is left out"
+      val message =
+        s"singular transform ($why); meshes are flattened, everything else it places is ignored"
       in.report(Problem.warning(in.at, message))
       flat
 
   private def matrixOf(in: Arguments): Transform =
     val columns = in.matrix()
-    orFlat(in, "a singular matrix")(Transform.fromColumns(columns)):
+    orFlat(in, "matrix of determinant 0")(Transform.fromColumns(columns)):
       Transform.flat(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
 
   private val blocks: List[Directive] = List(
@@ -148,7 +149,7 @@ object Directives:
     case "color" => "spectrum"
     case _ =>
       val help = Suggest.help(written, List("float", "spectrum", "color"))
-      throw SceneError(Problem.error(at, s"textures have no values of type `$written`", help))
+      throw SceneError(Problem.error(at, s"unknown texture value type `$written`", help))
 
   private val others: List[Directive] = List(
     Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
@@ -159,7 +160,7 @@ object Directives:
       val (name, at) = in.quoted("a name")
       scene.colorSpace(name)
       if name != "srgb" then
-        val message = s"the color space `$name` is not supported: colors are taken as sRGB"
+        val message = s"colour space `$name` is not supported; using sRGB"
         in.report(Problem.warning(at, message))
     ,
     Directive("Import", "\"file\"", World): (in, scene) =>
@@ -185,7 +186,7 @@ object Directives:
   val all: Map[String, Directive] =
     (options ++ transforms ++ blocks ++ world ++ others).map(d => d.name -> d).toMap
 
-/** The names that v4's `Option` knows, with the types of their values. */
+/** Names of v4's `Option` statement, with the types of their values. */
 object SceneOptions:
 
   private val Types: Map[String, ParamType] =
@@ -196,7 +197,7 @@ object SceneOptions:
       strings.split(' ').map(_ -> ParamType.String) ++
       Map("displacementedgescale" -> ParamType.Float, "seed" -> ParamType.Integer)
 
-  /** The name without its type, capitals, `-` and `_`: all spellings of an option are one. */
+  /** The name without type, capitals, `-` and `_`: an option's spellings are equivalent. */
   def plain(written: String): String =
     written.trim.split("[ \t]+").last.toLowerCase.filterNot(c => c == '-' || c == '_')
 
@@ -205,6 +206,6 @@ object SceneOptions:
     Types.getOrElse(
       name,
       throw SceneError(
-        Problem.error(at, s"no option is called `$name`", Suggest.help(name, Types.keys))
+        Problem.error(at, s"unknown option `$name`", Suggest.help(name, Types.keys))
       )
     )

@@ -5,15 +5,13 @@ import java.nio.file.{InvalidPathException, Path}
 
 import candela.base.{Excerpt, Problem, SourcePos}
 
-/** Adds to problems the lines of the files that they are about. */
+/** Adds source excerpts to problems. */
 object Excerpts:
 
-  /** The problems in their order, each with its excerpt, if it has a place and the place can be
-    * read.
-    */
+  /** The problems, in order, each with an excerpt if its position is known and readable. */
   def fill(problems: Vector[Problem]): Vector[Problem] = fill(problems, read)
 
-  /** @param open the source of a name, from its start */
+  /** @param open opens the source of a name, from its start */
   def fill(problems: Vector[Problem], open: String => Option[Source]): Vector[Problem] =
     val lacking = problems.filter(p => p.at.nonEmpty && p.excerpt.isEmpty)
     val lines = lacking.flatMap(_.at).groupBy(_.file).toVector.flatMap: (name, places) =>
@@ -27,7 +25,7 @@ object Excerpts:
     try Source.read(Path.of(name)).toOption
     catch case _: InvalidPathException => None
 
-  /** One pass over the file, however many places there are. */
+  /** Reads the file once for all positions. */
   private def excerpts(source: Source, places: Vector[SourcePos]) =
     val lines = Lines(source)
     try
@@ -36,19 +34,19 @@ object Excerpts:
     catch case _: IOException => Vector.empty
     finally source.close()
 
-/** Goes through a file from place to place. */
+/** Scans a file from position to position. */
 private final class Lines(source: Source):
   private var line = 1
   private var column = 1
   private var lineStart = source.start
   private var next = source.start
 
-  /** The text around a place, which lies at or behind the one that was asked for before. */
+  /** The text around `at`; positions must not decrease between calls. */
   def excerpt(at: SourcePos): Option[String] =
     while line < at.line && has(0) do pass()
     Option.when(line == at.line):
       while column < at.column && !isLineEnd(0) do pass()
-      // far more bytes than the shown characters can have, but not a line of 100 MB
+      // Far more bytes than the shown characters need, yet not a line of 100 MB.
       var count = 0
       while count < Lines.Shown && !isLineEnd(count) do count += 1
       while isContinuation(count) do count += 1
@@ -72,7 +70,7 @@ private final class Lines(source: Source):
   private def isContinuation(i: Int): Boolean = has(i) && (byte(i) & 0xc0) == 0x80
   private def byte(i: Int): Byte = source.bytes(next + i)
 
-  /** Is there an `i`-th byte from `next` on? Moves the window if need be. */
+  /** Whether the `i`-th byte from `next` exists; slides the window if needed. */
   private def has(i: Int): Boolean =
     while next + i >= source.limit && !source.isLast do
       val from = earliest
@@ -81,7 +79,7 @@ private final class Lines(source: Source):
       lineStart = (lineStart - from).max(-1)
     next + i < source.limit
 
-  /** The first byte that can be shown yet. */
+  /** First byte that may still be shown. */
   private def earliest: Int = lineStart.max(next - Lines.Shown).max(0)
 
 private object Lines:

@@ -5,16 +5,16 @@ import scala.collection.mutable
 import candela.base.SourcePos
 import candela.math.Transform
 
-/** Which of the two transforms the transform statements change. */
+/** Selects which of the two transforms the transform statements modify. */
 enum ActiveTransform:
   case All, StartTime, EndTime
 
-/** What `AttributeBegin` saves and `AttributeEnd` brings back.
+/** State saved by `AttributeBegin` and restored by `AttributeEnd`.
   *
-  * @param transform  the current transform: from the coordinates of what comes next to world space
-  *                   (to camera space before `WorldBegin`)
-  * @param areaLight  what shapes emit
-  * @param defaults   parameters of `Attribute` by target ("shape", "light", …)
+  * @param transform current transform, from the coordinates of the next object to world space
+  *   (before `WorldBegin` to camera space)
+  * @param areaLight area light of the shapes that follow
+  * @param defaults parameters of `Attribute`, by target ("shape", "light", …)
   */
 final case class GraphicsState(
     transform: AnimatedTransform = GraphicsState.Identity,
@@ -29,7 +29,7 @@ final case class GraphicsState(
     colorSpace: String = "srgb"
 ):
 
-  /** With the active transforms replaced by what `change` makes of them. */
+  /** A copy with `change` applied to the active transforms. */
   def transformed(change: Transform => Transform): GraphicsState =
     val AnimatedTransform(start, end) = transform
     copy(transform = active match
@@ -38,7 +38,7 @@ final case class GraphicsState(
       case ActiveTransform.StartTime => AnimatedTransform(change(start), end)
       case ActiveTransform.EndTime => AnimatedTransform(start, change(end)))
 
-  /** With the transforms of `other`, and all else as it is. */
+  /** A copy with the transforms of `other`. */
   def withTransformsOf(other: GraphicsState): GraphicsState =
     copy(transform = other.transform, active = other.active)
 
@@ -51,19 +51,19 @@ object GraphicsState:
     if t.start eq t.end then still(t.start.inverse)
     else AnimatedTransform(t.start.inverse, t.end.inverse)
 
-/** A block that is open: the directive that opened it, where, and what its end brings back. */
+/** An open block: its directive, its position, and the state to restore. */
 final case class OpenBlock(begin: String, at: SourcePos, saved: GraphicsState):
   def end: String = begin.replace("Begin", "End")
 
-/** What names of textures and materials mean at one place of a file, where that is not themselves.
+/** Maps the names of textures and materials at one point of a file to their unique names.
   *
-  * v2 and v3 forget definitions at `AttributeEnd` and let a name be defined again; what used it
-  * before keeps the old meaning. A description has one list of each kind, so later definitions get
-  * unique names of their own here, and later uses follow.
+  * v2 and v3 discard definitions at `AttributeEnd` and allow redefinition; earlier uses keep the
+  * old meaning. A description has one list per kind, so redefinitions receive unique names here,
+  * and later uses are renamed.
   */
 final case class Scope(textures: Map[String, String], materials: Map[String, String]):
 
-  /** A declaration whose parameters name textures and materials by their unique names. */
+  /** The parameters, with texture and material names replaced by unique ones. */
   def resolve(params: Vector[Param]): Vector[Param] =
     if textures.isEmpty && materials.isEmpty then params else params.map(resolve)
 
@@ -78,22 +78,22 @@ final case class Scope(textures: Map[String, String], materials: Map[String, Str
 object Scope:
   val Empty: Scope = Scope(Map.empty, Map.empty)
 
-  /** The parameters of "mix" that name materials. */
+  /** Parameters of "mix" that name materials. */
   private val MaterialParams = Set("namedmaterial1", "namedmaterial2", "materials")
 
-/** Names that were given out already, by kind. */
+/** Names in use, by kind. */
 final class UniqueNames:
   private val taken = mutable.HashMap.empty[String, mutable.HashSet[String]]
 
   private val counts = mutable.HashMap.empty[String, Int]
 
-  /** Takes the name; false if it is taken already. */
+  /** Reserves the name; false if already in use. */
   def take(kind: String, name: String): Boolean =
     taken.getOrElseUpdate(kind, mutable.HashSet.empty).add(name)
 
   def isTaken(kind: String, name: String): Boolean = taken.get(kind).exists(_(name))
 
-  /** A name like `name` that is taken in none of the kinds. */
+  /** A name like `name` that is unused in all the kinds. */
   def fresh(kinds: List[String], name: String): String =
     var unique = name
     while kinds.exists(isTaken(_, unique)) do

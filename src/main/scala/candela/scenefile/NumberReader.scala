@@ -7,10 +7,10 @@ import java.lang.invoke.{MethodHandles, VarHandle}
 import java.nio.ByteOrder
 import java.nio.charset.StandardCharsets.ISO_8859_1
 
-/** Reads decimal numbers (`1`, `.5`, `-2.`, `+1e-3`) straight from bytes, without strings.
+/** Parses decimal numbers (`1`, `.5`, `-2.`, `+1e-3`) directly from bytes, without strings.
   *
-  * Every result is correctly rounded: nearest Float, Double; `NumberReaderSuite` compares with the
-  * JDK's own parser.
+  * Results are correctly rounded to the nearest Float or Double; `NumberReaderSuite` compares with
+  * the JDK's parser.
   */
 final class NumberReader(source: Source):
   private var from = 0
@@ -19,11 +19,11 @@ final class NumberReader(source: Source):
   private var mantissa = 0L
   private var exponent = 0
 
-  /** Where the last scan stopped: there is the first byte that is no part of a number. */
+  /** End of the last scan: offset of the first byte that is not part of a number. */
   def stop: Int = until
 
-  /** Reads the number that begins at `at`. Returns the place after it; −1 if there is no number, or
-    * something sticks to its end. The conversions below speak of the number last read.
+  /** Scans the number at `at`; the conversions below return the last number scanned. Returns the
+    * offset after it, or −1 if there is no number or it isn't followed by a delimiter.
     */
   def scan(at: Int): Int =
     val bytes = source.bytes
@@ -50,7 +50,7 @@ final class NumberReader(source: Source):
         if end > point + 1 && NumberReader.isDelimiter(bytes(end)) then end else scanSlowly(at)
       else scanSlowly(at)
 
-  /** Adds up to 11 digits that begin at `at`; returns the place after them. */
+  /** Appends up to 11 fraction digits from `at`; returns the offset after them. */
   private def fraction(bytes: Array[Byte], at: Int): Int =
     val word = NumberReader.eight(bytes, at)
     val n = NumberReader.digits(word)
@@ -66,15 +66,16 @@ final class NumberReader(source: Source):
     mantissa = mantissa * NumberReader.Tens(count) + NumberReader.value(word, count)
     exponent -= count
 
-  /** The same byte by byte, for what is rare: signs other than `-`, exponents, many digits. */
+  /** Byte-by-byte version of [[scan]], for rare forms: signs other than `-`, exponents, many
+    * digits.
+    */
   private def scanSlowly(at: Int): Int =
     val bytes = source.bytes
     val end = source.limit
     var i = at
     sign = if i < end && bytes(i) == '-' then 1 else 0
     if i < end && (sign == 1 || bytes(i) == '+') then i += 1
-    // Digits beyond the 18th change the value by less than 1e-17 of itself: far below a Double's
-    // step.
+    // Digits after the 18th change the value by a factor below 1e-17, far less than a Double's ulp.
     var m = 0L
     var e = 0
     val whole = i
@@ -118,9 +119,8 @@ final class NumberReader(source: Source):
   def toFloat: Float =
     if exponent < -LargestPower || exponent > LargestPower then slowFloat
     else
-      // Three roundings: at most 2 units in the last place of a Double, far finer than a Float's
-      // step, so rounding once more is right unless the Double lies that close to halfway between
-      // two Floats.
+      // Three roundings: at most 2 ulps of a Double, far less than a Float's ulp. One more rounding
+      // is correct unless the Double is that close to halfway between two Floats.
       val d = mantissa.toDouble * NumberReader.PowersOfTen(exponent + LargestPower)
       val fromHalfway = (doubleToRawLongBits(d) & 0x1fffffffL) - 0x10000000L
       val isNormal = d < 3e38 && (d > 1.2e-38 || mantissa == 0)
@@ -128,7 +128,7 @@ final class NumberReader(source: Source):
       else intBitsToFloat(floatToRawIntBits(d.toFloat) | (sign << 31))
 
   def toDouble: Double =
-    // exact: both factors are Doubles, so there is one rounding
+    // Exact operands, so a single rounding.
     if mantissa <= (1L << 53) && exponent <= 22 && exponent >= -22 then
       val m = mantissa.toDouble
       val power = NumberReader.PowersOfTen(Math.abs(exponent) + LargestPower)
@@ -136,17 +136,17 @@ final class NumberReader(source: Source):
       if sign == 1 then -d else d
     else digits.toDouble
 
-  /** Is the number whole, as `3`, `3.0` and `3e2` are? */
+  /** Whether the number is an integer, as `3`, `3.0` and `3e2` are. */
   def isWhole: Boolean =
     exponent >= 0 || { val d = toDouble; d == Math.rint(d) }
 
-  /** Does the number, without its fraction, fit an Int? */
+  /** Whether the truncated number fits an Int. */
   def fitsInt: Boolean =
     if exponent == 0 then mantissa <= Int.MaxValue + sign.toLong
     else
       val d = toDouble; d > -2147483649.0 && d < 2147483648.0
 
-  /** The number without its fraction; meaningful if [[fitsInt]]. */
+  /** The truncated number; valid only if [[fitsInt]]. */
   def toInt: Int =
     if exponent != 0 then toDouble.toInt else (mantissa.toInt ^ -sign) + sign
 
@@ -158,42 +158,42 @@ final class NumberReader(source: Source):
   private inline val LargestPower = 60
 
 object NumberReader:
-  /** 10 to the power −60 … 60. */
+  /** Powers of ten from −60 to 60. */
   private val PowersOfTen: Array[Double] = Array.tabulate(121)(i => s"1e${i - 60}".toDouble)
 
-  /** 10 to the power 0 … 8. */
+  /** Powers of ten from 0 to 8. */
   private val Tens: Array[Long] = Array.iterate(1L, 9)(_ * 10)
 
-  /** A number is read at once if so many bytes are there: for a sign, up to 7 digits, a point, 16
-    * bytes of the fraction, and some to spare.
+  /** Bytes needed for the fast path: a sign, up to 7 digits, a point, 16 bytes of fraction, and a
+    * margin.
     */
   private inline val Ahead = 32
 
   private val Words: VarHandle =
     MethodHandles.byteArrayViewVarHandle(classOf[Array[Long]], ByteOrder.LITTLE_ENDIAN)
 
-  // Eight characters at a time, the first in the lowest byte of a Long.
-  // Source: Lemire, "Number parsing at a gigabyte per second", Software: Practice and Experience
-  // 51(8), 2021, section 5.
+  // SWAR parsing of eight characters, the first in the lowest byte of a Long. Source: Lemire,
+  // "Number parsing at a gigabyte per second", Software: Practice and Experience 51(8), 2021,
+  // section 5.
 
-  /** The characters from `at` on; a digit is its value, 0 to 9, all else is more than 9. */
+  /** Eight characters from `at`; digits map to 0 to 9, all others to more than 9. */
   private inline def eight(bytes: Array[Byte], at: Int): Long =
     val word: Long = Words.get(bytes, at)
     word ^ 0x3030303030303030L
 
-  /** How many of them, from the first on, are digits. */
+  /** Number of leading digits. */
   private inline def digits(word: Long): Int =
-    // a sum's high bit is set by what exceeds 9; a carry disturbs only what comes after that
+    // The addition sets the high bit of bytes above 9; its carry affects only later bytes.
     numberOfTrailingZeros((word | (word + 0x7676767676767676L)) & 0x8080808080808080L) >>> 3
 
-  /** The number of the first `count` of them, 1 to 8: pairs, then pairs of pairs. */
+  /** Value of the first `count` digits, 1 to 8, combined in pairs, then pairs of pairs. */
   private inline def value(word: Long, count: Int): Long =
-    val digits = word << (64 - 8 * count) // zeros before the first
+    val digits = word << (64 - 8 * count) // pads with leading zeros
     val twos = (digits * (1 + (10 << 8))) >>> 8
     val fours = ((twos & 0x00ff00ff00ff00ffL) * (1 + (100 << 16))) >>> 16
     ((fours & 0x0000ffff0000ffffL) * (1 + (10000L << 32))) >>> 32
 
-  /** Can a number or a word end before this byte? */
+  /** Whether a number or a word can end before this byte. */
   inline def isDelimiter(c: Byte): Boolean =
     c == ' ' || c == '\n' || c == '\r' || c == '\t' || c == ']' || c == '[' || c == '"' ||
       c == '#' || c == ','

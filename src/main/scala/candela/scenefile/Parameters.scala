@@ -4,27 +4,28 @@ import scala.collection.mutable
 
 import candela.base.{Problem, SceneError, Suggest}
 
-/** Reads parameter lists: `"type name" value` or `"type name" [ values ]`, any number of times.
+/** Parses parameter lists: any number of `"type name" value` or `"type name" [ values ]`.
   *
-  * @param evidence learns which spellings of the types are used
-  * @param warn     hears of what is odd, yet readable
+  * @param evidence records the spellings of the types
+  * @param warn receives warnings
   */
 final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
   private val values = ValueReader(warn)
   private val keys = mutable.HashMap.empty[String, Parameters.Key]
 
-  /** What reads the files that include the present one, innermost first. */
+  /** Tokenizers of the including files, innermost first. */
   private var outer = List.empty[Tokenizer]
 
-  /** Runs `body`, which reads a file that the one of `in` includes. */
+  /** Runs `body`, which reads a file included by that of `in`. */
   def within(in: Tokenizer)(body: => Unit): Unit =
     outer = in :: outer
     try body
     finally outer = outer.tail
 
-  /** The parameters from the current token on. Of two with one name the last counts, as in all
-    * three renderers. The last statement of an included file goes on where that was included: grids
-    * of smoke often lie in files of their own, and what they are made of does not.
+  /** Reads the parameters from the current token on. Of duplicates the last is used, as in all
+    * three renderers. The parameter list of an included file's last statement continues in the
+    * including file: smoke grids are often included as separate files, with the medium's other
+    * parameters after the Include.
     */
   def list(in: Tokenizer): Vector[Param] =
     var params = parametersHere(in, Vector.empty)
@@ -42,13 +43,13 @@ final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
       in.advance()
       val param = values.read(key.paramType, key.name, at, in)
       params.find(_.name == param.name).foreach: earlier =>
-        val message = s"`${param.name}` is given again at ${param.at}; this one has no effect"
+        val message = s"`${param.name}` is repeated at ${param.at}; this value is ignored"
         warn(Problem.warning(earlier.at, message))
         params = params.filterNot(_ eq earlier)
       params = params :+ param
     params
 
-  /** One value or list from the current token on, where the file has no `"type name"` before it. */
+  /** Reads one value or list from the current token on, without a preceding `"type name"`. */
   def value(paramType: ParamType, name: String, in: Tokenizer): Param =
     values.read(paramType, name, in.at, in)
 
@@ -61,17 +62,17 @@ final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
         evidence.uses("type", spelling)
         Parameters.Key(types(spelling), name)
       case Array(spelling, _, _*) =>
-        fail(s"no parameter type is called `$spelling`", Suggest.help(spelling, types.keys).get)
+        fail(s"unknown parameter type `$spelling`", Suggest.help(spelling, types.keys).get)
       case Array(word) if types.contains(word) =>
-        fail(s"${in.shown} is a parameter's type without its name", s"for example \"$word name\"")
+        fail(s"${in.shown} is a parameter type without a name", s"for example \"$word name\"")
       case Array(word) =>
-        fail(s"${in.shown} is no parameter: its type is missing", s"for example \"float $word\"")
-      case _ => fail("an empty text where a parameter was expected", "for example \"float fov\" 45")
+        fail(s"parameter ${in.shown} must have a type", s"for example \"float $word\"")
+      case _ => fail("expected a parameter, found an empty string", "for example \"float fov\" 45")
 
 object Parameters:
   private final case class Key(paramType: ParamType, name: String)
 
-  /** Every dialect's spellings. */
+  /** The spellings of all dialects. */
   private val Types: Map[String, ParamType] =
     ParamType.values.map(t => t.spelling -> t).toMap ++ Map(
       "point" -> ParamType.Point3,

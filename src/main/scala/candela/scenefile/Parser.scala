@@ -4,20 +4,20 @@ import java.nio.file.Path
 
 import candela.base.{Problem, SceneError}
 
-/** Reads scene files. */
+/** Parses scene files. */
 object Parser:
 
-  /** The scene of a file and all that it includes; a [[SceneError]] has the problems found.
+  /** Parses a file and its includes; throws a [[SceneError]] with all problems found.
     *
-    * @param dialect the file's dialect; None: recognise it
+    * @param dialect dialect of the file; None: auto-detected
     */
   def parse(file: Path, dialect: Option[Dialect] = None): SceneDescription =
     whole(readable(file, dialect, keepGoing = false))
 
-  /** As much of a scene as can be understood; see [[SceneDescription.errors]].
+  /** Parses the readable part of a scene; see [[SceneDescription.errors]].
     *
-    * @param keepGoing pass over files to include that are missing
-    * @throws SceneError if there is no scene in the file at all
+    * @param keepGoing if true, skips missing include files
+    * @throws SceneError if the file contains no scene at all
     */
   def readable(file: Path, dialect: Option[Dialect], keepGoing: Boolean): SceneDescription =
     Source.read(file) match
@@ -25,10 +25,10 @@ object Parser:
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
-  /** The scene of a text.
+  /** Parses a scene from a string.
     *
-    * @param name   how messages call it
-    * @param folder the folder against which file names resolve
+    * @param name name in messages
+    * @param folder folder that file names are relative to
     */
   def parseText(
       name: String,
@@ -59,8 +59,8 @@ object Parser:
           throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
         attempt(once, folder, file, Some(better), keepGoing).toOption.get
 
-  /** The scene; or the dialect with which it must be read once more: the few statements that v4
-    * treats otherwise were read as v3's.
+  /** The scene; or the dialect to parse it with again: the few statements that v4 treats
+    * differently were parsed as v3's.
     */
   private def attempt(
       source: Source,

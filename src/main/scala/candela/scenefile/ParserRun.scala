@@ -4,11 +4,11 @@ import java.nio.file.{Files, InvalidPathException, Path}
 
 import candela.base.{Problem, SceneError, Severity, SourcePos, Suggest}
 
-/** One reading of a scene file.
+/** One pass over a scene file.
   *
-  * @param file    the path of `source`, if it is a file
-  * @param dialect   decides where the dialects differ in what a statement means
-  * @param keepGoing pass over files to include that are missing
+  * @param file path of `source`, if it is a file
+  * @param dialect decides the meaning of statements that differ between dialects
+  * @param keepGoing if true, skips missing include files
   */
 private[scenefile] final class ParserRun(
     source: Source,
@@ -25,24 +25,24 @@ private[scenefile] final class ParserRun(
 
   private var lost = Set.empty[NameKind]
 
-  /** Has everything been read that counts? */
+  /** Whether the rest of the file is ignored. */
   private var isDone = false
 
-  /** Did the dialect make a difference? */
+  /** Whether the dialect made a difference. */
   var askedDialect = false
 
   private def isV4: Boolean =
     askedDialect = true
     dialect == Dialect.V4
 
-  /** The dialect that the file seems to be in; meaningful after [[read]]. */
+  /** The estimated dialect; valid after [[read]]. */
   def guess: Dialect = evidence.dialect
 
   def read(): Unit =
     statements(source, None, file.toList)
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
 
-  /** The description with all problems; only these if there is no world. */
+  /** The description with all problems; throws these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
     finish(dialect)
     def open(name: String) = if name == source.name then source.again else Excerpts.read(name)
@@ -51,20 +51,22 @@ private[scenefile] final class ParserRun(
     val (errors, warnings) = all.partition(_.severity == Severity.Error)
     scene.description(dialect, warnings).copy(errors = errors, lost = lost)
 
-  /** What can be told only at the end. */
+  /** Checks possible only at the end of the file. */
   private def finish(dialect: Dialect): Unit =
     scene.worldBegin match
-      // without its world nothing is at its place; the cause is reported already, or is this:
+      // Without its WorldBegin every statement is misplaced; the cause is already reported, or is
+      // this:
       case None if problems.errors == 0 =>
-        val what = "it is a part to Include, not a whole scene"
-        problems.add(Problem.general(s"`${source.name}` has no WorldBegin: $what"))
+        val what = "it is a file to Include, not a scene"
+        problems.add(Problem.general(s"`${source.name}` has no WorldBegin; $what"))
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then
-          problems.add(Problem.warning(begin, "no WorldEnd follows: is the file complete?"))
+          val message = "WorldBegin has no WorldEnd; the file may be incomplete"
+          problems.add(Problem.warning(begin, message))
 
-  /** @param files the files being read, innermost first */
+  /** @param files files being read, innermost first */
   private def statements(from: Source, includedAt: Option[SourcePos], files: List[Path]): Unit =
     val in = Tokenizer(from, includedAt)
     try
@@ -73,7 +75,7 @@ private[scenefile] final class ParserRun(
         attempt(in)(statement(in, files))
     finally from.close()
 
-  /** Runs `body`; after an error what looks like the next directive becomes the current token. */
+  /** Runs `body`; after an error, skips to the next apparent directive. */
   private def attempt(in: Tokenizer)(body: => Unit): Unit =
     try body
     catch
@@ -91,7 +93,7 @@ private[scenefile] final class ParserRun(
       case None => unknown(in)
       case Some(_) if scene.worldEnd.nonEmpty =>
         val message = "statements after WorldEnd are ignored"
-        problems.add(Problem.warning(at, message, Some("put every frame into a file of its own")))
+        problems.add(Problem.warning(at, message, Some("write each frame to a separate file")))
         isDone = true
       case Some(directive) =>
         evidence.uses("directive", directive.name)
@@ -105,7 +107,7 @@ private[scenefile] final class ParserRun(
     catch
       case e: SceneError =>
         lost ++= NameKind.madeBy(directive.name)
-        // the block's other end would be called unbalanced for no fault of its own
+        // A skipped block statement would make its counterpart look unbalanced.
         if directive.name.endsWith("Begin") || directive.name.endsWith("End") then
           scene.blocks.isDoubtful = true
         throw e
@@ -114,35 +116,35 @@ private[scenefile] final class ParserRun(
     val (at, shown) = (in.at, in.shown)
     val problem =
       if in.current != Token.Word || in.numberHere.nonEmpty then
-        val help = "several values of one parameter need brackets: [ … ]"
-        Problem.error(at, s"expected a directive, but here is $shown", Some(help))
+        val help = "write several values of a parameter in brackets: [ … ]"
+        Problem.error(at, s"expected a directive, found $shown", Some(help))
       else
         scene.blocks.isDoubtful = true
         val help = Suggest.help(in.text, Directives.all.keys)
-        Problem.error(at, s"no directive is called $shown", help)
+        Problem.error(at, s"unknown directive $shown", help)
     in.advance()
     throw SceneError(problem)
 
-  /** v4 stops at a statement that belongs into the other part of the file; v2 and v3 ignore it. */
+  /** Reports a statement on the wrong side of WorldBegin: an error in v4, ignored in v2 and v3. */
   private def isMisplaced(directive: Directive, at: SourcePos): Boolean =
     val message = (directive.place, scene.worldBegin) match
       case (Place.Options, Some(begin)) if directive.name == "WorldBegin" =>
-        s"WorldBegin again: the first is at $begin"
+        s"WorldBegin is repeated; the first is at $begin"
       case (Place.Options, Some(begin)) =>
-        s"${directive.name} belongs before WorldBegin (at $begin)"
-      case (Place.World, None) => s"${directive.name} belongs after WorldBegin"
+        s"${directive.name} must be before WorldBegin (at $begin)"
+      case (Place.World, None) => s"${directive.name} must be after WorldBegin"
       case _ => ""
     if message.nonEmpty && !misplaced.isFull then
       misplaced.add(
         if isV4 then Problem.error(at, message)
-        else Problem.warning(at, s"$message; it is ignored")
+        else Problem.warning(at, s"$message; ignored")
       )
     message.nonEmpty
 
-  /** Reads another file's statements.
+  /** Reads the statements of another file.
     *
-    * @param from  what reads the file that includes it
-    * @param files the files being read, innermost first
+    * @param from tokenizer of the including file
+    * @param files files being read, innermost first
     */
   private def include(from: Tokenizer, files: List[Path])(
       name: String,
@@ -151,10 +153,10 @@ private[scenefile] final class ParserRun(
   ): Unit =
     def fail(message: String): Nothing = throw SceneError(Problem.error(nameAt, message))
     def missing(message: String, help: Option[String] = None): Unit =
-      val problem = Problem.missing(nameAt, message, "it is passed over", keepGoing, help)
+      val problem = Problem.missing(nameAt, message, "skipped", keepGoing, help)
       if !keepGoing then throw SceneError(problem)
       problems.add(problem)
-      // those of the file's last statement
+      // Skips the parameters that continue the missing file's last statement.
       val _ = parameters.list(from)
     resolve(name, files.headOption) match
       case None =>
@@ -162,7 +164,7 @@ private[scenefile] final class ParserRun(
         val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
         val near = folders.flatMap(f => Suggest.file(f.resolve(name))).headOption
         val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
-        missing(s"can't include `$name`: there is no such file", Some(help))
+        missing(s"can't include `$name`: no such file", Some(help))
       case Some(path) =>
         refuseCircles(path, name, files, fail)
         Source.read(path) match
@@ -180,9 +182,11 @@ private[scenefile] final class ParserRun(
       val chain = files.takeWhile(!Files.isSameFile(_, path)).reverse
       fail(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
     if files.size > ParserRun.DeepestInclude then
-      fail(s"more than ${ParserRun.DeepestInclude} files include one another")
+      fail(s"includes are nested more than ${ParserRun.DeepestInclude} deep")
 
-  /** Against the scene's folder, as the three renderers do; else against the including file's. */
+  /** Resolves against the scene's folder, as in all three renderers; else against the including
+    * file's.
+    */
   private def resolve(name: String, from: Option[Path]): Option[Path] =
     try
       val candidates = folder.resolve(name) :: from.map(Parser.folderOf(_).resolve(name)).toList
@@ -190,5 +194,5 @@ private[scenefile] final class ParserRun(
     catch case _: InvalidPathException => None
 
 private[scenefile] object ParserRun:
-  /** Deeper than any scene needs, and far from the end of a thread's stack. */
+  /** More than any scene needs, and far from a stack overflow. */
   private val DeepestInclude = 200

@@ -2,7 +2,7 @@ package candela.scenefile
 
 import candela.base.{Problem, Severity}
 
-/** Collects problems, up to a number that fits the memory. */
+/** Collects problems, up to a limit that bounds memory. */
 final class Problems:
   private val collected = Vector.newBuilder[Problem]
   private var errorCount = 0
@@ -10,7 +10,7 @@ final class Problems:
 
   def errors: Int = errorCount
 
-  /** Are there so many errors that this is no scene file at all? Then reading should stop. */
+  /** Whether parsing should stop: with this many errors the file is no scene. */
   def isFull: Boolean = errorCount >= Problems.MostErrors
 
   def add(problem: Problem): Unit =
@@ -21,13 +21,13 @@ final class Problems:
       warningCount += 1
       if warningCount <= Problems.MostWarnings then collected += problem
 
-  /** The problems in the order in which they were found, with a note if some are left out. */
+  /** The problems in order of discovery, with a note about those omitted. */
   def result(): Vector[Problem] =
     val left = warningCount - Problems.MostWarnings
-    val stop = s"reading stopped after ${Problems.MostErrors} errors"
+    val stop = s"parsing stopped after ${Problems.MostErrors} errors"
     collected.result() ++
       Option.when(isFull)(Problem.general(stop)) ++
-      Option.when(left > 0)(Problem(Severity.Warning, None, s"$left more warnings are not shown"))
+      Option.when(left > 0)(Problem(Severity.Warning, None, s"$left more warnings omitted"))
 
 object Problems:
   val MostErrors = 1000

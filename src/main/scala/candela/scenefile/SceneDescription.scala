@@ -3,24 +3,22 @@ package candela.scenefile
 import candela.base.{Problem, SourcePos}
 import candela.math.Transform
 
-/** An object-to-world transform at the start and the end of the shutter; mostly both are one
-  * object.
-  */
+/** Object-to-world transform at shutter open and close; usually the same object twice. */
 final case class AnimatedTransform(start: Transform, end: Transform):
   def isAnimated: Boolean = start != end
 
-/** Which material a shape has. */
+/** The material of a shape. */
 enum MaterialRef:
-  /** None was given: the dialect's default. */
+  /** Not specified: the dialect's default. */
   case Default
 
   /** `Material "type" …`. */
   case Inline(declaration: Declaration)
 
-  /** `NamedMaterial "name"`; what it means is in [[SceneDescription.namedMaterials]]. */
+  /** `NamedMaterial "name"`, defined in [[SceneDescription.namedMaterials]]. */
   case Named(name: String, at: SourcePos)
 
-/** What holds at a `Shape` statement. */
+/** A `Shape` statement with the graphics state that applies to it. */
 final case class ShapeDescription(
     shape: Declaration,
     objectToWorld: AnimatedTransform,
@@ -31,14 +29,14 @@ final case class ShapeDescription(
     outsideMedium: String = ""
 )
 
-/** @param medium the name of the one that the light shines in; empty: none */
+/** @param medium name of the medium around the light; empty: none */
 final case class LightDescription(
     light: Declaration,
     lightToWorld: AnimatedTransform,
     medium: String = ""
 )
 
-/** `MakeNamedMedium "name" …`; the transform places what varies in space. */
+/** `MakeNamedMedium "name" …`; the transform places spatially varying properties. */
 final case class MediumDescription(
     name: String,
     medium: Declaration,
@@ -53,7 +51,7 @@ final case class InstanceDescription(
 
 /** `Texture "name" "valueType" "class" …`.
   *
-  * @param valueType "float" or "spectrum" ("color" is folded into the latter)
+  * @param valueType "float" or "spectrum" (which includes "color")
   */
 final case class TextureDescription(
     name: String,
@@ -62,21 +60,20 @@ final case class TextureDescription(
     textureToWorld: AnimatedTransform
 )
 
-/** Everything a scene file said, nothing it implied: what is None was not said.
+/** The contents of a scene file, without defaults: None if not specified.
   *
-  * @param integrator     v2's `SurfaceIntegrator`, v3's and v4's `Integrator`
-  * @param worldToCamera  the transform at the `Camera` statement
-  * @param cameraMedium   the name of the medium around the camera; empty: none
-  * @param textures       in the order of their statements (a texture may use only earlier ones)
-  * @param namedMaterials in the order of their statements. Every name here (and of textures and
-  *                       objects) is unique: where a file defines one again, [[Scope]] renames the
-  *                       new one and its uses
-  * @param objects        shapes by the name of their `ObjectBegin`, in the order of these
-  * @param transformTimes the times at which the start and the end of an [[AnimatedTransform]] hold
-  * @param warnings       what was noticed on the way
-  * @param errors         of statements that could not be read: the rest can be checked, but not
-  *                       rendered
-  * @param lost           what those statements may have given names to
+  * @param integrator v2's `SurfaceIntegrator`, v3's and v4's `Integrator`
+  * @param worldToCamera transform at the `Camera` statement
+  * @param cameraMedium name of the medium around the camera; empty: none
+  * @param textures in statement order (a texture may use only earlier ones)
+  * @param namedMaterials in statement order. All names here (and of textures and objects) are
+  *   unique: [[Scope]] renames redefinitions and their uses
+  * @param objects shapes by the name of their `ObjectBegin`, in statement order
+  * @param transformTimes times of the start and the end of each [[AnimatedTransform]]
+  * @param warnings warnings of the parser
+  * @param errors errors of statements that could not be parsed: the rest can be checked, but not
+  *   rendered
+  * @param lost kinds of names that those statements may have defined
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -105,13 +102,14 @@ final case class SceneDescription(
     lost: Set[NameKind] = Set.empty
 )
 
-/** What a statement can give a name to, for others to use. */
+/** Kinds of names that statements define. */
 enum NameKind:
   case Texture, Material, Object, Medium
 
 object NameKind:
 
-  /** What a statement may have named that could not be read; of another file nobody knows. */
+  /** Kinds of names that an unreadable statement may have defined; an included file may define any.
+    */
   def madeBy(directive: String): Set[NameKind] = directive match
     case "Texture" => Set(Texture)
     case "MakeNamedMaterial" => Set(Material)

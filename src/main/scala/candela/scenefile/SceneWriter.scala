@@ -7,11 +7,11 @@ import scala.collection.mutable
 import candela.base.{Problem, SceneError, SourcePos, Suggest}
 import candela.math.Transform
 
-/** Carries out statements: keeps the graphics state, and collects the description.
+/** Executes statements: maintains the graphics state and collects the description.
   *
-  * @param folder  the scene file's folder
-  * @param isV4    asked only where the dialects differ in what a statement means
-  * @param problem hears of errors and warnings that need not stop the statement
+  * @param folder folder of the scene file
+  * @param isV4 queried only where the dialects differ in the meaning of a statement
+  * @param problem receives errors and warnings that don't abort the statement
   */
 final class SceneWriter(
     folder: Path,
@@ -32,7 +32,7 @@ final class SceneWriter(
 
   val blocks: Blocks = Blocks(isV4, problem)
 
-  /** Where `WorldBegin` stands, once it was met; likewise `WorldEnd`. */
+  /** Position of `WorldBegin` and of `WorldEnd`, once read. */
   var worldBegin = Option.empty[SourcePos]
   var worldEnd = Option.empty[SourcePos]
 
@@ -44,7 +44,7 @@ final class SceneWriter(
   def description(dialect: Dialect, warnings: Vector[Problem]): SceneDescription =
     result.copy(
       dialect = dialect,
-      // v4 looks when it meets the camera, v2 and v3 when the world ends
+      // v4 resolves names at the Camera statement, v2 and v3 at the end of the world.
       cameraMedium = if dialect == Dialect.V4 then result.cameraMedium else state.outsideMedium,
       textures = textures.result(),
       lights = lights.result(),
@@ -62,7 +62,7 @@ final class SceneWriter(
     val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
     Declaration(category, from.name, state.scope.resolve(all), from.at, folder, state.colorSpace)
 
-  /** The declaration whose name is the value of "string type". */
+  /** A declaration named by the value of its "string type". */
   private def declareByType(category: String, from: Named, defaults: String): Declaration =
     val whole = declare("", from, defaults)
     val missing = Some(s"add for example \"string type\" \"${SceneWriter.Examples(category)}\"")
@@ -71,9 +71,9 @@ final class SceneWriter(
         evidence.uses(category, t.strings.head)
         val params = whole.params.filterNot(_ eq t)
         Declaration(category, t.strings.head, params, t.valuesAt, folder, state.colorSpace)
-      case None => fail(from.at, s"\"${from.name}\" has no \"string type\"", missing)
+      case None => fail(from.at, s"\"${from.name}\" must have a \"string type\"", missing)
 
-  /** A statement of the options part: each overrides the one before. */
+  /** A statement before WorldBegin; each overrides the previous one. */
   def option(directive: String, from: Named): Unit =
     val d = Some(declare(directive, from))
     result = directive match
@@ -123,7 +123,7 @@ final class SceneWriter(
     val described = LightDescription(declare("Volume", from), state.transform)
     result = result.copy(volumes = result.volumes :+ described)
 
-  /** An empty name switches the light off. */
+  /** An empty name ends the area light. */
   def areaLight(from: Named): Unit =
     val light = Option.when(from.name.nonEmpty)(declare("AreaLightSource", from, "light"))
     change(_.copy(areaLight = light))
@@ -157,7 +157,7 @@ final class SceneWriter(
     val described = MediumDescription(from.name, medium, state.transform)
     result = result.copy(media = others :+ described)
 
-  /** `name` is what the file calls the texture, `from.name` its class. */
+  /** @param name name of the texture; `from.name` is its class */
   def texture(name: String, at: SourcePos, valueType: String, from: Named): Unit =
     val described = (unique: String) =>
       TextureDescription(unique, valueType, declare("Texture", from, "texture"), state.transform)
@@ -167,7 +167,7 @@ final class SceneWriter(
     else
       refuseInV4(at, s"$valueType texture", name)
       val made = described(names.fresh(SceneWriter.TextureKinds, name))
-      // what the other kind means by this name must be found under the new one as well
+      // Textures of the other value type with this name must resolve by the new name, too.
       for
         kind <- SceneWriter.TextureKinds if kind != valueType
         twin <- textures.result().find(t => t.name == current && t.valueType == kind)
@@ -180,7 +180,7 @@ final class SceneWriter(
 
   private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
     if isV4() then
-      fail(at, s"the $kind \"$name\" is defined already", Some("names are used once in v4"))
+      fail(at, s"$kind \"$name\" is already defined", Some("names must be unique in v4"))
 
   def mediumInterface(inside: String, outside: String): Unit =
     change(_.copy(insideMedium = inside, outsideMedium = outside))
@@ -188,7 +188,7 @@ final class SceneWriter(
   def attribute(target: String, at: SourcePos, params: Vector[Param]): Unit =
     if !SceneWriter.Targets.contains(target) then
       val help = Suggest.help(target, SceneWriter.Targets)
-      fail(at, s"Attribute speaks to no `$target`", help)
+      fail(at, s"unknown Attribute target `$target`", help)
     val earlier = state.defaults.getOrElse(target, Vector.empty)
     val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(_.asDefault)
     change(s => s.copy(defaults = s.defaults.updated(target, all)))
@@ -201,7 +201,7 @@ final class SceneWriter(
 
   def beginObject(name: String, at: SourcePos): Unit =
     if inObject.nonEmpty then
-      fail(at, "ObjectBegin inside of an object", Some("objects don't nest"))
+      fail(at, "ObjectBegin inside an object", Some("objects can't be nested"))
     val unique =
       if names.take("object", name) then name
       else
@@ -219,7 +219,7 @@ final class SceneWriter(
 
   def instance(name: String, at: SourcePos): Unit =
     if inObject.nonEmpty then
-      fail(at, "ObjectInstance inside of an object", Some("objects don't nest"))
+      fail(at, "ObjectInstance inside an object", Some("objects can't be nested"))
     instances += InstanceDescription(objectNames.getOrElse(name, name), at, state.transform)
 
   // Transforms
@@ -235,12 +235,13 @@ final class SceneWriter(
       case Some(found) => change(_.copy(transform = found))
       case None =>
         val help = Suggest.help(name, coordinateSystems.keys)
-        problem(Problem.warning(at, s"no coordinate system `$name`: the transform stays", help))
+        val message = s"unknown coordinate system `$name`; keeping the current transform"
+        problem(Problem.warning(at, message, help))
 
 object SceneWriter:
   private val TextureKinds = List("float", "spectrum")
   private val Targets = List("shape", "light", "material", "medium", "texture")
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 
-/** A quoted name with its place, and the parameters after it. */
+/** A quoted name with its position, and the parameters after it. */
 final case class Named(name: String, at: SourcePos, params: Vector[Param])

@@ -12,12 +12,11 @@ import java.nio.charset.{CharacterCodingException, StandardCharsets}
 import java.nio.file.{Files, NoSuchFileException, Path}
 import java.util.zip.GZIPInputStream
 
-/** The bytes of one file, from the front to the end: a window of them is in memory at a time, so
-  * that files may be of any size.
+/** The bytes of a file, read sequentially through a sliding window, so files may be of any size.
   *
-  * @param name  how messages call the file
-  * @param room  the size of the first window, in bytes
-  * @param input what is behind the window
+  * @param name name of the file in messages
+  * @param room size of the first window, in bytes
+  * @param input bytes after the window
   */
 final class Source private (val name: String, room: Int, input: Input):
   private var window = new Array[Byte](room)
@@ -26,29 +25,29 @@ final class Source private (val name: String, room: Int, input: Input):
   private var isDone = false
   fill()
 
-  /** The window: these bytes from 0 until `limit`. */
+  /** The window: valid from 0 until `limit`. */
   def bytes: Array[Byte] = window
   def limit: Int = end
 
-  /** Does nothing follow the window? */
+  /** Whether the window reaches the end of the file. */
   def isLast: Boolean = isDone
 
-  /** The first byte after the byte order mark, if there is one. */
+  /** Offset of the first byte after the byte order mark, if any. */
   val start: Int = if begins(0xef, 0xbb, 0xbf) then 3 else 0
 
-  /** Where in the file the byte at `i` of the window is. */
+  /** File offset of the byte at `i` of the window. */
   def offset(i: Int): Long = first + i
 
-  /** At most so many bytes follow the byte at `i`. */
+  /** Upper bound on the number of bytes after the byte at `i`. */
   def mostAfter(i: Int): Long = if isDone then end - i else end - i + input.mostLeft
 
-  /** Moves the window on, so that it begins at `from` of the old one: more bytes come behind. All
-    * places in the window become smaller by `from`. An IOException says why there is no more.
+  /** Slides the window to begin at its offset `from`, and reads more bytes. All window offsets
+    * decrease by `from`. An IOException has the cause if reading fails.
     */
   def slide(from: Int): Unit =
     if from == 0 && end == window.length then
       if end > Source.LongestToken then
-        throw IOException(s"here is a word of more than ${Source.LongestToken >> 20} MB")
+        throw IOException(s"token longer than ${Source.LongestToken >> 20} MB")
       window = java.util.Arrays.copyOf(window, 2 * end)
     else System.arraycopy(window, from, window, 0, end - from)
     end -= from
@@ -60,17 +59,15 @@ final class Source private (val name: String, room: Int, input: Input):
       val count = input.stream.read(window, end, window.length - end)
       if count < 0 then close() else end += count
 
-  /** Gives the file back; nothing follows the window any more. */
+  /** Closes the file; the window is then the last. */
   def close(): Unit =
     isDone = true
     input.stream.close()
 
-  /** The same from the start, if it can be had once more. */
+  /** The same source from its start, if it can be reopened. */
   def again: Option[Source] = input.again().toOption.map(new Source(name, room, _))
 
-  /** The text between two places of the window: UTF-8, or Latin-1 where it is no valid UTF-8 (old
-    * exporters).
-    */
+  /** Decodes a range of the window: UTF-8, or Latin-1 if invalid (old exporters). */
   def text(from: Int, until: Int): String =
     try
       val decoder = StandardCharsets.UTF_8.newDecoder
@@ -85,36 +82,36 @@ final class Source private (val name: String, room: Int, input: Input):
 object Source:
 
   def apply(name: String, bytes: Array[Byte]): Source =
-    // one byte more: reading it finds the end
+    // One byte of room, so that reading finds the end.
     new Source(name, bytes.length + 1, Input.of(bytes))
 
-  /** Likewise, through a window of `room` bytes. */
+  /** A source that reads `bytes` through a window of `room` bytes. */
   private[candela] def windowed(name: String, bytes: Array[Byte], room: Int): Source =
     new Source(name, room, Input.of(bytes))
 
   def fromText(name: String, text: String): Source =
     Source(name, text.getBytes(StandardCharsets.UTF_8))
 
-  /** The file's bytes, unpacked if they are gzipped; or why they can't be had. */
+  /** Opens a file, decompressing gzip; or returns why it can't. */
   def read(path: Path): Either[String, Source] =
     try
       Input.open(path).flatMap: input =>
         val source = new Source(path.toString, input.mostLeft.min(Window - 1L).toInt + 1, input)
         if source.begins(0xff, 0xfe) || source.begins(0xfe, 0xff) then
           source.close()
-          Left("it is UTF-16 text; save it as UTF-8")
+          Left("encoded as UTF-16; save it as UTF-8")
         else Right(source)
     catch case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
 
-  /** Fits the second-level cache of today's processors. */
+  /** Fits the L2 cache of current processors. */
   private val Window = 1 << 17
 
   private val LongestToken = 1 << 20
 
-/** Where the bytes of a [[Source]] come from.
+/** Input stream of a [[Source]].
   *
-  * @param left  at most so many bytes can be read yet
-  * @param again opens the same once more
+  * @param left upper bound on the bytes left to read
+  * @param again reopens the same input
   */
 private final class Input(
     val stream: InputStream,
@@ -129,15 +126,15 @@ private object Input:
     val stream = ByteArrayInputStream(bytes)
     Input(stream, () => stream.available, () => Right(of(bytes)))
 
-  /** The file's bytes, unpacked if they are gzipped; or why they can't be had. */
+  /** Opens a file, decompressing gzip; or returns why it can't. */
   def open(path: Path): Either[String, Input] =
     try
       if Files.isDirectory(path) then Left("it is a folder")
       else if !Files.isRegularFile(path) && Files.exists(path) then
-        Right(of(Files.readAllBytes(path))) // a pipe tells all it knows once only
+        Right(of(Files.readAllBytes(path))) // a pipe can be read only once
       else Right(opened(path))
     catch
-      case _: NoSuchFileException => Left("there is no such file")
+      case _: NoSuchFileException => Left("no such file")
       case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
 
   private def opened(path: Path): Input =
@@ -158,7 +155,7 @@ private object Input:
         raw.close()
         throw e
 
-/** Knows how many bytes were read. */
+/** Counts the bytes read. */
 private class Counted(in: InputStream) extends FilterInputStream(in):
   private var total = 0L
 
@@ -174,15 +171,14 @@ private class Counted(in: InputStream) extends FilterInputStream(in):
     if n > 0 then total += n
     n
 
-/** What a gzipped file holds. A small file that unpacks without end, as its sender may have meant
-  * it to, is refused.
+/** Decompressed gzip stream. Refuses small files that expand without bound (zip bombs).
   *
-  * @param size of the packed file, in bytes
+  * @param size compressed size, in bytes
   */
 private final class Unpacked private (packed: Counted, size: Long)
     extends Counted(GZIPInputStream(packed, 1 << 16)):
 
-  /** At most so many bytes follow: as much as deflate can do, and as is allowed. */
+  /** Upper bound on the bytes that follow, from deflate's maximum ratio and the allowed one. */
   def mostLeft: Long =
     val possible = (size - packed.count + (1 << 16)) * Unpacked.MostDeflated
     possible.min(Unpacked.Free + size * Unpacked.MostAllowed - count)
@@ -191,17 +187,17 @@ private final class Unpacked private (packed: Counted, size: Long)
     val n = super.read(into, from, length)
     if count > Unpacked.Free + packed.count * Unpacked.MostAllowed then
       val times = count / packed.count.max(1)
-      throw IOException(s"it unpacks to more than $times times its size: is it a scene at all?")
+      throw IOException(s"decompresses to more than $times times its size; it can't be a scene")
     n
 
 private object Unpacked:
   def apply(in: InputStream, size: Long): Unpacked = new Unpacked(Counted(in), size)
 
-  /** Deflate can't do better (zlib's technical notes: 1032 to 1). */
+  /** Maximum compression ratio of deflate (zlib's technical notes: 1032 to 1). */
   private val MostDeflated = 1032L
 
-  /** Text of numbers packs 3 to 10 times, that of a regular grid 50 times. */
+  /** Numeric text compresses 3 to 10 times, that of a regular grid 50 times. */
   private val MostAllowed = 100L
 
-  /** So many bytes are unpacked whatever their ratio. */
+  /** Decompressed size below which any ratio is allowed, in bytes. */
   private val Free = 64L << 20

@@ -5,18 +5,17 @@ import java.nio.charset.StandardCharsets.UTF_8
 
 import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
 
-/** Cuts a scene file into tokens. There is always one current token; lists of numbers are read
-  * without making tokens of them. Commas are blanks, as pbrt-v3 has it behind numbers.
+/** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
+  * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.
   *
-  * @param includedFrom the statement that includes this file
+  * @param includedFrom statement that includes this file
   */
 final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private val number = NumberReader(source)
   private val names = NameCache()
 
-  /** The first byte after the current token, and where its line began: places in the source's
-    * window. `wide` counts the bytes of this line that are not characters of their own (UTF-8
-    * continuation).
+  /** Offset of the first byte after the current token, and of its line, in the source's window.
+    * `wide` counts the UTF-8 continuation bytes of this line.
     */
   private var next = source.start
   private var line = 1
@@ -29,30 +28,30 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
   private var tokenColumn = 1
   private var content = Option.empty[String]
 
-  /** The kind of the current token. */
+  /** Kind of the current token. */
   def current: Token = kind
 
-  /** Where the current token begins. */
+  /** Position of the current token. */
   def at: SourcePos = SourcePos(source.name, tokenLine, tokenColumn, includedFrom)
 
-  /** Where what follows the current token begins. */
+  /** Position of the next token. */
   def nextAt: SourcePos =
     skipBlank()
     nextPlace
 
   private def nextPlace: SourcePos = SourcePos(source.name, line, column, includedFrom)
 
-  /** Of the byte at `next`. */
+  /** Column of the byte at `next`. */
   private def column: Int = (next - lineStart - wide + 1).min(Int.MaxValue).toInt
 
-  /** The current token's word, or its text without quotes and escapes. */
+  /** The current token: a word, or a string without quotes and escapes. */
   def text: String = content.getOrElse:
     val quote = if kind == Token.Text then 1 else 0
     val found = names.of(source, start + quote, next - quote)
     content = Some(found)
     found
 
-  /** The current token as a message shows it. */
+  /** The current token as shown in messages. */
   def shown: String =
     if kind == Token.End then "the end of the file"
     else
@@ -77,8 +76,8 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         case '"' => readText()
         case _ => readWord()
 
-  /** Passes the current token and all that follow, up to a bare word that begins like a directive's
-    * name. Unreadable text on the way is passed over.
+  /** Skips the current token and all up to a bare word that starts with a capital, as directives
+    * do. Skips unreadable text, too.
     */
   def advanceToName(): Unit =
     var searching = true
@@ -89,28 +88,28 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         searching = kind != Token.End && !isName
       catch case _: SceneError => ()
 
-  /** Is the current token a number? If so, `number` has read it. */
+  /** Whether the current token is a number; if so, `number` holds it. */
   private def isNumber: Boolean = kind == Token.Word && number.scan(start) == next
 
   /** The current token as a number, if it is one. */
   def numberHere: Option[Double] = Option.when(isNumber)(number.toDouble)
 
-  /** Reads the current token's number as one value; false if it is none. */
+  /** Appends the current token as a number; false if it isn't one. */
   def readFloat(into: FloatBuffer): Boolean =
     val found = isNumber
     if found then into += number.toFloat
     found
 
-  /** Did a number that was read as an Int lose its fraction? Set back by who asks. */
+  /** Whether an integer lost its fraction; the caller resets it. */
   var sawFraction = false
 
-  /** Likewise; false also for what no Int can hold. */
+  /** Appends the current token as an integer; false if it isn't a number or doesn't fit an Int. */
   def readInt(into: IntBuffer): Boolean =
     val found = isNumber && number.fitsInt
     if found then addInt(into)
     found
 
-  /** Reads all numbers after the current token; what comes after them becomes the current token. */
+  /** Appends all numbers after the current token; the token after them becomes current. */
   def readFloats(into: FloatBuffer): Unit =
     var end = scanNext()
     while end >= 0 do
@@ -119,7 +118,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       end = scanNext()
     advance()
 
-  /** Likewise; stops also before a number that no Int can hold. */
+  /** Appends integers as above; stops also before a number that doesn't fit an Int. */
   def readInts(into: IntBuffer): Unit =
     var end = scanNext()
     while end >= 0 && number.fitsInt do
@@ -132,9 +131,9 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     into += number.toInt
     if !number.isWhole then sawFraction = true
 
-  /** Scans the number that comes next, if it is one: the place after it, or −1. */
+  /** Scans the next token; returns the offset after it, or −1 if it isn't a number. */
   private def scanNext(): Int =
-    // mostly, one blank is before a number
+    // Usually a single space precedes a number.
     if next < source.limit && source.bytes(next) == ' ' then next += 1
     if next >= source.limit || source.bytes(next) <= ',' then skipBlank()
     if source.limit - next < Tokenizer.UsualNumber then fetchNext(): Unit
@@ -142,7 +141,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     while number.stop == source.limit && fetchNext() do end = number.scan(next)
     end
 
-  /** Is a quoted text next? */
+  /** Whether a quoted string is next. */
   def nextIsText: Boolean =
     skipBlank()
     next < source.limit && source.bytes(next) == '"'
@@ -160,7 +159,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
         if c == ' ' || c == '\t' || c == ',' then i += 1
         else if c == '\n' || c == '\r' then
           val isPair = c == '\r' && i + 1 < end && bytes(i + 1) == '\n'
-          // the window's last byte may be half a pair
+          // The window's last byte may be half of a pair.
           if c == '\r' && i + 1 == end && !source.isLast then isBlank = false
           else
             i += (if isPair then 2 else 1)
@@ -207,7 +206,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     val isEnd = next >= source.limit
     if isEnd || source.bytes(next) != '"' then
       content = Some("")
-      val what = if isEnd then "the file ends inside this text" else "this text is not closed"
+      val what = if isEnd then "string not closed at the end of the file" else "string not closed"
       throw SceneError(Problem.error(at, what, Some("end it with `\"` on the same line")))
     next += 1
     if hasEscapes then content = Some(unescaped(start + 1, next - 1))
@@ -218,17 +217,17 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
       case Left(i) =>
         content = Some("")
         val place = SourcePos(source.name, line, tokenColumn + i - start - 1, includedFrom)
-        val what = s"`\\${source.text(i, i + 1)}` has no meaning in a text"
+        val what = s"unknown escape sequence `\\${source.text(i, i + 1)}`"
         val help = Some("write `\\\\` for a backslash, `/` between folders")
         throw SceneError(Problem.error(place, what, help))
 
   private inline def isContinuation(c: Byte): Boolean = (c & 0xc0) == 0x80
 
-  /** Moves the window on, so that it begins with what comes next. */
+  /** Slides the window to the next unread byte. */
   private def fetchNext(): Boolean =
     !source.isLast && { start = next; fetch() }
 
-  /** Moves the window on, so that it begins with the current token; false at the file's end. */
+  /** Slides the window to the current token; false at the end of the file. */
   private def fetch(): Boolean =
     !source.isLast && {
       val here = if start < next then at else nextPlace
@@ -241,7 +240,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
           start = next
           kind = Token.End
           val why = Option(e.getMessage).getOrElse(e.toString)
-          throw SceneError(Problem.error(here, s"reading stops: $why"))
+          throw SceneError(Problem.error(here, s"can't read further: $why"))
       start = 0
       next -= from
       lineStart -= from
@@ -249,15 +248,15 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     }
 
 object Tokenizer:
-  /** So many bytes hold almost every number and what ends it. */
+  /** Bytes that hold almost every number and its delimiter. */
   private val UsualNumber = 64
 
-/** What `\` and the byte after it mean in a quoted text. */
+/** Escape sequences of quoted strings. */
 private object Escapes:
   private val Written = "nrtbf\\\"'"
   private val Meant = "\n\r\t\b\f\\\"'"
 
-  /** The text between two places; or the place of a byte that has no meaning after `\`. */
+  /** The unescaped text of a range, or the offset of an unknown escape. */
   def unescaped(bytes: Array[Byte], from: Int, until: Int): Either[Int, String] =
     val out = ByteArrayOutputStream(until - from)
     var i = from
@@ -272,13 +271,11 @@ private object Escapes:
       if isKnown then i += 1
     if isKnown then Right(out.toString(UTF_8)) else Left(i)
 
-/** Makes Strings of a file's words. The few names that occur again and again are made once, and
-  * know their hash.
-  */
+/** Converts words to Strings; caches the few names that recur, with their hash. */
 private final class NameCache:
   private val known = new Array[String](NameCache.Slots)
 
-  /** The text of `source` between two places of its window. */
+  /** The text of a range of the window of `source`. */
   def of(source: Source, from: Int, until: Int): String =
     val bytes = source.bytes
     var hash = until - from
@@ -290,7 +287,7 @@ private final class NameCache:
     if !isSame(known(slot), bytes, from, until) then known(slot) = source.text(from, until)
     known(slot)
 
-  /** Never so for texts with bytes beyond ASCII, which are no names. */
+  /** False for non-ASCII bytes, which don't occur in names. */
   private def isSame(name: String, bytes: Array[Byte], from: Int, until: Int): Boolean =
     name != null && name.length == until - from && {
       var i = 0
@@ -301,8 +298,6 @@ private final class NameCache:
 private object NameCache:
   private val Slots = 256
 
-/** What a token can be: a bare word (directive, number, `true`), a quoted text, `[`, `]`, or the
-  * end.
-  */
+/** Kinds of tokens: bare word (directive, number, `true`), quoted string, `[`, `]`, end of file. */
 enum Token:
   case Word, Text, Open, Close, End

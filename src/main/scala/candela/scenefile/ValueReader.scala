@@ -2,17 +2,17 @@ package candela.scenefile
 
 import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
 
-/** Reads the values of parameters, and checks that they are what the parameter's type says.
+/** Reads parameter values and checks them against the parameter's type.
   *
-  * @param warn hears of what is odd, yet readable
+  * @param warn receives warnings
   */
 final class ValueReader(warn: Problem => Unit):
   private val floats = FloatBuffer()
   private val ints = IntBuffer()
 
-  /** The value, or the list in brackets, from the current token on.
+  /** Reads a value or a bracketed list from the current token on.
     *
-    * @param at where the parameter begins
+    * @param at position of the parameter
     */
   def read(paramType: ParamType, name: String, at: SourcePos, in: Tokenizer): Param =
     val open = Option.when(in.current == Token.Open)(in.at)
@@ -38,7 +38,8 @@ final class ValueReader(warn: Problem => Unit):
     checkCount(param)
     param
 
-  // Each of these reads as many values as fit (one, if it is no list), and stops at what does not.
+  // Each reads as many values as match (at most one outside a list), and stops at the first that
+  // does not.
 
   private def numbers(in: Tokenizer, isList: Boolean): Array[Float] =
     if isList then in.readFloats(floats) else if in.readFloat(floats) then in.advance()
@@ -48,7 +49,7 @@ final class ValueReader(warn: Problem => Unit):
     in.sawFraction = false
     if isList then in.readInts(ints) else if in.readInt(ints) then in.advance()
     if in.sawFraction then
-      warn(Problem.warning(at, s"`$name` takes whole numbers; fractions are cut off"))
+      warn(Problem.warning(at, s"values of `$name` must be integers; truncating fractions"))
     ints.take()
 
   private def texts(in: Tokenizer, isList: Boolean): Vector[String] =
@@ -69,7 +70,7 @@ final class ValueReader(warn: Problem => Unit):
   private def count(p: Param): Int =
     p.floats.length + p.ints.length + p.bools.size + p.strings.size
 
-  /** What is wrong where the values of `param` stop. */
+  /** The problem at the token where the values of `param` stop. */
   private def misfit(param: Param, in: Tokenizer, openAt: Option[SourcePos]): Problem =
     val name = s"`${param.name}`"
     def word = if in.current == Token.Word then in.text else ""
@@ -78,26 +79,27 @@ final class ValueReader(warn: Problem => Unit):
     val isDirective = word.headOption.exists(_.isUpper)
     openAt match
       case Some(at) if in.current == Token.End =>
-        Problem.error(at, s"the values of $name have no closing `]` before the end of the file")
+        Problem.error(at, s"$name has no closing `]` before the end of the file")
       case None if in.current == Token.End || in.current == Token.Close || isDirective =>
-        Problem.error(param.at, s"$name has no value", Some(example(param)))
+        Problem.error(param.at, s"$name must have a value", Some(example(param)))
       case _ if param.paramType == ParamType.Integer && isNumber =>
-        Problem.error(in.at, s"${in.shown} is beyond the range of a 32-bit integer")
+        Problem.error(in.at, s"values of $name must be 32-bit integers, found ${in.shown}")
       case _ =>
         val help =
-          if isDirective then "is a `]` missing before it?"
-          else if in.current == Token.Open then "lists do not nest"
+          if isDirective then "a `]` may be missing before it"
+          else if in.current == Token.Open then "lists can't be nested"
           else if isQuotedNumber then "write it without quotes"
           else example(param)
-        Problem.error(in.at, s"$name takes ${kindOf(param)}, but here is ${in.shown}", Some(help))
+        val message = s"values of $name must be ${kindOf(param)}, found ${in.shown}"
+        Problem.error(in.at, message, Some(help))
 
   private def kindOf(param: Param): String = param.paramType match
     case ParamType.Bool => "`true` or `false`"
-    case ParamType.Integer => "whole numbers"
-    case ParamType.String => "text in quotes"
-    case ParamType.Texture => "a texture's name in quotes"
-    case ParamType.Spectrum if param.strings.nonEmpty => "names in quotes"
-    case ParamType.Spectrum => "numbers or a name in quotes"
+    case ParamType.Integer => "integers"
+    case ParamType.String => "quoted strings"
+    case ParamType.Texture => "quoted texture names"
+    case ParamType.Spectrum if param.strings.nonEmpty => "quoted names"
+    case ParamType.Spectrum => "numbers or a quoted name"
     case _ => "numbers"
 
   private def example(param: Param): String =
@@ -113,7 +115,7 @@ final class ValueReader(warn: Problem => Unit):
       case _ => "[ 0.1 0.2 0.3 ]"
     s"for example \"${param.paramType.spelling} ${param.name}\" $values"
 
-  /** A list must be a whole number of pairs or triples, and have a value. */
+  /** A list must consist of whole pairs or triples; an empty one is reported. */
   private def checkCount(param: Param): Unit =
     val n = count(param)
     val size = param.paramType match
@@ -124,10 +126,10 @@ final class ValueReader(warn: Problem => Unit):
       case _ => 1
     def fail(message: String) =
       throw SceneError(Problem.error(param.valuesAt, message, Some(example(param))))
-    if n == 0 then warn(Problem.warning(param.valuesAt, s"`${param.name}` has an empty list"))
+    if n == 0 then warn(Problem.warning(param.valuesAt, s"`${param.name}` is an empty list"))
     if n % size != 0 then
       val group = if size == 2 then "pairs" else "triples"
       val noun = if n == 1 then "number" else "numbers"
-      fail(s"`${param.name}` takes $group, but has $n $noun")
+      fail(s"values of `${param.name}` must come in $group, found $n $noun")
     if param.paramType == ParamType.Texture && n > 1 then
-      fail(s"`${param.name}` takes one texture, but has $n names")
+      fail(s"`${param.name}` must be one texture, found $n names")

@@ -94,9 +94,9 @@ class BenchCommandSuite extends AnyFunSuite:
         val (code, captured) = run(args*)
         assert(code == 1)
         captured.err
-      assert(error(s"$folder/none.conf").contains("there is no suite"))
+      assert(error(s"$folder/none.conf").contains("no such suite"))
       assert(error(suite, "--report", s"$folder/x.pdf").contains(".html, .json, .csv, or .svg"))
-      assert(error(suite, "--report", s"$folder/none/x.html").contains("there is no folder"))
+      assert(error(suite, "--report", s"$folder/none/x.html").contains("no such folder"))
       assert(error(suite, "--scenes", "flut").contains("no scene `flut`; it has flat"))
       assert(error(folder.toString, "--report", s"$folder/x.csv").contains("no scene of"))
       assert(!Files.exists(folder.resolve("x.csv")))

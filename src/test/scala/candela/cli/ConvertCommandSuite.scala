@@ -21,7 +21,7 @@ class ConvertCommandSuite extends AnyFunSuite:
       val (code, captured) = run(file.toString, "--to", "v4", "--dialect", "v3")
       assert(code == 0)
       assert(captured.out.contains("Material \"diffuse\""))
-      val lost = "`sigma` of \"matte\" can't be said in v4: the surface is Lambert's"
+      val lost = "`sigma` of \"matte\" is not supported in v4; Lambertian"
       assert(captured.err.contains(s"$file:2:18: warning: $lost\n 2 | Material"))
       assert(TempFolder.names(folder) == Set("a.pbrt"))
 
@@ -47,7 +47,7 @@ class ConvertCommandSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val file = scene(folder)
       val (code, captured) = run(file.toString, "--to", "v3", "--outfile", s"$folder/./a.pbrt")
-      assert(code == 1 && captured.err.contains("is what is being read"))
+      assert(code == 1 && captured.err.contains("is an input file"))
       assert(Files.readString(file) == old)
       val (other, said) = run(file.toString, "--to", "v3", "--outfile", folder.toString)
       assert(other == 1 && said.err.contains("it is a folder"))
@@ -57,4 +57,4 @@ class ConvertCommandSuite extends AnyFunSuite:
       val file = scene(folder).toString
       assert(run(file)._1 == 2)
       val (code, captured) = run(file, "--to", "v2", "--dialect", "v3")
-      assert(code == 1 && captured.err.contains("a v3 scene can't be written as v2"))
+      assert(code == 1 && captured.err.contains("can't convert a v3 scene to v2"))

@@ -49,7 +49,7 @@ class DescribeCommandSuite extends AnyFunSuite:
   test("a dialect leaves out what others know"):
     val v4 = printed("material --dialect v4")
     assert(v4.contains("\"diffuse\"") && !v4.contains("\"matte\""))
-    assert(refused("matte --dialect v4").contains("no type is called `matte` in v4"))
+    assert(refused("matte --dialect v4").contains("unknown type `matte` in v4"))
 
   test("what is not supported says what is done instead"):
     assert(printed("plymesh").contains("not supported yet: the mesh is"))
@@ -64,7 +64,7 @@ class DescribeCommandSuite extends AnyFunSuite:
     assert(refused("plastc").contains("did you mean `plastic`?"))
     assert(refused("materail").contains("did you mean `Material`?"))
     assert(refused("camera persp").contains("did you mean `perspective`?"))
-    assert(refused("material sphere").contains("no material is called `sphere`"))
+    assert(refused("material sphere").contains("unknown material `sphere`"))
     assert(refused("a b c").contains("a category, a type, or both"))
 
   test("no line is wider than the terminal"):

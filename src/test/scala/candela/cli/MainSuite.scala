@@ -31,7 +31,7 @@ class MainSuite extends AnyFunSuite:
         val (code, captured) = run(command, s"$folder/buny.pbrt")
         assert(code == 1)
         assert(captured.err.linesIterator.toVector == Vector(
-          s"error: there is no scene file `$folder/buny.pbrt`",
+          s"error: no such scene file: `$folder/buny.pbrt`",
           s" did you mean `$folder/bunny.pbrt`?"
         ))
 

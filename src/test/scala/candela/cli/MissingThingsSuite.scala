@@ -65,7 +65,7 @@ class MissingThingsSuite extends AnyFunSuite:
       val captured = Captured()
       val args = Seq("--keep-going", "--spp", "1", "--outfile", image.toString, scene.toString)
       assert(Main.run(args, captured.terminal) == 0, captured.err)
-      assert(captured.out.contains(", 1 stand-in\n"), captured.out)
+      assert(captured.out.contains(", 1 placeholder\n"), captured.out)
       assert(captured.err.contains("no file `no.png`; magenta is used"), captured.err)
       val pixels = ImageFiles.load(image).toImage
       val middle = (0 until 3).map(c => pixels(2, 2, c))

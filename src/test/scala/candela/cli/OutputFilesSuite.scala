@@ -23,8 +23,8 @@ class OutputFilesSuite extends AnyFunSuite:
     for (film, stem) <- films do
       val files = OutputFiles.ofFilm(film)
       assert(names(files) == Vector(s"$stem.exr", s"$stem.png"))
-      val warning = s"the scene's image `$film` is not ${OutputFormat.listed()}; " +
-        s"it is written as `$stem.exr`"
+      val warning = s"`$film` is not ${OutputFormat.listed()}; " +
+        s"writing `$stem.exr`"
       assert(files.warnings.map(_.message) == Vector(warning))
 
   test("what is asked for is taken as it is, each once"):
@@ -44,7 +44,7 @@ class OutputFilesSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val path = folder.resolve("none/a.exr")
       val parent = path.getParent
-      assert(problems(path) == Vector(s"can't write `$path`: there is no folder `$parent`"))
+      assert(problems(path) == Vector(s"can't write `$path`: no such folder: `$parent`"))
 
   test("a format that is not written is noticed before rendering"):
     TempFolder.use: folder =>

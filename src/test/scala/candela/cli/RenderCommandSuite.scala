@@ -63,7 +63,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val names = ImageFiles.read(folder.resolve("a.exr")).channelNames
       assert(names == Vector("R", "G", "B", "Z", "samples"))
       val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")
-      assert(refused == 1 && captured.err.contains("only .exr files hold layers"))
+      assert(refused == 1 && captured.err.contains("AOVs need .exr output"))
 
   test("the EXR says of what it is an image"):
     TempFolder.use: folder =>
@@ -111,7 +111,7 @@ class RenderCommandSuite extends AnyFunSuite:
       val loader = Known("s.pbrt" -> plan(folder.resolve("a.exr")))
       val captured = Captured()
       assert(run(captured, loader, "s.pbrt", "--outfile", s"$folder/none/b.exr") == 1)
-      val message = s"error: can't write `$folder/none/b.exr`: there is no folder"
+      val message = s"error: can't write `$folder/none/b.exr`: no such folder"
       assert(captured.err.startsWith(message))
       assert(loader.loaded.isEmpty)
 
@@ -135,9 +135,9 @@ class RenderCommandSuite extends AnyFunSuite:
       val captured = Captured()
       assert(run(captured, Known("s.pbrt" -> sick), "s.pbrt") == 0)
       assert(captured.err.contains(
-        "warning: 27 samples left out for being infinite or no number, " +
+        "warning: 27 samples discarded: NaN or infinite, " +
           "the first at pixel (3, 0), sample 2; " +
-          "to see its path, add --pixel 3,0 --sample 2 --debug"
+          "trace it with --pixel 3,0 --sample 2 --debug"
       ))
 
   test("--debug tells the path of one sample and writes nothing"):
@@ -149,10 +149,10 @@ class RenderCommandSuite extends AnyFunSuite:
         val code = run(captured, Known("s.pbrt" -> sick), ("--debug" +: words :+ "s.pbrt")*)
         (code, captured.out + captured.err)
       val (_, bad) = told("--pixel", "3,0", "--sample", "2")
-      assert(bad.contains("pixel (3, 0), sample 2") && bad.contains("is left out"))
-      assert(told("--pixel", "4,0")._2.contains("adds rgb("))
+      assert(bad.contains("pixel (3, 0), sample 2") && bad.contains("discarded"))
+      assert(told("--pixel", "4,0")._2.contains("contributes rgb("))
       assert(told("--pixel", "400,0") match
-        case (1, words) => words.contains("no pixel 400,0")
+        case (1, words) => words.contains("400,0 is outside the image")
         case _ => false)
       assert(told()._1 == 2 && told("--pixel", "a,b")._1 == 2)
       assert(TempFolder.names(folder).isEmpty)

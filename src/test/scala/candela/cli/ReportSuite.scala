@@ -43,7 +43,7 @@ class ReportSuite extends AnyFunSuite:
   test("the same warning at many places is printed for the first of them"):
     assert(report()(_.warnings(warnings, all = false)).linesIterator.toVector == Vector(
       "a.pbrt:3:1: warning: no `Kdd`",
-      " and at 1 more place; --verbose shows all",
+      " and at 1 more position; --verbose shows all",
       "a.pbrt:5:1: warning: no `foo`"
     ))
 

@@ -56,11 +56,11 @@ class ReportingSuite extends AnyFunSuite:
       val report = Vector("--report", s"$folder/r.json")
       val (code, small) = run(Vector(file, "--reference", s"$folder/small.exr") ++ report*)
       assert(code == 1)
-      assert(small.err.contains("small.exr` has 3×2 pixels, not 24×16"))
+      assert(small.err.contains("small.exr` must be 24×16 pixels, found 3×2"))
       val (_, kind) = run(file, "--report", s"$folder/r.pdf")
       assert(kind.err.contains("reports are written as .html, .json or .csv"))
       val (_, nowhere) = run(file, "--report", s"$folder/none/r.html")
-      assert(nowhere.err.contains("there is no folder"))
+      assert(nowhere.err.contains("no such folder"))
       assert(TempFolder.names(folder) == Set("s.pbrt", "small.exr"))
 
   test("of a cropped rendering the reference is cropped, too"):

@@ -14,12 +14,12 @@ object Documentation:
     pass.tables.filter(_.rules.nonEmpty).map(table).mkString("\n")
 
   private def table(t: Table): String =
-    val head = s"### ${t.category}\n\n| type | becomes | parameters |\n|---|---|---|\n"
-    val other = t.fallback.fold("left out, with a warning")(f => s"`$f`, with a warning")
+    val head = s"### ${t.category}\n\n| type | converted to | parameters |\n|---|---|---|\n"
+    val other = t.fallback.fold("dropped, with a warning")(f => s"`$f`, with a warning")
     head + t.rules.map(row).mkString + s"| any other | $other | |\n"
 
   private def row(r: Rule): String =
     val names = r.from.map(n => s"`\"$n\"`").mkString(", ")
-    val note = r.note.fold("")(n => s"*Not the same, with a warning: $n.*<br>")
+    val note = r.note.fold("")(n => s"*Approximate, with a warning: $n.*<br>")
     val steps = r.steps.map(s => s"${s.source} → ${s.target}").mkString("<br>")
     s"| $names | `\"${r.to}\"` | $note$steps |\n"

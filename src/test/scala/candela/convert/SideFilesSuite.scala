@@ -18,7 +18,7 @@ class SideFilesSuite extends AnyFunSuite:
       assert(TempFolder.names(folder).size == 2)
       val _ = Files.write(folder.resolve(name), Array[Byte](9))
       val error = intercept[SceneError](files.add("mesh", "ply", Array[Byte](1, 2, 3)))
-      assert(error.getMessage.contains("holds something else"))
+      assert(error.getMessage.contains("exists with different content"))
 
   test("large meshes go into PLY files that hold the same numbers"):
     TempFolder.use: folder =>

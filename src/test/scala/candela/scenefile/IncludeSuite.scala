@@ -77,4 +77,4 @@ class IncludeSuite extends AnyFunSuite:
   test("a name that no file can have is a file that is not there"):
     val error = intercept[SceneError]:
       Parser.parseText("test", "WorldBegin Include \"\u0000\"", Path.of("."))
-    assert(error.problems.head.message.endsWith("there is no such file"))
+    assert(error.problems.head.message.endsWith("no such file"))

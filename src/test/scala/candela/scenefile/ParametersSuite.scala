@@ -74,7 +74,9 @@ class ParametersSuite extends AnyFunSuite:
     assert(one("\"integer n\" [1.0 2e2]").ints.toVector == Vector(1, 200))
     assert(warnings.isEmpty)
     assert(one("\"integer n\" [1 2.7]").ints.toVector == Vector(1, 2))
-    assert(warnings.map(_.message) == Vector("`n` takes whole numbers; fractions are cut off"))
+    assert(
+      warnings.map(_.message) == Vector("values of `n` must be integers; truncating fractions")
+    )
 
   test("commas between numbers are blanks"):
     val plain = Vector(0f, 1.5f, -1f)
@@ -83,7 +85,7 @@ class ParametersSuite extends AnyFunSuite:
 
   test("an empty list is read, with a warning"):
     assert(one("\"float a\" []").floats.isEmpty)
-    assert(warnings.map(_.message) == Vector("`a` has an empty list"))
+    assert(warnings.map(_.message) == Vector("`a` is an empty list"))
 
   test("of two parameters with one name the last counts, and the first is warned of"):
     assert(one("\"float a\" 1 \"float a\" 2").floats.toVector == Vector(2f))
@@ -99,16 +101,16 @@ class ParametersSuite extends AnyFunSuite:
     assert(error("\"rgb L\" [1 2 nan]").startsWith("14: "))
 
   test("lists that are no whole number of pairs or triples, are errors"):
-    assert(error("\"rgb L\" [1 2]").contains("takes triples, but has 2 numbers"))
-    assert(error("\"point3 P\" [1 2 3 4]").contains("takes triples"))
-    assert(error("\"point2 P\" [1 2 3]").contains("takes pairs"))
-    assert(error("\"spectrum L\" 3").contains("takes pairs, but has 1 number"))
-    assert(error("\"texture a\" [\"b\" \"c\"]").contains("takes one texture"))
+    assert(error("\"rgb L\" [1 2]").contains("must come in triples, found 2 numbers"))
+    assert(error("\"point3 P\" [1 2 3 4]").contains("must come in triples"))
+    assert(error("\"point2 P\" [1 2 3]").contains("must come in pairs"))
+    assert(error("\"spectrum L\" 3").contains("must come in pairs, found 1 number"))
+    assert(error("\"texture a\" [\"b\" \"c\"]").contains("must be one texture"))
 
   test("a parameter without type, with an unknown type, or without value is an error"):
-    assert(error("\"fov\" 45").contains("its type is missing"))
-    assert(error("\"float\" 45").contains("a parameter's type without its name"))
-    assert(error("\"flot fov\" 45").contains("no parameter type is called `flot`"))
-    assert(error("\"\" 45").contains("an empty text"))
-    assert(error("\"float fov\"").contains("`fov` has no value"))
+    assert(error("\"fov\" 45").contains("must have a type"))
+    assert(error("\"float\" 45").contains("a parameter type without a name"))
+    assert(error("\"flot fov\" 45").contains("unknown parameter type `flot`"))
+    assert(error("\"\" 45").contains("an empty string"))
+    assert(error("\"float fov\"").contains("`fov` must have a value"))
     assert(error("\"float fov\" [ 1 2").contains("no closing `]`"))

@@ -17,7 +17,7 @@ class ParserErrorsSuite extends AnyFunSuite:
     val text = "WorldBegin Tranlate 1 1 1\nShape 3\nRotate 1 2\nShape \"a\" \"flot x\" 1\nWorldEnd"
     assert(errors(text).size == 4)
     val many = errors("WorldBegin" + " Shape 3" * 1100)
-    assert(many.size == 1001 && many.last == "reading stopped after 1000 errors")
+    assert(many.size == 1001 && many.last == "parsing stopped after 1000 errors")
 
   test("a typing error in a Begin makes no second error of its End"):
     assert(errors("WorldBegin\nAttributBegin\nShape \"a\"\nAttributeEnd\nWorldEnd").size == 1)

@@ -177,9 +177,9 @@ class ParserSuite extends AnyFunSuite:
   test("v4 has each name once"):
     val start = "Film \"rgb\" WorldBegin "
     assert(errors(start + "Texture \"t\" \"float\" \"dots\" Texture \"t\" \"float\" \"dots\"") ==
-      Vector("the float texture \"t\" is defined already"))
+      Vector("float texture \"t\" is already defined"))
     assert(errors(start + "ObjectBegin \"o\" ObjectEnd ObjectBegin \"o\" ObjectEnd") ==
-      Vector("the object \"o\" is defined already"))
+      Vector("object \"o\" is already defined"))
 
   test("shapes between ObjectBegin and ObjectEnd belong to the object, and instances name it"):
     val scene = world(

@@ -76,19 +76,21 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
   test("a packed file that is cut short is an error where it ends"):
     val bytes = zipped(_.write("WorldBegin\n  Shape \"sphere\"\n".repeat(20000).getBytes(UTF_8)))
     withFile(bytes.take(bytes.length / 2)): file =>
-      assert(problem(file).message.startsWith("reading stops: "))
+      assert(problem(file).message.startsWith("can't read further: "))
       assert(problem(file).at.nonEmpty)
 
   test("a small file that unpacks without end is refused"):
     val blanks = Array.fill[Byte](1 << 20)(' ')
     val bytes = zipped(zip => for _ <- 0 until 100 do zip.write(blanks))
     withFile(bytes): file =>
-      assert(problem(file).message.matches("reading stops: it unpacks to more than \\d+ times.*"))
+      assert(
+        problem(file).message.matches("can't read further: decompresses to more than \\d+ times.*")
+      )
 
   test("a word that does not end is refused before it fills the memory"):
     withFile(("WorldBegin\n " + "a" * 3000000).getBytes(UTF_8)): file =>
       val problem = this.problem(file)
-      assert(problem.message == "reading stops: here is a word of more than 1 MB")
+      assert(problem.message == "can't read further: token longer than 1 MB")
       assert(problem.at.exists(at => (at.line, at.column) == (2, 2)))
 
   test("an error in a line that begins within a character has an excerpt"):

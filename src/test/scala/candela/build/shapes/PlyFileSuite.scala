@@ -146,7 +146,7 @@ class PlyFileSuite extends AnyFunSuite:
     val error = intercept[SceneError](PlyFile.read(Path.of("no.ply"), Some(at)))
     val problem = error.problems.head
     assert(problem.at.contains(at))
-    assert(problem.message == "can't read the mesh `no.ply`: there is no such file")
+    assert(problem.message == "can't read the mesh `no.ply`: no such file")
 
   test("a header that makes no sense is an error that shows the line"):
     assert(error("solid\n").contains("line 1: this is no PLY file"))
