@@ -13,20 +13,20 @@ val lwjglNatives = Seq(
   "natives-windows-arm64"
 )
 
-/** What every JVM of this build gets: the renderer's own, and the one that tests it. */
+/** Options of every JVM of this build: the renderer's and the tests'. */
 val jvmOptions = Seq(
-  "-XX:+UseParallelGC", // nobody waits for a pause; throughput is all that counts
+  "-XX:+UseParallelGC", // throughput matters, pauses don't
   "-Xss4m", // deep BVHs and deeply nested includes
   "-Djava.awt.headless=true",
   "-Dfile.encoding=UTF-8", // the default from JDK 18 on
   "--enable-native-access=ALL-UNNAMED", // LWJGL
-  // JDK 24 and later warn about Scala's lazy values; JDK 17 does not know the option that says no
+  // JDK 24 and later warn about Scala's lazy values; JDK 17 does not know the option against it.
   "-XX:+IgnoreUnrecognizedVMOptions",
   "--sun-misc-unsafe-memory-access=allow"
 )
 
-/** With it rays are traced by vectors; everything runs without it, too. The staged program gets it
-  * from the launcher where there is enough to render, as JDK 25 starts 2.8 times as slowly with it.
+/** Enables SIMD traversal; everything runs without it, too. In the staged program the launcher adds
+  * it for long renderings only, because JDK 25 starts 2.8 times as slowly with it.
   */
 val vectorModule = "--add-modules=jdk.incubator.vector"
 
@@ -56,15 +56,15 @@ lazy val root = (project in file("."))
     Compile / mainClass := Some("candela.cli.Main"),
     Compile / sourceGenerators += versionSource,
 
-    // `sbt run`: a JVM of its own, in the checkout's folder, on the terminal itself
+    // `sbt run`: a separate JVM in the project folder, attached to the terminal.
     Compile / run / javaOptions ++= jvmOptions :+ vectorModule :+ "-XX:MaxRAMPercentage=70",
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
-    // `sbt stage`: src/universal, the program's jar, natives, and the same JVM options
+    // `sbt stage`: src/universal, the program's jar, native libraries, and the same JVM options.
     Universal / mappings ++= program.value,
     stage := withArchive(stage.value, streams.value.log),
 
-    // `sbt test`: a JVM of its own too, suites side by side
+    // `sbt test`: a separate JVM, suites in parallel.
     Test / fork := true,
     Test / testForkedParallel := true,
     Test / javaOptions ++= jvmOptions :+ vectorModule :+ "-Xmx3g",
@@ -73,24 +73,26 @@ lazy val root = (project in file("."))
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
   )
 
-/** Measurements, by JMH. No part of `root`: `sbt test` does not compile it. */
+/** JMH benchmarks. Not part of `root`: `sbt test` does not compile them. */
 lazy val bench = (project in file("bench"))
   .dependsOn(root)
   .enablePlugins(JmhPlugin)
   .settings(
     scalacOptions ++= Seq("-encoding", "UTF-8", "-deprecation", "-Werror"),
-    // `bench/runMain`: a JVM like the renderer's, in the checkout's folder; 10⁷ triangles fit in
+    // `bench/runMain`: JVM options like the renderer's, in the project folder; 10⁷ triangles fit.
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
     run / javaHome := sys.env.get("CANDELA_JAVA").map(file),
     run / javaOptions ++= jvmOptions :+ vectorModule :+ "-Xmx2g"
   )
 
-/** What the launcher in src/universal/bin starts: one jar, the native libraries, and options. */
+/** Files that the launcher in src/universal/bin needs: one jar, the native libraries, and the JVM
+  * options.
+  */
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  // the launcher adds the module of vectors where it pays
+  // The launcher adds the vector module where it pays off.
   val options = jvmOptions.filterNot(_.startsWith("--add-modules")) :+ "-XX:MaxRAMPercentage=70"
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
@@ -103,17 +105,17 @@ def program = Def.task {
   (files + (folder / "options")).toSeq.pair(Path.rebase(folder, "lib"))
 }
 
-/** Makes the archive of classes now, for the JDK that the launcher chooses here: otherwise that
-  * happens behind the first start.
+/** Creates the class-data archive now, for the JDK that the launcher selects here; otherwise the
+  * launcher creates it after the first run.
   */
 def withArchive(folder: File, log: Logger): File = {
   val launcher = (folder / "bin" / "candela").getPath
   val made = scala.util.Try(sys.process.Process(Seq(launcher), None, "CANDELA_ARCHIVE" -> "make").!)
-  if (!made.toOption.contains(0)) log.info("no archive of classes yet: a later start will try")
+  if (!made.toOption.contains(0)) log.info("no class-data archive yet: a later start creates it")
   folder
 }
 
-/** `candela.base.Version`, so that the program and the files it writes can name their version. */
+/** `candela.base.Version`: the program's version, for its output files. */
 def versionSource = Def.task {
   val file = (Compile / sourceManaged).value / "candela" / "base" / "Version.scala"
   val text =

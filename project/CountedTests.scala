@@ -2,10 +2,11 @@ import java.io.{FileDescriptor, FileOutputStream, PrintStream}
 
 import sbt.{Logger, TestResult, TestResultLogger, Tests}
 
-/** Adds up the tests of the whole sbt session, and ends its output with one plain line:
-  * `12 passed, 0 failed`, with `, 1 skipped` behind it if there are any.
+/** Counts the tests of the whole sbt session and prints the totals as its last line: `12 passed, 0
+  * failed`, followed by `, 1 skipped` if any.
   *
-  * Only a shutdown hook comes after sbt's own closing lines. Success and failure stay as they were.
+  * Uses a shutdown hook, because nothing else runs after sbt's own closing lines. Success and
+  * failure of the session are unchanged.
   */
 object CountedTests {
   private var passed, failed, skipped = 0
@@ -22,7 +23,7 @@ object CountedTests {
   private def add(results: Tests.Output): Unit = synchronized {
     val suites = results.events.values
     val failures = suites.map(s => s.failureCount + s.errorCount).sum
-    // A suite that could not be made, or a JVM that died, fails without a test that did
+    // A suite that can't be instantiated, or a crashed JVM, fails without a failed test.
     val unseen = if (failures == 0 && results.overall != TestResult.Passed) 1 else 0
     passed += suites.map(_.passedCount).sum
     failed += failures + unseen
@@ -35,7 +36,7 @@ object CountedTests {
   }
 
   private def report(): Unit = {
-    // not Console: by now sbt has taken its own away
+    // Not Console: sbt has already restored its own.
     val out = new PrintStream(new FileOutputStream(FileDescriptor.out))
     val rest = if (skipped > 0) s", $skipped skipped" else ""
     out.println(s"$passed passed, $failed failed$rest")

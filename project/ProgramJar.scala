@@ -8,12 +8,12 @@ import scala.collection.mutable
 import org.objectweb.asm._
 import sbt.io.IO
 
-/** All classes and resources of the program in one jar that is made to start fast: not compressed,
-  * and with lambdas that class-data sharing can keep. docs/decisions/0014-start-up.md has figures.
+/** Packs all classes and resources into one jar optimised for start-up: uncompressed, and with
+  * lambdas that class-data sharing can archive. docs/decisions/0014-start-up.md has measurements.
   */
 object ProgramJar {
 
-  /** @param jars of equal names, the first jar's entry counts; legal texts of all are kept */
+  /** @param jars for equal names the first jar's entry is used; legal texts of all are kept */
   def write(jars: Seq[File], to: File): Unit = {
     IO.createDirectory(to.getParentFile)
     val out = new JarOutputStream(new BufferedOutputStream(new FileOutputStream(to)))
@@ -41,7 +41,7 @@ object ProgramJar {
     } finally out.close()
   }
 
-  /** The libraries of all platforms in jars of natives, into folders such as `linux-x64`. */
+  /** Unpacks the native libraries of all platforms into folders such as `linux-x64`. */
   def unpackNatives(jars: Seq[File], to: File): Seq[File] =
     for (jar <- jars; (Native(system, processor, file), bytes) <- entries(jar)) yield {
       val target = new File(new File(to, s"$system-$processor"), file)
@@ -49,7 +49,7 @@ object ProgramJar {
       target
     }
 
-  /** So that the same classes are the same jar: 1980, where the format's time begins. */
+  /** Fixed timestamp for reproducible jars: 1980, the start of the zip format's time. */
   private val SameForAll = 315619200000L
 
   private val Native = "(linux|macos|windows)/(x64|arm64)/(?:.*/)?([^/]+\\.(?:so|dylib|dll))".r
@@ -64,11 +64,12 @@ object ProgramJar {
     finally file.close()
   }
 
-  /** Scala makes every lambda serialisable, and class-data sharing keeps no such lambda: some
-    * hundred classes would be made anew at every start. Nothing here is ever serialised.
+  /** Makes lambdas non-serialisable. Scala makes every lambda serialisable, which class-data
+    * sharing can't archive: a few hundred classes would be generated at every start. This program
+    * never serialises lambdas.
     *
-    * Nor are the bridges needed that Scala asks for: the interfaces below declare the erased method
-    * alone.
+    * Also removes the bridges that Scala requests: the interfaces below declare only the erased
+    * method.
     */
   private def plainLambdas(bytes: Array[Byte]): Array[Byte] = {
     val reader = new ClassReader(bytes)
@@ -109,7 +110,7 @@ object ProgramJar {
 
   private val Interfaces = Seq("scala/Function", "scala/runtime/", "java/util/function/")
 
-  /** `LambdaMetafactory.FLAG_MARKERS`: further interfaces, which must stay. */
+  /** `LambdaMetafactory.FLAG_MARKERS`: additional marker interfaces, which must stay. */
   private val LambdaMarkers = 2
   private val Factory = "java/lang/invoke/LambdaMetafactory"
   private val Metafactory = {

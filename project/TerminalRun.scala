@@ -7,10 +7,10 @@ import scala.util.{Failure, Success, Try}
 import sbt.{ForkOptions, ForkRun, Logger}
 import sbt.internal.util.MessageOnlyException
 
-/** Runs the program in a JVM of its own that has sbt's own input and output, not pipes to them.
+/** Runs the program in a separate JVM that inherits sbt's input and output instead of pipes.
   *
-  * So nothing is prefixed or delayed, the program can tell a terminal from a log file, and Ctrl-C
-  * reaches it as it would without sbt; sbt then waits for it to write what it has.
+  * So output is neither prefixed nor delayed, the program can detect a terminal, and Ctrl-C reaches
+  * it directly; sbt then waits until it has written its image.
   */
 final class TerminalRun(options: ForkOptions) extends ForkRun(options) {
 
@@ -38,12 +38,12 @@ final class TerminalRun(options: ForkOptions) extends ForkRun(options) {
     val code =
       try child.waitFor()
       catch { case _: InterruptedException => end(child) }
-    Try(hook.remove()) // refused while sbt itself ends, and then not needed
+    Try(hook.remove()) // fails during sbt's shutdown, when it is not needed
     if (code == 0) Success(()) else Failure(new MessageOnlyException(s"exit code $code"))
   }
 
-  /** Asks the program to end (it may be ending already), and waits until it has: it may have an
-    * unfinished image to write, so a second interrupt does not shorten the wait.
+  /** Requests the program's termination and waits for it. The program may be writing a partial
+    * image, so a second interrupt does not shorten the wait.
     */
   @tailrec
   private def end(child: Process): Int = {

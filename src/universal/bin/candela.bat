@@ -1,7 +1,7 @@
 @echo off
 rem Starts Candela with the newest JDK on this machine, 17 or later.
-rem   CANDELA_JAVA  the folder of the JDK to use instead
-rem   JAVA_OPTS     further options for Java, such as -Xmx4g
+rem   CANDELA_JAVA  folder of the JDK to use instead
+rem   JAVA_OPTS     additional JVM options, such as -Xmx4g
 setlocal EnableExtensions
 for %%L in ("%~dp0..\lib") do set "LIB=%%~fL"
 set "BEST=0"
@@ -22,7 +22,7 @@ if %BEST% LSS 17 (
 )
 set "NATIVES=windows-x64"
 if /i "%PROCESSOR_ARCHITECTURE%"=="ARM64" set "NATIVES=windows-arm64"
-rem From JDK 19 on, Java itself keeps an archive of the classes that a run took.
+rem Since JDK 19, Java maintains the class-data archive itself.
 set "ARCHIVE=-Dcandela.archive=none"
 if %BEST% GEQ 19 if defined LOCALAPPDATA (
   if not exist "%LOCALAPPDATA%\candela" mkdir "%LOCALAPPDATA%\candela" 2>nul

@@ -3,10 +3,10 @@ package candela.measure
 import candela.base.loop
 import candela.image.Image
 
-/** How wrong an image is, as far as it is known.
+/** Error of an image, as far as known.
   *
-  * @param flip      if there is a reference to look at
-  * @param meanRatio of each channel; empty without a reference
+  * @param flip mean FLIP error, if there is a reference
+  * @param meanRatio mean over the reference's mean, per channel; empty without a reference
   */
 final case class Errors(
     mse: Double,
@@ -26,19 +26,19 @@ final case class Errors(
 
 object Errors:
 
-  /** Against a reference. */
+  /** Error against a reference. */
   def against(reference: Image)(image: Image): Errors =
     val pair = ImagePair(image, reference)
     val m = Metrics.compare(image, reference)
     val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
     Errors(m.mse, m.relativeMse, Some(m.mae), Some(m.psnr), flip, m.meanRatio)
 
-  /** From the rendering alone: how much two parts of its samples differ.
+  /** Error estimated from the rendering alone, by the difference of two subsets of its samples.
     *
-    * If the images A of m samples and B of n − m others are independent, each of variance σ² for a
-    * sample, then (A − B)² is σ² n / (m (n − m)) on average, while their common image has the
-    * variance σ² / n: that is m (n − m) / n² of it. Points that are spread evenly make A and B
-    * complement each other: then this is more than the true error. Bias is not in it at all.
+    * If the images A of m samples and B of the other n − m are independent, each with variance σ²
+    * per sample, the expectation of (A − B)² is σ² n / (m (n − m)). The variance of their combined
+    * image is σ² / n, which is m (n − m) / n² of that. Low-discrepancy samples make A and B
+    * complement each other, so this overestimates the error. It excludes bias.
     */
   def ofParts(first: Image, firstSamples: Int, second: Image, secondSamples: Int): Errors =
     val total = (firstSamples + secondSamples).toDouble
@@ -53,5 +53,5 @@ object Errors:
     val count = first.data.length
     Errors(squares / count, relatives / count, None, None, None, Vector.empty)
 
-/** One point of a curve of error over time. */
+/** Point of an error curve. */
 final case class CurvePoint(samples: Int, seconds: Double, errors: Errors)

@@ -4,10 +4,10 @@ import candela.base.loop
 import candela.color.Encoding
 import candela.image.{Image, ImageError}
 
-/** What a difference of pictures can be measured by; docs/METRICS.md has definitions and sources.
+/** Image error metrics; docs/METRICS.md has definitions and sources.
   *
-  * @param word  as it is written on the command line and in files
-  * @param title as people read it
+  * @param word name on the command line and in files
+  * @param title display name
   */
 enum Metric(val word: String, val title: String):
   case Mse extends Metric("mse", "MSE")
@@ -17,18 +17,18 @@ enum Metric(val word: String, val title: String):
   case Psnr extends Metric("psnr", "PSNR")
   case Flip extends Metric("flip", "FLIP")
 
-  /** PSNR is of whole pictures only, and larger is better. */
+  /** PSNR applies to whole images only, and larger is better. */
   def hasMap: Boolean = this != Psnr
 
 object Metric:
   def named(word: String): Option[Metric] = Metric.values.find(_.word == word.toLowerCase)
 
-/** The error of each pixel, as a picture of the one channel `Y`. */
+/** Per-pixel error as an image of the single channel `Y`. */
 object ErrorMap:
 
-  /** Means over the channels; pixels that can't be compared are 0.
+  /** Average over the channels; pixels with NaN or infinite values are 0.
     *
-    * @throws ImageError if the metric has no map, or needs colours
+    * @throws ImageError if the metric has no map, or needs RGB
     */
   def apply(metric: Metric, pair: ImagePair): Image = metric match
     case Metric.Mse => each(pair)((a, b) => (a.toDouble - b) * (a.toDouble - b))
@@ -38,9 +38,9 @@ object ErrorMap:
       val squares = apply(Metric.Mse, pair)
       gray(pair, squares.data.map(v => Math.sqrt(v.toDouble).toFloat))
     case Metric.Flip =>
-      if !pair.isColor then throw ImageError("FLIP is about colours: it needs R, G and B")
+      if !pair.isColor then throw ImageError("FLIP needs the channels R, G, B")
       Flip.map(pair)
-    case Metric.Psnr => throw ImageError("PSNR is of whole pictures: it has no map")
+    case Metric.Psnr => throw ImageError("PSNR has no per-pixel map")
 
   def mean(map: Image): Double =
     var sum = 0.0
@@ -61,9 +61,9 @@ object ErrorMap:
   private def gray(pair: ImagePair, data: Array[Float]): Image =
     Image(pair.width, pair.height, Vector("Y"), data)
 
-/** Numbers as colours, from black over purple and orange to pale yellow: the map "magma" of
-  * Stéfan van der Walt and Nathaniel Smith (2015, public domain), whose lightness is even, at
-  * eleven places with straight lines between.
+/** False colours from black through purple and orange to pale yellow: the perceptually uniform
+  * colour map "magma" of Stéfan van der Walt and Nathaniel Smith (2015, public domain),
+  * interpolated linearly between eleven points.
   */
 object HeatMap:
 
@@ -73,7 +73,7 @@ object HeatMap:
     0xfecf92, 0xfcfdbf
   )
 
-  /** A picture of one channel as colours; `brightest` and above is the last one. */
+  /** A single-channel image in false colours; `brightest` and above map to the last colour. */
   def of(map: Image, brightest: Double): Image =
     val data = new Array[Float](3 * map.data.length)
     loop(map.data.length): i =>
@@ -86,9 +86,7 @@ object HeatMap:
         data(3 * i + c) = (low + (high - low) * (place - before)).toFloat
     Image(map.width, map.height, Image.RgbNames, data, Encoding.Srgb)
 
-  /** What a map is drawn up to if nobody says: all of FLIP's range; of others the value that all
-    * but the worst hundredth of the pixels stay below.
-    */
+  /** Default top of the scale: FLIP's maximum; for other metrics the 99th percentile. */
   def usualBrightest(metric: Metric, map: Image): Double =
     if metric == Metric.Flip then 1.0
     else

@@ -3,28 +3,30 @@ package candela.measure
 import candela.base.loop
 import candela.image.Image
 
-/** FLIP: how much two pictures differ for someone who flips between them, 0 to 1 for each pixel.
+/** FLIP: perceived difference when flipping between two images, 0 to 1 per pixel.
   *
-  * Of the pictures as a screen shows them: linear light clamped to [0, 1], which is the tone map of
-  * Candela's PNG files, too.
+  * Applies to displayed images: linear radiance clamped to [0, 1], which is also the tone mapping
+  * of Candela's PNG files.
   *
   * Source: Andersson, Nilsson, Akenine-Möller, Oskarsson, Åström, Fairchild, "FLIP: A Difference
   * Evaluator for Alternating Images", Proc. ACM Comput. Graph. Interact. Tech. 3(2), 2020.
   */
 object Flip:
 
-  /** Of a screen 0.7 m wide with 3840 pixels, seen from 0.7 m: the paper's usual observer. */
+  /** The paper's default viewing conditions: a screen 0.7 m wide with 3840 pixels, at a distance of
+    * 0.7 m.
+    */
   val PixelsPerDegree: Double = 0.7 * 3840 / 0.7 * Math.PI / 180
 
-  // §4.1.3: the exponent of colour differences, and which part of the range small ones get.
+  // §4.1.3: exponent of colour differences, and the part of the range for small ones.
   private val ColorExponent = 0.7
   private val SmallPart = 0.4
   private val SmallRange = 0.95
 
-  // §4.2: the exponent of feature differences.
+  // §4.2: exponent of feature differences.
   private val FeatureExponent = 0.5
 
-  /** The error of each pixel. Pixels that are NaN or infinite count as black. */
+  /** Error of each pixel. NaN and infinite pixels count as black. */
   def map(pair: ImagePair, pixelsPerDegree: Double = PixelsPerDegree): Image =
     val image = Opponent.of(pair.image)
     val reference = Opponent.of(pair.reference)
@@ -59,9 +61,9 @@ object Flip:
     Array.tabulate(edges.length): i =>
       Math.pow(Math.max(edges(i), points(i)) / Math.sqrt(2), FeatureExponent)
 
-/** Detectors of edges and points: first and second derivatives of a Gaussian, §4.2. */
+/** Edge and point detectors: first and second derivatives of a Gaussian, §4.2. */
 private final class FeatureKernels(pixelsPerDegree: Double):
-  /** Degrees: how wide an edge is that the eye sees best. */
+  /** Edge width of maximum sensitivity, in degrees. */
   private val width = 0.082
   private val deviation = 0.5 * width * pixelsPerDegree
   private val radius = Math.ceil(3 * deviation).toInt
@@ -78,7 +80,7 @@ private final class FeatureKernels(pixelsPerDegree: Double):
   private def sampled(f: Double => Double): Array[Double] =
     Array.tabulate(2 * radius + 1)(i => f((i - radius).toDouble))
 
-  /** Its positive numbers add up to 1, the negative ones to −1. */
+  /** Normalised: positive values sum to 1, negative ones to −1. */
   private def balanced(values: Array[Double]): Array[Double] =
     val positive = values.filter(_ > 0).sum
     val negative = -values.filter(_ < 0).sum

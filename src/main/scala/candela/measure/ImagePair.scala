@@ -3,17 +3,17 @@ package candela.measure
 import candela.base.loop
 import candela.image.{Image, ImageError}
 
-/** Half-open ranges of pixels: x0 ≤ x < x1, y0 ≤ y < y1. */
+/** Half-open pixel bounds: x0 ≤ x < x1, y0 ≤ y < y1. */
 final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
 
-  /** That part of a picture.
+  /** Crops an image.
     *
-    * @throws ImageError if the picture doesn't hold it
+    * @throws ImageError if the window exceeds the image
     */
   def of(image: Image): Image =
     if x0 < 0 || y0 < 0 || x1 > image.width || y1 > image.height || x0 >= x1 || y0 >= y1 then
       val size = s"${image.width}×${image.height}"
-      throw ImageError(s"no part of $size pixels: x $x0 until $x1, y $y0 until $y1")
+      throw ImageError(s"window x $x0 to $x1, y $y0 to $y1 is outside the image of $size pixels")
     val row = (x1 - x0) * image.channels
     val data = new Array[Float](row * (y1 - y0))
     loop(y1 - y0): y =>
@@ -21,8 +21,8 @@ final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
       System.arraycopy(image.data, from, data, y * row, row)
     Image(x1 - x0, y1 - y0, image.channelNames, data, image.encoding)
 
-/** Two pictures of the same size and channels, in linear light: the one to judge, and what it is
-  * judged by. Both have just `channels`, in this order.
+/** An image and its reference, of equal size, in linear values. Both have exactly `channels`, in
+  * this order.
   */
 final class ImagePair private (val image: Image, val reference: Image):
   def width: Int = image.width
@@ -30,7 +30,7 @@ final class ImagePair private (val image: Image, val reference: Image):
   def channels: Vector[String] = image.channelNames
   def isColor: Boolean = channels == Image.RgbNames
 
-  /** True if the pixel is neither NaN nor infinite in both pictures. */
+  /** Whether the pixel is finite in both images. */
   def isFinite(x: Int, y: Int): Boolean =
     var finite = true
     loop(channels.size): c =>
@@ -41,7 +41,7 @@ final class ImagePair private (val image: Image, val reference: Image):
   def cropped(window: PixelWindow): ImagePair =
     new ImagePair(window.of(image), window.of(reference))
 
-  /** |a − b| of each channel. */
+  /** Absolute difference |a − b| per channel. */
   def difference: Image =
     val data = new Array[Float](image.data.length)
     loop(data.length)(i => data(i) = Math.abs(image.data(i) - reference.data(i)))
@@ -49,18 +49,18 @@ final class ImagePair private (val image: Image, val reference: Image):
 
 object ImagePair:
 
-  /** R, G and B if both have them, else all channels, of which both must have the same.
+  /** Pairs R, G and B if both images have them, else all channels, which must be equal.
     *
     * @throws ImageError if sizes or channels differ
     */
   def apply(image: Image, reference: Image): ImagePair =
     this.of(image, reference, commonChannels(image, reference))
 
-  /** The named channels alone. */
+  /** Pairs the named channels only. */
   def of(image: Image, reference: Image, channels: Vector[String]): ImagePair =
     if image.width != reference.width || image.height != reference.height then
       def size(i: Image) = s"${i.width}×${i.height}"
-      throw ImageError(s"pictures of different size: ${size(image)} and ${size(reference)} pixels")
+      throw ImageError(s"image sizes differ: ${size(image)} and ${size(reference)} pixels")
     new ImagePair(picked(image, channels), picked(reference, channels))
 
   private def commonChannels(image: Image, reference: Image): Vector[String] =
@@ -70,7 +70,7 @@ object ImagePair:
     else if image.channelNames.toSet == reference.channelNames.toSet then reference.channelNames
     else
       def list(i: Image) = i.channelNames.mkString(", ")
-      throw ImageError(s"pictures of different channels: ${list(image)} and ${list(reference)}")
+      throw ImageError(s"image channels differ: ${list(image)} and ${list(reference)}")
 
   private def picked(image: Image, names: Vector[String]): Image =
     val linear = image.linear
@@ -79,7 +79,7 @@ object ImagePair:
       val missing = names.filterNot(linear.channelNames.contains)
       if missing.nonEmpty then
         val has = linear.channelNames.mkString(", ")
-        throw ImageError(s"no channel ${missing.mkString(", ")}, only $has")
+        throw ImageError(s"unknown channel ${missing.mkString(", ")}; known: $has")
       val sources = names.map(linear.channelNames.indexOf).toArray
       val count = names.size
       val data = new Array[Float](linear.width * linear.height * count)

@@ -1,15 +1,16 @@
 package candela.measure
 
-/** An estimate, and between which values the truth lies with a confidence of 95 %; the estimate
-  * alone (`low` = `high` = NaN) if there was but one measurement.
+/** An estimate with its 95 % confidence interval; for a single measurement, the estimate alone
+  * (`low` = `high` = NaN).
   */
 final case class Interval(estimate: Double, low: Double, high: Double):
   def isKnown: Boolean = !low.isNaN && !high.isNaN
 
 object Interval:
 
-  /** Of the mean of independent measurements, by Student's t. It takes them for about normal, which
-    * means of many pixels are. ("Student", "The probable error of a mean", Biometrika 6, 1908.)
+  /** Mean of independent measurements, by Student's t. Assumes approximate normality, which
+    * averages over many pixels have. ("Student", "The probable error of a mean", Biometrika 6,
+    * 1908.)
     */
   def ofMean(values: Vector[Double]): Interval =
     val n = values.size
@@ -21,7 +22,7 @@ object Interval:
       val half = studentT(n - 1) * Math.sqrt(variance / n)
       Interval(mean, mean - half, mean + half)
 
-  /** Of the geometric mean: for ratios and products, whose spread is by factors. */
+  /** Geometric mean, for ratios and products, whose spread is multiplicative. */
   def ofGeometricMean(values: Vector[Double]): Interval =
     val logs = ofMean(values.map(Math.log))
     Interval(Math.exp(logs.estimate), Math.exp(logs.low), Math.exp(logs.high))
@@ -31,9 +32,9 @@ object Interval:
     val middle = sorted.size / 2
     if sorted.size % 2 == 1 then sorted(middle) else (sorted(middle - 1) + sorted(middle)) / 2
 
-  /** The two-sided 95 % point of Student's distribution. From 31 degrees of freedom on that of the
-    * normal one with two terms of its expansion (Abramowitz and Stegun, 26.7.5), which is off by
-    * less than 0.0001 there.
+  /** Two-sided 95 % quantile of Student's t distribution. From 31 degrees of freedom on, the normal
+    * quantile with two terms of its expansion (Abramowitz and Stegun, 26.7.5), with an error below
+    * 0.0001.
     */
   def studentT(degrees: Int): Double =
     require(degrees >= 1, s"$degrees degrees of freedom")

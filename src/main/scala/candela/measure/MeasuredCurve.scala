@@ -1,25 +1,23 @@
 package candela.measure
 
-/** One image that a program made: with which seed, how fast, how wrong. */
+/** One rendered image: seed, time in seconds, error. */
 final case class Measurement(samples: Int, seed: Int, seconds: Double, errors: Errors)
 
 /** All images of one sample count.
   *
-  * @param seconds median over the runs: a run that was disturbed counts no more than another one
+  * @param seconds median over the runs, robust against disturbed runs
   */
 final case class MeasuredPoint(samples: Int, seconds: Double, runs: Vector[Measurement]):
 
-  /** The mean over the seeds, which is what the expected error is estimated by. None if a run
-    * hasn't this figure.
-    */
+  /** Mean over the seeds, an estimate of the expected error. None if a run lacks this metric. */
   def apply(metric: Metric): Option[Interval] =
     val figures = runs.map(_.errors(metric))
     Option.when(figures.forall(_.isDefined))(Interval.ofMean(figures.flatten))
 
-/** How the error of one program on one scene falls while it works.
+/** Error of one program on one scene against samples and time.
   *
-  * @param measurements of independent seeds; of programs that have none, one for each sample count
-  * @param times        of all runs, by sample count
+  * @param measurements one per independent seed; for unseeded programs, one per sample count
+  * @param times times of all runs, by sample count
   */
 final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vector[Double]]):
 
@@ -27,16 +25,16 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     measurements.groupBy(_.samples).toVector.sortBy(_._1).map: (samples, runs) =>
       MeasuredPoint(samples, Interval.median(times(samples)), runs.sortBy(_.seed))
 
-  /** Of the relative squared error over samples, of each seed alone: −1 without bias and with
-    * independent samples, steeper with points that are spread evenly.
+  /** Slope of the relative MSE against samples, per seed: −1 for unbiased independent samples,
+    * steeper for low-discrepancy samples.
     */
   def slope: Option[Interval] =
     val slopes = measurements.groupBy(_.seed).values.toVector.flatMap: runs =>
       LogLogFit.slope(runs.map(r => (r.samples.toDouble, r.errors.relativeMse)))
     Option.when(slopes.nonEmpty)(Interval.ofMean(slopes))
 
-  /** 1 / (relative MSE · seconds) of the longest renderings: twice the efficiency needs half the
-    * time for the same noise. None if the error is 0.
+  /** 1 / (relative MSE · seconds) of the longest renderings: twice the efficiency halves the time
+    * for equal noise. None if the error is 0.
     *
     * After Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th edition, §2.2.
     */
@@ -45,13 +43,13 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
       val seconds = Math.max(point.seconds, 1e-9)
       Interval.ofGeometricMean(point.runs.map(r => 1 / (r.errors.relativeMse * seconds)))
 
-  /** Seconds until the mean relative MSE is at most this; see [[LogLogFit.firstAt]]. */
+  /** Time in seconds until the mean relative MSE is at most this; see [[LogLogFit.firstAt]]. */
   def secondsUntil(relativeMse: Double): Option[Double] =
     LogLogFit.firstAt(curve, relativeMse)
 
   def least: Double = curve.map(_._2).minOption.getOrElse(Double.PositiveInfinity)
 
-  /** Of the longest renderings, the mean over the seeds. */
+  /** Mean ratio of the longest renderings, averaged over the seeds. */
   def meanRatio: Vector[Double] =
     val ratios = points.lastOption.toVector.flatMap(_.runs.map(_.errors.meanRatio))
     if ratios.isEmpty then Vector.empty else ratios.transpose.map(c => c.sum / c.size)
@@ -59,11 +57,11 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
   private def curve: Vector[(Double, Double)] =
     points.flatMap(p => p(Metric.RelativeMse).map(i => (p.seconds, i.estimate)))
 
-/** Straight lines through curves whose axes are both logarithmic. */
+/** Fits of straight lines in log-log space. */
 object LogLogFit:
 
-  /** The slope by least squares; −1 for the squared error of independent samples. None if there are
-    * fewer than two different places. Points that have no logarithm are left out.
+  /** Least-squares slope; −1 for the squared error of independent samples. None for fewer than two
+    * distinct abscissas. Ignores points without logarithm.
     */
   def slope(points: Vector[(Double, Double)]): Option[Double] =
     val logs = points.collect { case (x, y) if x > 0 && y > 0 => (Math.log(x), Math.log(y)) }
@@ -74,9 +72,8 @@ object LogLogFit:
       val together = logs.map((x, y) => (x - meanX) * (y - meanY)).sum
       Some(together / logs.map((x, _) => (x - meanX) * (x - meanX)).sum)
 
-  /** Where the curve first comes down to `y`, by a straight line between the neighbours. None if it
-    * doesn't: nothing is guessed beyond what was measured. A curve that begins below `y` was there
-    * at its first point at the latest.
+  /** Abscissa where the curve first falls to `y`, interpolated linearly between neighbours. None if
+    * it doesn't: no extrapolation. The first point if the curve starts below `y`, an upper bound.
     */
   def firstAt(points: Vector[(Double, Double)], y: Double): Option[Double] =
     val curve = points.filter((x, e) => x > 0 && e > 0).sortBy(_._1)

@@ -4,10 +4,10 @@ import candela.base.loop
 import candela.color.Srgb
 import candela.image.{Image, ImageError}
 
-/** Where two pictures differ most. */
+/** The largest difference between two images. */
 final case class LargestDifference(value: Double, x: Int, y: Int, channel: String)
 
-/** How one channel differs; definitions as in [[Metrics]]. */
+/** Metrics of one channel, as defined in [[Metrics]]. */
 final case class ChannelMetrics(
     name: String,
     mse: Double,
@@ -19,13 +19,14 @@ final case class ChannelMetrics(
   def rmse: Double = Math.sqrt(mse)
   def meanRatio: Double = if mean == referenceMean then 1 else mean / referenceMean
 
-/** How a picture differs from its reference: docs/METRICS.md has the definitions. Figures of the
-  * whole are means over the channels.
+/** Error metrics of an image against its reference; docs/METRICS.md has the definitions. Values for
+  * the whole image are averages over the channels.
   *
-  * @param psnr    decibels, of the values as a screen shows them: sRGB-encoded, clamped to [0, 1],
-  *                peak 1; infinite for equal pictures
-  * @param largest of |a − b|, linear light
-  * @param skipped pixels left out of all figures, because one of the two is NaN or infinite there
+  * @param psnr decibels, of display values: sRGB-encoded, clamped to [0, 1], peak 1; infinite for
+  *   equal images
+  * @param largest the largest |a − b|, in linear values
+  * @param skipped number of pixels excluded from all metrics, because one of the two is NaN or
+  *   infinite
   */
 final case class Metrics(
     perChannel: Vector[ChannelMetrics],
@@ -35,7 +36,7 @@ final case class Metrics(
 ):
   def channels: Vector[String] = perChannel.map(_.name)
 
-  /** Mean squared error, linear light. */
+  /** Mean squared error, linear values. */
   def mse: Double = mean(_.mse)
 
   def rmse: Double = Math.sqrt(mse)
@@ -43,15 +44,15 @@ final case class Metrics(
   /** Mean absolute error. */
   def mae: Double = mean(_.mae)
 
-  /** Mean of ((a − b) / (b + 0.01))², b the reference: what pbrt-v4's `imgtool diff --metric MRSE`
-    * prints.
+  /** Mean of ((a − b) / (b + 0.01))², b the reference: equal to pbrt-v4's `imgtool diff --metric
+    * MRSE`.
     */
   def relativeMse: Double = mean(_.relativeMse)
 
-  /** Of each channel, the mean over that of the reference; 1 if both are 0. */
+  /** Mean over the reference's mean, per channel; 1 if both are 0. */
   def meanRatio: Vector[Double] = perChannel.map(_.meanRatio)
 
-  /** How far the mean ratio of any channel is from 1. */
+  /** Largest deviation of a channel's mean ratio from 1. */
   def bias: Double = meanRatio.map(r => Math.abs(r - 1)).max
 
   private def mean(figure: ChannelMetrics => Double): Double =
@@ -59,11 +60,11 @@ final case class Metrics(
 
 object Metrics:
 
-  /** Keeps the relative error of dark pixels finite; the value is pbrt's. */
+  /** Bounds the relative error of dark pixels; pbrt's value. */
   val RelativeEpsilon: Double = 0.01
 
-  /** Compares R, G and B if both have them, else requires equal sets of channels. Encoded pictures
-    * are decoded first.
+  /** Compares R, G and B if both images have them, else requires equal sets of channels. Decodes
+    * encoded images first.
     *
     * @throws ImageError if sizes or channels differ
     */
@@ -105,7 +106,7 @@ object Metrics:
       Srgb.encode(Math.min(1f, Math.max(0f, value))).toDouble
 
     def result: Metrics =
-      if pixels == 0 then throw ImageError("no pixel is finite in both pictures")
+      if pixels == 0 then throw ImageError("no pixel is finite in both images")
       val n = pixels.toDouble
       val perChannel = Vector.tabulate(count): c =>
         ChannelMetrics(
@@ -121,7 +122,8 @@ object Metrics:
         else -10 * Math.log10(encodedSquares / (n * count))
       Metrics(perChannel, psnr, largest, skipped)
 
-  /** A reference of exactly −0.01 says nothing about relative error; pbrt skips it too. */
+  /** Skips a reference of exactly −0.01, for which the relative error is undefined, as pbrt does.
+    */
   private[measure] def relativeSquare(a: Float, b: Float): Double =
     val relative = (a.toDouble - b) / (b + RelativeEpsilon)
     if java.lang.Double.isFinite(relative) then relative * relative else 0

@@ -3,20 +3,20 @@ package candela.measure
 import candela.base.loop
 import candela.image.Image
 
-/** A picture as [[Flip]] filters it: luminance, red against green, blue against yellow (the linear
-  * YCxCz of the paper's §4.1.1), one plane each.
+/** An image in [[Flip]]'s opponent colour space: luminance, red–green, blue–yellow (linear YCxCz,
+  * §4.1.1), one plane each.
   */
 private[measure] final class Opponent(val y: Plane, val cx: Plane, val cz: Plane):
 
-  /** From 0 to 1. */
+  /** Values from 0 to 1. */
   def luminance: Plane = Plane(y.width, y.height, y.data.map(v => (v + 16) / 116))
 
-  /** Without what the eye doesn't resolve, by the contrast sensitivities of its channels. */
+  /** Filtered by the contrast sensitivity function of each channel. */
   def filtered(pixelsPerDegree: Double): Opponent =
     val kernels = ContrastSensitivity(pixelsPerDegree)
     Opponent(kernels.luminance(y), kernels.redGreen(cx), kernels.blueYellow(cz))
 
-  /** L*a*b* of each pixel, clamped to the colours of the screen. */
+  /** L*a*b* of each pixel, clamped to the display gamut. */
   def lab: Vector[Lab] = Vector.tabulate(y.data.length): i =>
     val ratioY = (y.data(i) + 16) / 116.0
     val ratioX = ratioY + cx.data(i) / 500.0
@@ -25,7 +25,7 @@ private[measure] final class Opponent(val y: Plane, val cx: Plane, val cz: Plane
 
 private[measure] object Opponent:
 
-  /** Linear R, G and B, which are clamped to [0, 1]. */
+  /** From linear R, G, B, clamped to [0, 1]. */
   def of(image: Image): Opponent =
     val size = image.width * image.height
     val y, cx, cz = new Array[Float](size)
@@ -40,11 +40,11 @@ private[measure] object Opponent:
     def plane(data: Array[Float]) = Plane(image.width, image.height, data)
     Opponent(plane(y), plane(cx), plane(cz))
 
-/** CIE XYZ, each divided by that of white. */
+/** CIE XYZ, relative to the white point. */
 private[measure] final case class Xyz(x: Double, y: Double, z: Double):
 
   def clampedToScreen: Xyz =
-    // X and Z of white are 0.950456 and 1.089058.
+    // X and Z of the white point are 0.950456 and 1.089058.
     val (a, b, c) = (x * Xyz.WhiteX, y, z * Xyz.WhiteZ)
     def inside(v: Double) = Math.min(1.0, Math.max(0.0, v))
     Xyz.ofRgb(
@@ -57,21 +57,21 @@ private[measure] object Xyz:
   val WhiteX = 0.950456
   val WhiteZ = 1.089058
 
-  /** Of linear sRGB; ITU-R BT.709-6. */
+  /** From linear sRGB; ITU-R BT.709-6. */
   def ofRgb(r: Double, g: Double, b: Double): Xyz = Xyz(
     (0.412453 * r + 0.357580 * g + 0.180423 * b) / WhiteX,
     0.212671 * r + 0.715160 * g + 0.072169 * b,
     (0.019334 * r + 0.119193 * g + 0.950227 * b) / WhiteZ
   )
 
-/** L*a*b* (CIE 15:2004), a and b scaled by lightness after Hunt, as the paper's §4.1.2 does. */
+/** L*a*b* (CIE 15:2004), with a and b scaled by lightness after Hunt, as in §4.1.2. */
 private[measure] final case class Lab(l: Double, a: Double, b: Double)
 
 private[measure] object Lab:
   val Green: Lab = ofScreen(Xyz.ofRgb(0, 1, 0))
   val Blue: Lab = ofScreen(Xyz.ofRgb(0, 0, 1))
 
-  /** Clamps to the colours of the screen first. */
+  /** Clamps to the display gamut first. */
   def ofScreen(xyz: Xyz): Lab =
     val shown = xyz.clampedToScreen
     val l = 116 * curve(shown.y) - 16
@@ -82,7 +82,9 @@ private[measure] object Lab:
       hunt * 200 * (curve(shown.y) - curve(shown.z))
     )
 
-  /** HyAB: Abasi, Tehran, Fairchild, "Distance metrics for very large color differences", 2020. */
+  /** HyAB distance: Abasi, Tehran, Fairchild, "Distance metrics for very large color differences",
+    * 2020.
+    */
   def distance(p: Lab, q: Lab): Double =
     Math.abs(p.l - q.l) + Math.hypot(p.a - q.a, p.b - q.b)
 
@@ -91,9 +93,9 @@ private[measure] object Lab:
   private def curve(t: Double): Double =
     if t > Knee * Knee * Knee then Math.cbrt(t) else t / (3 * Knee * Knee) + 4.0 / 29
 
-/** The filters of the three channels: sums of Gaussians exp(−π² d² / b) for d degrees, with weights
-  * a √(π / b), normalised to 1. The numbers are those of the paper's table 1, after Johnson and
-  * Fairchild, "A top down description of S-CIELAB and CIEDE2000", 2003.
+/** Contrast sensitivity filters of the three channels: sums of Gaussians exp(−π² d² / b), d in
+  * degrees, with weights a √(π / b), normalised to 1. The constants are those of the paper's table
+  * 1, after Johnson and Fairchild, "A top down description of S-CIELAB and CIEDE2000", 2003.
   */
 private[measure] final class ContrastSensitivity(pixelsPerDegree: Double):
 
@@ -101,7 +103,7 @@ private[measure] final class ContrastSensitivity(pixelsPerDegree: Double):
   def redGreen(plane: Plane): Plane = filtered(plane, Vector((1.0, 0.0053)))
   def blueYellow(plane: Plane): Plane = filtered(plane, Vector((34.1, 0.04), (13.5, 0.025)))
 
-  /** Three deviations of the widest Gaussian. */
+  /** Three standard deviations of the widest Gaussian. */
   private val radius =
     Math.ceil(3 * Math.sqrt(0.04 / (2 * Math.PI * Math.PI)) * pixelsPerDegree).toInt
 
@@ -118,12 +120,10 @@ private[measure] final class ContrastSensitivity(pixelsPerDegree: Double):
     val degrees = (i - radius) / pixelsPerDegree
     Math.exp(-Math.PI * Math.PI * degrees * degrees / b)
 
-/** One number for each pixel, row by row, for the filters of [[Flip]]. */
+/** A scalar image in row order, for the filters of [[Flip]]. */
 private[measure] final class Plane(val width: Int, val height: Int, val data: Array[Float]):
 
-  /** Convolved with the product of two kernels of odd length, along x and along y. Beyond its
-    * border a picture goes on with the pixel at the border.
-    */
+  /** Convolves with a separable kernel of odd lengths; the border is clamped. */
   def convolved(alongX: Array[Double], alongY: Array[Double]): Plane =
     val rows = new Array[Float](data.length)
     val radiusX = alongX.length / 2

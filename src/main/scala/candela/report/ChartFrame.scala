@@ -2,10 +2,10 @@ package candela.report
 
 import scalatags.Text.all.Frag
 
-/** How large a chart is, and what stands around its curves.
+/** Size of a chart and the labels around its curves.
   *
-  * @param isWhole whether it has a legend, and words at its axes
-  * @param note    what there is to say below its title
+  * @param isWhole whether it has a legend and axis labels
+  * @param note subtitle
   */
 final case class ChartFrame(
     width: Double,
@@ -15,10 +15,10 @@ final case class ChartFrame(
 )
 
 object ChartFrame:
-  /** Of a chart that stands alone. */
+  /** Frame of a standalone chart. */
   val Whole: ChartFrame = ChartFrame(760, 460, isWhole = true)
 
-/** Which curve is whose, in rows of some columns. */
+/** Legend of the curves, in rows of `columns` entries. */
 private[report] final class ChartLegend(series: Vector[Series], columns: Int, width: Double):
   import Svg.*
 
@@ -34,9 +34,9 @@ private[report] final class ChartLegend(series: Vector[Series], columns: Int, wi
         text(x + 28, y, "legend", "start")(s.name)
       )
 
-/** Small charts side by side, with one legend for all.
+/** Grid of small charts with a common legend.
   *
-  * @param words below the title: what all of the charts show
+  * @param words subtitle of the grid
   */
 private[report] final class ChartGrid(
     title: String,
@@ -73,11 +73,11 @@ private[report] object ChartGrid:
   private val PanelHeight = 250.0
   private val Margin = 14.0
 
-  /** Of a chart in the grid. */
+  /** Frame of a chart in the grid. */
   def frame(note: String): ChartFrame =
     ChartFrame(PanelWidth, PanelHeight, isWhole = false, Some(note))
 
-/** A logarithmic axis from `low` to `high`, which is drawn from `start` to `end` pixels. */
+/** Logarithmic axis from `low` to `high`, drawn from `start` to `end` pixels. */
 private[report] final class LogAxis(low: Double, high: Double, start: Double, end: Double):
 
   def at(value: Double): Double =
@@ -100,7 +100,7 @@ private[report] final class LogAxis(low: Double, high: Double, start: Double, en
 
 private[report] object LogAxis:
 
-  /** Some room beyond the outermost values; an axis of at least a half decade. */
+  /** An axis with a margin around the extreme values, spanning at least half a decade. */
   def around(values: Vector[Double], start: Double, end: Double): LogAxis =
     val logs = values.filter(_ > 0).map(Math.log10)
     val (least, most) = if logs.isEmpty then (0.0, 1.0) else (logs.min, logs.max)

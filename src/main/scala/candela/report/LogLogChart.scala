@@ -4,28 +4,28 @@ import candela.measure.Metric
 
 import scalatags.Text.all.{frag, stringFrag, Frag}
 
-/** A place on a curve, and its error bar.
+/** Data point of a curve, with its error bar.
   *
-  * @param tip what is shown while the mouse rests there
+  * @param tip tooltip
   */
 final case class Mark(x: Double, y: Double, low: Double, high: Double, tip: String)
 
 /** A curve.
   *
-  * @param color  number of its colour, from 0
-  * @param isThin dashed: one that belongs beside another one of the same colour
+  * @param color colour index, from 0
+  * @param isThin dashed: a variant of another curve of the same colour
   */
 final case class Series(name: String, color: Int, isThin: Boolean, marks: Vector[Mark])
 
-/** Curves over two logarithmic axes, as a vector graphic: in a page, or (with `standalone`) in a
-  * file of its own that follows the reader's light or dark screen.
+/** Log-log line chart in SVG: embedded in a page or, with `standalone`, as a file that follows the
+  * reader's light or dark theme.
   *
-  * Not a library's chart: those either draw on a canvas, of which a README has nothing, or make
-  * pictures with colours that suit one of both screens (docs/decisions/0009).
+  * No charting library: those either draw on a canvas, which a README can't embed, or produce
+  * images with colours for only one of the themes (docs/decisions/0009).
   *
-  * @param guideSlope how the figure should fall, drawn as a dotted line
-  * @param goal       a height to be reached, drawn as a line across
-  * @param frame      how large it is, and what stands around it
+  * @param guideSlope expected slope, drawn as a dotted line
+  * @param goal target value, drawn as a horizontal line
+  * @param frame size and labels
   */
 final class LogLogChart(
     title: String,
@@ -55,7 +55,7 @@ final class LogLogChart(
 
   def standalone: String = Svg.standalone(width, frame.height, title)(content)
 
-  /** All but the picture around it. */
+  /** The contents without the svg element. */
   def content: Vector[Frag] =
     val words = text(LeftMargin, 22, "charttitle", "start")(title) +:
       frame.note.map(text(LeftMargin, 39, "note", "start")(_)).toVector
@@ -67,7 +67,7 @@ final class LogLogChart(
     goal.toVector.map(y.at).filter(h => h <= least + 1 && h >= most).map: h =>
       element("g", "class" -> "goal")(
         line(LeftMargin, h, width - RightMargin, h, "goalline"),
-        tip(s"the goal: ${goal.fold("")(Numbers.short)}")
+        tip(s"target: ${goal.fold("")(Numbers.short)}")
       )
 
   private def grid: Vector[Frag] =
@@ -94,7 +94,7 @@ final class LogLogChart(
       )(stringFrag(yLabel))
     )
 
-  /** From the first point on, as far as the picture goes. */
+  /** From the first point to the border of the chart. */
   private def guide: Vector[Frag] =
     val first = drawn.flatMap(_.marks.headOption).minByOption(_.x)
     first.toVector.zip(guideSlope).flatMap: (from, slope) =>
@@ -104,7 +104,7 @@ final class LogLogChart(
       Option.when(lastX > from.x * 1.01):
         element("g", "class" -> "guide")(
           line(x.at(from.x), y.at(from.y), x.at(lastX), y.at(at(lastX)), "guideline"),
-          tip(s"slope ${Numbers.fixed(slope, 1)}: how independent samples converge")
+          tip(s"slope ${Numbers.fixed(slope, 1)}: convergence of independent samples")
         )
 
   private def curve(s: Series): Frag =
@@ -122,17 +122,17 @@ final class LogLogChart(
 object LogLogChart:
   private val RightMargin = 20.0
 
-  /** Below the curves, where there are ticks only. */
+  /** Bottom margin of a chart with ticks only. */
   private val BareBottom = 24.0
 
-  /** Of squared errors −1, half the error for double the work; of FLIP nobody knows. */
+  /** −1 for squared errors, half the error for twice the work; unknown for FLIP. */
   def guideOf(metric: Metric): Option[Double] = metric match
     case Metric.Mse | Metric.RelativeMse => Some(-1.0)
     case Metric.Rmse | Metric.Mae => Some(-0.5)
     case Metric.Psnr | Metric.Flip => None
 
-  /** As many as the style has. */
+  /** Number of colours in the style sheet. */
   val Colors = 8
 
-  /** How a curve and its entry in a legend look. */
+  /** CSS class of a curve and its legend entry. */
   def cssOf(s: Series): String = s"series c${s.color % Colors}${if s.isThin then " thin" else ""}"

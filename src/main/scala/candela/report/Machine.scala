@@ -6,10 +6,10 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Try
 
-/** What figures were measured on: without it they mean nothing.
+/** The machine of a measurement, without which figures are meaningless.
   *
-  * @param load of the system when measuring began (1-minute average), if it is told; well below 1
-  *             on a machine that did nothing else
+  * @param load system load when measuring began (1-minute average), if known; well below 1 on an
+  *   otherwise idle machine
   */
 final case class Machine(
     processor: String,
@@ -41,7 +41,7 @@ object Machine:
       Option(system.getSystemLoadAverage).filter(_ >= 0)
     )
 
-  /** Linux tells; elsewhere Java knows the architecture alone. */
+  /** From /proc on Linux; elsewhere Java provides only the architecture. */
   private def processorName: Option[String] = Try:
     Files.readAllLines(Path.of("/proc/cpuinfo")).asScala
       .collectFirst { case s"model name$_: $name" => name.trim }

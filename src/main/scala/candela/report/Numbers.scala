@@ -4,10 +4,12 @@ import candela.measure.Interval
 
 import java.util.Locale
 
-/** Numbers in pages and charts; the same in every locale. */
+/** Formats numbers in pages and charts, independently of the locale. */
 private[report] object Numbers:
 
-  /** Four digits, of very small and large ones with a power of ten: `0.01234`, `1.234·10⁻⁵`. */
+  /** Four significant digits, with a power of ten for very small or large values: `0.01234`,
+    * `1.234·10⁻⁵`.
+    */
   def short(value: Double): String =
     if value == 0 then "0"
     else if value.isInfinite || value.isNaN then "–"
@@ -20,12 +22,12 @@ private[report] object Numbers:
 
   def fixed(value: Double, digits: Int): String = s"%.${digits}f".formatLocal(Locale.ROOT, value)
 
-  /** With half the width of the interval, if it is known. */
+  /** The estimate with half the interval's width, if known. */
   def plusMinus(i: Interval, number: Double => String): String =
     if i.isKnown then s"${number(i.estimate)} ± ${number((i.high - i.low) / 2)}"
     else number(i.estimate)
 
-  /** A tick of a logarithmic axis: `0.01`, `10`, `10⁻⁵`. */
+  /** Label of a logarithmic axis tick: `0.01`, `10`, `10⁻⁵`. */
   def tick(value: Double): String =
     val exponent = Math.floor(Math.log10(value) + 1e-9).toInt
     if exponent >= -3 && exponent <= 4 then

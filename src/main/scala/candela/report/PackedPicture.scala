@@ -7,12 +7,10 @@ import java.io.ByteArrayOutputStream
 import java.util.Base64
 import java.util.zip.{Deflater, DeflaterOutputStream}
 
-/** Pictures as a page carries them: numbers, not colours, so that exposure and errors are worked
-  * out where they are looked at.
+/** Encodes images for a page as numbers, so that the page computes exposure and errors itself.
   *
-  * Of each Float the three higher bytes are kept, which is 2⁻¹⁶ of its value and far below any
-  * noise; all first bytes come first, then all second and all third ones, compressed with zlib, in
-  * base 64.
+  * Keeps the upper three bytes of each Float, a relative error of 2⁻¹⁶ and far below noise. Stores
+  * all first bytes, then all second and all third bytes, compressed with zlib, in base 64.
   */
 private[report] object PackedPicture:
 
@@ -20,22 +18,22 @@ private[report] object PackedPicture:
     val count = image.data.length
     val bytes = new Array[Byte](3 * count)
     loop(count): i =>
-      // Rounds the byte that is dropped.
+      // Rounds off the dropped byte.
       val bits = java.lang.Float.floatToRawIntBits(image.data(i))
       val kept = if java.lang.Float.isFinite(image.data(i)) then bits + 0x80 else bits
       loop(3)(plane => bytes(plane * count + i) = (kept >>> (24 - 8 * plane)).toByte)
     packed(bytes)
 
-  /** One channel from 0 to 1 in 8 bits. */
+  /** One channel with values [0, 1], quantised to 8 bits. */
   def bytes(map: Image): String =
     packed(map.data.map(v => Math.round(Math.min(1f, Math.max(0f, v)) * 255).toByte))
 
-  /** Halved until it has at most `limit` pixels; the mean of each four. */
+  /** Downsampled by two (2×2 averages) until it has at most `limit` pixels. */
   def reduced(image: Image, limit: Int = MostPixels): Image =
     if image.width.toLong * image.height <= limit || image.width < 2 || image.height < 2 then image
     else reduced(halved(image), limit)
 
-  /** Some 20 MB of page for two pictures. */
+  /** About 20 MB of page for two images. */
   val MostPixels = 2_000_000
 
   private def halved(image: Image): Image =

@@ -4,11 +4,11 @@ import candela.measure.{CurvePoint, LogLogFit, Metric}
 
 import scalatags.Text.all.*
 
-/** The page about one rendering. */
+/** Page about one rendering. */
 object RenderPage:
 
   def html(r: RenderReport): String =
-    val against = r.reference.fold("without a reference: errors are estimates from its own noise"):
+    val against = r.reference.fold("without a reference: errors are estimated from the noise"):
       name => s"compared with $name"
     Page.html(s"Report: ${r.scene}", against, r.version)(
       tiles(r),
@@ -19,10 +19,10 @@ object RenderPage:
       figures(r),
       h2("Pictures"),
       Viewer(r.pictures),
-      h2("When what was done"),
+      h2("Timeline"),
       div(cls := "card chart", Timeline(r.phases, r.passes).svg),
-      p(cls := "soft", "The clock of rendering stands still while errors are measured."),
-      h2("What the scene was built of"),
+      p(cls := "soft", "Render time excludes the measuring of errors."),
+      h2("Scene"),
       Page.facts(r.plan),
       h2("Options and machine"),
       Page.facts(("version" -> s"Candela ${r.version}") +: (r.options ++ r.machine.rows))
@@ -35,12 +35,12 @@ object RenderPage:
       cls := "tiles",
       last.map(p => Page.tile(Numbers.short(p.errors.relativeMse), word(r, "relative MSE"))),
       last.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
-      last.map(p => Page.tile(p.samples.toString, "samples a pixel")),
+      last.map(p => Page.tile(p.samples.toString, "samples per pixel")),
       last.filter(p => p.errors.relativeMse > 0).map: p =>
         val efficiency = 1 / (p.errors.relativeMse * Math.max(p.seconds, 1e-9))
         Page.tile(Numbers.short(efficiency), "efficiency, 1 / (relative MSE · s)")
       ,
-      slope.map(s => Page.tile(Numbers.fixed(s, 2), "slope of error over samples")),
+      slope.map(s => Page.tile(Numbers.fixed(s, 2), "slope of error against samples")),
       last.flatMap(_.errors.flip).map(f => Page.tile(Numbers.short(f), "FLIP"))
     )
 
@@ -53,7 +53,8 @@ object RenderPage:
     val all =
       for m <- metrics; axis <- Vector("seconds", "samples")
       yield (m.word, m.title, axis, chart(r, m, axis))
-    if all.isEmpty then p("No error to draw: there is none, or but one sample and no reference.")
+    if all.isEmpty then
+      p("No error to plot: zero error, or neither a reference nor a second sample.")
     else Page.charts(all)
 
   private def chart(r: RenderReport, metric: Metric, axis: String): Svg.Node =
@@ -63,7 +64,7 @@ object RenderPage:
         val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
         val tip = s"$when: ${Numbers.short(e)}"
         Mark(x, e, e, e, tip)
-    val label = if axis == "seconds" then "seconds of rendering" else "samples a pixel"
+    val label = if axis == "seconds" then "render time (s)" else "samples per pixel"
     val series = Series("this rendering", 0, isThin = false, marks)
     val title = s"${word(r, metric.title)} over $axis"
     LogLogChart(title, label, metric.title, Vector(series), LogLogChart.guideOf(metric)).svg
@@ -71,12 +72,12 @@ object RenderPage:
   private def explained(r: RenderReport): Frag =
     val what =
       if r.reference.isDefined then
-        "One rendering with one seed: what the next seed would give is not in it. " +
-          "`candela bench` renders several and draws error bars."
+        "One rendering with one seed, without the variation between seeds. " +
+          "`candela bench` renders several seeds and plots error bars."
       else
-        "Without a reference nobody knows the bias. What is drawn is the difference between two " +
-          "parts of the samples, scaled to the noise of all of them: with points that are spread " +
-          "evenly, more than the true noise."
+        "Without a reference, bias is unknown. The plot shows the difference between two subsets " +
+          "of the samples, scaled to the noise of all of them; for low-discrepancy samplers it " +
+          "overestimates the noise."
     p(cls := "soft", what)
 
   private def figures(r: RenderReport): Frag =

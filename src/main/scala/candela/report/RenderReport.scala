@@ -3,23 +3,23 @@ package candela.report
 import candela.image.Image
 import candela.measure.CurvePoint
 
-/** A stretch of time, in seconds since the program began. */
+/** A time span, in seconds since the program started. */
 final case class Span(name: String, begin: Double, end: Double):
   def seconds: Double = end - begin
 
-/** What a page shows beside figures.
+/** An image shown by a page.
   *
-  * @param isReference whether others are to be compared with it
+  * @param isReference whether the other images are compared with it
   */
 final case class Picture(name: String, image: Image, isReference: Boolean = false)
 
-/** All that there is to say about one rendering.
+/** Data of the report about one rendering.
   *
-  * @param options what was asked for, for people: (option, value)
-  * @param plan    what the scene was built of: (what, value)
-  * @param points  the error after each pass; without a reference an estimate, none after the first
-  * @param passes  seconds since rendering began, of each pass, with the time that each worker had
-  *                something to do
+  * @param options options for display: (option, value)
+  * @param plan features of the scene: (feature, value)
+  * @param points error after each pass; without a reference estimated, from the second pass on
+  * @param passes time span of each pass, in seconds since rendering started, with each worker's
+  *   busy time
   */
 final case class RenderReport(
     scene: String,
@@ -37,10 +37,10 @@ final case class RenderReport(
   def width: Int = pictures.head.image.width
   def height: Int = pictures.head.image.height
 
-/** One pass on the timeline. */
+/** One pass on the timeline; `workers` holds busy times in seconds. */
 final case class PassSpan(samples: Int, begin: Double, end: Double, workers: Vector[Double])
 
-/** A report for machines: JSON, and the curve alone as CSV. */
+/** Machine-readable report: JSON, and the error curve as CSV. */
 object RenderData:
 
   def json(r: RenderReport): String =
@@ -83,7 +83,7 @@ object RenderData:
     "load" -> m.load.fold(ujson.Null: ujson.Value)(ujson.Num(_))
   )
 
-  /** JSON has no infinities: what isn't finite is null. */
+  /** The value, or null if it isn't finite, which JSON can't represent. */
   def number(value: Double): ujson.Value =
     if java.lang.Double.isFinite(value) then ujson.Num(value) else ujson.Null
 

@@ -2,15 +2,15 @@ package candela.report
 
 import candela.measure.Metric
 
-/** The charts of a suite: each scene's, and all of them at one glance. */
+/** Charts of a suite: one per scene, and an overview. */
 object SuiteChart:
 
-  /** The relative error against time, as a file of its own. */
+  /** Standalone chart of the relative MSE against time. */
   def svg(r: SuiteReport): String =
     if r.scenes.sizeIs == 1 then of(r.scenes.head, Metric.RelativeMse, "seconds").standalone
     else all(r).standalone
 
-  /** Every scene in a small chart that says who was first. */
+  /** Small charts of all scenes; each subtitle names the winner. */
   private[report] def all(r: SuiteReport): ChartGrid =
     val legend = r.scenes.flatMap(_.programs).distinctBy(_.name)
       .map(p => Series(p.title, p.color, p.isThin, Vector.empty))
@@ -19,8 +19,8 @@ object SuiteChart:
     ChartGrid(r.title, Words, legend, panels)
 
   private val Words =
-    "Relative MSE over seconds of the whole program, both logarithmic: further left is faster, " +
-      "lower is better. Dashed: the error raced to."
+    "Relative MSE against total time in seconds, both logarithmic: further left is faster, " +
+      "lower is better. Dashed: the target error."
 
   def of(s: SceneResult, metric: Metric, axis: String): LogLogChart =
     chart(s, s"${s.title}: ${metric.title}", metric, axis, ChartFrame.Whole)
@@ -32,7 +32,7 @@ object SuiteChart:
       axis: String,
       frame: ChartFrame
   ): LogLogChart =
-    val label = if axis == "seconds" then "seconds, whole program" else "samples a pixel"
+    val label = if axis == "seconds" then "total time (s)" else "samples per pixel"
     val goal = Option.when(metric == Metric.RelativeMse)(s.target)
     val guide = LogLogChart.guideOf(metric)
     val curves = s.programs.map(series(_, metric, axis))
@@ -43,21 +43,21 @@ object SuiteChart:
       point(metric).map: i =>
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
         val (low, high) = if i.isKnown then (i.low, i.high) else (i.estimate, i.estimate)
-        // A bar that reaches 0 has no end on a logarithmic axis.
+        // On a logarithmic axis a bar that reaches 0 is unbounded.
         val shown = Math.max(low, i.estimate / 10)
         val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
         val figure = Numbers.plusMinus(i, Numbers.short)
         Mark(x, i.estimate, shown, high, s"${p.title}: $when, ${metric.title} $figure")
     Series(p.title, p.color, p.isThin, marks)
 
-  /** Who reaches the scene's goal first, and how long the others take at least. */
+  /** The first program to reach the scene's target, and the next one's time. */
   private def winner(s: SceneResult): String =
     val times = s.programs.filterNot(_.isThin)
       .flatMap(p => p.curve.secondsUntil(s.target).map(p.title -> _)).sortBy(_._2)
     def seconds(t: Double) = s"${Numbers.fixed(t, if t < 9.95 then 1 else 0)} s"
     val goal = Numbers.tick(s.target)
     times.headOption match
-      case None => s"$goal was reached by none"
+      case None => s"$goal was not reached"
       case Some((name, t)) =>
         val next = times.lift(1).fold("")((_, later) => s" (next ${seconds(later)})")
         s"$goal first: $name, ${seconds(t)}$next"

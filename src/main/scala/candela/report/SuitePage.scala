@@ -4,25 +4,26 @@ import candela.measure.{Interval, Metric}
 
 import scalatags.Text.all.*
 
-/** The page about a suite: who reaches which error first. */
+/** Page about a suite: which program reaches a target error first. */
 object SuitePage:
 
-  /** @param hasPictures without them a page is small enough to be kept in a repository */
+  /** @param hasPictures if false, omits images, which keeps the page small enough for a repository
+    */
   def html(r: SuiteReport, hasPictures: Boolean = true): String =
     val when = s"${r.begun} on ${r.machine.processor}, ${r.machine.cores} hardware threads"
     Page.html(r.title, when, r.version)(
-      h2("Who is there first"),
+      h2("Time to target"),
       p(
-        "Seconds from the start of the program until the relative squared error is that of the " +
-          "second column, reading and building of the scene (and the start of Java) included. " +
-          "The best of each scene stands out; – was not reached, blank was not run."
+        "Seconds from program start until the relative MSE reaches the second column, including " +
+          "start-up, parsing and scene construction. Bold: best of the scene; " +
+          "–: not reached; blank: not run."
       ),
       overview(r),
       Option.when(r.scenes.sizeIs > 1)(div(cls := "card chart", SuiteChart.all(r).svg)),
       r.scenes.map(scene(_, hasPictures)),
-      h2("How it was measured"),
+      h2("Method"),
       method(r),
-      Option.when(r.leftOut.nonEmpty)(frag(h3("Left out"), Page.facts(r.leftOut))),
+      Option.when(r.leftOut.nonEmpty)(frag(h3("Not run"), Page.facts(r.leftOut))),
       h3("Machine"),
       Page.facts(r.machine.rows ++ Vector("version" -> s"Candela ${r.version}")),
       h3("Commands"),
@@ -56,15 +57,15 @@ object SuitePage:
       h2(s.title),
       Option.when(s.note.nonEmpty)(p(cls := "soft", s.note)),
       Page.charts(charts),
-      h3("Figures of the longest renderings"),
+      h3("Results at the highest sample count"),
       Page.grid(Head, s.programs.map(row(s, _))),
       p(
         cls := "soft",
-        "± and ranges: 95 % confidence over the seeds, by Student's t; none with one seed. Slope " +
-          "of the relative MSE over samples: −1 for independent samples, 0 where bias (or the " +
-          s"noise of the reference) is all that is left. Reference: ${s.referenceName}."
+        "± and ranges: 95 % confidence over seeds (Student's t); none for one seed. Slope " +
+          "of relative MSE against samples: −1 for independent samples, 0 where bias (or the " +
+          s"reference's noise) dominates. Reference: ${s.referenceName}."
       ),
-      Option.when(hasPictures)(frag(h3("Pictures"), Viewer(pictures)))
+      Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
     )
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
@@ -90,15 +91,15 @@ object SuitePage:
 
   private def method(r: SuiteReport): Frag = frag(
     p(
-      s"Every program rendered each scene with ${r.seeds} seeds at each sample count, one after " +
-        "another in turn, each in a process of its own, after one run that was not counted. " +
-        "Times are medians of the wall clock of the whole process; errors are means over the " +
-        "seeds. Programs without seeds make the same image every time: their errors have no " +
-        s"bars. The runs took ${Numbers.short(r.seconds / 60)} minutes together."
+      s"Each program rendered each scene with ${r.seeds} seeds per sample count, in turn with " +
+        "the others, each run in a separate process, after one warm-up run. " +
+        "Times are median wall-clock times of the whole process; errors are averages over the " +
+        "seeds. Programs without seeds are deterministic: their errors have no " +
+        s"bars. All runs together took ${Numbers.short(r.seconds / 60)} minutes."
     ),
     p(
-      "All images of a scene are compared with one reference; the definitions of the figures are " +
-        "in docs/METRICS.md. An error below the noise of the reference is not seen."
+      "All images of a scene are compared with one reference; docs/METRICS.md defines the " +
+        "metrics. Errors below the reference's noise are not resolved."
     )
   )
 

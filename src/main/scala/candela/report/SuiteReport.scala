@@ -3,11 +3,11 @@ package candela.report
 import candela.image.Image
 import candela.measure.{Interval, MeasuredCurve, MeasuredPoint, Metric}
 
-/** What one program did with one scene.
+/** Results of one program on one scene.
   *
-  * @param command as it was started, for the first image
-  * @param isThin  to be drawn beside another program of the same colour
-  * @param picture what it made in its longest run with the first seed
+  * @param command command line of the first image
+  * @param isThin whether its curve is dashed, beside another program of the same colour
+  * @param picture image of the longest run with the first seed
   */
 final case class ProgramResult(
     name: String,
@@ -19,9 +19,9 @@ final case class ProgramResult(
     picture: Image
 )
 
-/** All programs on one scene, by the reference that they were compared with.
+/** Results of all programs on one scene, against the named reference.
   *
-  * @param target the relative MSE that the programs race to
+  * @param target the relative MSE to reach
   */
 final case class SceneResult(
     name: String,
@@ -33,11 +33,11 @@ final case class SceneResult(
     programs: Vector[ProgramResult]
 )
 
-/** All that came out of a suite.
+/** Results of a suite.
   *
-  * @param begun    date and time
-  * @param seconds  that all runs took together
-  * @param leftOut  what could not be run: (program or scene, why)
+  * @param begun date and time of the start
+  * @param seconds total time of all runs
+  * @param leftOut what was not run: (program or scene, reason)
   */
 final case class SuiteReport(
     title: String,
@@ -50,7 +50,7 @@ final case class SuiteReport(
     leftOut: Vector[(String, String)]
 )
 
-/** The results of a suite for machines: JSON with all runs, and one line a run as CSV. */
+/** Machine-readable results: JSON with all runs, and CSV with one line per run. */
 object SuiteData:
 
   def json(r: SuiteReport): String =

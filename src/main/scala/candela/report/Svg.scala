@@ -5,7 +5,7 @@ import scalatags.Text.all.{attr, stringAttr, stringFrag, tag, Frag}
 
 import java.util.Locale
 
-/** Elements of vector graphics. */
+/** SVG elements. */
 private[report] object Svg:
   type Node = TypedTag[String]
 
@@ -27,7 +27,7 @@ private[report] object Svg:
       "class" -> css
     )()
 
-  /** What is shown while the mouse rests there. */
+  /** A tooltip. */
   def tip(words: String): Node = element("title")(stringFrag(words))
 
   def picture(width: Double, height: Double, label: String)(children: Frag*): Node =
@@ -39,15 +39,15 @@ private[report] object Svg:
       "aria-label" -> label
     )(children*)
 
-  /** A file of its own, with the style of charts. */
+  /** A standalone file with the charts' style. */
   def standalone(width: Double, height: Double, label: String)(content: Vector[Frag]): String =
     val style = element("style")(scalatags.Text.all.raw(Page.chartStyle))
     val back = element("rect", "width" -> "100%", "height" -> "100%", "class" -> "back")()
     picture(width, height, label)((Vector(style, back) ++ content)*).render
 
-  /** Others, moved right and down. */
+  /** A group translated right and down. */
   def moved(x: Double, y: Double)(children: Vector[Frag]): Node =
     element("g", "transform" -> s"translate(${px(x)} ${px(y)})")(children*)
 
-  /** A tenth of a pixel is finer than the screen. */
+  /** Tenths of a pixel, finer than the display. */
   def px(value: Double): String = "%.1f".formatLocal(Locale.ROOT, value).stripSuffix(".0")

@@ -2,7 +2,7 @@ package candela.report
 
 import scalatags.Text.all.Frag
 
-/** What the program did when: its phases in one row, the passes of each worker in others. */
+/** Timeline of a rendering: the phases in one row, the passes of each worker in further rows. */
 private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSpan]):
   import Svg.*
 
@@ -48,11 +48,11 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
     val words = s"${span.name}: ${Numbers.fixed(span.seconds, 3)} s"
     box(0, span.begin, span.end, s"box c${i % LogLogChart.Colors}", words)
 
-  /** A worker that ran out of work early leaves a gap before the next pass. */
+  /** A worker that runs out of tasks early leaves a gap before the next pass. */
   private def pass(p: PassSpan, i: Int): Vector[Frag] =
     p.workers.zipWithIndex.map: (busy, worker) =>
       val begin = renderBegin + p.begin
-      val words = s"${p.samples}: until ${p.samples} samples a pixel, " +
+      val words = s"${p.samples}: up to ${p.samples} samples per pixel, " +
         s"busy for ${Numbers.fixed(busy, 3)} s of ${Numbers.fixed(p.end - p.begin, 3)} s"
       box(worker + 1, begin, Math.min(begin + busy, renderBegin + p.end), s"box s${i % 2}", words)
 

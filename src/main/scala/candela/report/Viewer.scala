@@ -5,8 +5,8 @@ import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric}
 
 import scalatags.Text.all.*
 
-/** Pictures to flip between, to slide over each other, to magnify and to read numbers from; and the
-  * error of each pixel, if there is a reference. The script of the page does the rest.
+/** Image viewer: flips between images, compares them with a slider, magnifies, shows pixel values
+  * and, with a reference, per-pixel error. The page's script implements it.
   */
 private[report] object Viewer:
 
@@ -61,7 +61,7 @@ private[report] object Viewer:
     )
 
   private def modes(hasReference: Boolean): Vector[Frag] =
-    val all = Vector("slider" -> "slider", "flip" -> "flip (click the picture)") ++
+    val all = Vector("slider" -> "slider", "flip" -> "flip (click the image)") ++
       Option.when(hasReference)("heat" -> "error of A")
     all.map((mode, words) => button(data("mode") := mode, words))
 
@@ -88,10 +88,10 @@ private[report] object Viewer:
       "magma" -> ujson.Arr.from(HeatMap.Colors),
       "pictures" -> ujson.Arr.from(packed)
     )
-    // Within a page a name with </script> would end the script.
+    // Within a page, a name with </script> would end the script.
     ujson.write(all, escapeUnicode = true).replace("</", "<\\/")
 
-  /** The script has no use for NaN. */
+  /** Without NaN and infinity, which the script can't read. */
   private def finite(image: Image): Image =
     val data = image.data.map(v => if java.lang.Float.isFinite(v) then v else 0f)
     Image(image.width, image.height, image.channelNames, data)

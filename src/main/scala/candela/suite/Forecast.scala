@@ -2,8 +2,8 @@ package candela.suite
 
 import scala.collection.mutable
 
-/** How long a suite still takes: each run as long as the same program took for the same step on the
-  * same scene, or else on other scenes, or else as others took.
+/** Estimates the remaining time of a suite: each run as long as the same program took for the same
+  * step on the same scene, else on other scenes, else as other programs took.
   */
 private[suite] final class Forecast(runs: Vector[Forecast.Run]):
   import Forecast.*
@@ -12,19 +12,19 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
   private val times = mutable.Map.empty[Run, Vector[Double]]
   private var done = 0
 
-  /** @param seconds if it came to its end */
+  /** @param seconds time of the run; None if it failed */
   def ended(job: Job, seconds: Option[Double]): Unit =
     val run = Run(job.entry.program.name, job.entry.scene.name, job.step)
     done += 1
     left.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
     for s <- seconds do times(run) = times.getOrElse(run, Vector.empty) :+ s
 
-  /** Nothing of this will run any more but its first steps that count. */
+  /** Drops the runs of `entry` from `step` on. */
   def dropFrom(entry: Entry, step: Int): Unit =
     def isOf(run: Run) = run.program == entry.program.name && run.scene == entry.scene.name
     left.filterInPlace((run, _) => !isOf(run) || 0 <= run.step && run.step < step): Unit
 
-  /** None while no program has come to one of the steps. */
+  /** None until some program has completed one of the steps. */
   def secondsLeft: Option[Double] =
     val all = left.toVector.map((run, count) => expected(run).map(_ * count))
     Option.when(all.forall(_.isDefined))(all.flatten.sum)
@@ -46,10 +46,10 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
 
 private[suite] object Forecast:
 
-  /** @param step as of [[Job]]; −1 is what isn't counted */
+  /** @param step step of the [[Job]]; −1 for warm-up */
   final case class Run(program: String, scene: String, step: Int)
 
-  /** All that a program is to do with a scene. */
+  /** All runs of a program on a scene. */
   def runs(entry: Entry, suite: Suite): Vector[Run] =
     val (pilots, steps) = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => (1, counts.size)

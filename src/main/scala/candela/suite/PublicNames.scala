@@ -4,22 +4,22 @@ import java.nio.file.Path
 
 import scala.util.matching.Regex
 
-/** What files are called where others read it: by the variables that say where they are, not by the
-  * folders of this machine.
+/** Replaces this machine's folders in published texts by the environment variables that locate
+  * them.
   *
-  * @param values  of variables of the environment, by their names
-  * @param folders what else stands in front of names, and what stands there instead
+  * @param values values of environment variables, by name
+  * @param folders other prefixes and their replacements
   */
 final class PublicNames(values: Map[String, String], folders: Vector[(String, String)]):
 
-  /** @param first variables that count before all others with the same value */
+  /** @param first variables preferred among those of equal value */
   def of(text: String, first: Vector[String] = Vector.empty): String =
     val (own, others) = values.toVector.sorted.partition((name, _) => first.contains(name))
     val variables = (own ++ others).filter(_._2.nonEmpty).distinctBy(_._2)
-    // The longest first: one may begin as another one does.
+    // Longest first, because one may be a prefix of another.
     val named = variables.sortBy(-_._2.length).foldLeft(text):
       case (t, (name, value)) =>
-        // Neither a part of a longer name nor of one that begins elsewhere
+        // Matches neither part of a longer name, nor one that begins elsewhere.
         val whole = s"(?<![\\w/.-])${Regex.quote(value)}(?![\\w.-])"
         whole.r.replaceAllIn(t, Regex.quoteReplacement("$" + name))
     folders.foldLeft(named):
@@ -27,7 +27,7 @@ final class PublicNames(values: Map[String, String], folders: Vector[(String, St
 
 object PublicNames:
 
-  /** Of all variables that a suite needs. */
+  /** Names for all variables that a suite needs. */
   def of(suite: Suite, scratch: Path): PublicNames =
     val variables = suite.programs.flatMap(_.needs) ++ suite.scenes.flatMap(_.needs)
     val values = variables.distinct.flatMap(name => sys.env.get(name).map(name -> _))

@@ -6,13 +6,13 @@ import java.nio.file.{Files, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
-/** Scenes with changed text, in folders of their own that hold links to all that lay beside the
-  * original: names of files within a scene stay right, and the original is left alone.
+/** Edited copies of scenes, in folders with links to everything beside the original: file names
+  * within the scene stay valid, and the original unchanged.
   */
 final class SceneCopy(scratch: Path):
   private var count = 0
 
-  /** The scene as it is if there is nothing to change. */
+  /** The original scene if there are no edits. */
   def of(scene: Path, edits: Vector[Edit], fill: String => String): Path =
     if edits.isEmpty then scene
     else
@@ -27,10 +27,10 @@ final class SceneCopy(scratch: Path):
 
 object SceneCopy:
 
-  /** Each byte as one character: what isn't edited stays as it is, whatever it means. */
+  /** Decodes each byte as one character, which preserves whatever isn't edited. */
   private def read(scene: Path): String = Files.readString(scene, ISO_8859_1)
 
-  /** Edits that find nothing: the program would render another scene than it should. */
+  /** An edit without a match: the program would render a scene other than intended. */
   def useless(scene: Path, edits: Vector[Edit]): Option[Edit] =
     if edits.isEmpty then None
     else

@@ -6,20 +6,20 @@ import java.nio.file.Path
 
 import scala.util.matching.Regex
 
-/** A change to a scene's text before a program gets it, for what its command line can't say.
+/** An edit of a scene's text, for what a program's command line can't set.
   *
-  * @param replacement may name groups (`$1`) and `{spp}`, `{seed}`, `{threads}`
+  * @param replacement may contain groups (`$1`) and `{spp}`, `{seed}`, `{threads}`
   */
 final case class Edit(find: Regex, replacement: String)
 
-/** A renderer, and how to start it.
+/** A renderer and its command.
   *
-  * @param command  its words; `{scene}`, `{out}`, `{spp}`, `{seed}`, `{threads}` are filled in, and
-  *                 `{candela}` is this program itself
-  * @param kinds    which of a scene's files it reads, the first that there is
+  * @param command words, with `{scene}`, `{out}`, `{spp}`, `{seed}`, `{threads}` substituted;
+  *   `{candela}` is this program itself
+  * @param kinds formats it reads, in order of preference
   * @param isSeeded whether another seed gives another image
-  * @param needs    names of environment variables without which it can't be found
-  * @param isThin   drawn dashed, beside another one of the same colour
+  * @param needs environment variables that locate it
+  * @param isThin whether its curve is dashed, beside another one of the same colour
   */
 final case class Program(
     name: String,
@@ -34,13 +34,13 @@ final case class Program(
     needs: Vector[String] = Vector.empty
 )
 
-/** A scene in the formats that there are of it, and the image that is right.
+/** A scene in one or more formats, and its reference.
   *
-  * @param files    by kind: `v2`, `v3`, `v4`, `mitsuba`, whatever the programs call it
-  * @param work     instead of the suite's
-  * @param target   the relative MSE to race to; else one is chosen that most programs reach
-  * @param programs that render it, if not all
-  * @param needs    names of environment variables without which it can't be found
+  * @param files files by format: `v2`, `v3`, `v4`, `mitsuba`, or any name that programs use
+  * @param work overrides the suite's
+  * @param target relative MSE to reach; by default one that most programs reach
+  * @param programs the programs that render it, by default all
+  * @param needs environment variables that locate it
   */
 final case class SuiteScene(
     name: String,
@@ -54,15 +54,15 @@ final case class SuiteScene(
     needs: Vector[String]
 )
 
-/** How far to render: to these sample counts, or for about these times. */
+/** Amount of work: sample counts, or approximate render times in seconds. */
 enum Work:
   case Samples(counts: Vector[Int])
   case Seconds(budgets: Vector[Double])
 
-/** What is to be measured.
+/** A benchmark suite.
   *
-  * @param seeds   independent images for each sample count
-  * @param timeout seconds after which a run is given up
+  * @param seeds independent images per sample count
+  * @param timeout time limit per run, in seconds
   */
 final case class Suite(
     title: String,
@@ -72,11 +72,11 @@ final case class Suite(
     seeds: Int,
     timeout: Double
 ):
-  /** With only these programs and scenes, if any are named. */
+  /** Restricted to these programs and scenes; empty keeps all. */
   def only(programNames: Vector[String], sceneNames: Vector[String]): Suite =
     def check(asked: Vector[String], known: Vector[String], what: String): Unit =
       for name <- asked if !known.contains(name) do
-        val message = s"the suite has no $what `$name`; it has ${known.mkString(", ")}"
+        val message = s"unknown $what `$name`; known: ${known.mkString(", ")}"
         throw SceneError(candela.base.Problem.general(message))
     check(programNames, programs.map(_.name), "program")
     check(sceneNames, scenes.map(_.name), "scene")

@@ -9,12 +9,12 @@ import java.util.regex.PatternSyntaxException
 
 import scala.jdk.CollectionConverters.*
 
-/** Suites as files in HOCON (JSON with comments, and less of it); docs/BENCH.md says what is in
-  * them. Names of files are relative to the suite's own folder.
+/** Reads suites in HOCON (a superset of JSON with comments); docs/BENCH.md documents the format.
+  * File names are relative to the suite's folder.
   */
 object SuiteFile:
 
-  /** @throws SceneError if it is not as it should be */
+  /** @throws SceneError if it is invalid */
   def read(path: Path): Suite =
     try
       val options = ConfigParseOptions.defaults.setAllowMissing(false)
@@ -22,7 +22,7 @@ object SuiteFile:
     catch
       case e: ConfigException => throw wrong(s"$path: ${e.getMessage.linesIterator.next()}")
       case e: PatternSyntaxException =>
-        throw wrong(s"$path: no regular expression: ${e.getMessage.linesIterator.next()}")
+        throw wrong(s"$path: invalid regular expression: ${e.getMessage.linesIterator.next()}")
 
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
@@ -32,7 +32,7 @@ object SuiteFile:
     Set("target", "programs", "needs")
 
   private def suite(c: Config, folder: Path): Suite =
-    // What others refer to begins with a dash of its own: `_flags`.
+    // Keys for substitution only start with an underscore: `_flags`.
     known(c, suiteKeys, "the suite")
     Suite(
       c.getString("title"),
@@ -43,10 +43,10 @@ object SuiteFile:
       if c.hasPath("timeout") then c.getDouble("timeout") else DefaultTimeout
     )
 
-  /** Seconds. */
+  /** In seconds. */
   val DefaultTimeout = 600.0
 
-  /** In the order of the file, those of included files last. */
+  /** In file order, those of included files last. */
   private def named(c: Config, key: String): Vector[String] =
     val entries = c.getObject(key)
     val own = Option(c.getValue("title").origin.filename)
@@ -91,18 +91,18 @@ object SuiteFile:
   private def work(c: Config): Option[Work] =
     if c.hasPath("samples") then
       val counts = c.getIntList("samples").asScala.toVector.map(_.intValue).distinct.sorted
-      if counts.isEmpty || counts.head < 1 then throw wrong("samples: expected numbers from 1")
+      if counts.isEmpty || counts.head < 1 then throw wrong("`samples` must be at least 1")
       Some(Work.Samples(counts))
     else if c.hasPath("seconds") then
       val budgets = c.getDoubleList("seconds").asScala.toVector.map(_.doubleValue).distinct.sorted
-      if budgets.isEmpty || budgets.head <= 0 then throw wrong("seconds: expected more than 0")
+      if budgets.isEmpty || budgets.head <= 0 then throw wrong("`seconds` must be greater than 0")
       Some(Work.Seconds(budgets))
     else None
 
-  /** What is misspelt must not be ignored. */
+  /** Rejects unknown keys, because a misspelt one must not be ignored. */
   private def known(c: Config, keys: Set[String], where: String): Unit =
     for key <- c.root.keySet.asScala.toVector.sorted if !keys(key) && !key.startsWith("_") do
-      throw wrong(s"$where has an entry `$key`; known are ${keys.toVector.sorted.mkString(", ")}")
+      throw wrong(s"unknown key `$key` in $where; known: ${keys.toVector.sorted.mkString(", ")}")
 
   private def text(c: Config, key: String, other: String): String =
     if c.hasPath(key) then c.getString(key) else other
@@ -111,15 +111,15 @@ object SuiteFile:
 
   private def positive(c: Config, key: String, other: Int): Int =
     val value = if c.hasPath(key) then c.getInt(key) else other
-    if value < 1 then throw wrong(s"$key: expected a number from 1, found `$value`")
+    if value < 1 then throw wrong(s"`$key` must be at least 1, found `$value`")
     value
 
   private def wrong(message: String): SceneError = SceneError(Problem.general(message))
 
-/** A folder of scenes as a suite: each `NAME.pbrt` that has a reference `NAME.exr`. */
+/** A folder of scenes as a suite: each `NAME.pbrt` with a reference `NAME.exr`. */
 object SuiteFolder:
 
-  /** @throws SceneError if there is no such scene */
+  /** @throws SceneError if no scene has a reference */
   def read(folder: Path, references: Path): Suite =
     val scenes = scala.util.Using.resource(Files.list(folder)): files =>
       files.iterator.asScala.toVector.filter(_.toString.endsWith(".pbrt")).sorted
@@ -127,7 +127,7 @@ object SuiteFolder:
       .map(s => s -> references.resolve(s.getFileName.toString.stripSuffix(".pbrt") + ".exr"))
       .filter((_, reference) => Files.isRegularFile(reference))
     if pairs.isEmpty then
-      val message = s"no scene of $folder has a reference of its name (.exr) in $references"
+      val message = s"no scene of $folder has a reference NAME.exr in $references"
       throw SceneError(Problem.general(message))
     Suite(
       folder.toAbsolutePath.getFileName.toString,

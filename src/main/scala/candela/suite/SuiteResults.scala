@@ -8,12 +8,12 @@ import java.nio.file.Path
 import java.time.LocalDateTime
 import java.time.format.DateTimeFormatter
 
-/** Runs a suite and puts together what came of it. */
+/** Runs a suite and assembles the results. */
 object SuiteResults:
 
-  /** @param scratch     a folder for images on their way, which somebody else removes
-    * @param isCancelled asked again and again; what there is then is all
-    * @param publish     told what there is after each scene, so that no crash loses more than one
+  /** @param scratch folder for temporary images; the caller deletes it
+    * @param isCancelled polled; cancellation returns the results so far
+    * @param publish receives the results after each scene, so that a crash loses at most one
     */
   def of(
       suite: Suite,
@@ -68,10 +68,10 @@ object SuiteResults:
       programs
     )
 
-  /** What at least half of the programs reach. */
+  /** Error that at least half of the programs reach. */
   private[suite] def reachable(least: Vector[Double]): Double =
     val target = least.sorted.apply(least.size / 2)
-    // Two digits, rounded up, are easier to remember.
+    // Rounded up to two digits, for legibility.
     val digit = Math.pow(10, Math.floor(Math.log10(Math.max(target, 1e-12))) - 1)
     Math.ceil(target / digit - 1e-9) * digit
 
@@ -84,7 +84,7 @@ object SuiteResults:
     val program = entry.program
     val measurements = results.map(_.measurement)
     val times = measurements.groupMap(_.samples)(_.seconds)
-    // The same image again says nothing new about the error.
+    // Repeating the same image adds no information about the error.
     val kept = if program.isSeeded then measurements else measurements.distinctBy(_.samples)
     ProgramResult(
       program.name,

@@ -5,23 +5,23 @@ import candela.measure.{Errors, Measurement}
 
 import java.nio.file.{Files, Path}
 
-/** One image to make.
+/** One image to render.
   *
-  * @param step which sample count it is of, from 0
+  * @param step index of its sample count, from 0
   */
 private[suite] final case class Job(entry: Entry, step: Int, samples: Int, seed: Int)
 
-/** A program on a scene, and what it needs for that. */
+/** A program and the scene file that it renders. */
 private[suite] final case class Entry(program: Program, scene: SuiteScene, file: Path)
 
-/** What came of a job. */
+/** Measurement of a job. */
 private[suite] final case class Result(job: Job, measurement: Measurement)
 
-/** Runs the programs of a suite on its scenes, in turn.
+/** Runs the programs of a suite on its scenes, taking turns.
   *
-  * @param names       by which messages call files
-  * @param say         told what happens, a line each
-  * @param isCancelled asked between runs: no other one begins then
+  * @param names file names in messages
+  * @param say receives progress messages, one line each
+  * @param isCancelled polled between runs
   */
 final class SuiteRunner(
     suite: Suite,
@@ -38,17 +38,17 @@ final class SuiteRunner(
   private var waiting = Vector.empty[SuiteScene]
   private var forecast = Forecast(Vector.empty)
 
-  /** What could not be run, and why; and what was not, up to now. */
+  /** What could not be run, and why; and what has not been run yet. */
   def omissions: Vector[(String, String)] =
     val begun = pictures.keySet.map(_.scene)
     leftOut.result() ++ waiting.map: scene =>
-      val part = if begun(scene) then "only in part " else "not "
-      scene.title -> s"${part}rendered when this was written"
+      val part = if begun(scene) then "partly" else "not"
+      scene.title -> s"$part rendered when this report was written"
 
-  /** The image of the longest rendering with the first seed. */
+  /** Image of the longest rendering with the first seed. */
   private[suite] def picture(entry: Entry): Image = pictures(entry)._2
 
-  /** @param afterScene told after each scene what there is until then */
+  /** @param afterScene receives the results so far after each scene */
   private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
     val scenes = suite.scenes.filter(isThere)
     val programs = suite.programs.filter: program =>
@@ -71,7 +71,7 @@ final class SuiteRunner(
     for
       seed <- (1 to suite.seeds).toVector
       step <- plans.flatMap(_._2.indices).distinct.sorted
-      // Another one begins each time: what wears on the machine wears on all.
+      // Rotates the order, so that the machine's thermal state affects all programs alike.
       (entry, samples) <- rotated(plans, seed + step)
       if step < samples.size
       result <- measured(Job(entry, step, samples(step), seed), reference)
@@ -79,7 +79,7 @@ final class SuiteRunner(
 
   private def leaveOut(what: String, why: String): Unit =
     val publicly = names.of(why)
-    say(s"left out: $what: $publicly")
+    say(s"skipped: $what: $publicly")
     leftOut += what -> publicly
 
   private def isThere(scene: SuiteScene): Boolean =
@@ -87,8 +87,8 @@ final class SuiteRunner(
     val why =
       if unset.nonEmpty then Some(Commands.notSet(unset))
       else if !Files.isRegularFile(scene.reference) then
-        Some(s"there is no reference ${scene.reference}")
-      else scene.files.values.find(!Files.isRegularFile(_)).map(f => s"there is no file $f")
+        Some(s"no such reference: ${scene.reference}")
+      else scene.files.values.find(!Files.isRegularFile(_)).map(f => s"no such file: $f")
     why.foreach(leaveOut(scene.title, _))
     why.isEmpty
 
@@ -99,11 +99,11 @@ final class SuiteRunner(
       f <- file if wanted
       useless = SceneCopy.useless(f, program.edits)
       _ = useless.foreach: edit =>
-        leaveOut(s"${program.title} on ${scene.title}", s"nothing to edit: `${edit.find}`")
+        leaveOut(s"${program.title} on ${scene.title}", s"edit matches nothing: `${edit.find}`")
       if useless.isEmpty
     yield Entry(program, scene, f)
 
-  /** The sample counts to render; from a first run that is not counted. */
+  /** The sample counts to render, from a warm-up run. */
   private def planned(entry: Entry, reference: Image): Option[Vector[Int]] =
     def seconds(samples: Int): Option[Double] =
       measured(Job(entry, -1, samples, 1), reference).map(_.measurement.seconds)
@@ -166,11 +166,11 @@ final class SuiteRunner(
     commands.words(program, values ++ files)
 
 private[suite] object SuiteRunner:
-  /** Samples of the second run that tells how much each sample takes. */
+  /** Samples of the second pilot run, which measures the time per sample. */
   val Pilot = 8
 
-  /** How many samples fill some seconds, if one takes `one` and [[Pilot]] take `many`. */
+  /** Number of samples that take `seconds`, if one takes `one` and [[Pilot]] take `many`. */
   def samplesFor(seconds: Double, one: Double, many: Double): Int =
-    // As long as the clock can tell: nobody renders ten thousand samples in a second.
+    // Limited by the clock's resolution: no program renders ten thousand samples in a second.
     val each = Math.max(1e-4, (many - one) / (Pilot - 1))
     Math.max(1, ((seconds - one) / each).toInt + 1)

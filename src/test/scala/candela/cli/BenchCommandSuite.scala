@@ -57,7 +57,7 @@ class BenchCommandSuite extends AnyFunSuite:
       val words = Vector("--no-pictures", "--programs", "copy", "--report", page.toString)
       val (code, captured) = run(Vector(suite, "--samples", "1") ++ words*)
       assert(code == 0, captured.err)
-      assert(!captured.err.contains("left out"))
+      assert(!captured.err.contains("skipped"))
       assert(!Files.readString(page).contains("class=\"viewer card\""))
 
   test("Candela is started by its launcher, if that started the suite"):
@@ -85,7 +85,7 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(code == 130, captured.err)
       assert(captured.out.linesIterator.toVector == files.map(f => s"wrote $f"))
       assert(Files.readAllLines(files(2)).size == 2)
-      assert(Files.readString(files(0)).contains("only in part rendered when this was written"))
+      assert(Files.readString(files(0)).contains("partly rendered when this report was written"))
       assert(!Files.list(folder).anyMatch(_.toString.endsWith(".tmp")))
 
   test("what can't be is said before anything runs"):
@@ -97,7 +97,7 @@ class BenchCommandSuite extends AnyFunSuite:
       assert(error(s"$folder/none.conf").contains("no such suite"))
       assert(error(suite, "--report", s"$folder/x.pdf").contains(".html, .json, .csv, or .svg"))
       assert(error(suite, "--report", s"$folder/none/x.html").contains("no such folder"))
-      assert(error(suite, "--scenes", "flut").contains("no scene `flut`; it has flat"))
+      assert(error(suite, "--scenes", "flut").contains("unknown scene `flut`; known: flat"))
       assert(error(folder.toString, "--report", s"$folder/x.csv").contains("no scene of"))
       assert(!Files.exists(folder.resolve("x.csv")))
 

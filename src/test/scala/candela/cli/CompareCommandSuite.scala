@@ -108,7 +108,7 @@ class CompareCommandSuite extends AnyFunSuite:
       assert(same.out.startsWith("MSE           0.000"))
       val (code, outside) = run(a, b, "--crop", "0,9,2,4")
       assert(code == 1)
-      assert(outside.err.contains("no part of 8×4 pixels: x 0 until 9, y 2 until 4"))
+      assert(outside.err.contains("window x 0 to 9, y 2 to 4 is outside the image of 8×4 pixels"))
 
   test("channels can be told apart, and chosen"):
     TempFolder.use: folder =>
@@ -119,7 +119,7 @@ class CompareCommandSuite extends AnyFunSuite:
       // one of 32 pixels is off by 1/2
       assert(green(1) == "0.007813" && green.last == "1.0313")
       assert(run(a, b, "--channels", "R,B")._2.out.startsWith("MSE           0.000"))
-      assert(run(a, b, "--channels", "Z")._2.err.contains("no channel Z, only R, G, B"))
+      assert(run(a, b, "--channels", "Z")._2.err.contains("unknown channel Z; known: R, G, B"))
 
   test("difference and heat map show where the pictures differ"):
     TempFolder.use: folder =>

@@ -39,11 +39,11 @@ class LauncherSuite extends AnyFunSuite:
       assert(tooOld.code == 2)
       assert(
         tooOld.err ==
-          "candela: a JDK 17 or newer is needed, but CANDELA_JAVA is version 11.0.9\n"
+          "candela: CANDELA_JAVA must be JDK 17 or newer, found version 11.0.9\n"
       )
       val missing = p.run(env = Map("CANDELA_JAVA" -> "/no/jdk"))
       assert(missing.code == 2)
-      assert(missing.err.startsWith("candela: CANDELA_JAVA is /no/jdk, which is no JDK"))
+      assert(missing.err.startsWith("candela: CANDELA_JAVA must be a JDK, found /no/jdk"))
       assert(p.starts.isEmpty)
 
   test("words reach the program as they are, behind JAVA_OPTS, and its exit code comes back"):

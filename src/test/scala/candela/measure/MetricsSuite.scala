@@ -54,9 +54,9 @@ class MetricsSuite extends AnyFunSuite:
   test("different sizes and channels are errors that name both"):
     def error(a: Image, b: Image) = intercept[ImageError](Metrics.compare(a, b)).getMessage
     val wide = Image.rgb(3, 2)
-    assert(error(wide, Image.rgb(2, 3)) == "pictures of different size: 3×2 and 2×3 pixels")
+    assert(error(wide, Image.rgb(2, 3)) == "image sizes differ: 3×2 and 2×3 pixels")
     val gray = Image(3, 2, Vector("Y"), new Array[Float](6))
-    assert(error(wide, gray) == "pictures of different channels: R, G, B and Y")
+    assert(error(wide, gray) == "image channels differ: R, G, B and Y")
 
   test("colours are compared by name, other channels ignored, and encoded pictures decoded"):
     val bgra = Image(1, 1, Vector("B", "G", "R", "A"), Array(0.3f, 0.2f, 0.1f, 1f))

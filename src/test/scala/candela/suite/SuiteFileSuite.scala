@@ -46,13 +46,13 @@ class SuiteFileSuite extends AnyFunSuite:
     assert(y.work.contains(Work.Seconds(Vector(1, 2))))
 
   private val wrong = Vector(
-    ("seeds = 2", "seeds = 0", "seeds: expected a number from 1"),
-    ("seeds = 2", "seedz = 2", "the suite has an entry `seedz`"),
-    ("threads = 1", "treads = 1", "program b has an entry `treads`"),
-    ("target = 0.01", "tarket = 0.01", "scene z has an entry `tarket`"),
-    ("samples = [4, 1]", "samples = [0]", "samples: expected numbers from 1"),
-    ("seconds = [1, 2]", "seconds = [-1]", "seconds: expected more than 0"),
-    ("spp (", "spp ((", "no regular expression"),
+    ("seeds = 2", "seeds = 0", "`seeds` must be at least 1"),
+    ("seeds = 2", "seedz = 2", "unknown key `seedz` in the suite"),
+    ("threads = 1", "treads = 1", "unknown key `treads` in program b"),
+    ("target = 0.01", "tarket = 0.01", "unknown key `tarket` in scene z"),
+    ("samples = [4, 1]", "samples = [0]", "`samples` must be at least 1"),
+    ("seconds = [1, 2]", "seconds = [-1]", "`seconds` must be greater than 0"),
+    ("spp (", "spp ((", "invalid regular expression"),
     ("reads = [v3], ", "", "reads"),
     ("scenes {", "scenes [", "suite")
   )
@@ -68,7 +68,7 @@ class SuiteFileSuite extends AnyFunSuite:
     val suite = read(good).only(Vector("b"), Vector("y"))
     assert(suite.programs.map(_.name) == Vector("b") && suite.scenes.map(_.name) == Vector("y"))
     val error = intercept[SceneError](read(good).only(Vector("c"), Vector.empty))
-    assert(error.problems.head.message == "the suite has no program `c`; it has b, a")
+    assert(error.problems.head.message == "unknown program `c`; known: b, a")
 
   test("the suites of the repository can be read"):
     for name <- Vector("own", "peers") do

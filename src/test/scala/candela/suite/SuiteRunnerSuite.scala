@@ -94,12 +94,12 @@ class SuiteRunnerSuite extends AnyFunSuite:
       assert(report.scenes.head.programs.map(_.name) == Vector("copy"))
       val reasons = report.leftOut.toMap
       assert(reasons("none") == "`no-such-renderer-of-candela` is not installed")
-      assert(reasons("unset") == "the variable NO_SUCH_PROGRAM is not set")
-      assert(reasons("Away") == "the variable NO_SUCH_VARIABLE is not set")
-      assert(reasons("Flat, bad, 1 spp").startsWith("ended with 1: "))
-      assert(reasons("Flat, silent, 1 spp") == "wrote no image: it said nothing")
-      assert(reasons("edited on Flat") == "nothing to edit: `no such words`")
-      for (what, why) <- reasons do assert(said.contains(s"left out: $what: $why"))
+      assert(reasons("unset") == "environment variable NO_SUCH_PROGRAM is not set")
+      assert(reasons("Away") == "environment variable NO_SUCH_VARIABLE is not set")
+      assert(reasons("Flat, bad, 1 spp").startsWith("exit code 1: "))
+      assert(reasons("Flat, silent, 1 spp") == "wrote no image: no output")
+      assert(reasons("edited on Flat") == "edit matches nothing: `no such words`")
+      for (what, why) <- reasons do assert(said.contains(s"skipped: $what: $why"))
 
   private def twoScenes(folder: Path, command: String): Suite =
     val first = sceneIn(folder)
@@ -119,7 +119,9 @@ class SuiteRunnerSuite extends AnyFunSuite:
       )
       assert(told.result().map(_.scenes.map(_.name)) ==
         Vector(Vector("flat"), Vector("flat", "second")))
-      assert(told.result().head.leftOut == Vector("Second" -> "not rendered when this was written"))
+      assert(told.result().head.leftOut == Vector(
+        "Second" -> "not rendered when this report was written"
+      ))
       assert(report.leftOut.isEmpty && report.scenes.size == 2)
 
   test("what is cancelled keeps what was measured, and says what was not"):
@@ -137,8 +139,8 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val points = report.scenes.head.programs.head.curve.points
       assert(points.map(_.runs.size) == Vector(2, 1))
       assert(report.leftOut == Vector(
-        "Flat" -> "only in part rendered when this was written",
-        "Second" -> "not rendered when this was written"
+        "Flat" -> "partly rendered when this report was written",
+        "Second" -> "not rendered when this report was written"
       ))
 
   test("a program that is cancelled ends soon, and is no failure"):
