@@ -1,5 +1,5 @@
 "use strict";
-// The fragment of the address sets what is seen first, so that a view can be sent to someone:
+// The URL fragment sets the initial view, which makes views shareable:
 // #theme=dark&chart=flip&axis=samples&mode=slider&a=…&b=…&metric=mae&ev=1.5&x=10&y=20
 const asked = new URLSearchParams(location.hash.slice(1));
 
@@ -15,7 +15,7 @@ document.querySelector("#theme").addEventListener("click", () => {
   theme(dark ? "light" : "dark");
 });
 
-// Charts: one is drawn for each metric and axis; the buttons say which one is seen.
+// Charts: one per metric and axis; the buttons select the visible one.
 for (const part of document.querySelectorAll(".charts")) {
   const state = { chart: asked.get("chart"), axis: asked.get("axis") };
   const all = [...part.querySelectorAll(".chart")];
@@ -48,7 +48,7 @@ const encode = v => v <= 0.0031308 ? 12.92 * v : 1.055 * Math.pow(v, 1 / 2.4) - 
 const Codes = Uint8ClampedArray.from({ length: 4097 }, (_, i) => 255 * encode(i / 4096) + 0.5);
 const short = v => v === 0 ? "0" : Math.abs(v) >= 1e-3 && Math.abs(v) < 1e5 ? v.toPrecision(4) : v.toExponential(3);
 
-// Errors of a channel; FLIP is worked out by the program and comes as a map.
+// Per-channel errors; the FLIP map is precomputed by the program.
 const Errors = {
   relmse: (a, b) => { const r = (a - b) / (b + 0.01); return isFinite(r) ? r * r : 0; },
   mse: (a, b) => (a - b) * (a - b),

@@ -71,7 +71,7 @@ final class SuiteRunner(
     for
       seed <- (1 to suite.seeds).toVector
       step <- plans.flatMap(_._2.indices).distinct.sorted
-      // Rotates the order, so that the machine's thermal state affects all programs alike.
+      // Rotates the order, so that disturbances of the machine affect all programs alike.
       (entry, samples) <- rotated(plans, seed + step)
       if step < samples.size
       result <- measured(Job(entry, step, samples(step), seed), reference)
