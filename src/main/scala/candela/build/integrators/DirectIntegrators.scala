@@ -10,13 +10,13 @@ import candela.scenefile.Dialect
 object DirectLightingRecipe
     extends IntegratorRecipe(
       "directlighting",
-      "light that comes straight from lights, or by mirrors and glass",
+      "direct lighting and specular paths",
       untilV3
     )
     with Windowed:
   private val strategy =
-    // pbrt-v1 had "weighted", which the later ones read as "all"
-    oneOf("strategy", "which lights are sampled", Vector("all", "one", "weighted"))("all")
+    // pbrt-v1's "weighted", which v2 and v3 read as "all"
+    oneOf("strategy", "lights sampled at each point", Vector("all", "one", "weighted"))("all")
 
   protected def make()(using Site): IntegratorPlan =
     val (depth, every) = (Math.max(1, maxDepth()), strategy() != "one")
@@ -25,7 +25,7 @@ object DirectLightingRecipe
         RenderMethod.Tiles(
           DirectLighting(scene, depth, if every then samples else Array.empty)
         ),
-      // Only when each light has its turn can one of them be left to BSDF sampling
+      // Lights can rely on BSDF sampling only if every light is sampled
       samplesBsdf = every,
       s"directlighting, ${if every then "all lights" else "one light"} at each point",
       throughVolumes = Some((scene, samples, march) =>
@@ -34,7 +34,7 @@ object DirectLightingRecipe
     ))
 
 object WhittedRecipe
-    extends IntegratorRecipe("whitted", "mirrors, glass and hard shadows alone", untilV3)
+    extends IntegratorRecipe("whitted", "specular paths and direct light, without BSDF sampling", untilV3)
     with Windowed:
 
   protected def make()(using Site): IntegratorPlan =
@@ -46,25 +46,25 @@ object WhittedRecipe
       throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
     ))
 
-/** In each dialect another picture: v2's value is the part of the rays that meet nothing, v3's
-  * their mean by the cosine, times π, and v4's that mean, where nothing hides a point 1.
+/** Differs between dialects: v2 computes the unoccluded fraction of the rays, v3 their
+  * cosine-weighted mean times π, v4 that mean, which is 1 at an unoccluded point.
   */
 object AmbientOcclusionRecipe
-    extends Recipe[IntegratorPlan]("ambientocclusion", "how much of the sky each point sees")
+    extends Recipe[IntegratorPlan]("ambientocclusion", "unoccluded part of the hemisphere")
     with Windowed:
-  private val cosine = bool("cossample", "more rays along the normal?", sinceV3)(true)
+  private val cosine = bool("cossample", "sample directions by the cosine", sinceV3)(true)
   private val samples =
-    integer("nsamples", "rays from each point", untilV3)(if v2 then 2048 else 64)
+    integer("nsamples", "rays per point", untilV3)(if v2 then 2048 else 64)
   private val distance =
-    float("maxdist", "what is farther hides nothing", onlyV2, "scene units")(
+    float("maxdist", "maximum distance of occluders", onlyV2, "scene units")(
       Float.PositiveInfinity
     )
   private val distanceV4 =
-    float("maxdistance", "what is farther hides nothing", onlyV4, "scene units")(
+    float("maxdistance", "maximum distance of occluders", onlyV4, "scene units")(
       Float.PositiveInfinity
     )
 
-  /** v2 passes over what is nearer, in scene units, so that surfaces do not hide themselves. */
+  /** Minimum distance of v2's occluders in scene units, which avoids self-occlusion. */
   private val NearV2 = 0.01f
 
   protected def make()(using site: Site): IntegratorPlan =
@@ -95,7 +95,7 @@ object AmbientOcclusionRecipe
     windowed(IntegratorPlan(
       (scene, _) => RenderMethod.Tiles(AmbientOcclusion(scene, rule)),
       samplesBsdf = true,
-      s"ambientocclusion, ${rule.samples} rays from each point",
+      s"ambientocclusion, ${rule.samples} rays per point",
       isLit = false,
       throughVolumes = Some((scene, _, march) => AmbientOcclusion(scene, rule, march))
     ))

@@ -16,7 +16,7 @@ object Integrators:
     "integrator",
     Vector(
       PathRecipe("path", "path tracing", every),
-      PathRecipe("volpath", "path tracing, through media", sinceV3),
+      PathRecipe("volpath", "path tracing with participating media", sinceV3),
       DirectLightingRecipe,
       WhittedRecipe,
       AmbientOcclusionRecipe,
@@ -39,19 +39,20 @@ object Integrators:
     )
   )
 
-/** An integrator and its method, to be made once the scene is known.
+/** An integrator and its render method, built once the scene is known.
   *
-  * @param method       how samples are organised, and by what they are taken; made of the scene and
-  *                     how often each light is to be sampled
-  * @param samplesBsdf  does it find lights by BSDF sampling too? Then lights may leave some to that
-  * @param goesBeneath  does light travel beneath surfaces?
-  * @param window       of the full image that is rendered, if not all of it is
-  * @param samples      of each pixel, if the integrator and not the sampler says how many
-  * @param lights       how the light to sample is chosen
-  * @param isLit        do lights matter? Else a scene without them is no mistake
-  * @param followsSpecular are textures filtered in mirrors and behind glass, too?
-  * @param throughMedia   makes the integrator of tiles where there are media, if it sees them
-  * @param throughVolumes likewise for v2's volumes
+  * @param method       creates the render method from the scene and the number of samples of each
+  *                     light
+  * @param samplesBsdf  whether the integrator also finds lights by BSDF sampling; if so, lights may
+  *                     rely on it for some directions
+  * @param goesBeneath  whether the integrator supports subsurface scattering
+  * @param window       rendered window of the full image; None: all of it
+  * @param samples      samples per pixel, if set by the integrator instead of the sampler
+  * @param lights       light sampling strategy
+  * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
+  * @param followsSpecular whether textures are also filtered along specular paths
+  * @param throughMedia   creates the integrator for scenes with participating media, if supported
+  * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
   */
 final case class IntegratorPlan(
     method: (Scene, Array[Int]) => RenderMethod,
@@ -67,16 +68,16 @@ final case class IntegratorPlan(
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )
 
-/** What many integrators have: how far light is followed. */
+/** Base of integrators with a maximum path depth. */
 abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[IntegratorPlan](name, meaning, dialects):
   protected val maxDepth: Field[Int] =
-    integer("maxdepth", "most scattering events of a path")(5)
+    integer("maxdepth", "maximum number of scattering events")(5)
 
-/** v3's integrators can be told what to render, beside the film. */
+/** Integrators whose v3 form limits the rendered pixels, in addition to the film. */
 trait Windowed extends Recipe[IntegratorPlan]:
   private val window =
-    integers("pixelbounds", "x0 x1 y0 y1: the image's part to render", onlyV3, "integer[4]", "all")
+    integers("pixelbounds", "x0 x1 y0 y1: pixels to render", onlyV3, "integer[4]", "all")
 
   protected final def windowed(plan: IntegratorPlan)(using site: Site): IntegratorPlan =
     val asked = window()
@@ -84,20 +85,20 @@ trait Windowed extends Recipe[IntegratorPlan]:
     else if asked.length == 4 then
       plan.copy(window = Some(PixelBounds(asked(0), asked(2), asked(1), asked(3))))
     else
-      site.error("`pixelbounds` takes x0 x1 y0 y1")
+      site.error(s"`pixelbounds` must be x0 x1 y0 y1, found ${asked.length} numbers")
       plan
 
-/** Those that choose one light of all at each point can be told how. */
+/** Integrators that sample one light per vertex, by a selectable strategy. */
 trait Choosing extends Recipe[IntegratorPlan]:
   private val sampler = oneOf(
     "lightsampler",
-    "how lights are chosen (bvh and exhaustive: by a tree of importance)",
+    "light sampling strategy (bvh and exhaustive: light BVH)",
     Vector("bvh", "exhaustive", "power", "uniform"),
     onlyV4
   )("bvh")
   private val strategy = oneOf(
     "lightsamplestrategy",
-    "how lights are chosen (spatial: by a tree of importance)",
+    "light sampling strategy (spatial: light BVH)",
     Vector("spatial", "power", "uniform"),
     onlyV3
   )("spatial")
@@ -112,19 +113,19 @@ trait Choosing extends Recipe[IntegratorPlan]:
       case "uniform" => LightStrategy.Uniform
       case _ => LightStrategy.Importance
 
-/** v4's can roughen what a path meets late. */
+/** Integrators whose v4 form can regularise BSDFs. */
 trait Regularizing extends Recipe[IntegratorPlan]:
   protected final val regularize: Field[Boolean] = bool(
     "regularize",
-    "is what a path meets after it was spread roughened to 0.1 at least?",
+    "roughen BSDFs to at least 0.1 after the first non-specular bounce",
     onlyV4
   )(false)
 
-/** Of integrators that are not there yet. */
+/** Recipes of unsupported integrators, which fall back to path tracing. */
 trait PathInstead extends Recipe[IntegratorPlan]:
   protected def depth()(using Site): Int = 5
 
-  /** Does it see media in v3 and v4? */
+  /** Whether the integrator supports participating media in v3 and v4. */
   protected def seesMedia: Boolean = false
 
   protected def make()(using site: Site): IntegratorPlan =
@@ -147,14 +148,14 @@ trait PathInstead extends Recipe[IntegratorPlan]:
         Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
     )
 
-/** What is made of glass that splits light into its colours. */
+/** Support for dispersion. */
 private[build] object Dispersions:
 
-  /** For paths, if the scene has such glass. */
+  /** Wavelength sampling for paths, if the scene has dispersive materials. */
   def wavelengths(scene: Scene)(using site: Site): Option[Wavelengths] =
     Option.when(scene.isDispersive)(Wavelengths(site.resources.basis))
 
-  /** In words; with a warning if the integrator can't. */
+  /** Describes the support for dispersion. Warns if the integrator has none. */
   def describe(
       scene: Scene,
       method: RenderMethod,
@@ -162,11 +163,11 @@ private[build] object Dispersions:
       problems: Findings
   ): String =
     if !scene.isDispersive then "none"
-    else if method.splitsLight then "paths take one wavelength where light is split"
+    else if method.splitsLight then "one wavelength sampled per path at dispersive surfaces"
     else
       for d <- description.integrator.orElse(description.camera) do
         problems.warn(
           d.at,
-          "glass that splits light is not supported here yet: its index at 589 nm is used"
+          "this integrator does not support dispersion yet; using the index of refraction at 589 nm"
         )
-      "left out: one index for all wavelengths"
+      "ignored: one index of refraction for all wavelengths"

@@ -9,16 +9,16 @@ import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
-/** Integrators whose paths start at lights, too. */
-object BdptRecipe extends IntegratorRecipe("bdpt", "paths from camera and lights, joined", sinceV3)
+/** Bidirectional path tracing. */
+object BdptRecipe extends IntegratorRecipe("bdpt", "bidirectional path tracing", sinceV3)
     with Windowed
     with Regularizing:
-  notYet("the picture alone is written")(
-    bool("visualizestrategies", "write an image for each way to join")(false),
-    bool("visualizeweights", "write their weights")(false)
+  notYet("only the image is written")(
+    bool("visualizestrategies", "write an image per connection strategy")(false),
+    bool("visualizeweights", "write the MIS weights of the strategies")(false)
   )
-  noMeaning("all of them have the same mean; light paths start by power")(
-    string("lightsamplestrategy", "how lights are chosen: uniform, power, spatial", onlyV3)(
+  noMeaning("all strategies have the same mean; light subpaths start by power")(
+    string("lightsamplestrategy", "light sampling strategy: uniform, power, spatial", onlyV3)(
       "power"
     )
   )
@@ -28,18 +28,18 @@ object BdptRecipe extends IntegratorRecipe("bdpt", "paths from camera and lights
 object MltRecipe
     extends IntegratorRecipe(
       "mlt",
-      "Metropolis light transport: chains of paths from camera and lights",
+      "Metropolis light transport with bidirectional paths",
       sinceV3
     )
     with Regularizing:
   private val bootstrap = integer(
     "bootstrapsamples",
-    "least number of paths to start with; more until the brightness has a standard error of " +
-      "0.3 %, or until they are half as many as all mutations"
+    "minimum number of bootstrap paths; more are traced until the brightness has a standard " +
+      "error of 0.3 %, or until they are half as many as the mutations"
   )(100000)
   private val chains = integer("chains", "Markov chains")(1000)
-  private val mutations = integer("mutationsperpixel", "mutations of paths, for each pixel")(100)
-  private val largeStep = float("largestepprobability", "of a path that is all new")(0.3f)
+  private val mutations = integer("mutationsperpixel", "path mutations per pixel")(100)
+  private val largeStep = float("largestepprobability", "probability of an independent path")(0.3f)
   private val sigma = float("sigma", "standard deviation of small mutations")(0.01f)
 
   protected def make()(using Site): IntegratorPlan =
@@ -47,57 +47,57 @@ object MltRecipe
     BidirectionalPlans.metropolis(name, maxDepth(), mutations(), settings, regularize())
 
 object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping", sinceV3):
-  private val passes = integer("numiterations", "passes", onlyV3)(64)
+  private val passes = integer("numiterations", "photon passes", onlyV3)(64)
   private val passesToo = integer(
     "iterations",
-    "another name of `numiterations`",
+    "alias of `numiterations`",
     onlyV3,
     shown = "numiterations"
   )(-1)
   private val photons =
-    integer("photonsperiteration", "light paths of each pass", shown = "one a pixel")(-1)
+    integer("photonsperiteration", "light paths per pass", shown = "one per pixel")(-1)
   private val radius =
-    float("radius", "in which photons are gathered at first", unit = "scene units")(1f)
+    float("radius", "initial search radius for photons", unit = "scene units")(1f)
   private val seed =
-    integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
-  noMeaning("the image is written at the end")(
-    integer("imagewritefrequency", "passes between images", onlyV3, shown = "never")(Int.MaxValue)
+    integer("seed", "random seed", onlyV4, shown = "the option's")(0)
+  noMeaning("the image is written once, at the end")(
+    integer("imagewritefrequency", "passes between written images", onlyV3, shown = "never")(Int.MaxValue)
   )
 
   protected def make()(using site: Site): IntegratorPlan =
     val asked = if passesToo() > 0 then passesToo() else passes()
-    // v4 takes as many as the sampler says
+    // In v4 the sampler sets the number of passes
     val count = Option.when(site.dialect == Dialect.V3)(Math.max(1, asked))
     val settings =
       PhotonSettings(radius(), photons(), Math.max(0, maxDepth()), compresses = true, seed())
     PhotonPlans.plan(name, maxDepth(), settings, count)
 
 object LightPathRecipe
-    extends IntegratorRecipe("lightpath", "paths from the lights alone", onlyV4):
+    extends IntegratorRecipe("lightpath", "light tracing only", onlyV4):
   override def pending: Option[String] =
-    Some("\"bdpt\" is used: the same light, and that which is seen by way of mirrors or glass")
+    Some("using \"bdpt\", which also renders light seen via specular surfaces")
   protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
 
 object FunctionRecipe
-    extends Recipe[IntegratorPlan]("function", "no image: the error of samplers", onlyV4)
+    extends Recipe[IntegratorPlan]("function", "error of samplers; renders no image", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
-    Some("it makes no picture of the scene; the path integrator's is made")
+    Some("using \"path\", which renders an image of the scene")
   declare(
     oneOf(
       "function",
-      "what is integrated",
+      "integrand",
       Vector("step", "diagonal", "disk", "checkerboard", "rotatedcheckerboard", "gaussian")
     )("step"),
-    string("filename", "of the errors", shown = "function-mse.txt")(""),
-    bool("skipbad", "leave out sample counts that the sampler does not like")(true),
-    string("imagefilename", "of the function's picture", shown = "none")("")
+    string("filename", "file for the errors", shown = "function-mse.txt")(""),
+    bool("skipbad", "skip sample counts unsuited to the sampler")(true),
+    string("imagefilename", "file for an image of the function", shown = "none")("")
   )
 
-/** How [[BidirectionalPathTracer]] is made, for all that is rendered by it. */
+/** Plans that use [[BidirectionalPathTracer]]. */
 private[build] object BidirectionalPlans:
 
-  /** @param name by which the scene asked for it */
+  /** @param name name of the integrator in the scene */
   def plan(name: String, depth: Int, widens: Boolean = false)(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth)
     val dialect = site.dialect
@@ -109,7 +109,7 @@ private[build] object BidirectionalPlans:
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         site.warn(
-          s"\"$name\" sees no media and no borders of media yet: \"volpath\" is used, $Lack"
+          s"\"$name\" does not support participating media yet; using \"volpath\", which $Lack"
         )
         VolumePathTracer(
           scene,
@@ -119,7 +119,7 @@ private[build] object BidirectionalPlans:
         )
       ,
       throughVolumes = Some: (scene, _, march) =>
-        site.warn(s"\"$name\" sees no volumes yet: \"path\" is used, $Lack")
+        site.warn(s"\"$name\" does not support volumes yet; using \"path\", which $Lack")
         PathTracer(scene, PathLimits(most), volumes = march)
     )
 
@@ -131,9 +131,9 @@ private[build] object BidirectionalPlans:
       scene, view.camera, splats, depth, RouletteAfter, compresses, widens
     )
 
-  /** Of [[MarkovChains]]: where there are media or volumes, as above.
+  /** Plan of [[MarkovChains]]. Media and volumes use the fallbacks above.
     *
-    * @param mutations for each pixel
+    * @param mutations mutations per pixel
     */
   def metropolis(
       name: String,
@@ -142,16 +142,17 @@ private[build] object BidirectionalPlans:
       settings: MetropolisSettings,
       widens: Boolean = false
   )(using site: Site): IntegratorPlan =
+    val isV2 = site.dialect == Dialect.V2
     for
-      (count, what) <- Seq(
-        mutations -> "mutations",
-        settings.bootstrap -> "bootstrap samples",
+      (count, parameter) <- Seq(
+        mutations -> (if isV2 then "samplesperpixel" else "mutationsperpixel"),
+        settings.bootstrap -> "bootstrapsamples",
         settings.chains -> "chains"
       )
       if count < 1
-    do site.error(s"there must be $what; found $count")
+    do site.error(s"`$parameter` must be at least 1, found $count")
     if !(settings.largeStep >= 0f && settings.largeStep <= 1f) then
-      site.error(s"`largestepprobability` must be in [0, 1]; found ${settings.largeStep}")
+      site.error(s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}")
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
     plan(name, depth, widens).copy(
@@ -164,27 +165,28 @@ private[build] object BidirectionalPlans:
       samples = Some(Math.max(1, mutations))
     )
 
-  private val Lack =
-    "the same light but for that of lamps that are points, by way of mirrors or glass"
+  private val Lack = "misses caustics from point lights"
 
-/** How [[PhotonPasses]] are made. */
+/** Plans that use [[PhotonPasses]]. */
 private[build] object PhotonPlans:
 
-  /** @param depth  scattering events of a path from the camera
-    * @param passes if the scene says how many
+  /** @param depth  maximum number of scattering events of a camera path
+    * @param passes number of passes, if set by the scene
     */
   def plan(name: String, depth: Int, settings: PhotonSettings, passes: Option[Int])(
       using site: Site
   ): IntegratorPlan =
     val most = Math.max(0, depth)
-    if !(settings.radius > 0f) then site.error("photons need a radius above 0")
+    if !(settings.radius > 0f) then
+      val parameter = if site.dialect == Dialect.V2 then "maxdist" else "radius"
+      site.error(s"`$parameter` must be above 0, found ${settings.radius}")
     val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
     BidirectionalPlans
       .plan(name, most)
       .copy(
         method = (scene, _) => RenderMethod.Passes(PhotonPasses(scene, most, seeded, _)),
         describe =
-          s"$name, up to $most scattering events, photons within ${settings.radius} at first",
+          s"$name, up to $most scattering events, initial photon radius ${settings.radius}",
         samples = passes,
         throughMedia = None
       )

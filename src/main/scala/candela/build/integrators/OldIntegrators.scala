@@ -6,29 +6,29 @@ import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 import candela.render.RenderMethod
 
-/** By progressive photon mapping, which comes to the same picture without final gathering. */
+/** Falls back to progressive photon mapping, with the same image and without final gathering. */
 final class PhotonMapRecipe(name: String)
     extends Recipe[IntegratorPlan](
       name,
-      "photon mapping with final gathering: by progressive photon mapping, to the same picture",
+      "photon mapping; rendered by progressive photon mapping, with the same image",
       onlyV2
     ):
-  private val bounces = integer("maxphotondepth", "most bounces of a photon")(5)
-  private val specular = integer("maxspeculardepth", "most specular bounces")(5)
+  private val bounces = integer("maxphotondepth", "maximum bounces of a photon")(5)
+  private val specular = integer("maxspeculardepth", "maximum specular bounces")(5)
   private val radius =
-    float("maxdist", "within which photons are sought", unit = "scene units")(0.1f)
+    float("maxdist", "initial search radius for photons", unit = "scene units")(0.1f)
   private val caustics =
     integer(
       "causticphotons",
-      "photons that came by mirrors and glass; 0: without that light"
+      "caustic photons; 0: no caustics"
     )(20000)
   private val indirect =
-    integer("indirectphotons", "other photons; 0: without indirect light")(100000)
-  noMeaning("photons are sent out for each sample anew, and the radius shrinks")(
-    integer("nused", "photons of each estimate")(50),
-    bool("finalgather", "is indirect light gathered at one remove?")(true),
-    integer("finalgathersamples", "rays of each gathering")(32),
-    float("gatherangle", "between gathering rays and photons", unit = "degrees")(10f)
+    integer("indirectphotons", "indirect photons; 0: no indirect light")(100000)
+  noMeaning("each sample traces new photons, and the radius shrinks")(
+    integer("nused", "photons per estimate")(50),
+    bool("finalgather", "gather indirect light from the next bounce")(true),
+    integer("finalgathersamples", "final gather rays")(32),
+    float("gatherangle", "maximum angle between gather rays and photons", unit = "degrees")(10f)
   )
 
   protected def make()(using Site): IntegratorPlan =
@@ -44,49 +44,46 @@ final class PhotonMapRecipe(name: String)
     PhotonPlans.plan(name, depth, settings, passes = None)
 
 object InstantGlobalIlluminationRecipe
-    extends IntegratorRecipe("igi", "many point lights in place of indirect light", onlyV2)
+    extends IntegratorRecipe("igi", "instant radiosity: virtual point lights", onlyV2)
     with PathInstead:
   declare(
-    integer("nlights", "paths from the lights in each set")(64),
-    integer("nsets", "sets of lights")(4),
-    float("rrthreshold", "contribution below which a light may be left out")(0.0001f),
-    float("glimit", "greatest geometric term")(10f),
-    integer("gathersamples", "rays that make up for that limit")(16)
+    integer("nlights", "light paths per set")(64),
+    integer("nsets", "sets of virtual lights")(4),
+    float("rrthreshold", "contribution below which Russian roulette skips a light")(0.0001f),
+    float("glimit", "maximum geometric term")(10f),
+    integer("gathersamples", "rays that compensate for the limit")(16)
   )
   override def pending: Option[String] =
-    Some("the path integrator is used: the same light, without the pattern of point lights")
+    Some("using \"path\", which has no artefacts of virtual point lights")
   override protected def depth()(using Site): Int = maxDepth()
 
 object IrradianceCacheRecipe
-    extends Recipe[IntegratorPlan]("irradiancecache", "indirect light, interpolated", onlyV2)
+    extends Recipe[IntegratorPlan]("irradiancecache", "interpolated indirect light", onlyV2)
     with PathInstead:
   override def pending: Option[String] =
-    Some(
-      "the path integrator is used: nothing is interpolated, and glossy surfaces reflect " +
-        "indirect light, too"
-    )
+    Some("using \"path\", which does not interpolate and includes glossy indirect light")
   declare(
-    float("minweight", "of neighbours that are used")(0.5f),
-    float("minpixelspacing", "least distance of samples", unit = "pixels")(2.5f),
-    float("maxpixelspacing", "greatest distance of samples", unit = "pixels")(15f),
-    float("maxangledifference", "between normals", unit = "degrees")(10f),
-    integer("maxspeculardepth", "most specular bounces")(5),
-    integer("maxindirectdepth", "most diffuse bounces")(3),
-    integer("nsamples", "rays of each sample")(4096)
+    float("minweight", "minimum weight of a cached sample")(0.5f),
+    float("minpixelspacing", "minimum distance of samples", unit = "pixels")(2.5f),
+    float("maxpixelspacing", "maximum distance of samples", unit = "pixels")(15f),
+    float("maxangledifference", "maximum angle between normals", unit = "degrees")(10f),
+    integer("maxspeculardepth", "maximum specular bounces")(5),
+    integer("maxindirectdepth", "maximum diffuse bounces")(3),
+    integer("nsamples", "rays per sample")(4096)
   )
 
 object DipoleSubsurfaceRecipe
-    extends IntegratorRecipe("dipolesubsurface", "light under surfaces, by a dipole", onlyV2):
-  noMeaning("no points are laid out on surfaces beforehand: each sample draws its own")(
-    float("maxerror", "solid angle up to which points are taken together", unit = "sr")(0.05f),
-    float("minsampledistance", "between points on surfaces", unit = "scene units")(0.25f)
+    extends IntegratorRecipe("dipolesubsurface", "subsurface scattering by the dipole approximation", onlyV2):
+  noMeaning("points are sampled anew for each camera sample")(
+    float("maxerror", "maximum solid angle of clustered points", unit = "sr")(0.05f),
+    float("minsampledistance", "distance between surface points", unit = "scene units")(0.25f)
   )
-  notYet("light enters all over the surfaces")(
-    string("pointsfile", "file of points", shown = "none")("")
+  notYet("irradiance is sampled over all surfaces")(
+    string("pointsfile", "file of surface points", shown = "none")("")
   )
 
   protected def make()(using Site): IntegratorPlan =
-    // Specular bounces, where "directlighting" counts the last surface, too
+    // Specular bounces; "directlighting" also counts the last surface
     val depth = Math.max(0, maxDepth()) + 1
     IntegratorPlan(
       (scene, samples) =>
@@ -103,7 +100,7 @@ object DipoleSubsurfaceRecipe
       )
     )
 
-/** Of what is lit by harmonics: they hold the light that arrives directly. */
+/** Fallback of precomputed radiance transfer, which covers direct light only. */
 trait DirectInstead extends Recipe[IntegratorPlan]:
   protected def make()(using Site): IntegratorPlan = IntegratorPlan(
     (scene, samples) => RenderMethod.Tiles(DirectLighting(scene, 1, samples)),
@@ -113,37 +110,37 @@ trait DirectInstead extends Recipe[IntegratorPlan]:
   )
 
 object DiffusePrtRecipe
-    extends Recipe[IntegratorPlan]("diffuseprt", "diffuse transfer, precomputed", onlyV2)
+    extends Recipe[IntegratorPlan]("diffuseprt", "precomputed diffuse transfer", onlyV2)
     with DirectInstead:
   override def pending: Option[String] =
     Some(
-      "direct lighting is used: its shadows are sharp, lights stay where they are, and surfaces " +
-        "may be glossy"
+      "using \"directlighting\", which has hard shadows, keeps lights in place and includes glossy " +
+        "reflection"
     )
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
-    integer("nsamples", "rays from each point")(4096)
+    integer("nsamples", "rays per point")(4096)
   )
 
 object GlossyPrtRecipe
-    extends Recipe[IntegratorPlan]("glossyprt", "glossy transfer, precomputed", onlyV2)
+    extends Recipe[IntegratorPlan]("glossyprt", "precomputed glossy transfer", onlyV2)
     with DirectInstead:
   override def pending: Option[String] =
     Some(
-      "direct lighting is used: its shadows are sharp, lights stay where they are, and surfaces " +
-        "have materials of their own"
+      "using \"directlighting\", which has hard shadows, keeps lights in place and uses the " +
+        "materials of the scene"
     )
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
-    integer("nsamples", "rays from each point")(4096),
-    color("Kd", "of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f)),
-    color("Ks", "of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f)),
-    float("roughness", "of all surfaces")(0.1f)
+    integer("nsamples", "rays per point")(4096),
+    color("Kd", "diffuse reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f)),
+    color("Ks", "glossy reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f)),
+    float("roughness", "roughness of all surfaces")(0.1f)
   )
 
 object UseProbesRecipe
-    extends Recipe[IntegratorPlan]("useprobes", "light from precomputed probes", onlyV2)
+    extends Recipe[IntegratorPlan]("useprobes", "precomputed light probes", onlyV2)
     with PathInstead:
   override def pending: Option[String] =
-    Some("the path integrator is used: no file is read, and light arrives in full detail")
-  declare(string("filename", "file of probes")("probes.out"))
+    Some("using \"path\", which needs no probe file and keeps all detail")
+  declare(string("filename", "probe file")("probes.out"))

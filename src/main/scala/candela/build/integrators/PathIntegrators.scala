@@ -11,12 +11,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     with Choosing
     with Regularizing:
   private val threshold =
-    float("rrthreshold", "throughput below which a path may end", onlyV3)(1f)
+    float("rrthreshold", "throughput below which Russian roulette may end a path", onlyV3)(1f)
 
   protected def make()(using site: Site): IntegratorPlan =
-    // v2 lights one vertex more than it counts
+    // v2 samples lights at one vertex more than it counts
     val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
-    // v2's path and v4's take such a surface for glass, or see its reflection alone
+    // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val widens = regularize()
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
@@ -29,7 +29,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
         )
       ,
       samplesBsdf = true,
-      s"$name, up to $depth scattering events" + (if widens then ", regularized" else ""),
+      s"$name, up to $depth scattering events" + (if widens then ", regularised" else ""),
       followsSpecular = site.dialect == Dialect.V4,
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
@@ -47,33 +47,31 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     ))
 
 object SimplePathRecipe
-    extends IntegratorRecipe("simplepath", "path tracing, without its refinements", onlyV4)
+    extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
     Some(
-      "the path integrator is used: the same light, and that of lamps that are points even where " +
-        "`samplelights` is false"
+      "using \"path\", which samples point lights even if `samplelights` is false"
     )
   declare(
-    bool("samplelights", "are lights sampled?")(true),
-    bool("samplebsdf", "are BSDFs sampled?")(true)
+    bool("samplelights", "sample light sources")(true),
+    bool("samplebsdf", "sample BSDFs")(true)
   )
   override protected def depth()(using Site): Int = maxDepth()
 
 object SimpleVolPathRecipe
-    extends IntegratorRecipe("simplevolpath", "path tracing through media, without lights", onlyV4)
+    extends IntegratorRecipe("simplevolpath", "simple path tracing in participating media, without light sampling", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
-    Some("\"volpath\" is used: the same light, and that of lamps that are points")
+    Some("using \"volpath\", which also renders point lights")
   override protected def seesMedia: Boolean = true
   override protected def depth()(using Site): Int = maxDepth()
 
 object RandomWalkRecipe
-    extends IntegratorRecipe("randomwalk", "path tracing into random directions", onlyV4)
+    extends IntegratorRecipe("randomwalk", "path tracing in uniformly sampled directions", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
     Some(
-      "the path integrator is used: the same light, and that of lamps that are points, of " +
-        "mirrors and of smooth glass"
+      "using \"path\", which also renders point lights, mirrors and smooth glass"
     )
   override protected def depth()(using Site): Int = maxDepth()

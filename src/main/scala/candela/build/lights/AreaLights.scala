@@ -9,7 +9,7 @@ import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
 
-/** Recipes of lights that are surfaces. */
+/** Recipes of area lights. */
 object AreaLights:
   val all: Recipes[Option[AreaLightPlan]] =
     Recipes(
@@ -17,11 +17,11 @@ object AreaLights:
       Vector(DiffuseLightRecipe("diffuse", every), DiffuseLightRecipe("area", untilV3))
     )
 
-/** What an area light statement says; it applies to the shapes that follow.
+/** An area light statement; it applies to the shapes that follow.
   *
-  * @param emitted radiance, or factor of the picture
-  * @param power   v4's total of the whole shape, whatever its area; ≤ 0: none
-  * @param perUnit luminance of the picture's mean; 1 if there is none
+  * @param emitted emitted radiance, or scale of the image
+  * @param power   v4's total power per shape, independent of its area; not set if ≤ 0
+  * @param perUnit mean luminance of the image; 1 without an image
   */
 final class AreaLightPlan(
     emitted: Rgb,
@@ -32,18 +32,18 @@ final class AreaLightPlan(
     val samples: Int
 ):
 
-  /** Emission of a shape of this area: v4's `power` fixes it, whatever the area. */
+  /** Radiance of a shape of this area; v4's `power` sets the total. */
   private def radiance(area: => Float): Rgb =
     if power > 0f then
       val sides = if twoSided then 2f else 1f
       emitted * (power / (perUnit * area * Pi * sides))
     else emitted
 
-  /** Every triangle is a shape of its own, as in pbrt-v4: each has all of the power. */
+  /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4. */
   def ofTriangle(triangle: TriangleSampler): SurfaceLight =
     light(triangle, Bounds3.of(triangle.vertices), triangle.normal, 1f, contrary = false)
 
-  /** @param contrary as in [[candela.lights.Light.isContrary]] */
+  /** @param contrary see [[candela.lights.Light.isContrary]] */
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
     val (axis, cosSpread) = shape.normals
     light(shape, shape.bounds, axis, cosSpread, contrary && !twoSided)
@@ -59,21 +59,21 @@ final class AreaLightPlan(
     val plain = AreaLight(surface, emitted, twoSided, bounds, axis, cosSpread, contrary)
     picture.fold(plain)(PictureLight(plain, surface, _))
 
-/** Makes nothing where nothing would shine. */
+/** Creates no light if nothing is emitted. */
 final class DiffuseLightRecipe(
     name: String,
     dialects: Set[Dialect]
-) extends Recipe[Option[AreaLightPlan]](name, "a surface that emits evenly, or a picture", dialects)
+) extends Recipe[Option[AreaLightPlan]](name, "diffuse area light, uniform or from an image", dialects)
     with SampleCounts:
   private val radiance =
     color("L", "emitted radiance", SpectrumRole.Emission, unit = "W/(m² sr)")(Rgb.White)
   private val colored =
-    color("scale", "factor of `L`", SpectrumRole.Reflectance, untilV3)(Rgb.White)
-  private val scale = float("scale", "factor of `L`, or of the picture", onlyV4)(1f)
-  private val twoSided = bool("twosided", "does the inside emit too?", sinceV3)(false)
+    color("scale", "scale of `L`", SpectrumRole.Reflectance, untilV3)(Rgb.White)
+  private val scale = float("scale", "scale of `L` or the image", onlyV4)(1f)
+  private val twoSided = bool("twosided", "emit from both sides", sinceV3)(false)
   private val power =
     float(
-      "power", "total of each shape or triangle, instead of the size of `L`", onlyV4, "lm", "none"
+      "power", "power per shape or triangle, overrides the magnitude of `L`", onlyV4, "lm", "none"
     )(
       -1f
     )
@@ -83,14 +83,14 @@ final class DiffuseLightRecipe(
   protected def make()(using site: Site): Option[AreaLightPlan] =
     val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
     if isPicture && radiance.given_().isDefined then
-      site.error("give a diffuse light `L` or `filename`, not both")
+      site.error("`L` and `filename` of a diffuse area light are mutually exclusive")
     val image = if isPicture then LightImages.read("filename") else None
     val picture = image.map(Picture(_, PictureLookup.Smooth))
     val emitted = radiance() * colored() * scale()
     val perUnit = picture.fold(1f)(DiffuseLightRecipe.luminance(_, site.resources.basis))
     if isPicture && picture.isEmpty then None
     else if !(emitted.isFinite && emitted.max > 0f && perUnit > 0f) then
-      site.warn("it emits nothing: shapes that follow are no lights")
+      site.warn("this area light emits nothing; it is ignored")
       None
     else Some(AreaLightPlan(emitted, picture, perUnit, power(), twoSided(), sampleCount()))
 
@@ -98,9 +98,9 @@ private object DiffuseLightRecipe:
   def luminance(picture: Picture, basis: ColorBasis): Float =
     picture.mean((c, _, _) => basis.toSrgb(c).luminance)
 
-/** The lights of an emitting mesh, to be made as soon as all triangles are known.
+/** Lights of an emitting mesh, created once all triangles are known.
   *
-  * @param first of its triangles
+  * @param first index of its first triangle
   */
 private[build] final case class MeshLights(
     plan: AreaLightPlan,
@@ -113,5 +113,5 @@ private[build] final case class MeshLights(
     val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
     val flat = samplers.count(s => !(s.area > 0f))
     if flat > 0 then
-      site.warn(s"$flat of $count triangles of this light have no area: they emit nothing")
+      site.warn(s"$flat of $count triangles of this area light have no area; they are ignored")
     samplers.map(s => holes.light(plan.ofTriangle(s), s))

@@ -6,29 +6,29 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
-object PointLightRecipe extends LightRecipe("point", "shines from a point to all sides"):
+object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
   private val intensity =
     color("I", "radiant intensity", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
-  private val from = point("from", "where it is")(Vec3.Zero)
-  private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
+  private val from = point("from", "position")(Vec3.Zero)
+  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (i, p) = (scaled(intensity(), power(), 4f * Pi), from())
-    // v2 and v3 move the light by `from` after the transform, not before it
+    // v2 and v3 translate by `from` after the transform, v4 before it
     def place(toWorld: Transform) =
       if site.dialect == Dialect.V4 then toWorld.point(p) else toWorld.point(Vec3.Zero) + p
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
 
-object SpotLightRecipe extends LightRecipe("spot", "a cone of light from a point"):
+object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
   private val intensity =
     color("I", "radiant intensity along the axis", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
-  private val from = point("from", "where it is")(Vec3.Zero)
-  private val to = point("to", "a point on the axis")(Vec3.Z)
-  private val cone = float("coneangle", "between axis and edge", unit = "degrees")(30f)
+  private val from = point("from", "position")(Vec3.Zero)
+  private val to = point("to", "target of the axis")(Vec3.Z)
+  private val cone = float("coneangle", "angle between the axis and the edge of the cone", unit = "degrees")(30f)
   private val fading =
-    float("conedeltaangle", "over which light fades towards the edge", unit = "degrees")(5f)
-  private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
+    float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
+  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
@@ -37,7 +37,7 @@ object SpotLightRecipe extends LightRecipe("spot", "a cone of light from a point
     val fade = if site.dialect == Dialect.V4 then Fade.Cubic else Fade.Quartic
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
-    else if !(cone() > 0f) then LightPlan.leftOut("the cone of light has no width")
+    else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")
     else
       LightPlan(
         (toWorld, _) =>
@@ -47,13 +47,13 @@ object SpotLightRecipe extends LightRecipe("spot", "a cone of light from a point
         samples = 1
       )
 
-object DistantLightRecipe extends LightRecipe("distant", "parallel light, as the sun's"):
+object DistantLightRecipe extends LightRecipe("distant", "directional light, such as the sun"):
   private val radiance =
-    color("L", "irradiance on a facing plane", SpectrumRole.Emission, unit = "W/m²")(Rgb.White)
-  private val from = point("from", "with `to`: the direction of light")(Vec3.Zero)
-  private val to = point("to", "where it shines to")(Vec3.Z)
+    color("L", "irradiance on a perpendicular plane", SpectrumRole.Emission, unit = "W/m²")(Rgb.White)
+  private val from = point("from", "start of the direction of light")(Vec3.Zero)
+  private val to = point("to", "end of the direction of light")(Vec3.Z)
   private val illuminance =
-    float("illuminance", "on a facing plane, instead of the size of `L`", onlyV4, "lx", "none")(-1f)
+    float("illuminance", "illuminance on a perpendicular plane, overrides the magnitude of `L`", onlyV4, "lx", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (l, d) = (scaled(radiance(), illuminance(), 1f), from() - to())

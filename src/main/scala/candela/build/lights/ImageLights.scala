@@ -7,17 +7,17 @@ import candela.math.*
 import candela.scenefile.Dialect
 
 object GoniometricLightRecipe
-    extends LightRecipe("goniometric", "shines from a point, by an image of directions"):
+    extends LightRecipe("goniometric", "point light scaled by an image over directions"):
   private val intensity =
-    color("I", "factor of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
+    color("I", "scale of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
   private val filename =
-    string("filename", "equal-area octahedral image; its colours are averaged", onlyV4, "none")("")
-  private val power = float("power", "total, instead of the size of `I`", onlyV4, "lm", "none")(-1f)
+    string("filename", "equal-area octahedral image; its channels are averaged", onlyV4, "none")("")
+  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     if site.dialect == Dialect.V4 then
-      if filename().isEmpty then site.error("a goniometric light needs the image `filename`")
+      if filename().isEmpty then site.error("a goniometric light needs `filename`")
       LightImages.read("filename").filter(LightImages.isSquare) match
         case None => LightPlan.nothing
         case Some(image) =>
@@ -44,20 +44,20 @@ object GoniometricLightRecipe
         samples = 1
       )
 
-object ProjectionLightRecipe extends LightRecipe("projection", "a slide projector"):
+object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"):
   private val intensity =
-    color("I", "factor of the image", SpectrumRole.Emission, untilV3, "W/sr")(Rgb.White)
-  private val mapname = string("mapname", "the slide; none: white", untilV3, "none")("")
-  private val filename = string("filename", "the slide", onlyV4, "none")("")
+    color("I", "scale of the image", SpectrumRole.Emission, untilV3, "W/sr")(Rgb.White)
+  private val mapname = string("mapname", "image of the slide; none: white", untilV3, "none")("")
+  private val filename = string("filename", "image of the slide", onlyV4, "none")("")
   private val fov =
-    float("fov", "angle of the shorter side", unit = "degrees")(if v4 then 90f else 45f)
+    float("fov", "field of view along the shorter side", unit = "degrees")(if v4 then 90f else 45f)
   private val power =
-    float("power", "total, instead of the size of the image", onlyV4, "lm", "none")(-1f)
+    float("power", "total power, overrides the magnitude of the image", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
     val (name, given_) = if isV4 then ("filename", filename()) else ("mapname", mapname())
-    if isV4 && given_.isEmpty then site.error("a projection light needs the image `filename`")
+    if isV4 && given_.isEmpty then site.error("a projection light needs `filename`")
     val image = if given_.isEmpty then None else LightImages.read(name)
     val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
@@ -70,7 +70,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "a slide projecto
     else if !shines(all) || slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f)) then
       LightPlan.leftOut(LightPlan.Black)
     else if !(fov() > 0f && fov() < 180f) then
-      LightPlan.leftOut(s"`fov` is ${DefaultText.number(fov())}, not between 0 and 180 degrees")
+      LightPlan.leftOut(s"`fov` must be between 0 and 180 degrees, found ${DefaultText.number(fov())}")
     else
       LightPlan(
         (toWorld, _) =>

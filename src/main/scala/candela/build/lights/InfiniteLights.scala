@@ -9,20 +9,20 @@ import candela.math.*
 import candela.scenefile.Dialect
 
 final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
-    extends LightRecipe(name, "surrounds the scene, in one colour or as an image", dialects)
+    extends LightRecipe(name, "environment light, constant or from an image", dialects)
     with SampleCounts:
   private val radiance =
-    color("L", "radiance, or factor of the image", SpectrumRole.Emission, unit = "W/(m² sr)")(
+    color("L", "radiance, or scale of the image", SpectrumRole.Emission, unit = "W/(m² sr)")(
       Rgb.White
     )
   private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
   private val filename = string("filename", "equal-area octahedral image", onlyV4, "none")("")
   private val illuminance =
-    float("illuminance", "on a plane, instead of the size of `L`", onlyV4, "lx", "none")(-1f)
+    float("illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none")(-1f)
   private val portal = numbers(
     "portal",
     "point3[4]",
-    "corners of the rectangular window that light comes through, in world space",
+    "corners of the rectangular portal that light passes through, in world space",
     onlyV4
   )
 
@@ -31,7 +31,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     val (named, given_) =
       if octahedral then ("filename", filename()) else ("mapname", mapname())
     if octahedral && given_.nonEmpty && radiance.given_().isDefined then
-      site.error("give an infinite light `L` or `filename`, not both")
+      site.error("`L` and `filename` of an infinite light are mutually exclusive")
     if given_.nonEmpty then
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
@@ -67,7 +67,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
               sampleCount()
             )
 
-  /** The sides of the portal, which must be a rectangle. */
+  /** Frame of the portal, which must be a rectangle. */
   private def window(p: Array[Float])(using site: Site): Option[Frame] =
     val frame =
       if p.length != 12 then None
@@ -78,12 +78,12 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         val (t, s) = (up.normalized, across.normalized)
         Option.when(closes && Math.abs(s dot t) <= 1e-3f)(Frame(s, t, s cross t))
     if frame.isEmpty then
-      site.error("`portal` takes the four corners of a rectangle, in order around it")
+      site.error("`portal` must be the four corners of a rectangle, in order along its edge")
     frame
 
-  /** Illuminance by `image` on the plane below its pole, as pbrt-v4 reckons it: half of the true
-    * one, for it gives each pixel 2π over their count instead of 4π; and of EXR files, whose
-    * channels lie in the order B, G, R, it takes blue for red and red for blue.
+  /** Illuminance by `image` on the plane below its pole, as computed by pbrt-v4: half of the true
+    * value, because it gives each pixel 2π over their count instead of 4π. For EXR files, whose
+    * channel order is B, G, R, pbrt-v4 also swaps red and blue.
     */
   private def onThePlane(image: Image)(using site: Site): Float =
     var sum = 0.0

@@ -6,14 +6,14 @@ import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, ImageError}
 import candela.scenefile.Dialect
 
-/** The images of lights. */
+/** Loads the images of lights. */
 private[build] object LightImages:
 
-  /** The image that the string parameter `name` gives, in the basis of the scene; a problem that
-    * makes it unusable is reported.
+  /** Returns the image named by the string parameter `name`, in the scene's basis. Reports images
+    * that can't be used.
     *
-    * pbrt-v2 and v3 take the numbers of 8-bit files for linear ones; v4 decodes them. v2 has the
-    * rows of TGA files from the bottom.
+    * pbrt-v2 and v3 treat the values of 8-bit files as linear; v4 decodes them. v2 reads the rows of
+    * TGA files bottom-up.
     */
   def read(name: String)(using site: Site): Option[Image] =
     for
@@ -41,24 +41,24 @@ private[build] object LightImages:
       val rgb = linear.toRgb
       if rgb.data.forall(java.lang.Float.isFinite(_)) then Some(rgb)
       else
-        fail("the image of a light has pixels that are infinite or no numbers")
+        fail("the image of a light has pixels that are NaN or infinite")
         None
     catch
       case e: ImageError =>
         fail(e.getMessage)
         None
 
-  /** Is the equal-area map square, as it must be? An error otherwise. */
+  /** Checks that an equal-area map is square. Reports an error otherwise. */
   def isSquare(image: Image)(using site: Site): Boolean =
     val isSquare = image.width == image.height
     if !isSquare then
       site.error(
-        s"the image is ${image.width}×${image.height}; an equal-area map is square",
-        Some("pbrt-v4's `imgtool makeequiarea` turns an equirectangular image into one")
+        s"an equal-area map must be square, found ${image.width}×${image.height} pixels",
+        Some("convert an equirectangular image with pbrt-v4's `imgtool makeequiarea`")
       )
     isSquare
 
-  /** Each pixel three times the mean of its components. */
+  /** Replaces the components of each pixel by their mean. */
   def gray(image: Image): Image =
     mapped(image)(c => Rgb.gray(c.average))
 

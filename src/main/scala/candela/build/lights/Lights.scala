@@ -6,7 +6,7 @@ import candela.lights.Light
 import candela.math.Transform
 import candela.scenefile.Dialect
 
-/** Recipes of lights that are no surfaces. */
+/** Recipes of lights other than area lights. */
 object Lights:
   val all: Recipes[LightPlan] = Recipes(
     "light",
@@ -21,44 +21,44 @@ object Lights:
     )
   )
 
-/** A light to be placed: `make` takes its transform and whether every direction must be sampled
-  * (only integrators without BSDF sampling need that).
+/** Plan of a light: `make` takes its transform and whether every direction must be sampled (needed
+  * only by integrators without BSDF sampling).
   *
-  * @param samples how often v2's and v3's direct lighting samples it
+  * @param samples light samples per point in v2's and v3's direct lighting
   */
 final case class LightPlan(make: (Transform, Boolean) => Option[Light], samples: Int)
 
 object LightPlan:
-  /** Of a light that can't shine: says so. */
+  /** Plan of a light without effect, with a warning. */
   def leftOut(why: String)(using site: Site): LightPlan =
-    site.warn(s"$why: the light is left out")
+    site.warn(s"$why; the light is ignored")
     nothing
 
-  /** Of a light that an error was reported for. */
+  /** Plan of a light with a reported error. */
   val nothing: LightPlan = LightPlan((_, _) => None, samples = 1)
 
-  val Black = "it emits nothing"
+  val Black = "this light emits nothing"
 
-/** What all lights have that are no surfaces. */
+/** Base of light recipes, except area lights. */
 abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends Recipe[LightPlan](name, meaning, dialects):
   private val colored =
-    color("scale", "factor of the light", SpectrumRole.Reflectance, untilV3)(Rgb.White)
-  private val scale = float("scale", "factor of the light", onlyV4)(1f)
+    color("scale", "scale of the light", SpectrumRole.Reflectance, untilV3)(Rgb.White)
+  private val scale = float("scale", "scale of the light", onlyV4)(1f)
 
   protected def scaled(c: Rgb)(using Site): Rgb = c * colored() * scale()
 
-  /** `scaled`, with v4's total given instead: `perUnit` is what the light sends out at 1. */
+  /** As `scaled`, with v4's total power: `perUnit` is the power at an emission of 1. */
   protected def scaled(c: Rgb, total: Float, perUnit: Float)(using Site): Rgb =
     scaled(c) * (if total > 0f then total / perUnit else 1f)
 
   protected def shines(c: Rgb): Boolean = c.isFinite && c.max > 0f
 
-/** The parameters that say how often v2's and v3's direct lighting samples a light. */
+/** Number of samples of a light in v2's and v3's direct lighting. */
 trait SampleCounts extends Fields:
-  private val nsamples = integer("nsamples", "light samples of directlighting", untilV3)(1)
+  private val nsamples = integer("nsamples", "light samples per point in \"directlighting\"", untilV3)(1)
   private val samples =
-    integer("samples", "another name of `nsamples`", onlyV3, shown = "nsamples")(1)
+    integer("samples", "alias of `nsamples`", onlyV3, shown = "nsamples")(1)
 
   protected def sampleCount()(using Site): Int =
     Math.max(1, samples.given_().getOrElse(nsamples()))

@@ -11,7 +11,7 @@ import candela.sampling.WarpTable
 /** Reads measured reflectance in Dupuy and Jakob's adaptive parameterisation (`.bsdf`). */
 private[build] object AdaptiveFile:
 
-  /** The reflection, or what is wrong with the file. */
+  /** Returns the BRDF, or an error message. */
   def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     for
       fields <- TensorFile.read(path)
@@ -21,10 +21,10 @@ private[build] object AdaptiveFile:
   private final class Reader(fields: Map[String, Tensor], toRgb: Spectrum => Rgb):
     private def table(name: String, dimensions: Int): Either[String, Tensor] =
       fields.get(name) match
-        case None => Left(s"it has no field `$name`")
+        case None => Left(s"field `$name` is missing")
         case Some(t) if t.kind != TensorFile.Floats || t.shape.size != dimensions =>
-          Left(s"`$name` is no array of floats of $dimensions dimensions")
-        case Some(t) if t.length == 0 => Left(s"`$name` is empty")
+          Left(s"field `$name` must be an array of floats with $dimensions dimensions")
+        case Some(t) if t.length == 0 => Left(s"field `$name` is empty")
         case Some(t) => Right(t)
 
     private def check(isRight: Boolean, problem: => String): Either[String, Unit] =
@@ -48,18 +48,18 @@ private[build] object AdaptiveFile:
           vndf.shape.take(2) == pairs && luminance.shape.take(2) == pairs &&
             spectra.shape.take(3) == pairs :+ wavelengths.length &&
             spectra.shape.drop(3) == luminance.shape.drop(2),
-          "the sizes of its arrays don't fit together"
+          "the sizes of its arrays don't match"
         )
         _ <- check(
           Seq(ndf, sigma, vndf, luminance).forall(_.shape.takeRight(2).forall(_ > 1)),
-          "an array has a single row or column"
+          "an array has only one row or column"
         )
         angles = Seq(theta, phi, wavelengths).map(_.floats)
-        _ <- check(angles.forall(ascends), "its angles or wavelengths don't ascend")
+        _ <- check(angles.forall(ascends), "angles and wavelengths must be strictly increasing")
         turn = angles(1).last - angles(1).head
         _ <- check(
           phi.length <= 2 || Math.rint(2 * Math.PI / turn) == 1.0,
-          "its azimuths go only a part of the way around"
+          "azimuths must cover 360 degrees"
         )
       yield
         val (p, t) = (phi.floats, theta.floats)
@@ -83,7 +83,7 @@ private[build] object AdaptiveFile:
           isIsotropic = phi.length <= 2
         )
 
-    /** The spectra as three channels: each wavelength adds its own colour. */
+    /** Projects the spectra to three channels, one wavelength at a time. */
     private def colors(spectra: Tensor, wavelengths: Array[Float]): Array[Float] =
       val hats = wavelengths.indices.map: i =>
         val hat = Array.tabulate(wavelengths.length)(j => if i == j then 1f else 0f)
@@ -104,17 +104,17 @@ private[build] object AdaptiveFile:
 
 /** One array of a tensor file.
   *
-  * @param kind  1: unsigned bytes; 10: floats; others are not read
-  * @param shape how many entries along each dimension, the last fastest
+  * @param kind  element type, 1: unsigned bytes, 10: floats; others are not read
+  * @param shape length of each dimension; the last varies fastest
   */
 private[build] final class Tensor(val kind: Int, val shape: Vector[Int], bytes: ByteBuffer):
   val length: Int = shape.product
 
   def floats: Array[Float] = Array.tabulate(length)(i => bytes.getFloat(4 * i))
 
-/** Reads the container of Dupuy and Jakob's measurements: `tensor_file`, a zero, version 1.0, a
-  * number of fields, and for each its name, dimensions, type, place in the file, and sizes. All
-  * little-endian.
+/** Reads the container format of Dupuy and Jakob's measurements: `tensor_file`, a zero, version
+  * 1.0, the number of fields, and for each its name, dimensions, type, offset in the file, and
+  * sizes. All numbers are little-endian.
   */
 private[build] object TensorFile:
   val Bytes = 1
@@ -122,12 +122,12 @@ private[build] object TensorFile:
   private val Magic = "tensor_file\u0000".getBytes("ISO-8859-1")
   private val Sizes = Map(Bytes -> 1, Floats -> 4)
 
-  /** By name; or what is wrong with the file. */
+  /** Returns the arrays by name, or an error message. */
   def read(path: Path): Either[String, Map[String, Tensor]] =
     try Right(fields(ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)))
     catch
       case e: java.io.IOException => Left(s"cannot be read: ${e.getMessage}")
-      case _: java.nio.BufferUnderflowException => Left("the file ends in the middle")
+      case _: java.nio.BufferUnderflowException => Left("unexpected end of file")
       case e: Malformed => Left(e.getMessage)
 
   private final class Malformed(message: String) extends RuntimeException(message)
@@ -135,12 +135,12 @@ private[build] object TensorFile:
   private def fields(in: ByteBuffer): Map[String, Tensor] =
     val magic = new Array[Byte](Magic.length)
     val _ = in.get(magic)
-    if !magic.sameElements(Magic) then throw Malformed("this is no tensor file")
+    if !magic.sameElements(Magic) then throw Malformed("not a tensor file")
     val version = (in.get().toInt, in.get().toInt)
     if version != (1, 0) then
-      throw Malformed(s"tensor files of version ${version._1}.${version._2} are not known")
+      throw Malformed(s"version must be 1.0, found ${version._1}.${version._2}")
     val count = in.getInt()
-    if count < 0 || count > 1000 then throw Malformed(s"it claims $count fields")
+    if count < 0 || count > 1000 then throw Malformed(s"number of fields must be between 0 and 1000, found $count")
     Vector.fill(count)(field(in)).toMap
 
   private def field(in: ByteBuffer): (String, Tensor) =
@@ -150,12 +150,12 @@ private[build] object TensorFile:
     val kind = in.get().toInt
     val offset = in.getLong()
     val word = String(name, "ISO-8859-1")
-    if dimensions > 8 then throw Malformed(s"`$word` has $dimensions dimensions")
+    if dimensions > 8 then throw Malformed(s"field `$word` must have at most 8 dimensions, found $dimensions")
     val shape = Vector.fill(dimensions)(in.getLong())
-    // Products of hostile sizes must not wrap around
+    // Products of malicious sizes must not overflow
     val entries = shape.foldLeft(BigInt(1))(_ * _)
     val size = entries * Sizes.getOrElse(kind, 1)
     if shape.exists(_ < 0) || offset < 0 || offset + size > in.limit() then
-      throw Malformed(s"`$word` lies beyond the end of the file")
+      throw Malformed(s"field `$word` extends past the end of the file")
     val bytes = in.slice(offset.toInt, size.toInt).order(ByteOrder.LITTLE_ENDIAN)
     word -> Tensor(kind, shape.map(_.toInt), bytes)

@@ -8,16 +8,16 @@ import candela.bsdf.measured.{HalfAngleReflection, ScatteredReflection}
 import candela.color.{Rgb, Spectrum}
 import candela.math.*
 
-/** Reads pbrt-v2's two kinds of measured reflectance.
+/** Reads pbrt-v2's two formats of measured BRDFs.
   *
-  * A `.brdf` file is text: how many wavelengths, these in nm, and for each measurement θ and φ of
-  * the light, θ and φ of the eye (radians), and a value in sr⁻¹ for each wavelength; `#` begins a
-  * comment. Any other is MERL's binary table: three little-endian 32-bit sizes (90, 90, 180), then
-  * all red, all green, all blue values as doubles.
+  * A `.brdf` file is text: the number of wavelengths, these in nm, and for each measurement θ and φ
+  * of the light, θ and φ of the viewer (radians), and a value in sr⁻¹ for each wavelength; `#`
+  * begins a comment. Any other file is MERL's binary table: three little-endian 32-bit sizes (90,
+  * 90, 180), then all red, all green, all blue values as doubles.
   */
 private[build] object BrdfFile:
 
-  /** The reflection, or what is wrong with the file. */
+  /** Returns the BRDF, or an error message. */
   def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
     try if isText then scattered(path, toRgb) else table(path)
@@ -31,14 +31,14 @@ private[build] object BrdfFile:
       .filter(_.nonEmpty)
       .toArray
     words.find(_.toFloatOption.isEmpty) match
-      case Some(word) => Left(s"`$word` is no number")
+      case Some(word) => Left(s"`$word` is not a number")
       case None =>
         val numbers = words.map(_.toFloat)
         val count = numbers.headOption.fold(0)(_.toInt)
         val size = 4 + count
         if count < 1 || numbers.length <= 1 + count || (numbers.length - 1 - count) % size != 0 then
           Left(
-            s"${numbers.length} numbers are no whole measurements of $count wavelengths"
+            s"${numbers.length} numbers don't form complete measurements of $count wavelengths"
           )
         else
           val lambda = numbers.slice(1, 1 + count)
@@ -59,17 +59,17 @@ private[build] object BrdfFile:
     val entries = HalfAngles * Polar * Azimuths
     val expected = 12L + 24L * entries
     if Files.size(path) != expected then
-      Left(s"it has ${Files.size(path)} bytes, not the $expected of a table of 90 × 90 × 180")
+      Left(s"size must be $expected bytes (90 × 90 × 180 values), found ${Files.size(path)}")
     else
       val in = ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)
       val sizes = Vector.fill(3)(in.getInt)
       if sizes != Vector(HalfAngles, Polar, Azimuths) then
-        Left(s"it holds ${sizes.mkString(" × ")} values, not 90 × 90 × 180")
+        Left(s"table must have 90 × 90 × 180 values, found ${sizes.mkString(" × ")}")
       else
         val values = new Array[Float](3 * entries)
         for c <- 0 until 3; i <- 0 until entries do
           values(3 * i + c) = Math.max(0.0, in.getDouble() * Scales(c)).toFloat
         Right(HalfAngleReflection(values))
 
-  // How the database scales its channels
+  // Channel scales of the MERL database
   private val Scales = Array(1.0 / 1500, 1.15 / 1500, 1.66 / 1500)

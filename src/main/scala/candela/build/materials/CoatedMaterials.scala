@@ -8,7 +8,7 @@ import candela.color.{Colorimetry, Rgb, Upsampling}
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture}
 
-/** The parameters of what is between a coat's side and its base. */
+/** Declares the parameters of the medium between a coating and its base. */
 private[build] trait LayerFields extends Fields:
 
   private[build] final class LayerParameters(
@@ -22,23 +22,23 @@ private[build] trait LayerFields extends Fields:
       LayerMedium(thickness(), albedo(), g(), depth(), walks())
 
   protected final def layerParameters(): LayerParameters = LayerParameters(
-    floatTexture("thickness", "of the coat, mean free paths")(0.01f),
-    rgbTexture("albedo", "of the medium in the coat")(Rgb.Black),
-    floatTexture("g", "asymmetry of scattering in the coat, -1 to 1")(0f),
-    integer("maxdepth", "most interactions within the layers")(10),
-    integer("nsamples", "random walks that are averaged, where layers are walked at random")(1)
+    floatTexture("thickness", "thickness of the coating, in mean free paths")(0.01f),
+    rgbTexture("albedo", "albedo of the medium inside the coating")(Rgb.Black),
+    floatTexture("g", "scattering asymmetry inside the coating, -1 to 1")(0f),
+    integer("maxdepth", "maximum interactions between the layers")(10),
+    integer("nsamples", "random walks per evaluation, if layers are sampled stochastically")(1)
   )
 
 object CoatedDiffuseRecipe
-    extends RoughRecipe("coateddiffuse", "diffuse under a dielectric coat", onlyV4, 0f)
+    extends RoughRecipe("coateddiffuse", "diffuse base under a dielectric coating", onlyV4, 0f)
     with LayerFields:
-  private val reflectance = rgbTexture("reflectance", "of the base, 0 to 1")(Rgb.gray(0.5f))
+  private val reflectance = rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val layers = layerParameters()
-  private val eta = spectrum("eta", "index of refraction of the coat")(Indices.glass)
+  private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
   protected def make()(using site: Site): Material =
     val coats = site.resources.coats
     val basis = site.resources.basis
-    // A colour that is the same everywhere can be scattered by wavelength, once and for all
+    // The spectral reflectance of a constant colour is precomputed
     val bySpectrum = reflectance().constant.map: color =>
       val base = Upsampling.spectrum(basis.toSrgb(color))
       (f: Float => Float) =>
@@ -48,25 +48,25 @@ object CoatedDiffuseRecipe
     CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
 
 object CoatedConductorRecipe
-    extends MaterialRecipe("coatedconductor", "a metal under a dielectric coat", onlyV4)
+    extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)
     with LayerFields
     with MetalFields:
 
-  /** The roughness of one side of the coat. */
+  /** Roughness of one of the two interfaces. */
   private final class Side(name: String):
-    private val both = floatTexture(s"$name.roughness", "of this side; 0: smooth")(0f)
+    private val both = floatTexture(s"$name.roughness", s"$name roughness; 0: smooth")(0f)
     private val u = along("u")
     private val v = along("v")
     private def along(axis: String) =
-      floatTexture(s"$name.${axis}roughness", s"along $axis", shown = s"$name.roughness")(0f)
+      floatTexture(s"$name.${axis}roughness", s"$name roughness along $axis", shown = s"$name.roughness")(0f)
     def apply()(using Site): Roughness =
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
 
   private val interface = Side("interface")
   private val conductor = Side("conductor")
-  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?")(true)
-  private val eta = spectrum("interface.eta", "index of refraction of the coat")(Indices.glass)
+  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha")(true)
+  private val eta = spectrum("interface.eta", "index of refraction of the coating")(Indices.glass)
   private val index = metalIndex("conductor.", tint = true)
   private val layers = layerParameters()
 
@@ -82,8 +82,8 @@ object CoatedConductorRecipe
       spectral(index, outside).flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
     )
 
-  /** What a smooth metal under a smooth coat reflects, if the coat at most absorbs: the sum of all
-    * that goes back and forth.
+  /** Reflectance of a smooth conductor under a smooth coating that at most absorbs: the geometric
+    * series of internal reflections.
     */
   private def mirrored(
       metal: Float => Float => Float,
@@ -96,7 +96,7 @@ object CoatedConductorRecipe
     yield cosTheta =>
       val outer = Fresnel.dielectric(cosTheta, eta)
       val inside = Fresnel.cosRefracted(cosTheta, eta)
-      // At both ends of the way down and up
+      // Absorption on the way down and up
       val kept = if inside > 0f then exp(-2f * Math.max(thickness, 0f) / inside) else 0f
       val base = metal(Math.max(inside, 0f))
       nm =>

@@ -5,34 +5,34 @@ import candela.bsdf.composite.TranslucentMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object MatteRecipe extends MaterialRecipe("matte", "diffuse, with Oren–Nayar's roughness", untilV3):
+object MatteRecipe extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
-  private val sigma = floatTexture("sigma", "Oren–Nayar's spread of facets, degrees")(0f)
+  private val sigma = floatTexture("sigma", "standard deviation of facet angles, degrees")(0f)
   protected def make()(using Site): Material = MatteMaterial(kd(), sigma())
 
-object DiffuseRecipe extends MaterialRecipe("diffuse", "scatters evenly to all sides", onlyV4):
-  private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.5f))
+object DiffuseRecipe extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4):
+  private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
   protected def make()(using Site): Material = DiffuseMaterial(reflectance())
 
 object DiffuseTransmissionRecipe
-    extends MaterialRecipe("diffusetransmission", "scatters evenly, on both sides", onlyV4):
-  private val reflectance = rgbTexture("reflectance", "0 to 1")(Rgb.gray(0.25f))
-  private val transmittance = rgbTexture("transmittance", "0 to 1")(Rgb.gray(0.25f))
-  private val scale = float("scale", "factor of both")(1f)
+    extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):
+  private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.25f))
+  private val transmittance = rgbTexture("transmittance", "diffuse transmittance, 0 to 1")(Rgb.gray(0.25f))
+  private val scale = float("scale", "scale of reflectance and transmittance")(1f)
   protected def make()(using Site): Material =
     DiffuseTransmissionMaterial(reflectance(), transmittance(), scale())
 
 object TranslucentRecipe
     extends RoughRecipe(
       "translucent",
-      "reflects and transmits, diffuse and glossy",
+      "diffuse and glossy reflection and transmission",
       untilV3,
       0.1f,
       across = Set.empty
     ):
-  private val kd = rgbTexture("Kd", "diffuse part")(Rgb.gray(0.25f))
-  private val ks = rgbTexture("Ks", "glossy part")(Rgb.gray(0.25f))
-  private val reflect = rgbTexture("reflect", "factor of what is reflected")(Rgb.gray(0.5f))
-  private val transmit = rgbTexture("transmit", "factor of what is transmitted")(Rgb.gray(0.5f))
+  private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
+  private val ks = rgbTexture("Ks", "glossy reflectance")(Rgb.gray(0.25f))
+  private val reflect = rgbTexture("reflect", "scale of reflection")(Rgb.gray(0.5f))
+  private val transmit = rgbTexture("transmit", "scale of transmission")(Rgb.gray(0.5f))
   protected def make()(using site: Site): Material =
     TranslucentMaterial(kd(), ks(), reflect(), transmit(), roughness(), edition(site.dialect))

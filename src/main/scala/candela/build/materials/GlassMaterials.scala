@@ -9,14 +9,14 @@ import candela.color.{Rgb, Upsampling}
 import candela.scenefile.Dialect
 
 object GlassRecipe
-    extends MaterialRecipe("glass", "reflects and refracts, smooth or rough", untilV3):
-  private val kr = rgbTexture("Kr", "factor of reflection")(Rgb.White)
-  private val kt = rgbTexture("Kt", "factor of refraction")(Rgb.White)
+    extends MaterialRecipe("glass", "dielectric interface, smooth or rough", untilV3):
+  private val kr = rgbTexture("Kr", "scale of reflection")(Rgb.White)
+  private val kt = rgbTexture("Kt", "scale of refraction")(Rgb.White)
   private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
   private val index = floatTexture("index", "index of refraction")(1.5f)
-  private val u = floatTexture("uroughness", "along u; 0: smooth", onlyV3)(0f)
-  private val v = floatTexture("vroughness", "along v; 0: smooth", onlyV3)(0f)
-  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", onlyV3)(true)
+  private val u = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
+  private val v = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
+  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
   protected def make()(using site: Site): Material =
     if site.dialect == Dialect.V2 then DielectricMaterial.old(kr(), kt(), index())
     else
@@ -25,7 +25,7 @@ object GlassRecipe
       new DielectricMaterial(kr(), kt(), eta.given_().getOrElse(index()), rough)
 
 object DielectricRecipe
-    extends RoughRecipe("dielectric", "glass and the like, smooth or rough", onlyV4, 0f):
+    extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
     Indices.dispersive(eta()) match
@@ -33,11 +33,11 @@ object DielectricRecipe
       case None => DielectricMaterial(Indices.one(eta()), roughness())
 
 object ThinDielectricRecipe
-    extends MaterialRecipe("thindielectric", "a thin pane of glass", onlyV4):
+    extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material = ConstantMaterial(ThinDielectric(Indices.one(eta())))
 
-/** Indices of refraction that may come as spectra. */
+/** Indices of refraction given as numbers or spectra. */
 private[build] object Indices:
   val glass: SpectralValue = SpectralValue.Color(Rgb.gray(1.5f))
 
@@ -45,12 +45,12 @@ private[build] object Indices:
     case SpectralValue.Wavelengths(s) => s(_)
     case SpectralValue.Color(c) => Upsampling.unbounded(c)
 
-  /** By wavelength, of a colour that is reflected; a grey is the same everywhere. */
+  /** Spectral reflectance of a colour; constant for a grey. */
   def reflectance(c: Rgb): Float => Float =
     val isGrey = (c - Rgb.gray(c.g)).map(Math.abs(_)).max <= 1e-5f * c.g
     if isGrey then _ => c.g else Upsampling.spectrum(c)
 
-  /** The index by wavelength, if it depends on that, and [[Usual]]. */
+  /** The index by wavelength and at [[Usual]], if it depends on wavelength. */
   def dispersive(v: SpectralValue): Option[(Float => Float, Float)] = v match
     case SpectralValue.Wavelengths(s) if s.values.distinct.length > 1 =>
       Some((nm => positive(s(nm)), positive(s(Usual))))
@@ -58,11 +58,11 @@ private[build] object Indices:
 
   private def positive(index: Float): Float = if index > 0f then index else 1f
 
-  /** The sodium line, by which glass is named, in nm. */
+  /** The sodium line in nm, at which indices of glass are specified. */
   private inline val Usual = 589.3f
 
-  /** One index for all wavelengths: that at the sodium line, where dispersion is not modelled. 0
-    * stands for 1, as in pbrt-v4.
+  /** One index for all wavelengths: that at the sodium line, for materials without dispersion. 0
+    * means 1, as in pbrt-v4.
     */
   def one(v: SpectralValue)(using Site): Float =
     val index = named(v)
@@ -74,6 +74,6 @@ private[build] object Indices:
       if s.values.distinct.length > 1 then
         val name = site.declaration.name
         site.warn(
-          s"dispersion of \"$name\" is not supported: the index of refraction at 589 nm is used"
+          s"dispersion of \"$name\" is not supported; using the index of refraction at 589 nm"
         )
       s(Usual)

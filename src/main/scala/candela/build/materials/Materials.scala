@@ -43,16 +43,16 @@ object Materials:
     )
   )
 
-  /** Of shapes that no material was given for, or one that is not supported. */
+  /** Material of shapes without one, or with an unsupported one. */
   val default: Material =
     DiffuseMaterial(candela.textures.ConstantRgb(Rgb.gray(0.5f))).folded
 
   def build(site: Site): Material =
     all.build(site).getOrElse(StandIns.material(site.resources.basis))
 
-/** What all materials have.
+/** Base of material recipes.
   *
-  * @param bumps whether bumps can be put on the surface
+  * @param bumps whether the material supports bump mapping
   */
 abstract class MaterialRecipe(
     name: String,
@@ -61,11 +61,11 @@ abstract class MaterialRecipe(
     bumps: Boolean = true
 ) extends Recipe[Material](name, meaning, dialects):
   private val heights: Option[Field[FloatTexture]] = Option.when(bumps):
-    floatTexture("bumpmap", "height of bumps", untilV3, "scene units", "none")(0f)
+    floatTexture("bumpmap", "bump map height", untilV3, "scene units", "none")(0f)
   private val displacements: Option[Field[FloatTexture]] = Option.when(bumps):
-    floatTexture("displacement", "height of bumps", onlyV4, "scene units", "none")(0f)
+    floatTexture("displacement", "bump map height", onlyV4, "scene units", "none")(0f)
   private val normals: Option[Field[String]] = Option.when(bumps):
-    string("normalmap", "image of normals", onlyV4, "none")("")
+    string("normalmap", "normal map image", onlyV4, "none")("")
 
   override protected def made(site: Site): Material =
     given Site = site
@@ -78,12 +78,12 @@ abstract class MaterialRecipe(
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
 
-  /** Bumps of the same height everywhere move no normal. */
+  /** A constant height has no effect on normals. */
   private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
     if height.constant.isDefined then smooth
     else
       site.resources.askForFootprints("bumps")
-      // pbrt's steps
+      // pbrt's finite differences
       BumpMaterial(smooth, height, if site.dialect == Dialect.V2 then 0.01f else 0.0005f)
 
   private def normalMap()(using site: Site): Option[MipLevel] =
@@ -94,9 +94,9 @@ abstract class MaterialRecipe(
       stored <- site.resources.image(p, site.declaration, site.problems)
     yield MipLevel(Texels.color(stored, identity), Wrap.Repeat)
 
-/** The parameters of roughness that many materials share.
+/** Base of materials with the common roughness parameters.
   *
-  * @param across the dialects in which u and v can have roughnesses of their own
+  * @param across dialects with separate roughness along u and v
   */
 abstract class RoughRecipe(
     name: String,
@@ -105,13 +105,13 @@ abstract class RoughRecipe(
     default: Float,
     across: Set[Dialect] = sinceV3
 ) extends MaterialRecipe(name, meaning, dialects):
-  private val both = floatTexture("roughness", "of the surface; 0: smooth")(default)
+  private val both = floatTexture("roughness", "surface roughness; 0: smooth")(default)
   private val u = alongAxis("u")
   private val v = alongAxis("v")
-  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", sinceV3)(true)
+  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
   private def alongAxis(axis: String) = Option.when(across.exists(dialects)):
-    floatTexture(s"${axis}roughness", s"along $axis", across, shown = "roughness")(default)
+    floatTexture(s"${axis}roughness", s"roughness along $axis", across, shown = "roughness")(default)
 
   protected def roughness(smoothAtZero: Boolean = false)(using site: Site): Roughness =
     val model = site.dialect match
@@ -124,6 +124,6 @@ abstract class RoughRecipe(
     val sideways = v.flatMap(_.given_()).getOrElse(both())
     Roughness(along, sideways, model, smoothAtZero)
 
-/** pbrt-v2 has other formulas than v3 for some materials of the same name. */
+/** Selects the formulas of pbrt-v2 or v3, which differ for some materials of the same name. */
 private[build] def edition(dialect: Dialect): Edition =
   if dialect == Dialect.V2 then Edition.Second else Edition.Third

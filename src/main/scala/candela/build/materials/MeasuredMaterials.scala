@@ -8,7 +8,7 @@ import candela.build.recipe.*
 import candela.color.{Rgb, Spectrum}
 import candela.scenefile.Dialect
 
-/** Reflectance that was measured, and is in a file. */
+/** Base of materials with a measured BSDF from a file. */
 abstract class MeasuredRecipe(
     meaning: String,
     ending: String,
@@ -16,12 +16,12 @@ abstract class MeasuredRecipe(
     name: String = "measured",
     parameter: String = "filename"
 ) extends MaterialRecipe(name, meaning, dialects):
-  private val file = string(parameter, s"a $ending file", shown = "none")("")
+  private val file = string(parameter, s"$ending file", shown = "none")("")
 
-  /** The reflection, or what is wrong with the file. */
+  /** Returns the BSDF, or an error message. */
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf]
 
-  /** Is it the same all around the normal? */
+  /** Whether the BSDF is isotropic. */
   protected def isIsotropic: Boolean
 
   protected def make()(using site: Site): Material =
@@ -41,29 +41,29 @@ abstract class MeasuredRecipe(
             ) match
               case Right(b) => Some(b)
               case Left(why) =>
-                val message = s"`${file()}`: $why"
+                val message = s"can't read `${file()}`: $why"
                 site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
                 None
           yield ConstantMaterial(bsdf, isAnisotropic = !isIsotropic)
         made.getOrElse(StandIns.material(basis))
 
-/** pbrt-v2's measured reflectance. */
+/** pbrt-v2's measured BRDF. */
 object MeasuredTableRecipe
-    extends MeasuredRecipe("a measured BRDF, as a table", ".brdf or .merl", onlyV2):
+    extends MeasuredRecipe("measured BRDF from a table", ".brdf or .merl", onlyV2):
   protected def isIsotropic: Boolean = true
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     BrdfFile.read(path, toRgb)
 
-/** That of pbrt-v4. */
+/** pbrt-v4's measured BRDF. */
 object MeasuredBsdfRecipe
-    extends MeasuredRecipe("a measured BRDF, by Dupuy and Jakob", ".bsdf", onlyV4):
+    extends MeasuredRecipe("measured BRDF of Dupuy and Jakob", ".bsdf", onlyV4):
   protected def isIsotropic: Boolean = false
   protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     AdaptiveFile.read(path, toRgb)
 
 object FourierRecipe
     extends MeasuredRecipe(
-      "a measured or computed BSDF, as Fourier series",
+      "measured or computed BSDF as Fourier series",
       ".bsdf",
       onlyV3,
       name = "fourier",

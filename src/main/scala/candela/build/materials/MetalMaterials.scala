@@ -11,18 +11,18 @@ import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.RgbTexture
 
-/** The parameters of a metal; those of copper where a scene says nothing. */
+/** Parameters of a conductor; the defaults are those of copper. */
 private[build] final class MetalIndex(
     val eta: Field[SpectrumSource],
     val k: Field[SpectrumSource],
     val reflectance: Option[Field[RgbTexture]]
 )
 
-/** How recipes read metals. */
+/** Declares and reads the parameters of conductors. */
 private[build] trait MetalFields extends SpectrumFields:
 
-  /** @param prefix of the names of the parameters
-    * @param tint   whether a reflectance at normal incidence can be given instead
+  /** @param prefix prefix of the parameter names
+    * @param tint   whether a reflectance at normal incidence is an alternative
     */
   protected final def metalIndex(prefix: String = "", tint: Boolean = false): MetalIndex =
     def copper(quantity: String) =
@@ -33,14 +33,14 @@ private[build] trait MetalFields extends SpectrumFields:
       number("eta", "index of refraction"),
       number("k", "absorption coefficient"),
       Option.when(tint):
-        rgbTexture("reflectance", "at normal incidence, instead of eta and k", shown = "none")(
+        rgbTexture("reflectance", "reflectance at normal incidence, instead of eta and k", shown = "none")(
           Rgb.White
         )
     )
 
-  /** A metal of pbrt-v4, whose spectra are kept as long as they are the same everywhere.
+  /** A conductor of pbrt-v4, spectral unless its parameters are textured.
     *
-    * @param outside index of the medium that it is in
+    * @param outside index of refraction of the surrounding medium
     */
   protected final def metal(index: MetalIndex, outside: Float = 1f)(using
       site: Site
@@ -48,7 +48,7 @@ private[build] trait MetalFields extends SpectrumFields:
     val tint = index.reflectance.flatMap(_.given_())
     if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
       val names = s"`${index.eta.name}` and `${index.k.name}`"
-      site.error(s"\"${site.declaration.name}\" takes `reflectance` or $names, not both")
+      site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
     (spectral(index, outside), tint) match
       case (Some(reflected), _) =>
         UniformMetal(TabulatedReflectance.of(128)(Spectra.underWhite(reflected)))
@@ -59,7 +59,7 @@ private[build] trait MetalFields extends SpectrumFields:
           site.resources.basis.fromSrgb(color)
         IndexedMetal(varying(index.eta()), varying(index.k()), outside)
 
-  /** What it reflects, by cosine and wavelength; None if that varies over the surface. */
+  /** Reflectance by cosine and wavelength; None if it is textured. */
   protected final def spectral(index: MetalIndex, outside: Float)(using
       site: Site
   ): Option[Float => Float => Float] =
@@ -79,14 +79,14 @@ private[build] trait MetalFields extends SpectrumFields:
             Some(c => nm => Fresnel.conductor(c, n(nm) / outside, a(nm) / outside))
           case _ => None
 
-object MirrorRecipe extends MaterialRecipe("mirror", "a perfect mirror", untilV3):
+object MirrorRecipe extends MaterialRecipe("mirror", "perfect specular mirror", untilV3):
   private val kr = rgbTexture("Kr", "reflectance")(Rgb.gray(0.9f))
   protected def make()(using Site): Material = MirrorMaterial(kr())
 
 object MetalRecipe
     extends RoughRecipe(
       "metal",
-      "a conductor, by its index of refraction and absorption",
+      "conductor by its index of refraction and absorption",
       untilV3,
       0.01f
     )
@@ -99,18 +99,18 @@ object MetalRecipe
         Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
     val eta = SpectrumSource.textured(index.eta())(rgb)
     val k = SpectrumSource.textured(index.k())(rgb)
-    // pbrt-v2 has the approximation for strongly absorbing metals
+    // pbrt-v2 uses the approximation for strong absorption
     ConductorMaterial(IndexedMetal(eta, k, strong = site.dialect == Dialect.V2), roughness())
 
 object ConductorRecipe
-    extends RoughRecipe("conductor", "a metal, smooth or rough", onlyV4, 0f)
+    extends RoughRecipe("conductor", "conductor, smooth or rough", onlyV4, 0f)
     with MetalFields:
   private val index = metalIndex(tint = true)
   protected def make()(using Site): Material = ConductorMaterial(metal(index), roughness())
 
 object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",
-      "a metal by its colours",
+      "conductor by its reflectances",
       onlyV2,
       0.1f,
       across = Set.empty

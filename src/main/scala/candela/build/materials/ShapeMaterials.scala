@@ -3,12 +3,12 @@ package candela.build.materials
 import candela.build.shapes.Shapes
 import candela.scenefile.{Declaration, Dialect, MaterialRef}
 
-/** In v2 and v3 a `Shape` statement can give parameters of its material, too, which then replace
-  * those of the material for this shape alone. In v2 this does not reach named materials.
+/** Moves material parameters of `Shape` statements to the material. In v2 and v3 they override
+  * those of the material for this shape. v2 does not apply them to named materials.
   */
 final class ShapeMaterials(dialect: Dialect, named: Map[String, Declaration]):
 
-  /** The shape without such parameters, and the material with them. */
+  /** Returns the shape without material parameters and the material with them. */
   def split(shape: Declaration, material: MaterialRef): (Declaration, MaterialRef) =
     val pair =
       for

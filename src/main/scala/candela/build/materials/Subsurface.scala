@@ -15,24 +15,24 @@ import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
-/** The skin of materials that light enters. */
+/** Base of materials with a BSSRDF: the parameters of the dielectric boundary. */
 abstract class BssrdfRecipe(
     name: String,
     meaning: String,
     dialects: Set[Dialect]
 ) extends MaterialRecipe(name, meaning, dialects):
-  private val kr = rgbTexture("Kr", "factor of reflection", untilV3)(Rgb.White)
-  private val kt = rgbTexture("Kt", "factor of refraction", onlyV3)(Rgb.White)
+  private val kr = rgbTexture("Kr", "scale of reflection", untilV3)(Rgb.White)
+  private val kt = rgbTexture("Kt", "scale of refraction", onlyV3)(Rgb.White)
   protected val eta: Field[Float] = float("eta", "index of refraction", sinceV3)(1.33f)
   protected val index: Field[FloatTexture] =
     floatTexture("index", "index of refraction", onlyV2)(1.3f)
-  private val both = floatTexture("roughness", "along u and v; 0: smooth", onlyV4)(0f)
-  private val alongV3 = floatTexture("uroughness", "along u; 0: smooth", onlyV3)(0f)
-  private val acrossV3 = floatTexture("vroughness", "along v; 0: smooth", onlyV3)(0f)
-  private val alongV4 = floatTexture("uroughness", "along u", onlyV4, shown = "roughness")(0f)
-  private val acrossV4 = floatTexture("vroughness", "along v", onlyV4, shown = "roughness")(0f)
-  private val remap = bool("remaproughness", "is roughness 0 to 1, or alpha?", sinceV3)(true)
-  protected val g: Field[Float] = float("g", "asymmetry of scattering, -1 to 1", sinceV3)(0f)
+  private val both = floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
+  private val alongV3 = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
+  private val acrossV3 = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
+  private val alongV4 = floatTexture("uroughness", "roughness along u", onlyV4, shown = "roughness")(0f)
+  private val acrossV4 = floatTexture("vroughness", "roughness along v", onlyV4, shown = "roughness")(0f)
+  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
+  protected val g: Field[Float] = float("g", "scattering asymmetry, -1 to 1", sinceV3)(0f)
 
   protected def interior()(using Site): Interior
 
@@ -54,22 +54,22 @@ abstract class BssrdfRecipe(
     site.resources.profiles.of(g, eta())
 
 object SubsurfaceRecipe
-    extends BssrdfRecipe("subsurface", "light scatters inside, by coefficients", every):
+    extends BssrdfRecipe("subsurface", "subsurface scattering by coefficients", every):
   private val measuredName =
-    string("name", "of a measured material, instead of the coefficients", shown = "none")("")
+    string("name", "name of a measured material, instead of the coefficients", shown = "none")("")
   private val sigmaA =
     rgbTexture("sigma_a", "absorption coefficient", unit = "1/mm")(Milk.absorption)
   private val reduced =
     rgbTexture("sigma_prime_s", "reduced scattering coefficient", onlyV2, "1/mm")(Milk.scattering)
   private val sigmaS =
     rgbTexture("sigma_s", "scattering coefficient", sinceV3, "1/mm")(Milk.scattering)
-  private val scale = float("scale", "factor of the coefficients")(1f)
+  private val scale = float("scale", "scale of the coefficients")(1f)
   private val reflectance =
-    rgbTexture("reflectance", "instead of the coefficients", onlyV4, shown = "none")(Rgb.Black)
+    rgbTexture("reflectance", "diffuse reflectance, instead of the coefficients", onlyV4, shown = "none")(Rgb.Black)
   private val meanFreePath =
     rgbTexture("mfp", "mean free path, with `reflectance`", onlyV4, "mm")(Rgb.White)
 
-  /** Whole milk, which pbrt takes for anything that nothing is said of. */
+  /** Whole milk, pbrt's default. */
   private def Milk = MeasuredMedia.find("Wholemilk", Dialect.V4).get
 
   protected def interior()(using site: Site): Interior =
@@ -78,7 +78,7 @@ object SubsurfaceRecipe
       case Dialect.V4 if measuredName.given_().exists(_.nonEmpty) => measuredInterior(measured)
       case Dialect.V4 => ofColors()
       case Dialect.V3 =>
-        // Measured coefficients are reduced: such scattering is isotropic
+        // Measured coefficients are reduced, so scattering is isotropic
         val asymmetry = if measured.isDefined then 0f else g()
         byCoefficients(sigmaA, sigmaS, measured.getOrElse(Milk), asymmetry)
       case Dialect.V2 =>
@@ -91,22 +91,22 @@ object SubsurfaceRecipe
     val found = MeasuredMedia.find(name, site.dialect)
     if found.isEmpty then
       val at = site.declaration.param("name").fold(site.declaration.at)(_.valuesAt)
-      val message = s"no measured material is named `$name`"
+      val message = s"unknown measured material \"$name\""
       val help = Suggest.help(name, MeasuredMedia.names(site.dialect))
       if site.dialect == Dialect.V4 then
-        site.problems.missing(at, message, "that of whole milk is used", help)
-      else site.problems.warn(at, s"$message: that of whole milk is used, as in pbrt", help)
+        site.problems.missing(at, message, "using \"Wholemilk\"", help)
+      else site.problems.warn(at, s"$message; using \"Wholemilk\", as in pbrt", help)
     found
 
   private def measuredInterior(found: Option[MediumCoefficients])(using site: Site): Interior =
-    if g() != 0f then site.warn("`g` has no effect beside `name`")
+    if g() != 0f then site.warn("`g` is ignored because `name` is given")
     val medium = found.getOrElse(Milk)
     coefficients(color(medium.absorption), color(medium.scattering), 0f)
 
   private def ofColors()(using site: Site): Interior =
     val (a, s, r) = (sigmaA.given_(), sigmaS.given_(), reflectance.given_())
     for (one, other, name) <- Seq((a, s, "sigma_s"), (s, a, "sigma_a")) do
-      if one.isDefined && other.isEmpty then site.error(s"`$name` is not given, but its twin is")
+      if one.isDefined && other.isEmpty then site.error(s"`sigma_a` and `sigma_s` must be given together; `$name` is missing")
     r.filter(_ => a.isEmpty && s.isEmpty) match
       case Some(tint) =>
         ReflectanceInterior(table(g()), tint, meanFreePath(), scale(), eta())
@@ -130,11 +130,11 @@ object SubsurfaceRecipe
     CoefficientInterior(table(asymmetry), a, s, scale(), eta())
 
 object KdSubsurfaceRecipe
-    extends BssrdfRecipe("kdsubsurface", "light scatters inside, by the colour", untilV3):
+    extends BssrdfRecipe("kdsubsurface", "subsurface scattering by colour", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
-  private val path = floatTexture("meanfreepath", "inside", onlyV2, "mm")(1f)
+  private val path = floatTexture("meanfreepath", "mean free path", onlyV2, "mm")(1f)
   private val paths = rgbTexture("mfp", "mean free path", onlyV3, "mm")(Rgb.White)
-  private val scale = float("scale", "factor of the coefficients", onlyV3)(1f)
+  private val scale = float("scale", "scale of the coefficients", onlyV3)(1f)
 
   protected def interior()(using site: Site): Interior =
     val color = kd()
@@ -144,8 +144,8 @@ object KdSubsurfaceRecipe
       ReflectanceInterior(table(g()), color, paths(), scale(), eta())
 
 private object DipolePoints:
-  /** The part of a surface that pbrt-v2 counts. It lays out points that keep a distance until 2,000
-    * in a row fall too near to others, and gives each the area of a disc of that diameter. Such
-    * discs leave gaps: on a sphere, 201 to 12,264 of them covered 0.50 to 0.48 of it.
+  /** Fraction of a surface that pbrt-v2 accounts for. It places points at a minimum distance until
+    * 2,000 in a row fall too near to others, and gives each the area of a disc of that diameter.
+    * These discs leave gaps: on a sphere, 201 to 12,264 of them covered 0.50 to 0.48 of it.
     */
   val Covered = 0.49f

@@ -5,14 +5,14 @@ import scala.io.{Codec, Source}
 import candela.color.Rgb
 import candela.scenefile.Dialect
 
-/** How much a medium absorbs and scatters, for each unit of length, as linear sRGB.
+/** Coefficients of a medium per unit of length, in linear sRGB.
   *
-  * @param absorption coefficient
-  * @param scattering coefficient, reduced: as if scattering were isotropic
+  * @param absorption absorption coefficient
+  * @param scattering reduced scattering coefficient, for isotropic scattering
   */
 final case class MediumCoefficients(absorption: Rgb, scattering: Rgb)
 
-/** Media that were measured, by the names that pbrt gives them; in 1/mm.
+/** Measured media by their names in pbrt, in 1/mm.
   *
   * Sources: Jensen et al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001;
   * Narasimhan et al., "Acquiring Scattering Properties of Participating Media by Dilution",
@@ -29,10 +29,10 @@ private[build] object MeasuredMedia:
   private lazy val samples = read("samples")
   private lazy val current = samples ++ read("liquids")
 
-  /** pbrt-v2 takes the extinction that was measured for scattering. */
+  /** pbrt-v2 uses the measured extinction as scattering. */
   private lazy val old = samples ++ read("liquids-v2")
 
-  /** Rows of a name, three numbers and three numbers; lines that begin with # are remarks. */
+  /** Reads rows of a name, three numbers and three numbers; # begins a comment. */
   private def read(file: String): Map[String, MediumCoefficients] =
     val stream = getClass.getResourceAsStream(s"/candela/scattering/$file.txt")
     val source = Source.fromInputStream(stream)(using Codec.UTF8)

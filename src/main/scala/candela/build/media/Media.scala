@@ -9,7 +9,7 @@ import candela.media.{GridEdge, Medium, Region, SampledGrid}
 import candela.sampling.HenyeyGreenstein
 import candela.scenefile.Dialect
 
-/** Recipes of participating media: v3's and v4's. They make none where there would be nothing. */
+/** Recipes of v3's and v4's participating media. An empty medium is None. */
 object Media:
   val all: Recipes[Option[Medium]] = Recipes(
     "medium",
@@ -19,37 +19,37 @@ object Media:
     )
   )
 
-/** Recipes of v2's volumes, which fill a box. */
+/** Recipes of v2's volumes, each within a box. */
 object Volumes:
   val all: Recipes[Option[Region]] =
     Recipes("volume", Vector(HomogeneousVolumeRecipe, VolumeGridRecipe, ExponentialVolumeRecipe))
 
 private[build] val PerUnit = "1/scene unit"
 
-/** What media and volumes share. */
+/** Phase function and checks of media and volumes. */
 trait Scatters extends Fields:
-  private val asymmetry = float("g", "asymmetry of scattering, -1 to 1")(0f)
+  private val asymmetry = float("g", "scattering asymmetry, -1 to 1")(0f)
 
   protected def phase()(using site: Site): HenyeyGreenstein =
-    // Where pbrt-v4 ends; nearer to 1 the function is too narrow for Floats
+    // pbrt-v4's bound; nearer to 1 the phase function exceeds Float precision
     val most = if site.dialect == Dialect.V4 then 0.99f else 0.999f
     val g = asymmetry()
-    if !(Math.abs(g) <= most) then site.warn(s"`g` of $g is held to ±$most")
+    if !(Math.abs(g) <= most) then site.warn(s"`g` must be within ±$most, found $g; clamping it")
     HenyeyGreenstein(if g.isNaN then 0f else clamp(g, -most, most))
 
   /** Coefficients can't be negative. */
   protected def held(c: Rgb, name: String)(using site: Site): Rgb =
     if c.isFinite && c.r >= 0f && c.g >= 0f && c.b >= 0f then c
     else
-      site.warn(s"`$name` is negative or no number somewhere: 0 is used there")
+      site.warn(s"`$name` must not be negative, NaN or infinite; using 0 for such components")
       c.map(v => if v > 0f && java.lang.Float.isFinite(v) then v else 0f)
 
-/** What all media of v3 and v4 have. */
+/** Base of v3's and v4's media. */
 abstract class MediumRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[Option[Medium]](name, meaning, dialects)
     with Scatters
 
-/** Coefficients that are the same everywhere, or multiply a density. */
+/** Coefficients of a homogeneous medium, or scales of a density. */
 trait HasCoefficients extends Scatters:
   private val sigmaA =
     color("sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit)(
@@ -60,12 +60,12 @@ trait HasCoefficients extends Scatters:
       if v4 then Rgb.White else Rgb(2.55f, 3.21f, 3.77f)
     )
 
-  /** A measured medium that takes the place of the defaults; in v4 of what is given, too. */
+  /** A measured medium that overrides the defaults and, in v4, the given coefficients. */
   protected def measured()(using Site): Option[MediumCoefficients] = None
 
   protected def factor()(using Site): Float = 1f
 
-  /** Absorption and scattering. */
+  /** Absorption and scattering coefficients. */
   protected def coefficients()(using site: Site): (Rgb, Rgb) =
     val known = measured()
     def of(given_ : Option[Rgb], preset: Option[Rgb], default: => Rgb) =
@@ -78,7 +78,7 @@ trait HasCoefficients extends Scatters:
     )
 
 trait HasScale extends HasCoefficients:
-  private val scale = float("scale", "factor of the coefficients")(1f)
+  private val scale = float("scale", "scale of the coefficients")(1f)
   override protected def factor()(using Site): Float = scale()
 
 trait HasPreset extends HasCoefficients:
@@ -90,19 +90,19 @@ trait HasPreset extends HasCoefficients:
     val found = MeasuredMedia.find(name, site.dialect)
     if name.nonEmpty && found.isEmpty then
       site.missing(
-        s"no measured medium is named `$name`",
+        s"unknown measured medium \"$name\"",
         StandIns.Default,
         Suggest.help(name, MeasuredMedia.names(site.dialect))
       )
     val basis = site.resources.basis
     found.map(m => MediumCoefficients(basis.fromSrgb(m.absorption), basis.fromSrgb(m.scattering)))
 
-/** The box that a medium fills, in its own space. */
+/** Bounding box of a medium, in its own space. */
 trait HasBox extends Fields:
-  private val first = point("p0", "a corner of the box")(Vec3.Zero)
-  private val second = point("p1", "the opposite one")(Vec3(1f, 1f, 1f))
+  private val first = point("p0", "corner of the box")(Vec3.Zero)
+  private val second = point("p1", "opposite corner of the box")(Vec3(1f, 1f, 1f))
 
-  /** Two corners; where `sorted`, the least and the greatest. */
+  /** Two opposite corners; if `sorted`, the minimum and the maximum. */
   protected def corners(sorted: Boolean)(using Site): (Vec3, Vec3) =
     val (a, b) = (first(), second())
     if sorted then
@@ -110,9 +110,9 @@ trait HasBox extends Fields:
       (box.min, box.max)
     else (a, b)
 
-  /** From world space to the unit cube. None if there is no such map, which was said. */
+  /** Transform from world space to the unit cube. Warns and returns None if it is singular. */
   protected def toUnit()(using site: Site): Option[Transform] =
-    // A box of pbrt-v3 may be written the other way round: its grid is mirrored then
+    // Swapped corners in pbrt-v3 reflect the grid
     val (a, b) = corners(sorted = site.dialect == Dialect.V4)
     val size = b - a
     val scale = Transform.scale(size.x, size.y, size.z)
@@ -121,15 +121,15 @@ trait HasBox extends Fields:
       else
         scale.map: s =>
           (site.toWorld * Transform.translate(a.x, a.y, a.z) * s).inverse
-    if map.isEmpty then site.warn("this medium has no volume: it is left out")
+    if map.isEmpty then site.warn("this medium has no volume; it is ignored")
     map
 
-/** Grids of samples. */
+/** Media given by a grid. */
 trait HasGrid extends Fields:
   private val sizes =
     Vector("x", "y", "z").map(axis => integer(s"n$axis", s"cells along $axis")(1))
 
-  /** The samples, `channels` at each place; None if their number is wrong, which was said. */
+  /** Samples with `channels` values each. Reports a wrong number of values and returns None. */
   protected def samples(name: String, values: Array[Float], channels: Int = 1)(using
       site: Site
   ): Option[Vector[SampledGrid]] =
@@ -137,7 +137,7 @@ trait HasGrid extends Fields:
     val wanted = sizes.map(_().toLong).product * channels
     if Seq(nx, ny, nz).exists(_ < 1) || wanted != values.length then
       val shape = (Seq(nx, ny, nz) ++ Option.when(channels > 1)(channels)).mkString("·")
-      site.error(s"`$name` holds ${values.length} numbers, not $shape")
+      site.error(s"`$name` must have $shape numbers, found ${values.length}")
       None
     else
       val edge = if site.dialect == Dialect.V2 then GridEdge.Clamped else GridEdge.Zero

@@ -7,12 +7,12 @@ import candela.math.Vec3
 import candela.media.*
 
 object HomogeneousRecipe
-    extends MediumRecipe("homogeneous", "the same everywhere", sinceV3)
+    extends MediumRecipe("homogeneous", "homogeneous medium", sinceV3)
     with HasPreset
     with HasScale:
   private val emitted =
     color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
-  private val emittedScale = float("Lescale", "factor of what is emitted", onlyV4)(1f)
+  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -22,20 +22,20 @@ object HomogeneousRecipe
     )
 
 object HeterogeneousRecipe
-    extends MediumRecipe("heterogeneous", "a grid of densities", onlyV3)
+    extends MediumRecipe("heterogeneous", "density grid", onlyV3)
     with HasPreset
     with HasScale
     with HasGrid
     with HasBox:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x first")
+  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
     val t = absorption + scattering
     if t.r != t.g || t.g != t.b then
       site.warn(
-        s"extinction differs between colours ($t): each has its own here, while pbrt-v3 takes " +
-          "that of red for all"
+        s"extinction differs between colours ($t); using it per colour, whereas pbrt-v3 uses red " +
+          "for all"
       )
     for
       map <- toUnit()
@@ -43,26 +43,26 @@ object HeterogeneousRecipe
     yield GridMedium(map, grids.head, absorption, scattering, None, phase())
 
 object UniformGridRecipe
-    extends MediumRecipe("uniformgrid", "a grid of densities", onlyV4)
+    extends MediumRecipe("uniformgrid", "density grid", onlyV4)
     with HasScale
     with HasGrid
     with HasBox:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x first")
+  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
   private val temperature =
-    numbers("temperature", "float[]", "of each cell, which glows", unit = "K")
+    numbers("temperature", "float[]", "temperature of each cell, for thermal emission", unit = "K")
   private val emittedScale =
-    numbers("Lescale", "float[]", "factor of what each cell emits", shown = "1")
+    numbers("Lescale", "float[]", "scale of each cell's emission", shown = "1")
   private val emitted =
     color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
   private val offset =
-    float("temperatureoffset", "subtracted from temperatures", unit = "K")(0f)
+    float("temperatureoffset", "offset subtracted from temperatures", unit = "K")(0f)
   private val cutoff = float(
     "temperaturecutoff",
-    "another name of `temperatureoffset`",
+    "alias of `temperatureoffset`",
     unit = "K",
     shown = "temperatureoffset"
   )(0f)
-  private val scaling = float("temperaturescale", "factor of temperatures")(1f)
+  private val scaling = float("temperaturescale", "scale of temperatures")(1f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -72,7 +72,7 @@ object UniformGridRecipe
       light <- glow()
     yield GridMedium(map, grids.head, absorption, scattering, light, phase())
 
-  /** None after an error; else what glows, if anything does. */
+  /** The emission, if any. Returns None after an error. */
   private def glow()(using site: Site): Option[Option[Glow]] =
     val (kelvins, factors) = (temperature(), emittedScale())
     val le = held(emitted(), "Le")
@@ -80,7 +80,7 @@ object UniformGridRecipe
       if factors.isEmpty then Some(SampledGrid.One)
       else samples("Lescale", factors).map(_.head)
     if kelvins.nonEmpty && emitted.given_().isDefined then
-      site.error("give a medium `Le` or `temperature`, not both")
+      site.error("`Le` and `temperature` of a medium are mutually exclusive")
       None
     else if kelvins.nonEmpty then
       for
@@ -93,28 +93,28 @@ object UniformGridRecipe
     else scale.map(s => Option.unless(le.isBlack)(ColoredGlow(le, s)))
 
 object RgbGridRecipe
-    extends MediumRecipe("rgbgrid", "a grid of coefficients", onlyV4)
+    extends MediumRecipe("rgbgrid", "grid of RGB coefficients", onlyV4)
     with HasGrid
     with HasBox:
   private val sigmaA =
-    numbers("sigma_a", "rgb[]", "absorption of each cell", unit = PerUnit, shown = "1")
+    numbers("sigma_a", "rgb[]", "absorption coefficient of each cell", unit = PerUnit, shown = "1")
   private val sigmaS =
-    numbers("sigma_s", "rgb[]", "scattering of each cell", unit = PerUnit, shown = "1")
+    numbers("sigma_s", "rgb[]", "scattering coefficient of each cell", unit = PerUnit, shown = "1")
   private val emitted =
     numbers("Le", "rgb[]", "emitted radiance of each cell", unit = "W/(m² sr)")
   private val scale = float("scale", "factor of the coefficients")(1f)
-  private val emittedScale = float("Lescale", "factor of what is emitted", onlyV4)(1f)
+  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (a, s, le) = (colors(sigmaA()), colors(sigmaS()), colors(emitted()))
     if a.isEmpty && s.isEmpty then
-      site.error("an rgbgrid needs `sigma_a`, `sigma_s` or both")
+      site.error("an \"rgbgrid\" needs `sigma_a`, `sigma_s` or both")
       None
     else if a.isEmpty && le.nonEmpty then
-      site.error("what emits must absorb: an rgbgrid with `Le` needs `sigma_a`")
+      site.error("an emissive medium must absorb; an \"rgbgrid\" with `Le` needs `sigma_a`")
       None
     else
-      // As pbrt-v4 has it, this light is not scaled to the luminance that the colours say
+      // Following pbrt-v4, this emission is not normalised to the luminance of the colours
       val brightness = emittedScale() * Thermal.LuminousIntegral
       val light = if brightness > 0f then le.map(_ * brightness) else Array.emptyFloatArray
       for
@@ -142,18 +142,18 @@ object RgbGridRecipe
         Array(c.r, c.g, c.b)
     }.toArray
 
-  /** None after an error; else the grid, if there is one. */
+  /** The grid, if any. Returns None after an error. */
   private def grid(name: String, values: Array[Float])(using Site): Option[Option[ColorGrid]] =
     if values.isEmpty then Some(None)
     else samples(name, values, channels = 3).map(g => Some(ColorGrid(g(0), g(1), g(2))))
 
 object CloudRecipe
-    extends MediumRecipe("cloud", "a cloud of noise", onlyV4)
+    extends MediumRecipe("cloud", "procedural cloud of noise", onlyV4)
     with HasCoefficients
     with HasBox:
-  private val density = float("density", "factor of the density")(1f)
-  private val wispiness = float("wispiness", "how much the cloud frays")(1f)
-  private val frequency = float("frequency", "of the noise")(5f)
+  private val density = float("density", "scale of the density")(1f)
+  private val wispiness = float("wispiness", "wispiness of the edges")(1f)
+  private val frequency = float("frequency", "frequency of the noise")(5f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -172,35 +172,35 @@ object CloudRecipe
       )
 
 object NanoVdbRecipe
-    extends MediumRecipe("nanovdb", "densities from a NanoVDB file", onlyV4)
+    extends MediumRecipe("nanovdb", "density grid from a NanoVDB file", onlyV4)
     with HasScale:
   override def pending: Option[String] =
-    Some("there is no reader of NanoVDB files for the JVM; the medium is left out")
+    Some("ignoring the medium, since the JVM has no NanoVDB reader")
   declare(
-    string("filename", "a .nvdb file", shown = "none")(""),
-    string("gridname", "the grid of densities")("density"),
-    string("temperaturename", "the grid of temperatures")("temperature"),
-    float("Lescale", "factor of what is emitted", onlyV4)(1f),
-    float("temperatureoffset", "subtracted from temperatures", unit = "K")(0f),
+    string("filename", ".nvdb file", shown = "none")(""),
+    string("gridname", "name of the density grid")("density"),
+    string("temperaturename", "name of the temperature grid")("temperature"),
+    float("Lescale", "scale of the emission", onlyV4)(1f),
+    float("temperatureoffset", "offset subtracted from temperatures", unit = "K")(0f),
     float(
       "temperaturecutoff",
-      "another name of `temperatureoffset`",
+      "alias of `temperatureoffset`",
       unit = "K",
       shown = "temperatureoffset"
     )(0f),
-    float("temperaturescale", "factor of temperatures")(1f)
+    float("temperaturescale", "scale of temperatures")(1f)
   )
   protected def make()(using Site): Option[Medium] = None
 
-/** How pbrt-v4's media glow by their temperature. */
+/** Thermal emission of pbrt-v4's media. */
 private[build] object Thermal:
 
-  /** ∫ ȳ(λ) dλ in nm, of the CIE 1931 observer: what light is brighter by that pbrt-v4 does not
-    * divide by it.
+  /** ∫ ȳ(λ) dλ in nm, of the CIE 1931 observer. pbrt-v4 omits the division by it, which makes this
+    * emission brighter.
     */
   val LuminousIntegral = 106.856895f
 
-  /** Colours of black bodies, in a basis, whose spectra have a maximum of 1. */
+  /** Colours of black bodies in a basis; each spectrum has a maximum of 1. */
   def colors(hottest: Float)(using site: Site): ThermalColors =
     ThermalColors(
       hottest,

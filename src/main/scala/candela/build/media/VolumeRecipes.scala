@@ -6,7 +6,7 @@ import candela.geometry.Bounds3
 import candela.math.*
 import candela.media.*
 
-/** What all volumes of v2 have. */
+/** Base of v2's volumes. */
 abstract class VolumeRecipe(name: String, meaning: String)
     extends Recipe[Option[Region]](name, meaning, onlyV2)
     with Scatters
@@ -21,30 +21,30 @@ abstract class VolumeRecipe(name: String, meaning: String)
   protected def filling()(using Site): Filling =
     Filling(held(sigmaA(), "sigma_a"), held(sigmaS(), "sigma_s"), held(emitted(), "Le"), phase())
 
-  /** The box, if it and its place in the world can be had; else it was said that they can't. */
+  /** The box in world space. Warns and returns None if it is empty or its transform is singular. */
   protected def box()(using site: Site): Option[Bounds3] =
     val (low, high) = corners(sorted = true)
     val size = high - low
     val hasVolume = size.isFinite && size.x > 0f && size.y > 0f && size.z > 0f
     if !hasVolume || site.toWorld.isFlat then
-      site.warn("this volume is empty: it is left out")
+      site.warn("this volume is empty; it is ignored")
       None
     else Some(Bounds3(low, high))
 
-object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "the same everywhere in a box"):
+object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "homogeneous volume in a box"):
   protected def make()(using site: Site): Option[Region] =
     box().map(UniformRegion(site.toWorld, _, filling()))
 
 object ExponentialVolumeRecipe
-    extends VolumeRecipe("exponential", "thinner with height: a exp(-b h)"):
+    extends VolumeRecipe("exponential", "density that falls off with height h: a exp(-b h)"):
   private val ground = float("a", "density at height 0")(1f)
-  private val fall = float("b", "how fast it falls", unit = PerUnit)(1f)
-  private val up = vector("updir", "along which height is measured")(Vec3.Y)
+  private val fall = float("b", "falloff of the density", unit = PerUnit)(1f)
+  private val up = vector("updir", "direction of height")(Vec3.Y)
 
   protected def make()(using site: Site): Option[Region] =
     val direction = up()
     if direction.isZero then
-      site.error("`updir` has no direction")
+      site.error("`updir` must not be zero")
       None
     else
       for b <- box()
@@ -57,8 +57,8 @@ object ExponentialVolumeRecipe
         fall()
       )
 
-object VolumeGridRecipe extends VolumeRecipe("volumegrid", "a grid of densities") with HasGrid:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x first")
+object VolumeGridRecipe extends VolumeRecipe("volumegrid", "density grid in a box") with HasGrid:
+  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
 
   protected def make()(using site: Site): Option[Region] =
     for

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import candela.scenefile.Dialect
 
-// Which dialects have a parameter or a recipe
+// Sets of dialects that support a parameter or a recipe
 private[build] val every: Set[Dialect] = Dialect.values.toSet
 private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
 private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
@@ -10,7 +10,7 @@ private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
 private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
 private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
 
-/** Dialects in words. */
+/** Display names of dialects. */
 object Dialects:
   def name(dialect: Dialect): String = dialect.toString.toLowerCase
 
@@ -20,6 +20,6 @@ object Dialects:
     if names.size < 2 then names.mkString
     else names.init.mkString(", ") + " and " + names.last
 
-  /** Of the dialects given, the one that is nearest to `wanted`; of equals the older. */
+  /** The member of `dialects` nearest to `wanted`; ties go to the older one. */
   def nearest(wanted: Dialect, dialects: Set[Dialect]): Dialect =
     Dialect.values.filter(dialects).minBy(d => Math.abs(d.ordinal - wanted.ordinal))

@@ -4,12 +4,12 @@ import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.{Dialect, Param}
 
-/** One parameter of a recipe: its name, type, default and meaning, and how to read it.
+/** One parameter of a recipe: name, type, default, documentation and reader.
   *
-  * @param typeName how scene files spell its type, for documentation and messages
-  * @param unit     of the values, or empty
-  * @param default  by dialect
-  * @param shown    the default as text, by dialect
+  * @param typeName the type as spelled in scene files, for documentation and messages
+  * @param unit     unit of the values, or empty
+  * @param default  default value, per dialect
+  * @param shown    default as text, per dialect
   */
 final class Field[T](
     val name: String,
@@ -21,27 +21,27 @@ final class Field[T](
     val shown: Dialect => String,
     read: (Param, Site) => Option[T]
 ):
-  /** The value given at the site, else the default. A value of the wrong type is reported. */
+  /** Returns the value given at the site, else the default. Reports values of the wrong type. */
   def apply()(using site: Site): T = given_().getOrElse(default(site.dialect))
 
-  /** The value, if the scene file gives one. */
+  /** Returns the value given by the scene file, if any. */
   def given_()(using site: Site): Option[T] =
     site.declaration.param(name).filter(_ => dialects(site.dialect)).flatMap(read(_, site))
 
-/** What Candela does with a parameter. */
+/** Level of support for a parameter. */
 enum Support:
   case Used
 
-  /** Not supported yet: the scene gets a warning that says what is done instead. */
+  /** Not supported yet: a warning names the replacement. */
   case NotYet(instead: String)
 
-  /** It can't change the picture here: accepted for this reason. */
+  /** Accepted and ignored, because it can't affect the image. */
   case NoMeaning(reason: String)
 
-/** Defaults as a scene file would write them. */
+/** Formats defaults in scene file syntax. */
 private[build] object DefaultText:
 
-  /** The shortest decimals that read back as the same number; whole numbers have none. */
+  /** Shortest decimal that parses back to the same number; integers have no fraction. */
   def number(x: Float): String =
     if x == Float.PositiveInfinity then "infinite"
     else if x == Float.NegativeInfinity then "-infinite"
@@ -53,7 +53,7 @@ private[build] object DefaultText:
 
   def triple(v: Vec3): String = s"${number(v.x)} ${number(v.y)} ${number(v.z)}"
 
-  /** One number for a grey. */
+  /** Formats a grey as a single number. */
   def color(c: Rgb): String =
     if c.r == c.g && c.g == c.b then number(c.r)
     else s"${number(c.r)} ${number(c.g)} ${number(c.b)}"

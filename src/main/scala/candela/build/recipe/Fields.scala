@@ -6,7 +6,7 @@ import candela.math.Vec3
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
-/** The kinds of parameters that a recipe can declare. A default may depend on the dialect:
+/** Declares the parameters of a recipe, by type. A default may depend on the dialect:
   * `float("xradius", "…")(if v4 then 1.5f else 2f)`.
   */
 trait Fields:
@@ -58,7 +58,7 @@ trait Fields:
       if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
       else wrong(p, site, "one string", "string")
 
-  /** A string out of a closed set. */
+  /** A string from a fixed set of values. */
   protected final def oneOf(
       name: String,
       doc: String,
@@ -74,7 +74,7 @@ trait Fields:
           val found = p.strings.headOption.getOrElse("")
           site.problems.error(
             p.valuesAt,
-            s"`$name` is one of ${values.mkString(", ")}; found `$found`",
+            s"`$name` must be one of ${values.mkString(", ")}, found \"$found\"",
             Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
           )
           None
@@ -105,9 +105,9 @@ trait Fields:
     field(name, typeName, doc, in, "", shown, default)(DefaultText.triple): (p, site) =>
       floats(3, p, site).map(v => Vec3(v(0), v(1), v(2)))
 
-  /** Any number of numbers; none if the scene gives none.
+  /** An array of numbers of any length; empty by default.
     *
-    * @param typeName as scene files spell it, with `[]` and the count if there is a right one
+    * @param typeName the type as spelled in scene files, with `[]` and the length if it is fixed
     */
   protected final def numbers(
       name: String,
@@ -133,7 +133,7 @@ trait Fields:
       if p.paramType == ParamType.Integer then Some(p.ints)
       else wrong(p, site, "integers", "integer")
 
-  /** Any number of strings; none if the scene gives none. */
+  /** An array of strings of any length; empty by default. */
   protected final def strings(
       name: String,
       typeName: String,
@@ -144,7 +144,7 @@ trait Fields:
       if p.paramType == ParamType.String then Some(p.strings)
       else wrong(p, site, "strings", "string")
 
-  /** A colour that is no texture: light, or an index of refraction. */
+  /** A colour that can't be textured: emission or an index of refraction. */
   protected final def color(
       name: String,
       doc: String,
@@ -210,7 +210,7 @@ trait Fields:
     val plain = typeName.takeWhile(_ != '[')
     site.problems.error(
       p.at,
-      s"`${p.name}` of \"${site.declaration.name}\" takes $expected; found " +
+      s"`${p.name}` of \"${site.declaration.name}\" must be $expected, found " +
         s"$count of type ${p.paramType.spelling}",
       Option.when(plain != p.paramType.spelling)(s"write \"$plain ${p.name}\"")
     )

@@ -5,14 +5,14 @@ import scala.collection.mutable
 import candela.base.Suggest
 import candela.scenefile.Dialect
 
-/** How one name of a scene file becomes a runtime object: its parameters, declared once, and
+/** Builds a runtime object from a declaration of one type: the parameters, declared once, and
   * `make`.
   *
-  * The declarations are the documentation, the defaults, the type checks and the list of what is
-  * not used; nothing else in the program knows a parameter's name. Each kind of field is in
-  * [[Fields]].
+  * The declarations provide the documentation, the defaults, the type checks and the list of
+  * unsupported parameters; no other code knows a parameter's name. [[Fields]] declares the types of
+  * parameters.
   *
-  * @param meaning one line for the reference
+  * @param meaning one-line description for the reference
   */
 abstract class Recipe[A](
     val name: String,
@@ -24,15 +24,15 @@ abstract class Recipe[A](
 
   protected def make()(using Site): A
 
-  /** What all recipes of a category add to `make`. */
+  /** Wraps `make` with the steps common to a category. */
   protected def made(site: Site): A = make()(using site)
 
-  /** What is done instead, if Candela does not render this type yet. Its fields are declared all
-    * the same, so that slips are found and the reference is whole.
+  /** The replacement, if Candela does not render this type yet. Its fields are declared all the
+    * same, so that errors are found and the reference is complete.
     */
   def pending: Option[String] = None
 
-  /** All parameters; a name may stand for one in one dialect and for another in the next. */
+  /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
 
   final def takes(parameter: String, dialect: Dialect): Boolean =
@@ -44,14 +44,14 @@ abstract class Recipe[A](
     declared += field
     field
 
-  /** Parameters that nothing reads by name, because the whole type is [[pending]]. */
+  /** Declares parameters that are not read, because the whole type is [[pending]]. */
   protected final def declare(fields: Field[?]*): Unit = assert(fields.forall(declared.contains))
 
-  /** Parameters that pbrt knows and Candela does not yet: each is a warning where it is given. */
+  /** Parameters that Candela does not support yet. Each use is a warning. */
   protected final def notYet(instead: String)(fields: Field[?]*): Unit =
     for f <- fields do unused(f) = Support.NotYet(instead)
 
-  /** Parameters that have no meaning here (a cache size, a quality hint), and why: accepted. */
+  /** Parameters without a meaning here (a cache size, a quality hint): accepted and ignored. */
   protected final def noMeaning(reason: String)(fields: Field[?]*): Unit =
     for f <- fields do unused(f) = Support.NoMeaning(reason)
 
@@ -64,62 +64,62 @@ abstract class Recipe[A](
           val owners = Dialects.list(named.flatMap(_.dialects).toSet)
           site.problems.warn(
             p.at,
-            s"`${p.name}` is no parameter of \"$name\" in ${Dialects.name(site.dialect)}, but in " +
-              s"$owners; it has no effect"
+            s"`${p.name}` is a parameter of \"$name\" in $owners only, not in " +
+              s"${Dialects.name(site.dialect)}; it is ignored"
           )
-        case None if p.isDefault => () // an `Attribute` speaks to many
+        case None if p.isDefault => () // `Attribute` sets defaults for many types
         case None =>
           site.problems.warn(
             p.at,
-            s"`${p.name}` is not a parameter of \"$name\"; it has no effect",
+            s"`${p.name}` is not a parameter of \"$name\"; it is ignored",
             Suggest.help(p.name, declared.filter(_.dialects(site.dialect)).map(_.name))
           )
     made(site)
 
-  /** What nothing reads is checked for its type here. */
+  /** Checks the type of a parameter that `make` does not read. */
   private def inspect(field: Field[?], at: candela.base.SourcePos, site: Site): Unit =
     val isRead = support(field) == Support.Used && pending.isEmpty
     if !isRead then
       val _ = field.given_()(using site)
       support(field) match
         case Support.NotYet(instead) =>
-          site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported yet: $instead")
+          site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported yet; $instead")
         case _ => ()
 
 /** All recipes of a category, by name.
   *
-  * @param category in messages
+  * @param category name of the category in messages
   */
 final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
-  /** The recipe of this name; if the dialect has none, another dialect's. */
+  /** Finds the recipe of this name, preferably of this dialect. */
   def find(name: String, dialect: Dialect): Option[Recipe[A]] =
     val candidates = all.filter(_.name == name)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
-  /** Follows the recipe that the declaration names. A type that is pending is a warning; a name
-    * that nobody knows is an error, with the nearest known.
+  /** Builds the declared type. A pending type is a warning; an unknown one is an error, which
+    * suggests the nearest known name.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
     find(name, site.dialect) match
       case Some(recipe) =>
         for instead <- recipe.pending do
-          site.warn(s"$category \"$name\" is not supported yet: $instead")
+          site.warn(s"$category \"$name\" is not supported yet; $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
         val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
         val standIn = StandIns.ofCategory(category)
-        site.missing(s"no $category is named `$name`", standIn, Suggest.help(name, known))
+        site.missing(s"unknown $category \"$name\"", standIn, Suggest.help(name, known))
         None
 
-  /** A type of another dialect is made as that one makes it. */
+  /** A type of another dialect is built by the rules of that dialect. */
   private def inDialectOf(recipe: Recipe[A], site: Site): Site =
     if recipe.dialects(site.dialect) then site
     else
       val nearest = Dialects.nearest(site.dialect, recipe.dialects)
       site.warn(
-        s"$category \"${recipe.name}\" is of ${Dialects.list(recipe.dialects)}, not of " +
-          s"${Dialects.name(site.dialect)}: it is made as ${Dialects.name(nearest)} does"
+        s"$category \"${recipe.name}\" exists only in ${Dialects.list(recipe.dialects)}; " +
+          s"using ${Dialects.name(nearest)}'s"
       )
       site.in(nearest)

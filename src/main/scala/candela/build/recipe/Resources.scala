@@ -14,11 +14,11 @@ import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
-/** What statements of a scene file can refer to by name: textures, materials, and files.
+/** Resources that statements of a scene file refer to: textures, materials and files.
   *
-  * @param basis in which all colours of the scene are given to the runtime
-  * @param crew  does what can be divided
-  * @param seed  of random numbers that are not the sampler's
+  * @param basis colour basis of the runtime scene
+  * @param crew  executes divisible work
+  * @param seed  random seed, except of samplers
   */
 final class Resources(
     val basis: ColorBasis,
@@ -27,22 +27,22 @@ final class Resources(
 ):
   val materials = NamedMaterials()
 
-  /** Tables of coated materials, shared by all of them that are alike. */
+  /** Tables of coated materials, shared by materials with equal parameters. */
   val coats = Coats()
 
-  /** Likewise of media beneath surfaces. */
+  /** BSSRDF profile tables, shared by materials with equal parameters. */
   val profiles = ProfileTables()
 
   private var footprints = Vector.empty[String]
 
-  /** What asks for the footprint of a sample on a surface, in words; at first nothing. */
+  /** Features that need ray differentials, for messages; initially empty. */
   def footprintUses: Vector[String] = footprints
 
   def footprintsInWords: String =
-    if footprints.isEmpty then "none: no texture asks for them"
+    if footprints.isEmpty then "none: no texture needs them"
     else footprints.mkString("for ", ", ", "")
 
-  /** Something of this kind asks for it, or for partial derivatives. */
+  /** Requests ray differentials or partial derivatives for a feature. */
   def askForFootprints(what: String): Unit =
     if !footprints.contains(what) then footprints :+= what
 
@@ -53,12 +53,12 @@ final class Resources(
   def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
   def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
 
-  /** The texture that a parameter names; a stand-in after a problem was reported. */
+  /** Returns the texture that a parameter names, or a fallback after reporting a problem. */
   def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
     val found = lookUp(p, floats, colors.keySet, "float", "spectrum", StandIns.Ones, problems)
     Some(found.getOrElse(StandIns.number))
 
-  /** Likewise. */
+  /** As above. */
   def rgbTexture(p: Param, problems: Findings): Option[RgbTexture] =
     val found = lookUp(p, colors, floats.keySet, "spectrum", "float", StandIns.Magentas, problems)
     Some(found.getOrElse(StandIns.color(basis)))
@@ -76,27 +76,27 @@ final class Resources(
     in.get(name).orElse {
       val (message, help) =
         if others(name) then
-          (s"texture `$name` is of type $otherKind; `${p.name}` takes $kind", None)
-        else (s"no $kind texture is named `$name`", Suggest.help(name, in.keys))
+          (s"`${p.name}` must be a $kind texture, but `$name` is a $otherKind texture", None)
+        else (s"$kind texture `$name` is not defined", Suggest.help(name, in.keys))
       problems.unnamed(NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }
 
-  /** The file that a parameter names, relative to the scene's folder. None if it is not there,
-    * which was reported.
+  /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
+    * file and returns None.
     *
-    * @param standIn what takes its place if the user asked to keep going
+    * @param standIn replacement if the user chose to keep going
     */
   def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
     val name = p.strings.headOption.getOrElse("")
     def path = from.folder.resolve(name.replace('\\', '/'))
-    // some names, such as those with a zero byte, are no path's
+    // some names are not valid paths, e.g. with a zero byte
     val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
     if found.isEmpty then
       problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
     found
 
-  /** The picture that a parameter names, read once however often it is used. */
+  /** Loads the image that a parameter names; images are cached. */
   def image(
       p: Param,
       from: Declaration,
@@ -115,9 +115,7 @@ final class Resources(
           problems.missing(p.valuesAt, message, standIn)
           None
 
-/** Materials by the names that `MakeNamedMaterial` gave them, each made when it is first asked
-  * for.
-  */
+/** Materials by the names that `MakeNamedMaterial` gave them, each built on first use. */
 final class NamedMaterials:
   private val recipes = mutable.LinkedHashMap.empty[String, () => Material]
   private val made = mutable.HashMap.empty[String, Material]
@@ -125,12 +123,12 @@ final class NamedMaterials:
 
   def define(name: String, make: () => Material): Unit = recipes(name) = make
 
-  /** The material of that name. An unknown one is missing; one that is made of itself is an
-    * error.
+  /** Returns the named material. An undefined one is reported as missing; one that refers to itself
+    * is an error.
     */
   def apply(name: String, at: SourcePos, resources: Resources, problems: Findings): Material =
     if open(name) then
-      problems.error(at, s"material `$name` is made of itself")
+      problems.error(at, s"material `$name` refers to itself")
       StandIns.material(resources.basis)
     else
       made.getOrElseUpdate(
@@ -144,7 +142,7 @@ final class NamedMaterials:
             problems.unnamed(
               NameKind.Material,
               at,
-              s"no material is named `$name`",
+              s"material `$name` is not defined",
               StandIns.MagentaSurface,
               Suggest.help(name, recipes.keys)
             )

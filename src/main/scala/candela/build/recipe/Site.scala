@@ -10,9 +10,9 @@ import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
-/** Where a recipe is being followed: the statement, the dialect, and what the scene has so far.
+/** Context of a recipe: the statement, the dialect and the scene's resources so far.
   *
-  * @param toWorld the transform at the statement, for recipes that need to know it
+  * @param toWorld the transform at the statement, for recipes that depend on it
   */
 final class Site(
     val declaration: Declaration,
@@ -28,16 +28,16 @@ final class Site(
   def error(message: String, help: Option[String] = None): Unit =
     problems.error(declaration.at, message, help)
 
-  /** The statement asks for what is not there. */
+  /** Reports that the statement refers to something missing. */
   def missing(message: String, standIn: String, help: Option[String] = None): Unit =
     problems.missing(declaration.at, message, standIn, help)
 
-/** Gathers what is wrong with a description, so that one run can name it all.
+/** Collects the problems of a description, so that one run reports them all.
   *
-  * @param keepGoing what is missing is replaced, with a warning
-  * @param lost      the names that statements which could not be read may have made: that others
-  *                  use them is no error of its own
-  * @param earlier   errors that were found already
+  * @param keepGoing if true, missing items are replaced, with a warning
+  * @param lost      kinds of names that unreadable statements may have defined: references to them
+  *                  are not reported
+  * @param earlier   problems found before
   */
 final class Findings(
     keepGoing: Boolean = false,
@@ -56,9 +56,7 @@ final class Findings(
   def error(at: SourcePos, message: String, help: Option[String] = None): Unit =
     add(Problem.error(at, message, help))
 
-  /** Something that the scene asks for is not there: an error, or a warning that says what takes
-    * its place.
-    */
+  /** Reports a missing item: an error, or a warning that names its replacement. */
   def missing(
       at: SourcePos,
       message: String,
@@ -66,7 +64,7 @@ final class Findings(
       help: Option[String] = None
   ): Unit = add(Problem.missing(at, message, standIn, keepGoing, help))
 
-  /** Likewise for a name that no statement made. */
+  /** Reports a reference to a name that no statement defines. */
   def unnamed(
       kind: NameKind,
       at: SourcePos,
@@ -78,14 +76,14 @@ final class Findings(
   def result: Vector[Problem] = Excerpts.fill(all.toVector)
   def hasErrors: Boolean = errors > 0
 
-  /** Goes no further than errors allow: after them a scene would be built in vain.
+  /** Stops if there are errors: the scene can't be built.
     *
-    * @throws SceneError with everything that was found
+    * @throws SceneError with all problems found
     */
   def stopAtErrors(): Unit = if hasErrors then throw SceneError(Problem.byPlace(result))
 
-/** What takes the place of what is missing, where the user asked to keep going: magenta, which
-  * nobody overlooks or takes for the scene's own.
+/** Fallbacks for missing items if the user chose to keep going: magenta, which is hard to overlook
+  * or to mistake for the scene's own.
   */
 object StandIns:
   val Magenta: Rgb = Rgb(1f, 0f, 1f)
@@ -95,14 +93,14 @@ object StandIns:
   def color(basis: ColorBasis): RgbTexture = ConstantRgb(basis.fromSrgb(Magenta))
   def material(basis: ColorBasis): Material = DiffuseMaterial(color(basis)).folded
 
-  // The same in messages
-  val Magentas = "magenta is used"
-  val Ones = "1 is used all over"
-  val MagentaSurface = "a magenta surface is used"
-  val LeftOut = "it is left out"
-  val Default = "the default is used"
+  // Their descriptions in messages
+  val Magentas = "using magenta"
+  val Ones = "using the constant 1"
+  val MagentaSurface = "using a magenta surface"
+  val LeftOut = "it is ignored"
+  val Default = "using the default"
 
-  /** For a type that nobody knows. */
+  /** Replacement for an unknown type. */
   def ofCategory(category: String): String = category match
     case "material" => MagentaSurface
     case "spectrum texture" => Magentas

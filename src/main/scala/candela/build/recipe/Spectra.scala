@@ -11,19 +11,19 @@ import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantRgb, RgbTexture}
 
-/** What a spectrum stands for: it decides how it becomes a colour. */
+/** Quantity that a spectrum describes, which determines its conversion to a colour. */
 enum SpectrumRole:
   case Reflectance, Emission
 
-/** A parameter of type spectrum: a colour in linear sRGB, or still a function of wavelength. */
+/** Value of a spectrum parameter: a linear sRGB colour or a function of wavelength. */
 enum SpectralValue:
   case Color(rgb: Rgb)
   case Wavelengths(spectrum: Spectrum)
 
-/** Reads the many ways to write a spectrum. */
+/** Reads spectrum parameters in all their notations. */
 object Spectra:
 
-  /** As a colour in the basis of the scene. None after a problem was reported. */
+  /** Reads a colour in the scene's basis. Returns None after reporting a problem. */
   def rgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     srgb(p, role, site).map(site.resources.basis.fromSrgb)
 
@@ -38,7 +38,7 @@ object Spectra:
           case SpectralValue.Color(c) => c
           case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
 
-  /** pbrt-v2 and v3 weight all wavelengths alike; v4 sees reflectances under D65 and scales
+  /** pbrt-v2 and v3 weight all wavelengths equally; v4 views reflectances under D65 and normalises
     * emission to luminance 1.
     */
   def toRgb(s: Spectrum, role: SpectrumRole, dialect: Dialect): Rgb =
@@ -46,7 +46,7 @@ object Spectra:
     else if role == SpectrumRole.Emission then Colorimetry.unitLuminance(s(_))
     else Colorimetry.rgb(s(_), White.D65)
 
-  /** What a reflectance by cosine and wavelength looks like under white light. */
+  /** Colour under D65 of a reflectance given by cosine and wavelength. */
   def underWhite(reflected: Float => Float => Float)(using site: Site): Float => Rgb =
     cosTheta =>
       site.resources.basis.fromSrgb(Colorimetry.rgb(reflected(cosTheta), White.D65))
@@ -59,7 +59,7 @@ object Spectra:
         val Array(x, y, z) = p.floats.map(_.toDouble): @unchecked
         Some(SpectralValue.Color(Colorimetry.fromXyz(x, y, z)))
       case ParamType.Float if p.floats.length == 1 =>
-        // Older scenes write "float eta" where a spectrum is due; a constant is what they mean
+        // Older scenes write "float eta" for a spectrum: a constant
         Some(SpectralValue.Color(Rgb.gray(p.floats(0))))
       case ParamType.Spectrum if p.strings.nonEmpty =>
         named(p, site, StandIns.Default).map(SpectralValue.Wavelengths(_))
@@ -69,7 +69,7 @@ object Spectra:
         val count = Math.max(p.floats.length, p.strings.size)
         site.problems.error(
           p.at,
-          s"`${p.name}` takes a colour or a spectrum; found $count of type ${other.spelling}",
+          s"`${p.name}` must be a colour or a spectrum, found $count of type ${other.spelling}",
           Some("write e.g. \"rgb " + p.name + "\" [ 0.5 0.5 0.5 ]")
         )
         None
@@ -77,10 +77,10 @@ object Spectra:
   private def blackbody(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     val scale = if p.floats.length >= 2 && site.dialect != Dialect.V4 then p.floats(1) else 1f
     if p.floats.length == 0 || !(p.floats(0) > 0f) then
-      site.problems.error(p.valuesAt, s"`${p.name}` takes a temperature above 0 K")
+      site.problems.error(p.valuesAt, s"`${p.name}` must be a temperature above 0 K")
       None
     else
-      // pbrt-v2 has a 1 where the eye is most sensitive, v3 and v4 at the maximum
+      // pbrt-v2 normalises the spectrum at 555 nm, v3 and v4 at its maximum
       val body =
         if site.dialect == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
         else Spectrum.blackbody(p.floats(0))
@@ -89,7 +89,7 @@ object Spectra:
   private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
     val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)
     if sorted.map(_._1).distinct.length < sorted.length then
-      site.problems.error(p.valuesAt, s"`${p.name}` gives two values for one wavelength")
+      site.problems.error(p.valuesAt, s"`${p.name}` must not repeat a wavelength")
       None
     else
       val outside =
@@ -100,13 +100,13 @@ object Spectra:
     val name = p.strings.head
     Colorimetry.named(name).orElse {
       def path = site.declaration.folder.resolve(name.replace('\\', '/'))
-      // a name with a zero byte is no path's
+      // a name with a zero byte is not a valid path
       val file = Try(path).getOrElse(site.declaration.folder)
       if !Files.isRegularFile(file) then
         val near = Suggest.nearest(name, Colorimetry.names).map(n => s"did you mean `$n`?")
         site.problems.missing(
           p.valuesAt,
-          s"no spectrum is named `$name`, and there is no such file",
+          s"`$name` is neither a named spectrum nor a file",
           standIn,
           near.orElse(Suggest.file(file)).orElse(Suggest.help(name, Colorimetry.names))
         )
@@ -116,27 +116,27 @@ object Spectra:
         val words = text.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
         val numbers = words.flatMap(_.toFloatOption)
         if numbers.length != words.length || numbers.length % 2 != 0 then
-          val message = s"`$name` should hold pairs of wavelength and value"
+          val message = s"spectrum file `$name` must contain pairs of wavelength and value"
           site.problems.missing(p.valuesAt, message, standIn)
           None
         else pairs(numbers, p, site)
     }
 
-/** A parameter that is a spectrum, the same everywhere, or a texture of colours. */
+/** Value of a parameter: a uniform spectrum or a colour texture. */
 enum SpectrumSource:
   case Uniform(value: SpectralValue)
 
-  /** In the basis of the scene. */
+  /** A texture in the scene's basis. */
   case Varying(texture: RgbTexture)
 
 object SpectrumSource:
-  /** As a texture, with what `color` makes of a uniform value in the basis. */
+  /** Returns a texture; `color` converts a uniform value to the basis. */
   def textured(source: SpectrumSource)(color: SpectralValue => candela.color.Rgb): RgbTexture =
     source match
       case Uniform(value) => ConstantRgb(color(value))
       case Varying(texture) => texture
 
-/** Parameters of recipes whose wavelengths count as long as no texture gives them. */
+/** Declares parameters that keep their wavelengths unless textured. */
 trait SpectrumFields extends Fields:
 
   protected final def spectrumTexture(
