@@ -8,8 +8,8 @@ import candela.color.ColorBasis
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, SceneDescription}
 
-/** What every stage of building needs: the description, what its statements refer to by name, and
-  * the problems found so far.
+/** State shared by all stages of building: the description, its named resources, and the problems
+  * found so far.
   */
 private[build] final class BuildContext(
     val description: SceneDescription,
@@ -24,21 +24,21 @@ private[build] final class BuildContext(
   def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
     Site(d, dialect, resources, problems, toWorld)
 
-  /** A site for what can't move: it stands still as at the start.
+  /** Site of a statement that can't be animated: uses the transform at the start.
     *
-    * @param what in the warning
+    * @param what subject of the warning
     */
   def stillSite(d: Declaration, toWorld: AnimatedTransform, what: String): Site =
     if toWorld.isAnimated then problems.warn(d.at, Motions.stands(what))
     site(d, toWorld.start)
 
-  /** What the statement says, or what `default` says if there is none or it can't be made. */
+  /** Builds the statement, or `default` if the statement is missing or invalid. */
   def made[A](statement: Option[Declaration], recipes: Recipes[A], default: String): A =
     statement
       .flatMap(d => recipes.build(site(d)))
       .getOrElse(recipes.build(site(unwritten(recipes.category, default))).get)
 
-  /** A statement that is not in the file. */
+  /** A statement that the file does not contain. */
   def unwritten(category: String, name: String): Declaration =
     Declaration(category, name, Vector.empty, BuildContext.NoPlace, BuildContext.NoFolder)
 
@@ -52,7 +52,7 @@ private[build] object BuildContext:
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     new BuildContext(description, Resources(basis, options.crew, options.seed), problems)
 
-/** What each dialect does where the scene says nothing. */
+/** Default types of each dialect. */
 private[build] final case class Defaults(
     film: String,
     filter: String,

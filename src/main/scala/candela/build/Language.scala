@@ -12,10 +12,10 @@ import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.Shapes
 import candela.build.textures.Textures
 
-/** A kind of statement, and all types that it can name.
+/** A category of statements with all its types.
   *
-  * @param name    as the statement is called, with what tells it from others of the same name
-  * @param aliases further names by which people may ask for it
+  * @param name    name of the statement, made unique if categories share it
+  * @param aliases alternative names on the command line
   */
 final case class Category(
     name: String,
@@ -24,40 +24,45 @@ final case class Category(
     aliases: Vector[String] = Vector.empty
 )
 
-/** All that scene files can declare, in the order of the reference. */
+/** All categories of scene files, in the order of the reference. */
 object Language:
   val categories: Vector[Category] = Vector(
     Category("Shape", "surfaces", Shapes.all),
-    Category("Material", "how surfaces scatter light", Materials.all, Vector("MakeNamedMaterial")),
+    Category(
+      "Material",
+      "BSDFs and BSSRDFs of surfaces",
+      Materials.all,
+      Vector("MakeNamedMaterial")
+    ),
     Category(
       "Texture (float)",
-      "numbers over a surface",
+      "float textures",
       Textures.floats,
       Vector("Texture", "FloatTexture")
     ),
     Category(
       "Texture (spectrum)",
-      "colours over a surface",
+      "spectrum textures",
       Textures.colors,
       Vector("Texture", "SpectrumTexture")
     ),
-    Category("LightSource", "lights that are no surfaces", Lights.all, Vector("Light")),
-    Category("AreaLightSource", "surfaces that emit light", AreaLights.all, Vector("AreaLight")),
-    Category("Camera", "where the picture is taken from", Cameras.all),
-    Category("Film", "what the picture is recorded on", Films.all),
-    Category("PixelFilter", "how samples become pixels", Filters.all, Vector("Filter")),
-    Category("Sampler", "where samples are taken", Samplers.all),
+    Category("LightSource", "lights, except area lights", Lights.all, Vector("Light")),
+    Category("AreaLightSource", "area lights", AreaLights.all, Vector("AreaLight")),
+    Category("Camera", "cameras", Cameras.all),
+    Category("Film", "films", Films.all),
+    Category("PixelFilter", "reconstruction filters", Filters.all, Vector("Filter")),
+    Category("Sampler", "sample generators", Samplers.all),
     Category(
       "Integrator",
-      "how light is followed; v2 says SurfaceIntegrator",
+      "light transport algorithms; SurfaceIntegrator in v2",
       Integrators.all,
       Vector("SurfaceIntegrator")
     ),
-    Category("VolumeIntegrator", "how light is followed in v2's volumes", VolumeIntegrators.all),
-    Category("Renderer", "what v2 does with the scene", Renderers.all),
-    Category("Accelerator", "how rays find surfaces", Accelerators.all),
-    Category("MakeNamedMedium", "fog, smoke and the like, v3 and v4", Media.all, Vector("Medium")),
-    Category("Volume", "fog, smoke and the like, v2", Volumes.all),
-    Category("ColorSpace", "what v4's colours mean", ColorSpaces.all),
+    Category("VolumeIntegrator", "rendering of v2's volumes", VolumeIntegrators.all),
+    Category("Renderer", "v2's renderers", Renderers.all),
+    Category("Accelerator", "ray intersection acceleration structures", Accelerators.all),
+    Category("MakeNamedMedium", "participating media, v3 and v4", Media.all, Vector("Medium")),
+    Category("Volume", "participating media, v2", Volumes.all),
+    Category("ColorSpace", "RGB colour spaces, v4", ColorSpaces.all),
     Category("Option", "settings of the whole scene, v4", OptionStatements.all)
   )

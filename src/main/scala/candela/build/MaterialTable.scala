@@ -8,9 +8,9 @@ import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
 import candela.scenefile.{Declaration, MaterialRef, ShapeDescription}
 
-/** A shape and the number of its material.
+/** A shape and the index of its material.
   *
-  * @param declared its statement, without parameters that are its material's
+  * @param declared its statement, without material parameters
   */
 private[build] final case class DressedShape(
     shape: ShapeDescription,
@@ -18,11 +18,11 @@ private[build] final case class DressedShape(
     material: Int
 )
 
-/** The materials of all shapes, by number. A material has one for each pair of media that it
+/** Materials of all shapes, by index. A material has one index for each pair of media that it
   * separates.
   *
-  * @param borders      of media, as the integrator sees them
-  * @param touchesMedia does any surface border on a medium, seen or not?
+  * @param borders      medium interfaces, as supported by the integrator
+  * @param touchesMedia whether any surface is a medium interface, supported or not
   */
 private[build] final class MaterialTable private (
     val materials: Array[Material],
@@ -41,12 +41,12 @@ private[build] final class MaterialTable private (
   def describeSubsurface(integrator: IntegratorPlan): String =
     val count = materials.count(_.isSubsurface)
     if count == 0 then "none"
-    else if integrator.goesBeneath then s"light travels beneath $count materials"
-    else s"$count materials show their surface alone: so this integrator does in pbrt, too"
+    else if integrator.goesBeneath then s"subsurface scattering in $count materials"
+    else s"ignored for $count materials: this integrator does not support it, as in pbrt"
 
 private[build] object MaterialTable:
 
-  /** @param shapes all that may be rendered */
+  /** @param shapes all shapes to render */
   def of(
       context: BuildContext,
       media: MediaBuilder,

@@ -10,7 +10,7 @@ import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.*
 
-/** What fills the space between a scene's surfaces, as far as its integrator sees it. */
+/** Builds the participating media of a scene, as supported by its integrator. */
 private[build] final class MediaBuilder(
     context: BuildContext,
     plan: IntegratorPlan
@@ -35,7 +35,7 @@ private[build] final class MediaBuilder(
       .flatMap(d => VolumeIntegrators.all.build(context.site(d)))
       .getOrElse(VolumeMethod.Default)
 
-  /** Index of the medium around the camera, −1: none. */
+  /** Index of the camera's medium; −1: none. */
   private val camera: Int =
     val at = description.camera.fold(BuildContext.NoPlace)(_.at)
     index(description.cameraMedium, at)
@@ -44,7 +44,7 @@ private[build] final class MediaBuilder(
   def border(s: ShapeDescription): MediumBorder =
     MediumBorder(index(s.insideMedium, s.shape.at), index(s.outsideMedium, s.shape.at))
 
-  /** What the integrator sees of that. */
+  /** The interface, if the integrator supports media. */
   def seen(border: MediumBorder): MediumBorder =
     if plan.throughMedia.isDefined then border else MediumBorder(-1, -1)
 
@@ -53,14 +53,14 @@ private[build] final class MediaBuilder(
     else
       indexOf.getOrElse(
         name, {
-          val message = s"no medium is named `$name`"
+          val message = s"medium `$name` is not defined"
           val help = Suggest.help(name, indexOf.keys)
           problems.unnamed(NameKind.Medium, at, message, StandIns.LeftOut, help)
           -1
         }
       )
 
-  /** The method that sees them, as far as there are any, and they in words.
+  /** Returns the render method for the scene's media and volumes, and their description.
     *
     * @param reach diameter of the scene
     */
@@ -91,6 +91,6 @@ private[build] final class MediaBuilder(
       for at <- description.integrator.map(_.at).orElse(places.headOption) do
         problems.warn(
           at,
-          "this integrator does not see the media of the scene, as in pbrt",
-          Option.when(description.dialect != Dialect.V2)("\"volpath\" does")
+          "this integrator ignores participating media, as in pbrt",
+          Option.when(description.dialect != Dialect.V2)("use \"volpath\"")
         )

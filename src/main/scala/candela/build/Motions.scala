@@ -3,23 +3,23 @@ package candela.build
 import candela.math.{Interpolation, InverseMotion, Motion, Still, Transform, Vec3}
 import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}
 
-/** How the things of a scene move, as its dialect has it. */
+/** Motions of shapes, instances and the camera, by the rules of the dialect. */
 private[build] final class Motions(description: SceneDescription):
   private val isV2 = description.dialect == Dialect.V2
 
-  /** Of a shape or an instance. pbrt-v2 interpolates the way back from the world. */
+  /** Motion of a shape or an instance. pbrt-v2 interpolates the inverse transform. */
   def of(t: AnimatedTransform): Motion =
     if !t.isAnimated then Still(t.start)
     else if isV2 then InverseMotion(between(t.start.inverse, t.end.inverse))
     else between(t.start, t.end)
 
-  /** Of the camera, if it moves. */
+  /** Motion of the camera, if animated. */
   val camera: Option[Motion] =
     val AnimatedTransform(start, end) = description.worldToCamera
     Option.when(Motions.moves(description.worldToCamera))(between(start.inverse, end.inverse))
 
-  /** Of an instance. pbrt-v4 has the world's origin where the camera is half-way, and takes an
-    * instance's translation relative to that.
+  /** Motion of an instance. pbrt-v4 puts the world's origin at the camera's position half-way, and
+    * takes an instance's translation relative to it.
     */
   def ofInstance(t: AnimatedTransform): Motion =
     if t.isAnimated && description.dialect == Dialect.V4 then between(t.start, t.end, v4Origin)
@@ -35,11 +35,11 @@ private[build] final class Motions(description: SceneDescription):
     Interpolation(start, end, startTime, endTime, shortest = !isV2, origin)
 
 private[build] object Motions:
-  /** Has it an inverse, and is it no perspective map? */
+  /** Whether the transform is invertible and not perspective. */
   def isAffine(t: AnimatedTransform): Boolean =
     Seq(t.start, t.end).forall(m => m.isAffine && !m.isFlat)
 
-  /** Is it a motion that can be rendered? Others have no polar decomposition. */
+  /** Whether the motion can be rendered. Others have no polar decomposition. */
   def moves(t: AnimatedTransform): Boolean = t.isAnimated && isAffine(t)
 
-  def stands(what: String): String = s"$what can't move: it stands still as at the start"
+  def stands(what: String): String = s"$what can't be animated; using the transform at the start"

@@ -7,19 +7,18 @@ import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct}
 import candela.scenefile.*
 
-/** An object, and where it stands or how it moves. */
+/** An object and the motions of its instances. */
 final case class PlacedObject(shapes: Vector[ShapeDescription], places: Vector[Motion])
 
-/** Decides which shapes are the world's own, and which are objects that instances place in it:
+/** Splits shapes into those of the world and objects that are instanced:
   *
-  *   - An object that stands in one place only is cheaper to trace among the world's surfaces, and
-  *     needs no more memory there: it is copied. So are objects seen through perspective maps,
-  *     which no instance can have.
-  *   - A shape that moves is an object; within an object, it is one of its own wherever that
-  *     stands.
+  *   - An object with one static instance is copied to the world: it is faster to trace there and
+  *     needs no more memory. Objects under perspective transforms are also copied, because
+  *     instances don't support these.
+  *   - An animated shape is an object; within an object, it is a separate object for each instance.
   *
-  * No instance emits light and nothing that moves does, as in pbrt (which warns of it, too; pbrt-v4
-  * refuses moving lamps).
+  * Instances and animated shapes can't emit light, as in pbrt (which also warns; pbrt-v4 rejects
+  * animated area lights).
   */
 private[build] final class ObjectUses(description: SceneDescription, problems: Findings):
   private val motions = Motions(description)
@@ -28,11 +27,11 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
 
   for s <- description.shapes do
     if Motions.moves(s.objectToWorld) then
-      val dark = withoutLight(s, "a moving shape emits no light: area lights can't move")
+      val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
       objects += PlacedObject(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
     else
       if s.objectToWorld.isAnimated then
-        problems.warn(s.shape.at, Motions.stands("what is seen through a perspective map"))
+        problems.warn(s.shape.at, Motions.stands("a shape under a perspective transform"))
       own += s
 
   for (name, uses) <- description.instances.groupBy(_.name).toVector.sortBy(_._1) do
@@ -42,25 +41,25 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
           problems.unnamed(
             NameKind.Object,
             use.at,
-            s"no object is named `$name`",
+            s"object `$name` is not defined",
             StandIns.LeftOut,
             Suggest.help(name, description.objects.keys)
           )
       case Some(shapes) =>
-        val message = "a shape in an object emits no light: area lights can't be instanced"
+        val message = "shapes of an object can't be area lights; emission is ignored"
         place(shapes.map(withoutLight(_, message)), uses)
 
-  /** Shapes of the world, copies of objects among them. */
+  /** Shapes of the world, including copied objects. */
   def world: Vector[ShapeDescription] = own.toVector
 
-  /** Objects that stand in several places, or move. */
+  /** Objects with several or animated instances. */
   def shared: Vector[PlacedObject] = objects.toVector
 
   private def place(shapes: Vector[ShapeDescription], uses: Vector[InstanceDescription]): Unit =
     val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
-        problems.warn(u.at, Motions.stands("what is seen through a perspective map"))
+        problems.warn(u.at, Motions.stands("a shape under a perspective transform"))
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated

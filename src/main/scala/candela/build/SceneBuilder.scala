@@ -10,14 +10,14 @@ import candela.sampling.IndependentSampler
 import candela.scene.Footprints
 import candela.scenefile.SceneDescription
 
-/** What the person at the command line asks for beside what the scene says.
+/** Options of the command line, which override or extend the scene.
   *
-  * @param spp        samples per pixel instead of the scene's
-  * @param quick      a sixteenth of the pixels, one sample each
-  * @param cropWindow x0, x1, y0, y1 as parts of the image, instead of the scene's
-  * @param keepGoing  use stand-ins for what is missing
-  * @param layers     what the image is to hold beside the scene's own
-  * @param crew       does what can be divided
+  * @param spp        samples per pixel, overrides the scene
+  * @param quick      if true, renders a sixteenth of the pixels with one sample each
+  * @param cropWindow x0, x1, y0, y1 as fractions of the image, overrides the scene
+  * @param keepGoing  if true, replaces missing items
+  * @param layers     requested AOVs, in addition to the scene's
+  * @param crew       executes divisible work
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -29,14 +29,14 @@ final case class BuildOptions(
     crew: Parallel = Parallel.Alone
 )
 
-/** Makes a render plan of a description: the bridge between the two towers.
+/** Builds a render plan from a description. Connects scene files to rendering.
   *
-  * Each choice of a plainer object (see the features of the plan) is made here, once.
+  * Selects the simplest exact specialisation of each object, once (see the features of the plan).
   */
 object SceneBuilder:
 
-  /** The plan, and warnings about what could not be honoured; throws [[SceneError]] with all
-    * errors, those of the description among them.
+  /** Returns the plan and warnings about unsupported features. Throws [[SceneError]] with all
+    * errors, including those of the description.
     */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, options)
@@ -59,7 +59,7 @@ object SceneBuilder:
     val statement = context.unwritten("Option", "").copy(params = context.description.options)
     OptionRecipe.build(context.site(statement))
 
-  /** v2's renderers stand above its integrators. */
+  /** The integrator; v2's renderers may override it. */
   private def integratorPlan(context: BuildContext): IntegratorPlan =
     val description = context.description
     val default = context.defaults.integrator
@@ -78,14 +78,14 @@ object SceneBuilder:
       for at <- description.camera.map(_.at) do
         context.problems.warn(
           at,
-          "paths from the lights are not joined with this camera yet: light that they alone " +
-            "find there, like that of a point by way of glass, is left out"
+          "light-traced paths can't reach this camera yet: caustics from point lights will be " +
+            "missing"
         )
     if !method.takesCameraSamples && image.layers.nonEmpty then
       for at <- description.integrator.orElse(description.renderer).map(_.at) do
         context.problems.warn(
           at,
-          "chains of paths find no layers: the image has its colours alone"
+          "Metropolis rendering writes no AOVs; the image contains colour only"
         )
 
   private def plan(
@@ -99,9 +99,9 @@ object SceneBuilder:
   ): RenderPlan =
     val film = image.film
     val method = world.method
-    // pbrt-v4's images are the brighter the longer the shutter is open
+    // pbrt-v4 scales images by the shutter time
     val exposure = if context.isV4 then camera.shutter.duration else 1f
-    // Layers belong to the pixel that they were begun for
+    // AOVs belong to the pixel of the camera sample
     val shares =
       image.layers.isEmpty && method.canShareSamples && FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
@@ -112,7 +112,7 @@ object SceneBuilder:
       crop = image.crop(integrator.window, options),
       camera = camera.camera,
       filter = image.filter,
-      // Chains draw numbers of their own, as many as they are told
+      // Markov chains ignore the sampler
       sampler =
         if usesSampler then sampling.sampler
         else IndependentSampler(sampling.samples.getOrElse(1), options.seed),
@@ -127,7 +127,7 @@ object SceneBuilder:
       ) ++ world.features ++ Vector(
         "motion" -> moving(camera, world),
         "layers" -> described(image.layers, film.development.bands),
-        "samples" -> (if shares then "in all pixels of the filter" else "in one pixel each")
+        "samples" -> (if shares then "splatted under the filter" else "one pixel each")
       ),
       differentialScale =
         if context.resources.footprintUses.isEmpty then 0f else sampling.footprint,

@@ -12,8 +12,8 @@ import candela.sampling.Sampler
 
 /** The image to render.
   *
-  * @param width  of the full image, in pixels: that of the film, or less of a quick one
-  * @param layers what it is to hold beside its colours
+  * @param width  width of the full image in pixels: that of the film, or less if `quick`
+  * @param layers requested AOVs
   */
 private[build] final case class ImageSetup(
     film: FilmSettings,
@@ -24,9 +24,9 @@ private[build] final case class ImageSetup(
 ):
   def frame: FilmFrame = FilmFrame(width, height, film.diagonal)
 
-  /** The pixels to render.
+  /** Bounds of the pixels to render.
     *
-    * @param window of the full image, if the integrator has one
+    * @param window the integrator's window of the full image, if any
     */
   def crop(window: Option[PixelBounds], options: BuildOptions): PixelBounds =
     val (x0, x1, y0, y1) = options.cropWindow.getOrElse:
@@ -38,7 +38,7 @@ private[build] final case class ImageSetup(
       candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
     val onFilm = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
     val bounds = window.filter(_ => options.cropWindow.isEmpty).fold(onFilm): w =>
-      // An image may be made smaller than the film
+      // The image may be smaller than the film
       def x(at: Int) = Math.ceil(at.toDouble * width / film.width).toInt
       def y(at: Int) = Math.ceil(at.toDouble * height / film.height).toInt
       PixelBounds(
@@ -52,7 +52,7 @@ private[build] final case class ImageSetup(
         Problem(
           Severity.Error,
           None,
-          s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, holds no pixel of $width×$height"
+          s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, has no pixel of $width×$height"
         )
       )
     bounds
@@ -71,10 +71,10 @@ private[build] object ImageSetup:
       layers
     )
 
-/** Where samples are taken.
+/** Settings of sampling.
   *
-  * @param samples   of each pixel, if someone else than the sampler says how many
-  * @param footprint of a sample, in pixels
+  * @param samples   samples per pixel, if not set by the sampler
+  * @param footprint size of a sample's footprint, in pixels
   */
 private[build] final case class SamplingSetup(
     sampler: Sampler,
@@ -83,7 +83,7 @@ private[build] final case class SamplingSetup(
 )
 
 private[build] object SamplingSetup:
-  /** pbrt-v4 shrinks footprints by the density of samples to an eighth at most. */
+  /** pbrt-v4 shrinks footprints by the sample density, down to an eighth at most. */
   private val SharpestV4 = 0.125f
 
   def of(
@@ -105,10 +105,10 @@ private[build] object SamplingSetup:
       if context.isV4 then Math.max(SharpestV4, density) else density
     )
 
-/** The camera in its place.
+/** The placed camera.
   *
-  * @param motion  if it moves
-  * @param toWorld where it stands at the start
+  * @param motion  motion, if animated
+  * @param toWorld camera-to-world transform at the start
   */
 private[build] final case class CameraSetup(
     camera: Camera,
@@ -116,10 +116,10 @@ private[build] final case class CameraSetup(
     motion: Option[Motion],
     toWorld: Transform
 ):
-  /** From the world to the camera, at any time. */
+  /** World-to-camera motion. */
   def fromWorld: Motion = motion.fold(Still(toWorld.inverse))(InverseMotion(_))
 
-  /** @param size of a sample's footprint, in pixels */
+  /** @param size size of a sample's footprint, in pixels */
   def cone(image: ImageSetup, size: Float): PixelCone =
     PixelCone.of(camera, toWorld.point(Vec3.Zero), image.width, image.height, size)
 

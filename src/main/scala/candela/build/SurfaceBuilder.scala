@@ -12,20 +12,20 @@ import candela.scene.{ShapeInstance, Surfaces}
 import candela.scenefile.Dialect
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
 
-/** A light, and how often v2's and v3's direct lighting samples it. */
+/** A light and its number of samples in v2's and v3's direct lighting. */
 private[build] final case class SampledLight(light: Light, samples: Int)
 
-/** Surfaces, and the lights among them as they number them. */
+/** Surfaces and their area lights, in the order of their indices. */
 private[build] final case class LitSurfaces(surfaces: Surfaces, lights: Vector[SampledLight])
 
-/** Collects the surfaces of the world, or those of an object that instances place in it. */
+/** Collects the surfaces of the world or of an instanced object. */
 private[build] final class SurfaceBuilder(context: BuildContext, materials: MaterialTable):
   private val soup = SoupBuilder()
   private val solids = ArrayBuffer.empty[ShapeInstance]
   private val meshMasks = ArrayBuffer.empty[Mask]
   private val solidMasks = ArrayBuffer.empty[Mask]
 
-  /** In the order of their numbers; what makes them takes all triangles. */
+  /** Creates the area lights from all triangles, in the order of their indices. */
   private val lights = ArrayBuffer.empty[TriangleSoup => Vector[SampledLight]]
   private var lightCount = 0
 
@@ -41,7 +41,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       if lamp.isDefined || !isNothing(dressed.material) then
         Placement(dressed, here, plan, lamp).place(plan.geometry)
 
-  /** Volumes of pbrt-v2 have no borders: a surface that all light passes is no surface there. */
+  /** pbrt-v2's volumes have no interfaces, so surfaces without a material are dropped. */
   private def isNothing(material: Int): Boolean =
     context.isV2 && (materials.materials(material) eq InterfaceMaterial)
 
@@ -53,7 +53,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       lights.iterator.flatMap(_(triangles)).toVector
     )
 
-  /** A shape where it stands. */
+  /** A shape being placed in the world. */
   private final class Placement(
       dressed: DressedShape,
       here: Site,
@@ -65,16 +65,17 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
 
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
-      case ShapeGeometry.Solid(_) if toWorld.isFlat => () // there was a warning
+      case ShapeGeometry.Solid(_) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make) => addSolid(make(toWorld, isReversed), lamp, isInverted)
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
-          here.warn(s"a ${dressed.shape.shape.name} can't emit light, as in pbrt: it is no lamp")
+          val name = dressed.shape.shape.name
+          here.warn(s"a \"$name\" can't be an area light, as in pbrt; emission is ignored")
         for shape <- make(toWorld, isReversed) do
           addSolid(shape, lamp.filter(_ => emits), isInverted = false)
       case ShapeGeometry.Several(parts) => parts.foreach(place)
 
-    /** pbrt-v3 and v4 turn the normals of mirrored quadrics inwards, v2 those of all disks. */
+    /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =
       if context.isV2 then dressed.declared.name == "disk" else toWorld.swapsHandedness
 
@@ -93,7 +94,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
 
     private def hasArea(shape: Shape): Boolean =
       val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
-      if !hasArea then here.warn("this light has no area: it emits nothing")
+      if !hasArea then here.warn("this area light has no area; it is ignored")
       hasArea
 
     private def addMesh(mesh: ShapeGeometry.Triangles): Unit =
@@ -116,5 +117,5 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       case _ => BumpTangents.Turned
 
 private[build] object SurfaceBuilder:
-  /** 9 Floats a triangle must fit into one array. */
+  /** 9 Floats per triangle must fit into one array. */
   val MostTriangles = 200_000_000

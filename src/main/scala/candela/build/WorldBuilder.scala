@@ -11,7 +11,7 @@ import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, Surfaces}
 import candela.scenefile.{LightDescription, ShapeDescription}
 
-/** The world, ready to render, with what it holds in words. */
+/** The world, ready to render, with a description of its features. */
 private[build] final class World(
     val scene: Scene,
     val method: RenderMethod,
@@ -19,7 +19,7 @@ private[build] final class World(
     val moves: Boolean
 )
 
-/** All surfaces of the world and of the objects in it, and how rays find them. */
+/** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
     val surfaces: Surfaces,
     val instanced: Instanced,
@@ -30,8 +30,8 @@ private[build] final class Structure(
     val (meshes, shapes) = (masks.map(_.meshes).sum, masks.map(_.shapes).sum)
     if meshes + shapes == 0 then "none" else s"on $meshes meshes and $shapes other shapes"
 
-/** Makes the world of a description in stages: materials, surfaces, lights, what finds them, the
-  * scene, and the method that renders it.
+/** Builds the world of a description in stages: materials, surfaces, lights, acceleration
+  * structures, scene, and render method.
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
@@ -40,7 +40,7 @@ private[build] final class WorldBuilder(
 ):
   import context.{description, problems}
 
-  /** @param footprints made if a texture or a material has asked for them */
+  /** @param footprints evaluated only if a texture or a material needs ray differentials */
   def build(footprints: => Footprints): World =
     for t <- description.textures do
       Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
@@ -100,7 +100,7 @@ private[build] final class WorldBuilder(
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))
 
   private def light(l: LightDescription, plan: Option[LightPlan]): Option[SampledLight] =
-    // Where geometry decides on sides, light sampling finds directions that BSDF sampling does not
+    // If geometry decides the side, light sampling reaches directions that BSDF sampling misses
     val complete = !integrator.samplesBsdf || !context.isV4
     for
       plan <- plan if !l.lightToWorld.start.isFlat
@@ -120,4 +120,4 @@ private[build] final class WorldBuilder(
   private def warnOfDarkness(scene: Scene): Unit =
     if scene.lights.isEmpty && integrator.isLit && !problems.hasErrors then
       for c <- description.camera do
-        problems.warn(c.at, "the scene has no light: its image will be black")
+        problems.warn(c.at, "the scene has no light; its image will be black")

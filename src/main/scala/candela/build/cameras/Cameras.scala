@@ -16,36 +16,36 @@ object Cameras:
       )
     )
 
-/** A camera to be placed.
+/** A camera before placement.
   *
-  * @param make takes its transform and the film
+  * @param make creates the camera from its transform and the film
   */
 final case class CameraPlan(make: (Transform, FilmFrame) => Camera, shutter: Shutter)
 
-/** What all cameras have. */
+/** Base of camera recipes. */
 abstract class CameraRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends Recipe[CameraPlan](name, meaning, dialects):
-  private val open = float("shutteropen", "time at which the shutter opens", unit = "s")(0f)
-  private val close = float("shutterclose", "time at which the shutter closes", unit = "s")(1f)
+  private val open = float("shutteropen", "shutter opening time", unit = "s")(0f)
+  private val close = float("shutterclose", "shutter closing time", unit = "s")(1f)
 
   protected def shutter()(using site: Site): Shutter =
     val (from, to) = (open(), close())
     if site.dialect == Dialect.V4 && !(to > from) then
-      site.error(s"the shutter never opens: `shutterclose` must be above `shutteropen` in v4")
+      site.error(s"`shutterclose` must be above `shutteropen` in v4, found $to and $from")
     if to < from then
-      site.warn(s"the shutter closes at $to, before it opens at $from: the two are exchanged")
+      site.warn(s"`shutterclose` $to is before `shutteropen` $from; swapping them")
       Shutter(to, from)
     else Shutter(from, to)
 
 private[build] object ScreenWindow:
 
-  /** Its shorter side goes from -1 to 1. */
+  /** Screen window whose shorter side spans -1 to 1. */
   def of(ratio: Float): (Float, Float, Float, Float) =
     if ratio > 1f then (-ratio, ratio, -1f, 1f) else (-1f, 1f, -1f / ratio, 1f / ratio)
 
-/** A pinhole camera of 90 degrees, for what can't be made. */
+/** Fallback for unsupported or invalid cameras: a pinhole camera of 90 degrees. */
 private[build] object StandInCamera:
-  val words = "a perspective camera of 90 degrees is used"
+  val words = "using a perspective camera of 90 degrees"
 
   def make(toWorld: Transform, frame: FilmFrame): Camera =
     val screen = ScreenWindow.of(frame.width.toFloat / frame.height)

@@ -4,19 +4,19 @@ import candela.build.recipe.*
 import candela.film.{Development, Layer, SampleLimit}
 import candela.scenefile.Dialect
 
-/** Recipes of the film. */
+/** Recipes of films. */
 object Films:
   val all: Recipes[FilmSettings] =
     Recipes("film", Vector(ImageFilmRecipe, RgbFilmRecipe, GBufferFilmRecipe, SpectralFilmRecipe))
 
-/** What a Film statement says.
+/** Settings of a Film statement.
   *
-  * @param crop         x0, x1, y0, y1 as parts of the full image, or pixels if `inPixels`
-  * @param development  how pixel values are made, but for the time that v4's shutter is open
-  * @param limit        of samples, for a factor by which v4 multiplies them first
-  * @param diagonal     of the film, in metres
-  * @param layers       what the image holds beside colours
-  * @param layersInWorld are they in world space, not in the camera's?
+  * @param crop         x0, x1, y0, y1 as fractions of the full image, or pixels if `inPixels`
+  * @param development  conversion of pixel values, except for v4's shutter time
+  * @param limit        limit of sample values, given v4's factor on samples
+  * @param diagonal     diagonal of the film, in metres
+  * @param layers       requested AOVs
+  * @param layersInWorld whether AOVs are in world space, instead of camera space
   */
 final case class FilmSettings(
     width: Int,
@@ -31,7 +31,7 @@ final case class FilmSettings(
     layersInWorld: Boolean = false
 )
 
-/** What all films have. */
+/** Base of film recipes. */
 abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[FilmSettings](name, meaning, dialects):
   private val x =
@@ -39,27 +39,33 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
   private val y =
     integer("yresolution", "image height", unit = "pixels")(if v2 then 480 else 720)
   private val crop =
-    numbers("cropwindow", "float[4]", "x0 x1 y0 y1: the part to render, 0 to 1", shown = "all")
+    numbers(
+      "cropwindow",
+      "float[4]",
+      "x0 x1 y0 y1: crop window as fractions of the image, 0 to 1",
+      shown = "all"
+    )
   private val pixels =
     integers(
-      "pixelbounds", "x0 x1 y0 y1: the part to render, in pixels", onlyV4, "integer[4]", "all"
+      "pixelbounds", "x0 x1 y0 y1: crop window in pixels", onlyV4, "integer[4]", "all"
     )
   private val file =
-    string("filename", "image to write; its ending chooses the format")("pbrt.exr")
+    string("filename", "image file; its extension selects the format")("pbrt.exr")
   private val diagonal =
-    float("diagonal", "of the film; only realistic cameras ask for it", sinceV3, unit = "mm")(35f)
+    float("diagonal", "diagonal of the film, for realistic cameras", sinceV3, unit = "mm")(35f)
 
   protected def settings(development: Development, limit: Float => Option[SampleLimit])(using
       site: Site
   ): FilmSettings =
     val (w, h) = (x(), y())
     if w < 1 || h < 1 || w.toLong * h > Int.MaxValue / 16 then
-      site.error(s"an image of $w×$h pixels can't be rendered")
-    // Of two windows v4 takes the one in parts of the image
+      site.error(s"can't render an image of $w×$h pixels")
+    // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
     val window = if inPixels then pixels().map(_.toFloat) else crop()
-    if window.length != 0 && window.length != 4 then site.error("`cropwindow` takes x0 x1 y0 y1")
-    if !(diagonal() > 0f) then site.error(s"`diagonal` is above 0 mm; found ${diagonal()}")
+    if window.length != 0 && window.length != 4 then
+      site.error(s"`cropwindow` must be x0 x1 y0 y1, found ${window.length} numbers")
+    if !(diagonal() > 0f) then site.error(s"`diagonal` must be above 0 mm, found ${diagonal()}")
     FilmSettings(
       Math.max(w, 1),
       Math.max(h, 1),
@@ -71,6 +77,6 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       diagonal() / 1000f
     )
 
-  /** Its edges may come in any order. */
+  /** Sorts the edges of a window. */
   private def ordered(w: Array[Float]): Array[Float] =
     Array(w(0).min(w(1)), w(0).max(w(1)), w(2).min(w(3)), w(2).max(w(3)))

@@ -15,10 +15,10 @@ object Filters:
       )
     )
 
-/** What all filters have. */
+/** Base of filter recipes. */
 abstract class FilterRecipe(name: String, meaning: String)
     extends Recipe[Filter](name, meaning):
-  /** v2 and v3 say `xwidth`, v4 says `xradius`; both mean the half extent. */
+  /** Declares the half extents: `xwidth` in v2 and v3, `xradius` in v4. */
   protected def extents(default: Dialect ?=> Float): Seq[(Field[Float], Field[Float])] =
     Seq("x", "y").map: axis =>
       (
@@ -32,21 +32,21 @@ abstract class FilterRecipe(name: String, meaning: String)
     ): @unchecked
     (x, y)
 
-object BoxFilterRecipe extends FilterRecipe("box", "all samples within weigh the same"):
+object BoxFilterRecipe extends FilterRecipe("box", "box filter"):
   private val size = extents(0.5f)
   protected def make()(using Site): Filter =
     val (x, y) = radii(size)
     BoxFilter(x, y)
 
-object TriangleFilterRecipe extends FilterRecipe("triangle", "weights fall off evenly"):
+object TriangleFilterRecipe extends FilterRecipe("triangle", "triangle (tent) filter"):
   private val size = extents(2f)
   protected def make()(using Site): Filter =
     val (x, y) = radii(size)
     TriangleFilter(x, y)
 
-object GaussianFilterRecipe extends FilterRecipe("gaussian", "weights fall off as a bell"):
+object GaussianFilterRecipe extends FilterRecipe("gaussian", "Gaussian filter"):
   private val size = extents(if v4 then 1.5f else 2f)
-  private val alpha = float("alpha", "falloff: exp(-alpha d²)", untilV3)(2f)
+  private val alpha = float("alpha", "falloff rate: exp(-alpha d²)", untilV3)(2f)
   private val sigma = float("sigma", "standard deviation, pixels", onlyV4)(0.5f)
   protected def make()(using site: Site): Filter =
     val (x, y) = radii(size)
@@ -54,17 +54,17 @@ object GaussianFilterRecipe extends FilterRecipe("gaussian", "weights fall off a
     else GaussianFilter.ofAlpha(x, y, alpha())
 
 object MitchellFilterRecipe
-    extends FilterRecipe("mitchell", "sharpens edges a little, by Mitchell and Netravali"):
+    extends FilterRecipe("mitchell", "Mitchell–Netravali filter, slightly sharpening"):
   private val size = extents(2f)
-  private val b = float("B", "blur")(1f / 3f)
-  private val c = float("C", "ringing")(1f / 3f)
+  private val b = float("B", "parameter B: blur")(1f / 3f)
+  private val c = float("C", "parameter C: ringing")(1f / 3f)
   protected def make()(using Site): Filter =
     val (x, y) = radii(size)
     MitchellFilter(x, y, b(), c())
 
-object SincFilterRecipe extends FilterRecipe("sinc", "windowed sinc, by Lanczos"):
+object SincFilterRecipe extends FilterRecipe("sinc", "Lanczos-windowed sinc filter"):
   private val size = extents(4f)
-  private val tau = float("tau", "cycles before the window ends")(3f)
+  private val tau = float("tau", "cycles of the sinc within the window")(3f)
   protected def make()(using site: Site): Filter =
     val (x, y) = radii(size)
     if site.dialect == Dialect.V2 then LanczosSincFilter.stretched(x, y, tau())

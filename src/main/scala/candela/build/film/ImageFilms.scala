@@ -5,12 +5,16 @@ import candela.build.recipe.*
 import candela.color.{CameraSensor, WhiteBalance}
 import candela.film.{Development, Layer, SampleLimit, SpectralBands}
 
-object ImageFilmRecipe extends FilmRecipe("image", "an image of red, green and blue", untilV3):
-  private val scale = float("scale", "factor of all pixel values", onlyV3)(1f)
+object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
+  private val scale = float("scale", "scale of all pixel values", onlyV3)(1f)
   private val most =
-    float("maxsampleluminance", "brighter samples are scaled down", onlyV3)(Float.PositiveInfinity)
-  noMeaning("no other program shows the image")(
-    bool("display", "show the image while it is rendered", onlyV2)(false)
+    float(
+      "maxsampleluminance",
+      "maximum luminance of a sample; brighter ones are scaled down",
+      onlyV3
+    )(Float.PositiveInfinity)
+  noMeaning("no external program displays the image")(
+    bool("display", "display the image during rendering", onlyV2)(false)
   )
   protected def make()(using Site): FilmSettings =
     settings(
@@ -18,57 +22,58 @@ object ImageFilmRecipe extends FilmRecipe("image", "an image of red, green and b
       _ => SampleLimit.luminance(most())
     )
 
-object RgbFilmRecipe extends SensorFilmRecipe("rgb", "an image of red, green and blue")
+object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image")
 
 object GBufferFilmRecipe
-    extends SensorFilmRecipe("gbuffer", "an image with positions, normals, albedo and more"):
+    extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):
   private val space = oneOf(
     "coordinatesystem",
-    "of positions and normals",
+    "space of positions and normals",
     Vector("camera", "world")
   )("camera")
   override protected def make()(using Site): FilmSettings =
     super.make().copy(layers = Layer.gbuffer, layersInWorld = space() == "world")
 
-object SpectralFilmRecipe extends SensorFilmRecipe("spectral", "an image of many wavelengths"):
-  private val buckets = integer("nbuckets", "bands of wavelengths")(16)
+object SpectralFilmRecipe
+    extends SensorFilmRecipe("spectral", "spectral image in bands of wavelengths"):
+  private val buckets = integer("nbuckets", "number of spectral bands")(16)
   private val shortest = float("lambdamin", "shortest wavelength", unit = "nm")(360f)
   private val longest = float("lambdamax", "longest wavelength", unit = "nm")(830f)
 
   override protected def make()(using site: Site): FilmSettings =
     val (from, to) = (shortest(), longest())
-    if buckets() < 1 then site.error(s"`nbuckets` is 1 or more; found ${buckets()}")
+    if buckets() < 1 then site.error(s"`nbuckets` must be at least 1, found ${buckets()}")
     if !(from >= 360f && from < to && to <= 830f) then
-      site.error(s"`lambdamin` and `lambdamax` lie between 360 and 830 nm; found $from and $to")
+      site.error(s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to")
     site.warn(
-      "light has three components here, no wavelengths: bands are those of a smooth spectrum of " +
-        "each pixel's colour"
+      "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
+        "colour"
     )
     val made = super.make()
     val bands = SpectralBands(Math.max(buckets(), 1), from, to)
     made.copy(development = made.development.copy(bands = Some(bands)))
 
-/** v4's films: what a sensor makes of the light. */
+/** Base of v4's films, with a sensor model. */
 abstract class SensorFilmRecipe(name: String, meaning: String)
     extends FilmRecipe(name, meaning, onlyV4):
-  private val iso = float("iso", "sensitivity; 100 leaves values as they are")(100f)
+  private val iso = float("iso", "sensor sensitivity; 100: unscaled")(100f)
   private val sensor =
-    string("sensor", "whose colour response: cie1931, or a camera's name")("cie1931")
+    string("sensor", "sensor response: cie1931, or the name of a camera")("cie1931")
   private val most =
-    float("maxcomponentvalue", "samples with a larger X, Y or Z are scaled down")(
+    float("maxcomponentvalue", "maximum X, Y or Z of a sample; larger ones are scaled down")(
       Float.PositiveInfinity
     )
   private val white =
     float(
       "whitebalance",
-      "colour temperature that becomes white; none: colours stay, but cameras take 6500",
+      "colour temperature of white; none: no white balance, but 6500 for cameras",
       unit = "K",
       shown = "none"
     )(0f)
-  private val half = bool("savefp16", "16 bits a value, not 32")(true)
+  private val half = bool("savefp16", "write 16-bit instead of 32-bit values")(true)
 
   protected def make()(using site: Site): FilmSettings =
-    if white() < 0f then site.error(s"`whitebalance` is a temperature in K; found ${white()}")
+    if white() < 0f then site.error(s"`whitebalance` must not be below 0 K, found ${white()}")
     val development = Development(iso() / 100f, clipsNegative = false, isHalf = half())
     val kelvin = Math.max(white(), 0f)
     camera() match
@@ -90,23 +95,23 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
 
   private def largest(exposure: Float)(using Site): Float = most() / (iso() / 100f * exposure)
 
-  /** The sensor, if it is not the standard observer. */
+  /** Returns the camera sensor, or None for the CIE 1931 observer. */
   private def camera()(using site: Site): Option[CameraSensor] =
     val name = sensor()
     val found = CameraSensor.named(name)
     if found.isDefined then
       site.warn(
-        s"light has three components here, no wavelengths: sensor \"$name\" sees a smooth " +
-          "spectrum of each pixel's colour"
+        s"rendering is RGB, not spectral; sensor \"$name\" responds to a smooth spectrum fitted " +
+          "to each pixel's colour"
       )
     else if name != "cie1931" then
       site.missing(
-        s"no sensor is named `$name`",
-        "the CIE 1931 observer is used",
+        s"unknown sensor \"$name\"",
+        "using \"cie1931\"",
         Suggest.help(name, "cie1931" +: CameraSensor.names)
       )
     found
 
 private object SensorFilmRecipe:
-  /** To which cameras are balanced if nothing is said, in K. */
+  /** Default white balance of cameras, in K. */
   val White = 6500f

@@ -34,7 +34,11 @@ object DirectLightingRecipe
     ))
 
 object WhittedRecipe
-    extends IntegratorRecipe("whitted", "specular paths and direct light, without BSDF sampling", untilV3)
+    extends IntegratorRecipe(
+      "whitted",
+      "specular paths and direct light, without BSDF sampling",
+      untilV3
+    )
     with Windowed:
 
   protected def make()(using Site): IntegratorPlan =

@@ -61,7 +61,12 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
   private val seed =
     integer("seed", "random seed", onlyV4, shown = "the option's")(0)
   noMeaning("the image is written once, at the end")(
-    integer("imagewritefrequency", "passes between written images", onlyV3, shown = "never")(Int.MaxValue)
+    integer(
+      "imagewritefrequency",
+      "passes between written images",
+      onlyV3,
+      shown = "never"
+    )(Int.MaxValue)
   )
 
   protected def make()(using site: Site): IntegratorPlan =

@@ -73,7 +73,11 @@ object IrradianceCacheRecipe
   )
 
 object DipoleSubsurfaceRecipe
-    extends IntegratorRecipe("dipolesubsurface", "subsurface scattering by the dipole approximation", onlyV2):
+    extends IntegratorRecipe(
+      "dipolesubsurface",
+      "subsurface scattering by the dipole approximation",
+      onlyV2
+    ):
   noMeaning("points are sampled anew for each camera sample")(
     float("maxerror", "maximum solid angle of clustered points", unit = "sr")(0.05f),
     float("minsampledistance", "distance between surface points", unit = "scene units")(0.25f)
@@ -114,8 +118,8 @@ object DiffusePrtRecipe
     with DirectInstead:
   override def pending: Option[String] =
     Some(
-      "using \"directlighting\", which has hard shadows, keeps lights in place and includes glossy " +
-        "reflection"
+      "using \"directlighting\", which has hard shadows, keeps light positions and includes " +
+        "glossy reflection"
     )
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
@@ -127,7 +131,7 @@ object GlossyPrtRecipe
     with DirectInstead:
   override def pending: Option[String] =
     Some(
-      "using \"directlighting\", which has hard shadows, keeps lights in place and uses the " +
+      "using \"directlighting\", which has hard shadows, keeps light positions and uses the " +
         "materials of the scene"
     )
   declare(

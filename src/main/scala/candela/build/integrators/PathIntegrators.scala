@@ -60,7 +60,11 @@ object SimplePathRecipe
   override protected def depth()(using Site): Int = maxDepth()
 
 object SimpleVolPathRecipe
-    extends IntegratorRecipe("simplevolpath", "simple path tracing in participating media, without light sampling", onlyV4)
+    extends IntegratorRecipe(
+      "simplevolpath",
+      "simple path tracing in participating media, without light sampling",
+      onlyV4
+    )
     with PathInstead:
   override def pending: Option[String] =
     Some("using \"volpath\", which also renders point lights")

@@ -76,7 +76,8 @@ object CreateProbesRecipe
     bool("indirectlighting", "include indirect light")(true),
     integer("lmax", "degree of the spherical harmonics")(4),
     integer("indirectsamples", "rays per probe")(512),
-    numbers("bounds", "float[6]", "bounding box of the probes", unit = "scene units", shown = "the scene's"),
+    numbers("bounds", "float[6]", "bounding box of the probes", unit = "scene units",
+      shown = "the scene's"),
     float("samplespacing", "distance between probes", unit = "scene units")(1f),
     float("time", "time of the incident light", unit = "s")(0f),
     string("filename", "probe file")("probes.out")

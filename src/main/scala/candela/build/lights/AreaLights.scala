@@ -63,7 +63,11 @@ final class AreaLightPlan(
 final class DiffuseLightRecipe(
     name: String,
     dialects: Set[Dialect]
-) extends Recipe[Option[AreaLightPlan]](name, "diffuse area light, uniform or from an image", dialects)
+) extends Recipe[Option[AreaLightPlan]](
+      name,
+      "diffuse area light, uniform or from an image",
+      dialects
+    )
     with SampleCounts:
   private val radiance =
     color("L", "emitted radiance", SpectrumRole.Emission, unit = "W/(m² sr)")(Rgb.White)

@@ -10,7 +10,8 @@ object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
   private val intensity =
     color("I", "radiant intensity", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val from = point("from", "position")(Vec3.Zero)
-  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val power =
+    float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (i, p) = (scaled(intensity(), power(), 4f * Pi), from())
@@ -25,10 +26,12 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     color("I", "radiant intensity along the axis", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
   private val from = point("from", "position")(Vec3.Zero)
   private val to = point("to", "target of the axis")(Vec3.Z)
-  private val cone = float("coneangle", "angle between the axis and the edge of the cone", unit = "degrees")(30f)
+  private val cone =
+    float("coneangle", "angle between the axis and the edge of the cone", unit = "degrees")(30f)
   private val fading =
     float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
-  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val power =
+    float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
@@ -49,11 +52,17 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
 
 object DistantLightRecipe extends LightRecipe("distant", "directional light, such as the sun"):
   private val radiance =
-    color("L", "irradiance on a perpendicular plane", SpectrumRole.Emission, unit = "W/m²")(Rgb.White)
+    color(
+      "L",
+      "irradiance on a perpendicular plane",
+      SpectrumRole.Emission,
+      unit = "W/m²"
+    )(Rgb.White)
   private val from = point("from", "start of the direction of light")(Vec3.Zero)
   private val to = point("to", "end of the direction of light")(Vec3.Z)
   private val illuminance =
-    float("illuminance", "illuminance on a perpendicular plane, overrides the magnitude of `L`", onlyV4, "lx", "none")(-1f)
+    float("illuminance", "illuminance on a perpendicular plane, overrides the magnitude of `L`",
+      onlyV4, "lx", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     val (l, d) = (scaled(radiance(), illuminance(), 1f), from() - to())

@@ -13,7 +13,8 @@ object GoniometricLightRecipe
   private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
   private val filename =
     string("filename", "equal-area octahedral image; its channels are averaged", onlyV4, "none")("")
-  private val power = float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val power =
+    float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
     if site.dialect == Dialect.V4 then
@@ -70,7 +71,9 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     else if !shines(all) || slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f)) then
       LightPlan.leftOut(LightPlan.Black)
     else if !(fov() > 0f && fov() < 180f) then
-      LightPlan.leftOut(s"`fov` must be between 0 and 180 degrees, found ${DefaultText.number(fov())}")
+      LightPlan.leftOut(
+        s"`fov` must be between 0 and 180 degrees, found ${DefaultText.number(fov())}"
+      )
     else
       LightPlan(
         (toWorld, _) =>

@@ -18,7 +18,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
   private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
   private val filename = string("filename", "equal-area octahedral image", onlyV4, "none")("")
   private val illuminance =
-    float("illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none")(-1f)
+    float(
+      "illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none"
+    )(-1f)
   private val portal = numbers(
     "portal",
     "point3[4]",

@@ -56,7 +56,8 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
 
 /** Number of samples of a light in v2's and v3's direct lighting. */
 trait SampleCounts extends Fields:
-  private val nsamples = integer("nsamples", "light samples per point in \"directlighting\"", untilV3)(1)
+  private val nsamples =
+    integer("nsamples", "light samples per point in \"directlighting\"", untilV3)(1)
   private val samples =
     integer("samples", "alias of `nsamples`", onlyV3, shown = "nsamples")(1)
 

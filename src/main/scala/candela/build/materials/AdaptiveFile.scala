@@ -140,7 +140,8 @@ private[build] object TensorFile:
     if version != (1, 0) then
       throw Malformed(s"version must be 1.0, found ${version._1}.${version._2}")
     val count = in.getInt()
-    if count < 0 || count > 1000 then throw Malformed(s"number of fields must be between 0 and 1000, found $count")
+    if count < 0 || count > 1000 then
+      throw Malformed(s"number of fields must be between 0 and 1000, found $count")
     Vector.fill(count)(field(in)).toMap
 
   private def field(in: ByteBuffer): (String, Tensor) =
@@ -150,7 +151,8 @@ private[build] object TensorFile:
     val kind = in.get().toInt
     val offset = in.getLong()
     val word = String(name, "ISO-8859-1")
-    if dimensions > 8 then throw Malformed(s"field `$word` must have at most 8 dimensions, found $dimensions")
+    if dimensions > 8 then
+      throw Malformed(s"field `$word` must have at most 8 dimensions, found $dimensions")
     val shape = Vector.fill(dimensions)(in.getLong())
     // Products of malicious sizes must not overflow
     val entries = shape.foldLeft(BigInt(1))(_ * _)

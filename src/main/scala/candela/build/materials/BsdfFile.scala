@@ -40,13 +40,15 @@ private[build] object BsdfFile:
       val eta = in.getFloat
       val expected = HeaderBytes + 4L * (n + 3L * n * n + coefficients)
       if flags != 1 then Left(s"flags must be 1 (a plain BSDF), found $flags")
-      else if channels != 1 && channels != 3 then Left(s"number of channels must be 1 or 3, found $channels")
+      else if channels != 1 && channels != 3 then
+        Left(s"number of channels must be 1 or 3, found $channels")
       else if bases != 1 then Left(s"number of bases must be 1, found $bases")
       else if n < 2 || n > MostCosines || coefficients < 0 then
         Left(s"invalid table of $n cosines and $coefficients coefficients")
       else if bytes.length < expected then
         Left(s"size must be at least $expected bytes by its header, found ${bytes.length}")
-      else if !(eta > 0f && eta < Float.PositiveInfinity) then Left(s"index of refraction must be above 0, found $eta")
+      else if !(eta > 0f && eta < Float.PositiveInfinity) then
+        Left(s"index of refraction must be above 0, found $eta")
       else table(in, n, coefficients, channels, eta)
 
   private def table(

@@ -32,7 +32,8 @@ private[build] trait LayerFields extends Fields:
 object CoatedDiffuseRecipe
     extends RoughRecipe("coateddiffuse", "diffuse base under a dielectric coating", onlyV4, 0f)
     with LayerFields:
-  private val reflectance = rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
+  private val reflectance =
+    rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val layers = layerParameters()
   private val eta = spectrum("eta", "index of refraction of the coating")(Indices.glass)
   protected def make()(using site: Site): Material =
@@ -58,14 +59,19 @@ object CoatedConductorRecipe
     private val u = along("u")
     private val v = along("v")
     private def along(axis: String) =
-      floatTexture(s"$name.${axis}roughness", s"$name roughness along $axis", shown = s"$name.roughness")(0f)
+      floatTexture(
+        s"$name.${axis}roughness",
+        s"$name roughness along $axis",
+        shown = s"$name.roughness"
+      )(0f)
     def apply()(using Site): Roughness =
       val model = if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
       Roughness(u.given_().getOrElse(both()), v.given_().getOrElse(both()), model)
 
   private val interface = Side("interface")
   private val conductor = Side("conductor")
-  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha")(true)
+  private val remap =
+    bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha")(true)
   private val eta = spectrum("interface.eta", "index of refraction of the coating")(Indices.glass)
   private val index = metalIndex("conductor.", tint = true)
   private val layers = layerParameters()

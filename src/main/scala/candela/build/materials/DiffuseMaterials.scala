@@ -5,7 +5,8 @@ import candela.bsdf.composite.TranslucentMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
 
-object MatteRecipe extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
+object MatteRecipe
+    extends MaterialRecipe("matte", "diffuse reflection by the Oren–Nayar model", untilV3):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.5f))
   private val sigma = floatTexture("sigma", "standard deviation of facet angles, degrees")(0f)
   protected def make()(using Site): Material = MatteMaterial(kd(), sigma())
@@ -16,8 +17,10 @@ object DiffuseRecipe extends MaterialRecipe("diffuse", "Lambertian reflection", 
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):
-  private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.25f))
-  private val transmittance = rgbTexture("transmittance", "diffuse transmittance, 0 to 1")(Rgb.gray(0.25f))
+  private val reflectance =
+    rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.25f))
+  private val transmittance =
+    rgbTexture("transmittance", "diffuse transmittance, 0 to 1")(Rgb.gray(0.25f))
   private val scale = float("scale", "scale of reflectance and transmittance")(1f)
   protected def make()(using Site): Material =
     DiffuseTransmissionMaterial(reflectance(), transmittance(), scale())

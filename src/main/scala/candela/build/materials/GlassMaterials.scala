@@ -16,7 +16,8 @@ object GlassRecipe
   private val index = floatTexture("index", "index of refraction")(1.5f)
   private val u = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
   private val v = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
-  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
+  private val remap =
+    bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
   protected def make()(using site: Site): Material =
     if site.dialect == Dialect.V2 then DielectricMaterial.old(kr(), kt(), index())
     else

@@ -8,7 +8,9 @@ import candela.color.Rgb
 import candela.scenefile.Dialect
 
 object PlasticRecipe
-    extends RoughRecipe("plastic", "diffuse base with a glossy lobe", untilV3, 0.1f, across = Set.empty):
+    extends RoughRecipe(
+      "plastic", "diffuse base with a glossy lobe", untilV3, 0.1f, across = Set.empty
+    ):
   private val kd = rgbTexture("Kd", "diffuse reflectance")(Rgb.gray(0.25f))
   private val ks = rgbTexture("Ks", "scale of the glossy lobe")(Rgb.gray(0.25f))
   protected def make()(using site: Site): Material =
@@ -24,7 +26,8 @@ object UberRecipe extends RoughRecipe(
   private val ks = rgbTexture("Ks", "scale of the glossy lobe")(Rgb.gray(0.25f))
   private val kr = rgbTexture("Kr", "scale of mirror reflection")(Rgb.Black)
   private val kt = rgbTexture("Kt", "scale of refraction")(Rgb.Black)
-  private val opacity = rgbTexture("opacity", "fraction that does not pass through unscattered")(Rgb.White)
+  private val opacity =
+    rgbTexture("opacity", "fraction that does not pass through unscattered")(Rgb.White)
   private val eta = floatTexture("eta", "index of refraction", onlyV3, shown = "index")(1.5f)
   private val index = floatTexture("index", "index of refraction")(1.5f)
   protected def make()(using site: Site): Material =
@@ -40,7 +43,8 @@ object SubstrateRecipe extends MaterialRecipe(
   private val ks = rgbTexture("Ks", "glossy reflectance at normal incidence")(Rgb.gray(0.5f))
   private val u = floatTexture("uroughness", "roughness along u")(0.1f)
   private val v = floatTexture("vroughness", "roughness along v")(0.1f)
-  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
+  private val remap =
+    bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", onlyV3)(true)
   protected def make()(using site: Site): Material =
     val model =
       if site.dialect == Dialect.V2 then RoughnessModel.AnisotropicExponents
@@ -51,13 +55,16 @@ object SubstrateRecipe extends MaterialRecipe(
 object DisneyRecipe
     extends MaterialRecipe("disney", "principled BSDF of Burley 2012 and 2015", onlyV3):
   private val color = rgbTexture("color", "base colour")(Rgb.gray(0.5f))
-  private val metallic = floatTexture("metallic", "metallic weight; 0: dielectric, 1: conductor")(0f)
+  private val metallic =
+    floatTexture("metallic", "metallic weight; 0: dielectric, 1: conductor")(0f)
   private val eta = floatTexture("eta", "index of refraction")(1.5f)
   private val roughness = floatTexture("roughness", "surface roughness")(0.5f)
-  private val tint = floatTexture("speculartint", "tint of the specular lobe; 0: white, 1: hue of the surface")(0f)
+  private val tint =
+    floatTexture("speculartint", "tint of the specular lobe; 0: white, 1: hue of the surface")(0f)
   private val anisotropic = floatTexture("anisotropic", "anisotropy of the specular lobe")(0f)
   private val sheen = floatTexture("sheen", "strength of grazing cloth reflection")(0f)
-  private val sheenTint = floatTexture("sheentint", "tint of the sheen; 0: white, 1: hue of the surface")(0.5f)
+  private val sheenTint =
+    floatTexture("sheentint", "tint of the sheen; 0: white, 1: hue of the surface")(0.5f)
   private val clearcoat = floatTexture("clearcoat", "strength of the clear coat")(0f)
   private val coatGloss = floatTexture("clearcoatgloss", "gloss of the clear coat")(1f)
   private val transmission = floatTexture("spectrans", "strength of specular transmission")(0f)

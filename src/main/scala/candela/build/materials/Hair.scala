@@ -18,9 +18,17 @@ object HairRecipe
   private val reflectance =
     rgbTexture("reflectance", "alias of `color`", onlyV4, shown = "none")(Rgb.Black)
   private val eumelanin =
-    floatTexture("eumelanin", "concentration of eumelanin (black and brown), instead of `sigma_a`", shown = "none")(0f)
+    floatTexture(
+      "eumelanin",
+      "concentration of eumelanin (black and brown), instead of `sigma_a`",
+      shown = "none"
+    )(0f)
   private val pheomelanin =
-    floatTexture("pheomelanin", "concentration of pheomelanin (red), instead of `sigma_a`", shown = "none")(0f)
+    floatTexture(
+      "pheomelanin",
+      "concentration of pheomelanin (red), instead of `sigma_a`",
+      shown = "none"
+    )(0f)
   private val eta = floatTexture("eta", "index of refraction")(1.55f)
   private val betaM = floatTexture("beta_m", "longitudinal roughness, 0 to 1")(0.3f)
   private val betaN = floatTexture("beta_n", "azimuthal roughness, 0 to 1")(0.3f)

@@ -108,10 +108,16 @@ abstract class RoughRecipe(
   private val both = floatTexture("roughness", "surface roughness; 0: smooth")(default)
   private val u = alongAxis("u")
   private val v = alongAxis("v")
-  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
+  private val remap =
+    bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
   private def alongAxis(axis: String) = Option.when(across.exists(dialects)):
-    floatTexture(s"${axis}roughness", s"roughness along $axis", across, shown = "roughness")(default)
+    floatTexture(
+      s"${axis}roughness",
+      s"roughness along $axis",
+      across,
+      shown = "roughness"
+    )(default)
 
   protected def roughness(smoothAtZero: Boolean = false)(using site: Site): Roughness =
     val model = site.dialect match

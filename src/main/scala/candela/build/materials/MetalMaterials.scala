@@ -33,7 +33,11 @@ private[build] trait MetalFields extends SpectrumFields:
       number("eta", "index of refraction"),
       number("k", "absorption coefficient"),
       Option.when(tint):
-        rgbTexture("reflectance", "reflectance at normal incidence, instead of eta and k", shown = "none")(
+        rgbTexture(
+          "reflectance",
+          "reflectance at normal incidence, instead of eta and k",
+          shown = "none"
+        )(
           Rgb.White
         )
     )

@@ -32,7 +32,7 @@ object MixRecipe
       site.warn(
         "\"mix\" does not support subsurface scattering; light passes through the inside " +
           "unscattered"
-)
+      )
     MixedMaterial(a, b, amount)
 
   private def named(name: String, parameter: String)(using site: Site): Material =

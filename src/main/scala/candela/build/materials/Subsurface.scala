@@ -29,9 +29,12 @@ abstract class BssrdfRecipe(
   private val both = floatTexture("roughness", "roughness along u and v; 0: smooth", onlyV4)(0f)
   private val alongV3 = floatTexture("uroughness", "roughness along u; 0: smooth", onlyV3)(0f)
   private val acrossV3 = floatTexture("vroughness", "roughness along v; 0: smooth", onlyV3)(0f)
-  private val alongV4 = floatTexture("uroughness", "roughness along u", onlyV4, shown = "roughness")(0f)
-  private val acrossV4 = floatTexture("vroughness", "roughness along v", onlyV4, shown = "roughness")(0f)
-  private val remap = bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
+  private val alongV4 =
+    floatTexture("uroughness", "roughness along u", onlyV4, shown = "roughness")(0f)
+  private val acrossV4 =
+    floatTexture("vroughness", "roughness along v", onlyV4, shown = "roughness")(0f)
+  private val remap =
+    bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
   protected val g: Field[Float] = float("g", "scattering asymmetry, -1 to 1", sinceV3)(0f)
 
   protected def interior()(using Site): Interior
@@ -65,7 +68,12 @@ object SubsurfaceRecipe
     rgbTexture("sigma_s", "scattering coefficient", sinceV3, "1/mm")(Milk.scattering)
   private val scale = float("scale", "scale of the coefficients")(1f)
   private val reflectance =
-    rgbTexture("reflectance", "diffuse reflectance, instead of the coefficients", onlyV4, shown = "none")(Rgb.Black)
+    rgbTexture(
+      "reflectance",
+      "diffuse reflectance, instead of the coefficients",
+      onlyV4,
+      shown = "none"
+    )(Rgb.Black)
   private val meanFreePath =
     rgbTexture("mfp", "mean free path, with `reflectance`", onlyV4, "mm")(Rgb.White)
 
@@ -106,7 +114,8 @@ object SubsurfaceRecipe
   private def ofColors()(using site: Site): Interior =
     val (a, s, r) = (sigmaA.given_(), sigmaS.given_(), reflectance.given_())
     for (one, other, name) <- Seq((a, s, "sigma_s"), (s, a, "sigma_a")) do
-      if one.isDefined && other.isEmpty then site.error(s"`sigma_a` and `sigma_s` must be given together; `$name` is missing")
+      if one.isDefined && other.isEmpty then
+        site.error(s"`sigma_a` and `sigma_s` must be given together; `$name` is missing")
     r.filter(_ => a.isEmpty && s.isEmpty) match
       case Some(tint) =>
         ReflectanceInterior(table(g()), tint, meanFreePath(), scale(), eta())

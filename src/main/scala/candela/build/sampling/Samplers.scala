@@ -4,7 +4,7 @@ import candela.build.recipe.*
 import candela.sampling.*
 import candela.scenefile.Dialect
 
-/** What a sampler is made for. */
+/** Arguments of sampler creation. */
 final case class SamplerRequest(spp: Option[Int], seed: Int, width: Int, height: Int)
 
 /** Recipes of samplers. */
@@ -16,23 +16,23 @@ object Samplers:
       IndependentRecipe("random", untilV3),
       StratifiedRecipe,
       HaltonRecipe,
-      ScrambledSobolRecipe("sobol", "Sobol' points, scrambled", sinceV3),
+      ScrambledSobolRecipe("sobol", "scrambled Sobol' points", sinceV3),
       ScrambledSobolRecipe(
         "paddedsobol",
-        "Sobol' points in pairs of dimensions, scrambled",
+        "scrambled Sobol' points in pairs of dimensions",
         onlyV4
       ),
       ZSobolRecipe,
-      ScrambledSobolRecipe("lowdiscrepancy", "(0,2)-sequences, scrambled", untilV3),
-      ScrambledSobolRecipe("02sequence", "(0,2)-sequences, scrambled", onlyV3),
-      SubstitutedRecipe("bestcandidate", "points that keep their distance", onlyV2),
-      SubstitutedRecipe("maxmindist", "points that keep their distance", onlyV3),
+      ScrambledSobolRecipe("lowdiscrepancy", "scrambled (0,2)-sequences", untilV3),
+      ScrambledSobolRecipe("02sequence", "scrambled (0,2)-sequences", onlyV3),
+      SubstitutedRecipe("bestcandidate", "points with a minimum distance", onlyV2),
+      SubstitutedRecipe("maxmindist", "points with a minimum distance", onlyV3),
       SubstitutedRecipe("pmj02bn", "multi-jittered points with blue noise", onlyV4),
       AdaptiveRecipe
     )
   )
 
-/** What samplers have that take a number of samples. */
+/** Base of samplers with a number of samples per pixel. */
 abstract class SamplerRecipe(
     name: String,
     meaning: String,
@@ -41,10 +41,10 @@ abstract class SamplerRecipe(
 ) extends Recipe[SamplerRequest => Sampler](name, meaning, dialects):
   private val samples = integer("pixelsamples", "samples per pixel")(if v2 then 4 else default)
   protected val seed: Field[Int] =
-    integer("seed", "of the random numbers", onlyV4, shown = "the option's")(0)
+    integer("seed", "random seed", onlyV4, shown = "the option's")(0)
 
   protected def count(request: SamplerRequest)(using site: Site): Int =
     request.spp.getOrElse:
       val n = samples()
-      if n < 1 then site.error(s"`pixelsamples` must be at least 1; found $n")
+      if n < 1 then site.error(s"`pixelsamples` must be at least 1, found $n")
       Math.max(1, n)

@@ -4,40 +4,40 @@ import candela.accel.{Accelerator, Primitives}
 import candela.accel.tracing.{Grid, Hierarchies}
 import candela.build.recipe.*
 
-/** Recipes of accelerators: the picture is the same with each. */
+/** Recipes of accelerators, none of which changes the image. */
 object Accelerators:
   val all: Recipes[Primitives => Accelerator] =
     Recipes("accelerator", Vector(BvhRecipe, GridRecipe, KdTreeRecipe))
 
 object BvhRecipe
-    extends Recipe[Primitives => Accelerator]("bvh", "a hierarchy of boxes"):
-  noMeaning("Candela's own hierarchy is built")(
-    string("splitmethod", "how it is split: sah, hlbvh, middle, equal")("sah"),
-    integer("maxnodeprims", "most primitives in a leaf")(4)
+    extends Recipe[Primitives => Accelerator]("bvh", "bounding volume hierarchy"):
+  noMeaning("Candela builds its own BVH")(
+    string("splitmethod", "split method: sah, hlbvh, middle, equal")("sah"),
+    integer("maxnodeprims", "maximum primitives per leaf")(4)
   )
   protected def make()(using site: Site): Primitives => Accelerator =
     accelerator(site.resources)
 
-  /** What every scene gets that doesn't ask for another. */
+  /** The default accelerator. */
   def accelerator(resources: Resources): Primitives => Accelerator =
     Hierarchies.of(_, resources.crew)
 
 object GridRecipe
-    extends Recipe[Primitives => Accelerator]("grid", "cells of equal size", onlyV2):
-  noMeaning("all shapes are refined beforehand")(
+    extends Recipe[Primitives => Accelerator]("grid", "uniform grid", onlyV2):
+  noMeaning("all shapes are refined in advance")(
     bool("refineimmediately", "refine all shapes when the grid is built")(false)
   )
   protected def make()(using Site): Primitives => Accelerator = Grid(_)
 
 object KdTreeRecipe
-    extends Recipe[Primitives => Accelerator]("kdtree", "space, split again and again"):
-  override def pending: Option[String] = Some("a bvh is used, with the same picture")
+    extends Recipe[Primitives => Accelerator]("kdtree", "k-d tree"):
+  override def pending: Option[String] = Some("using \"bvh\", with the same image")
   declare(
-    integer("intersectcost", "of a primitive, for splitting")(if v4 then 5 else 80),
-    integer("traversalcost", "of a node, for splitting")(1),
-    float("emptybonus", "for a side that is empty, 0 to 1")(0.5f),
-    integer("maxprims", "most primitives in a leaf")(1),
-    integer("maxdepth", "deepest leaf", shown = "by the count")(-1)
+    integer("intersectcost", "SAH cost of intersecting a primitive")(if v4 then 5 else 80),
+    integer("traversalcost", "SAH cost of traversing a node")(1),
+    float("emptybonus", "SAH bonus for an empty child, 0 to 1")(0.5f),
+    integer("maxprims", "maximum primitives per leaf")(1),
+    integer("maxdepth", "maximum depth", shown = "by the count")(-1)
   )
   protected def make()(using site: Site): Primitives => Accelerator =
     BvhRecipe.accelerator(site.resources)

@@ -2,43 +2,46 @@ package candela.build.settings
 
 import candela.build.recipe.*
 
-/** What v4's `Option` statements say, all together. */
+/** Settings of all of v4's `Option` statements. */
 final case class SceneSettings(seed: Int)
 
-/** v4's options: each is a parameter here. The reader knows their names in lower case. */
+/** v4's options, as parameters in lower case, which is how the reader passes them. */
 object OptionRecipe extends Recipe[SceneSettings]("", "settings of the whole scene", onlyV4):
-  private val seed = integer("seed", "of the random numbers, where the sampler says none")(0)
-  notYet("samples lie anywhere in the pixel")(
-    bool("disablepixeljitter", "sample the middle of each pixel")(false)
+  private val seed = integer("seed", "random seed, if the sampler sets none")(0)
+  notYet("samples cover the whole pixel")(
+    bool("disablepixeljitter", "place all samples at the pixel centre")(false)
   )
-  notYet("textures are read as they say")(
-    bool("disabletexturefiltering", "read textures at one point")(false)
+  notYet("textures keep their filters")(
+    bool("disabletexturefiltering", "point-sample textures")(false)
   )
-  notYet("materials stay as they are")(
+  notYet("materials are unchanged")(
     bool("forcediffuse", "make all materials diffuse")(false)
   )
   notYet("meshes are not displaced")(
-    float("displacementedgescale", "factor of `edgelength` of all meshes")(1f)
+    float("displacementedgescale", "scale of `edgelength` of all meshes")(1f)
   )
-  notYet("nothing is compared; `candela compare` does that")(
-    string("msereferenceimage", "image to compare with", shown = "none")(""),
-    string("msereferenceout", "where to write how they differ", shown = "none")("")
+  notYet("comparing images is up to `candela compare`")(
+    string("msereferenceimage", "reference image", shown = "none")(""),
+    string("msereferenceout", "file for the errors", shown = "none")("")
   )
-  noMeaning("no wavelengths are sampled")(
-    bool("disablewavelengthjitter", "the same wavelengths for all samples")(false)
+  noMeaning("rendering is RGB: no wavelengths are sampled")(
+    bool("disablewavelengthjitter", "use the same wavelengths for all samples")(false)
   )
-  noMeaning("it changes how numbers are rounded, and little else")(
-    string("rendercoordsys", "space in which rays live: camera, cameraworld, world")("cameraworld")
+  noMeaning("only affects rounding")(
+    string("rendercoordsys", "space of ray tracing: camera, cameraworld, world")("cameraworld")
   )
-  noMeaning("no statistics are written")(bool("pixelstats", "write images of statistics")(false))
-  noMeaning("there is one way to render")(bool("wavefront", "use the wavefront renderer")(false))
+  noMeaning("no statistics images are written")(bool(
+    "pixelstats",
+    "write statistics images"
+  )(false))
+  noMeaning("there is only one renderer")(bool("wavefront", "use the wavefront renderer")(false))
 
   protected def make()(using Site): SceneSettings = SceneSettings(seed())
 
 object OptionStatements:
   val all: Recipes[SceneSettings] = Recipes("option", Vector(OptionRecipe))
 
-/** The names that v4's `ColorSpace` knows. */
+/** Colour spaces of v4's `ColorSpace`. */
 object ColorSpaces:
   val all: Recipes[Unit] = Recipes(
     "color space",
@@ -54,4 +57,4 @@ class ColorSpaceRecipe(name: String, meaning: String) extends Recipe[Unit](name,
   protected def make()(using Site): Unit = ()
 
 final class WideSpaceRecipe(name: String, meaning: String) extends ColorSpaceRecipe(name, meaning):
-  override def pending: Option[String] = Some("colours are taken as sRGB")
+  override def pending: Option[String] = Some("treating colours as sRGB")

@@ -5,30 +5,33 @@ import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{BezierCurve, CurveBuilder, CurveKind, CurveSegment}
 
-object CurveRecipe extends ShapeRecipe("curve", "a thin strip: a hair, a blade of grass", sinceV3):
+object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or grass", sinceV3):
   private val points = numbers("P", "point3[]", "control points")
-  private val basis = oneOf("basis", "kind of spline", Seq("bezier", "bspline"))("bezier")
-  private val degree = integer("degree", "of the spline: 2 or 3")(3)
-  private val kind = oneOf("type", "how it is seen", Seq("flat", "ribbon", "cylinder"))("flat")
-  private val width = float("width", "all along", unit = "scene units")(1f)
-  private val width0 = float("width0", "at the start", shown = "width")(1f)
-  private val width1 = float("width1", "at the end", shown = "width")(1f)
-  private val normals = numbers("N", "normal[]", "of a ribbon, at all ends of its curves")
+  private val basis = oneOf("basis", "spline basis", Seq("bezier", "bspline"))("bezier")
+  private val degree = integer("degree", "spline degree, 2 or 3")(3)
+  private val kind = oneOf("type", "curve type", Seq("flat", "ribbon", "cylinder"))("flat")
+  private val width = float("width", "constant width", unit = "scene units")(1f)
+  private val width0 = float("width0", "width at the start", shown = "width")(1f)
+  private val width1 = float("width1", "width at the end", shown = "width")(1f)
+  private val normals = numbers("N", "normal[]", "normals of a ribbon, at the ends of its segments")
   private val splitdepth =
-    float("splitdepth", "each curve is cut into 2 to the power of this many segments")(3f)
+    float("splitdepth", "number of halvings: each curve is split into 2^splitdepth pieces")(3f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (p, d) = (points(), degree())
     val count = p.length / 3
     val isBezier = basis() == "bezier"
     val wrong =
-      if d != 2 && d != 3 then Some(s"`degree` of a curve is 2 or 3; found $d")
-      else if p.length % 3 != 0 then Some(s"`P` holds ${p.length} numbers, not triples")
-      else if count < d + 1 then Some(s"a curve needs ${d + 1} points or more; found $count")
+      if d != 2 && d != 3 then Some(s"`degree` of a \"curve\" must be 2 or 3, found $d")
+      else if p.length % 3 != 0 then
+        Some(s"`P` must have a multiple of 3 numbers, found ${p.length}")
+      else if count < d + 1 then
+        Some(s"`P` of a \"curve\" must have at least ${d + 1} points, found $count")
       else if isBezier && (count - 1) % d != 0 then
-        Some(s"a Bézier curve of degree $d has ${d + 1} points and $d for each more; found $count")
+        Some(s"`P` of a Bézier curve of degree $d must have ${d + 1} points plus $d per " +
+          s"further segment, found $count")
       else if p.exists(x => !java.lang.Float.isFinite(x)) then
-        Some("`P` holds a number that is not finite")
+        Some("`P` must not contain NaN or infinite numbers")
       else None
     wrong match
       case Some(message) =>
@@ -39,16 +42,18 @@ object CurveRecipe extends ShapeRecipe("curve", "a thin strip: a hair, a blade o
         val ends = ribbonNormals(chain.size)
         if kind() == "ribbon" && ends.isEmpty then None else curves(chain, ends)
 
-  /** The normals where curves begin and end; None, and reported, if they don't fit. */
+  /** Normals at the ends of segments. Reports a wrong count and returns None. */
   private def ribbonNormals(curves: Int)(using site: Site): Option[Vector[Vec3]] =
     val n = normals()
     if kind() != "ribbon" then
-      if n.nonEmpty then site.warn(s"`N` of a ${kind()} curve has no effect: ribbons have normals")
+      if n.nonEmpty then
+        site.warn(s"`N` of a \"${kind()}\" curve is ignored; only ribbons have normals")
       None
     else if n.length == 3 * (curves + 1) then
       Some(Vector.tabulate(curves + 1)(i => Vec3(n(3 * i), n(3 * i + 1), n(3 * i + 2))))
     else
-      site.error(s"a ribbon of $curves curves needs ${curves + 1} normals; found ${n.length / 3}")
+      val found = n.length / 3
+      site.error(s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found")
       None
 
   private def curves(chain: Vector[Array[Double]], ends: Option[Vector[Vec3]])(using
@@ -58,10 +63,10 @@ object CurveRecipe extends ShapeRecipe("curve", "a thin strip: a hair, a blade o
     def widthAt(i: Int) = lerp(i.toFloat / chain.size, w0, w1)
     val depth = splitdepth().toInt
     if !(w0 >= 0f && w1 >= 0f && w0 + w1 > 0f) then
-      site.warn(s"a curve from $w0 to $w1 wide can't be seen: it is left out")
+      site.warn(s"a curve of width $w0 to $w1 is invisible; it is ignored")
       None
     else if depth < 0 || depth > 16 then
-      site.error(s"`splitdepth` lies in 0 to 16; found $depth")
+      site.error(s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
       val all = chain.zipWithIndex.map: (points, i) =>
@@ -70,7 +75,7 @@ object CurveRecipe extends ShapeRecipe("curve", "a thin strip: a hair, a blade o
         case "ribbon" => CurveKind.Ribbon
         case "cylinder" => CurveKind.Cylinder
         case _ => CurveKind.Flat
-      // pbrt-v4 halved what pbrt-v3 keeps rays away from a curve
+      // pbrt-v4's ray offset at curves is half of pbrt-v3's
       val errorWidths = if site.dialect == Dialect.V4 then 1f else 2f
       Some(
         ShapeGeometry.Solids(

@@ -4,7 +4,7 @@ import candela.build.recipe.*
 import candela.scenefile.ParamType
 import candela.shapes.{BilinearMesh, BilinearPatch}
 
-/** Checks that the arrays of a mesh fit together. */
+/** Checks that the arrays of a mesh are consistent. */
 private[build] object MeshArrays:
 
   /** Two triangles for each cell of a grid of vertices, split from its first corner. */
@@ -24,7 +24,7 @@ private[build] object MeshArrays:
     val fits = isWhole(positions, indices)
     Option.when(fits)(triangles(positions, normals, uvs, indices))
 
-  /** A mesh whose positions and indices are known to fit. */
+  /** A mesh with checked positions and indices. */
   def triangles(
       positions: Array[Float],
       normals: Array[Float],
@@ -63,7 +63,7 @@ private[build] object MeshArrays:
       emits = true
     )
 
-  /** Do indices name vertices, and are these finite? If not, that is reported. */
+  /** Checks that indices are in range and positions finite. Reports an error otherwise. */
   def isWhole(positions: Array[Float], indices: Array[Int], corners: Int = 3)(using
       site: Site
   ): Boolean =
@@ -71,24 +71,22 @@ private[build] object MeshArrays:
     def problem(what: String): Option[String] = Some(what)
     val wrong =
       if positions.length % 3 != 0 then
-        problem(s"`P` holds ${positions.length} numbers, not triples")
+        problem(s"`P` must have a multiple of 3 numbers, found ${positions.length}")
       else if indices.length % corners != 0 then
-        val groups = if corners == 3 then "triples" else s"groups of $corners"
-        problem(s"`indices` holds ${indices.length} numbers, not $groups")
+        val found = indices.length
+        problem(s"`indices` must have a multiple of $corners numbers, found $found")
       else
         indices.find(i => i < 0 || i >= vertices) match
           case Some(i) =>
-            problem(s"`indices` names vertex $i, but `P` has $vertices (0 to ${vertices - 1})")
+            problem(s"`indices` must be vertices of `P`, 0 to ${vertices - 1}, found $i")
           case None =>
             if positions.exists(x => !java.lang.Float.isFinite(x)) then
-              problem("`P` holds a number that is not finite")
+              problem("`P` must not contain NaN or infinite numbers")
             else None
     wrong.foreach(site.error(_))
     wrong.isEmpty
 
-  /** Attributes that don't match the number of vertices are dropped with a warning, as pbrt
-    * does.
-    */
+  /** Drops attributes that don't match the number of vertices, with a warning, as pbrt does. */
   private def matching(name: String, values: Array[Float], vertices: Int, each: Int)(using
       site: Site
   ): Array[Float] =
@@ -99,6 +97,7 @@ private[build] object MeshArrays:
       else "values"
       val needed = vertices * each
       site.warn(
-        s"`$name` holds ${values.length} $kind; $vertices vertices need $needed; it is ignored"
+        s"`$name` must have $needed $kind for $vertices vertices, found ${values.length}; " +
+          "it is ignored"
       )
       Array.empty

@@ -4,7 +4,7 @@ import candela.base.loop
 import candela.build.recipe.*
 import candela.shapes.{KnotVector, Nurbs}
 
-/** What a NURBS surface says of one of its directions. */
+/** Parameters of one direction of a NURBS surface. */
 private[build] final class NurbsSide(
     letter: String,
     val count: Field[Int],
@@ -13,47 +13,48 @@ private[build] final class NurbsSide(
     from: Field[Float],
     to: Field[Float]
 ):
-  /** None, and reported, if it makes no spline. */
+  /** Returns the knot vector. Reports an invalid spline and returns None. */
   def read()(using site: Site): Option[KnotVector] =
     val (n, k, all) = (count(), order(), knots())
     if all.isEmpty || count.given_().isEmpty || order.given_().isEmpty then
-      site.error(s"a nurbs needs `n$letter`, `${letter}order` and `${letter}knots`")
+      site.error(s"a \"nurbs\" needs `n$letter`, `${letter}order` and `${letter}knots`")
       None
     else checked(n, k, all)
 
   private def checked(n: Int, k: Int, all: Array[Float])(using site: Site): Option[KnotVector] =
     val wrong =
-      if k < 2 then Some(s"`${letter}order` must be 2 or more; found $k")
-      else if n < k then Some(s"`n$letter` is $n, less than `${letter}order`, $k")
+      if k < 2 then Some(s"`${letter}order` must be at least 2, found $k")
+      else if n < k then Some(s"`n$letter` must be at least `${letter}order`, $k, found $n")
       else if all.length != n + k then
-        Some(s"`${letter}knots` holds ${all.length} knots; n$letter + ${letter}order are ${n + k}")
+        val sum = s"n$letter + ${letter}order = ${n + k}"
+        Some(s"`${letter}knots` must have $sum knots, found ${all.length}")
       else if all.indices.drop(1).exists(i => !(all(i) >= all(i - 1))) then
-        Some(s"`${letter}knots` must never fall")
-      else if !(all(k - 1) < all(n)) then Some(s"`${letter}knots` spans nothing")
+        Some(s"`${letter}knots` must not decrease")
+      else if !(all(k - 1) < all(n)) then Some(s"`${letter}knots` must span an interval")
       else None
-    wrong.foreach(why => site.warn(s"$why: this nurbs is left out"))
+    wrong.foreach(why => site.warn(s"$why; the \"nurbs\" is ignored"))
     Option.when(wrong.isEmpty)(KnotVector(n, k, all.map(_.toDouble)))
 
-  /** Where it is evaluated. */
+  /** Parameter values of evaluation. */
   def places()(using site: Site): Array[Double] =
     val start = from.given_().getOrElse(knots()(order() - 1)).toDouble
     val end = to.given_().getOrElse(knots()(count())).toDouble
     Array.tabulate(NurbsRecipe.Dice)(i => start + (end - start) * i / (NurbsRecipe.Dice - 1))
 
 object NurbsRecipe
-    extends ShapeRecipe("nurbs", "a rational B-spline surface, as 29 × 29 × 2 triangles", untilV3):
+    extends ShapeRecipe("nurbs", "rational B-spline surface, as 29 × 29 × 2 triangles", untilV3):
   private val u = side("u")
   private val v = side("v")
-  private val points = numbers("P", "point3[]", "control points, row by row of one v")
-  private val weighted = numbers("Pw", "float[]", "the same with weights: x·w y·w z·w w")
+  private val points = numbers("P", "point3[]", "control points, in rows of constant v")
+  private val weighted = numbers("Pw", "float[]", "control points with weights: x·w y·w z·w w")
 
   private def side(d: String): NurbsSide = NurbsSide(
     d,
-    integer(s"n$d", s"control points along $d", shown = "none")(0),
-    integer(s"${d}order", s"degree + 1 along $d", shown = "none")(0),
+    integer(s"n$d", s"number of control points along $d", shown = "none")(0),
+    integer(s"${d}order", s"order (degree + 1) along $d", shown = "none")(0),
     numbers(s"${d}knots", "float[]", s"knots along $d"),
-    float(s"${d}0", s"where $d begins", shown = s"${d}knots[${d}order - 1]")(0f),
-    float(s"${d}1", s"where $d ends", shown = s"${d}knots[n$d]")(1f)
+    float(s"${d}0", s"start of $d", shown = s"${d}knots[${d}order - 1]")(0f),
+    float(s"${d}1", s"end of $d", shown = s"${d}knots[n$d]")(1f)
   )
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
@@ -89,10 +90,10 @@ object NurbsRecipe
     else if p.isEmpty && pw.nonEmpty && pw.length == 4 * count then Some(pw.map(_.toDouble))
     else
       site.error(
-        s"a nurbs of $nu × $nv control points needs ${3 * count} numbers in `P` or " +
-          s"${4 * count} in `Pw`; found ${p.length} and ${pw.length}"
+        s"`P` or `Pw` of a \"nurbs\" must have ${3 * count} or ${4 * count} numbers for $nu × " +
+          s"$nv control points, found ${p.length} and ${pw.length}"
       )
       None
 
-  /** Vertices along each side, as in pbrt. */
+  /** Number of vertices along each direction, as in pbrt. */
   private[build] val Dice = 30

@@ -6,15 +6,14 @@ import java.nio.file.Path
 import candela.base.{IntBuffer, loop, Problem, SceneError, Severity, SourcePos}
 import candela.scenefile.Source
 
-/** The triangles of a PLY file.
+/** Mesh of a PLY file.
   *
   * @param positions x, y, z of each vertex; all finite
-  * @param normals   x, y, z of each vertex, of any length; empty if the file has none. What is not
-  *                  finite there is 0, which stands for no normal.
+  * @param normals   x, y, z of each vertex, not normalised; empty if the file has none. Components
+  *                  that are not finite are 0, which means no normal.
   * @param uvs       u, v of each vertex; empty if the file has none
-  * @param indices   three vertices for each triangle, each in range
-  * @param quads     four vertices for each face of four corners that was left whole, in the order
-  *                  0 1 3 2 of its corners
+  * @param indices   three vertex indices per triangle, all in range
+  * @param quads     four vertex indices per quad that was kept, in the order 0 1 3 2 of its corners
   */
 final class PlyMesh(
     val positions: Array[Float],
@@ -26,14 +25,13 @@ final class PlyMesh(
 
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
   *
-  * Faces of four corners become the triangles 0 1 2 and 3 0 2, as in pbrt-v3; larger ones a fan.
-  * Faces of fewer than three corners have no surface and are left out, as is all that is no vertex
-  * or face.
+  * Quads become the triangles 0 1 2 and 3 0 2, as in pbrt-v3; larger faces a fan. Faces of fewer
+  * than three corners are skipped, as are elements other than vertices and faces.
   */
 object PlyFile:
 
-  /** @param at        where a scene asks for the file, for the problem if it can't be read
-    * @param keepQuads leave faces of four corners whole
+  /** @param at        position of the reference in the scene, for error messages
+    * @param keepQuads whether to keep quads as they are
     */
   def read(path: Path, at: Option[SourcePos] = None, keepQuads: Boolean = false): PlyMesh =
     Source.read(path) match
@@ -59,10 +57,10 @@ object PlyFile:
     catch
       case e: IOException =>
         val why = Option(e.getMessage).getOrElse(e.toString)
-        throw problem(at, s"mesh `${source.name}`: reading stops: $why")
+        throw problem(at, s"can't read the mesh `${source.name}`: $why")
     finally source.close()
 
-  /** Goes through the file once more. */
+  /** Finds the line of an offset by reading the file again. */
   private def lineOf(offset: Long, source: Source): Long =
     var line = 1L
     for again <- source.again do
@@ -79,9 +77,9 @@ object PlyFile:
     loop(until)(i => if source.bytes(i) == '\n' then lines += 1)
     lines
 
-/** Reads the elements of one PLY file.
+/** Reads the elements of a PLY file.
   *
-  * @param keepQuads leave faces of four corners whole
+  * @param keepQuads whether to keep quads as they are
   * @param fail      reports a problem at a byte offset
   */
 private[build] final class PlyReader(
@@ -114,8 +112,8 @@ private[build] final class PlyReader(
   private def needed(name: String): PlyElement =
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
       val found = header.elements.map(e => s"${e.count} ${e.name}").mkString(", ")
-      val others = if found.isEmpty then "none at all" else found
-      fail(in.offset, s"no $name elements in the file, but $others")
+      val others = if found.isEmpty then "none" else found
+      fail(in.offset, s"the file must have $name elements, found $others")
 
   private def readVertices(element: PlyElement): Unit =
     val names = element.properties.filter(_.countType.isEmpty).map(_.name)
@@ -124,13 +122,13 @@ private[build] final class PlyReader(
       new Array[Float](if has(wanted) then element.count * wanted.size else 0)
     if !has(PlyReader.Position) then
       val found = element.properties.map(_.name).mkString("`", "`, `", "`")
-      fail(in.offset, s"vertices need `x`, `y` and `z`, but have $found")
+      fail(in.offset, s"vertices must have `x`, `y` and `z`, found $found")
     val uvNames = PlyReader.TextureCoordinates.find(has).getOrElse(PlyReader.NoCoordinates)
     positions = room(PlyReader.Position)
     normals = room(PlyReader.Normal)
     uvs = room(uvNames)
-    // for each property the array it goes to (or null), the array's numbers per vertex, and its
-    // place among these
+    // for each property the target array (or null), its numbers per vertex, and the index among
+    // these
     val roles = element.properties.map: p =>
       val arrays = List(positions, normals, uvs)
       val groups = List(PlyReader.Position, PlyReader.Normal, uvNames)
@@ -148,12 +146,12 @@ private[build] final class PlyReader(
         if target == null then skip(properties(k))
         else target(i * strides(k) + places(k)) = number(properties(k), target eq positions, i)
 
-  /** The property's number; 0 for one that is not finite, except in positions. */
+  /** The property's value; 0 if it is not finite, except in positions, where that is an error. */
   private def number(p: PlyProperty, isPosition: Boolean, vertex: Int): Float =
     val at = in.offset
     val value = in.next(p.valueType).toFloat
     if java.lang.Float.isFinite(value) then value
-    else if isPosition then fail(at, s"`${p.name}` of vertex $vertex is $value")
+    else if isPosition then fail(at, s"`${p.name}` of vertex $vertex must be finite, found $value")
     else 0f
 
   private def skip(p: PlyProperty): Unit =
@@ -167,7 +165,7 @@ private[build] final class PlyReader(
       element.properties.indexWhere(p => PlyReader.Corners(p.name) && p.countType.nonEmpty)
     if corners < 0 then
       val found = element.properties.map(_.name).mkString("`", "`, `", "`")
-      fail(in.offset, s"faces need a list `vertex_indices`, but have $found")
+      fail(in.offset, s"faces must have a list `vertex_indices`, found $found")
     val properties = element.properties.toArray
     loop(element.count): _ =>
       loop(properties.length): k =>
@@ -187,8 +185,7 @@ private[build] final class PlyReader(
       if !isQuad then triangle(first, second, last)
       loop(length - 3): _ =>
         val next = index(p.valueType, vertexCount)
-        // 3 0 2 for the second half of a quad; for larger faces the same triangle in the fan's
-        // order
+        // 3 0 2 for the second half of a quad; larger faces use the order of the fan
         if isQuad then
           quads += first
           quads += second
@@ -207,8 +204,8 @@ private[build] final class PlyReader(
     val at = in.offset
     val value = in.next(t)
     if !(value >= 0 && value < vertexCount && value == Math.rint(value)) then
-      val range = s"0 … ${vertexCount - 1}"
-      fail(at, s"a face has the corner ${PlyNumbers.plain(value)}, but vertices go by $range")
+      val range = s"between 0 and ${vertexCount - 1}"
+      fail(at, s"the vertex index of a face must be $range, found ${PlyNumbers.plain(value)}")
     value.toInt
 
 private[build] object PlyReader:
@@ -218,7 +215,7 @@ private[build] object PlyReader:
 
   private val NoCoordinates = Seq.empty[String]
 
-  /** The pairs of names in use for texture coordinates. */
+  /** Common names of texture coordinates. */
   private val TextureCoordinates = List(
     Seq("u", "v"),
     Seq("s", "t"),

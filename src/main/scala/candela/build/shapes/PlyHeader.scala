@@ -9,7 +9,7 @@ import scala.collection.mutable
 
 import candela.scenefile.{NumberReader, Source}
 
-/** The number types of PLY files, with their size in bytes where they are binary. */
+/** Number types of PLY files, with their size in bytes in binary files. */
 private[build] enum PlyType(val bytes: Int):
   case Int8 extends PlyType(1)
   case UInt8 extends PlyType(1)
@@ -23,7 +23,7 @@ private[build] enum PlyType(val bytes: Int):
 private[build] enum PlyFormat:
   case Ascii, LittleEndian, BigEndian
 
-/** @param countType the type of a list's length; None: the property is one number */
+/** @param countType type of a list's length; None: the property is a single number */
 private[build] final case class PlyProperty(
     name: String,
     valueType: PlyType,
@@ -36,9 +36,9 @@ private[build] final case class PlyElement(
     properties: Vector[PlyProperty]
 )
 
-/** What a PLY file says about itself before its numbers begin.
+/** Header of a PLY file.
   *
-  * @param bodyStart where they do, in the source's window
+  * @param bodyStart start of the body, in the source's window
   *
   * Source: Turk, "The PLY Polygon File Format", 1994; both generations of type names.
   */
@@ -55,10 +55,11 @@ private[build] object PlyHeader:
     var format = Option.empty[PlyFormat]
     val elements = mutable.ArrayBuffer.empty[PlyElement]
     val lines = Lines(source)
-    if lines.line() != "ply" then fail(0, "this is no PLY file: it does not begin with `ply`")
+    if lines.line() != "ply" then fail(0, "not a PLY file; it must begin with `ply`")
     var more = true
     while more do
-      if lines.isAtEnd then fail(source.offset(source.limit), "the header has no `end_header`")
+      if lines.isAtEnd then
+        fail(source.offset(source.limit), "the header must end with `end_header`")
       val line = lines.line()
       def wrong(what: String) =
         val shown = line.take(60).map(c => if Character.isISOControl(c) then '?' else c)
@@ -67,7 +68,7 @@ private[build] object PlyHeader:
         case "format" :: name :: _ =>
           format = Some(Formats.getOrElse(name, wrong("unknown format")))
         case "element" :: name :: count :: Nil =>
-          val n = count.toIntOption.filter(_ >= 0).getOrElse(wrong("no sensible count"))
+          val n = count.toIntOption.filter(_ >= 0).getOrElse(wrong("invalid count"))
           elements += PlyElement(name, n, Vector.empty)
         case "property" :: rest if elements.nonEmpty =>
           val last = elements.last
@@ -75,8 +76,8 @@ private[build] object PlyHeader:
           elements(elements.length - 1) = last.copy(properties = last.properties :+ added)
         case "end_header" :: Nil => more = false
         case ("comment" | "obj_info" | "") :: _ => ()
-        case _ => wrong("a header line with no meaning here")
-    val known = format.getOrElse(fail(0, "the header has no `format`"))
+        case _ => wrong("unknown header line")
+    val known = format.getOrElse(fail(0, "the header must have a `format`"))
     PlyHeader(known, elements.toVector, lines.end)
 
   private def property(words: List[String]): Option[PlyProperty] = words match
@@ -85,13 +86,13 @@ private[build] object PlyHeader:
     case value :: name :: Nil => Types.get(value).map(PlyProperty(name, _, None))
     case _ => None
 
-  /** Cuts lines. The first shows how all of them end: `\n`, `\r\n` or `\r`. Binary numbers may
-    * follow the last, so its end must be known exactly.
+  /** Splits lines. The end of the first determines the line ending of all: `\n`, `\r\n` or `\r`.
+    * Binary numbers may follow the last line, so its end must be exact.
     */
   private final class Lines(source: Source):
     private var next = 0
 
-    /** Where the numbers begin, in the source's window, once the last line was read. */
+    /** Start of the body in the source's window, once the last line is read. */
     def end: Int = next
     var lastStart = 0L
 
@@ -115,7 +116,7 @@ private[build] object PlyHeader:
       next = (next + 1).min(source.limit)
       line
 
-  /** Something else than a header, if a line is longer. */
+  /** Maximum length of a header line. */
   private val LongestLine = 1 << 16
 
   private val Formats = Map(
@@ -143,7 +144,7 @@ private[build] object PlyHeader:
     "float64" -> PlyType.Float64
   )
 
-/** The numbers after a PLY file's header, one after the other.
+/** Sequential reader of the numbers after a PLY header.
   *
   * @param fail reports a problem at a byte offset
   */
@@ -152,39 +153,39 @@ private[build] sealed abstract class PlyNumbers(
     start: Int,
     fail: (Long, String) => Nothing
 ):
-  /** The next byte, in the source's window. */
+  /** Index of the next byte in the source's window. */
   protected var at: Int = start
 
-  /** Where the next number is. */
+  /** Byte offset of the next number. */
   def offset: Long = source.offset(at)
 
-  /** The next number, which is of that type. */
+  /** Reads the next number, of type `t`. */
   def next(t: PlyType): Double
 
-  /** So many bytes hold the element, at least. */
+  /** Minimum size of the element in bytes. */
   protected def leastSize(element: PlyElement): Long
 
-  /** Can so many of these elements follow, as far as the file's size tells? */
+  /** Whether the file is large enough for the elements. */
   final def canHold(element: PlyElement): Boolean =
     leastSize(element) <= source.mostAfter(at)
 
-  /** The next number as the length of a list. */
+  /** Reads the length of a list. */
   final def length(t: PlyType): Int =
     val from = offset
     val n = next(t)
     if !(n >= 0 && n <= Int.MaxValue && n == Math.rint(n)) then
-      fail(from, s"a list can't have ${PlyNumbers.plain(n)} values")
+      fail(from, s"invalid list length ${PlyNumbers.plain(n)}")
     n.toInt
 
-  /** Moves the window on, so that it begins with what is next. */
+  /** Advances the window to the next byte. */
   protected final def fetch(): Unit =
     source.slide(at)
     at = 0
 
   protected final def tooShort(): Nothing =
-    fail(source.offset(source.limit), "the file ends too early")
+    fail(source.offset(source.limit), "unexpected end of file")
 
-/** Decimal numbers between blanks. */
+/** Decimal numbers separated by whitespace. */
 private[build] final class AsciiPlyNumbers(
     source: Source,
     start: Int,
@@ -209,7 +210,7 @@ private[build] final class AsciiPlyNumbers(
     while number.stop == source.limit && !source.isLast do
       fetch()
       end = number.scan(at)
-    if end < 0 then fail(offset, "here is no number")
+    if end < 0 then fail(offset, "expected a number")
     at = end
     if t == PlyType.Float32 then number.toFloat.toDouble else number.toDouble
 
@@ -262,7 +263,7 @@ private[build] object PlyNumbers:
   private[build] val Words: VarHandle =
     MethodHandles.byteArrayViewVarHandle(classOf[Array[Int]], ByteOrder.LITTLE_ENDIAN)
 
-  /** So many bytes hold almost every number and what ends it. */
+  /** Bytes that hold almost any number and its separator. */
   private[build] val UsualNumber = 64
 
   def of(source: Source, header: PlyHeader, fail: (Long, String) => Nothing): PlyNumbers =
@@ -271,6 +272,6 @@ private[build] object PlyNumbers:
       case PlyFormat.LittleEndian => BinaryPlyNumbers(source, header.bodyStart, true, fail)
       case PlyFormat.BigEndian => BinaryPlyNumbers(source, header.bodyStart, false, fail)
 
-  /** Without `.0` where it is whole. */
+  /** Formats a number, integers without `.0`. */
   def plain(n: Double): String =
     if n == Math.rint(n) && n.abs < 1e15 then n.toLong.toString else n.toString

@@ -5,23 +5,23 @@ import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{Disk, Profile, Quadric, Sphere}
 
-object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, whole or a part"):
+object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
   private val zmin =
     float("zmin", "z of the lower clip plane", shown = "-radius")(Float.NegativeInfinity)
   private val zmax =
     float("zmax", "z of the upper clip plane", shown = "radius")(Float.PositiveInfinity)
-  private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
+  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val r = radius()
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
     val phi = radians(clamp(phimax(), 0f, 360f))
     if !(r > 0f) then
-      site.error(s"a sphere's radius must be above 0; found $r")
+      site.error(s"`radius` of a \"sphere\" must be above 0, found $r")
       None
     else if z0 == z1 || phi == 0f then
-      site.warn("this sphere has no surface between its limits: it is left out")
+      site.warn("this sphere has no surface within its bounds; it is ignored")
       None
     else
       Some(
@@ -31,76 +31,77 @@ object SphereRecipe extends ShapeRecipe("sphere", "a sphere about the origin, wh
       )
 
 object DiskRecipe
-    extends ShapeRecipe("disk", "a disk or ring in a plane of constant z, whole or a part"):
-  private val height = float("height", "its place along z", unit = "scene units")(0f)
+    extends ShapeRecipe("disk", "disk or annulus in a plane of constant z, whole or partial"):
+  private val height = float("height", "position along z", unit = "scene units")(0f)
   private val radius = float("radius", "outer radius", unit = "scene units")(1f)
-  private val inner = float("innerradius", "radius of the hole", unit = "scene units")(0f)
-  private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
+  private val inner = float("innerradius", "inner radius", unit = "scene units")(0f)
+  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (r, i) = (radius(), inner())
     if !(r > 0f) || !(i >= 0f && i < r) then
-      site.error(s"a disk needs 0 ≤ innerradius < radius; found innerradius $i, radius $r")
+      site.error(s"a \"disk\" must have 0 ≤ `innerradius` < `radius`, found $i and $r")
       None
     else if !(phimax() > 0f) then
-      site.warn(s"this disk has no surface, as its `phimax` is ${phimax()}: it is left out")
+      site.warn(s"this disk has no surface, because `phimax` is ${phimax()}; it is ignored")
       None
     else
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
       Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed)))
 
-/** A line swept about the z-axis. */
+/** Base of surfaces of revolution about the z-axis. */
 abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends ShapeRecipe(name, meaning, dialects):
-  private val phimax = float("phimax", "sweep about z", unit = "degrees")(360f)
+  private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
 
   protected final def swept(profile: Profile)(using site: Site): Option[ShapeGeometry] =
     val phi = radians(clamp(phimax(), 0f, 360f))
     if phi > 0f then
       Some(ShapeGeometry.Solid((toWorld, reversed) => Quadric(toWorld, profile, phi, reversed)))
-    else leftOut(s"its `phimax` is ${phimax()}")
+    else leftOut(s"`phimax` is ${phimax()}")
 
-  /** Shapes without a surface are no mistake that stops a rendering: pbrt never hits them. */
+  /** Ignores a shape without a surface, with a warning: pbrt renders such scenes. */
   protected final def leftOut(why: String)(using site: Site): Option[ShapeGeometry] =
-    site.warn(s"this $name has no surface, as $why: it is left out")
+    site.warn(s"this $name has no surface, because $why; it is ignored")
     None
 
-object CylinderRecipe extends SweptRecipe("cylinder", "about the z-axis, open at its ends", every):
+object CylinderRecipe extends SweptRecipe("cylinder", "open cylinder about the z-axis", every):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
   private val zmin = float("zmin", "z of one end")(-1f)
   private val zmax = float("zmax", "z of the other end")(1f)
 
   protected def geometry()(using Site): Option[ShapeGeometry] =
     val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
-    if radius() == 0f then leftOut("its `radius` is 0")
+    if radius() == 0f then leftOut("`radius` is 0")
     else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
     else swept(Profile.cylinder(radius(), z0, z1))
 
-object ConeRecipe extends SweptRecipe("cone", "from z = 0 to a tip, open below", untilV3):
+object ConeRecipe extends SweptRecipe("cone", "open cone about z, from z = 0 to its apex", untilV3):
   private val radius = float("radius", "radius at z = 0", unit = "scene units")(1f)
-  private val height = float("height", "z of the tip")(1f)
+  private val height = float("height", "z of the apex")(1f)
 
   protected def geometry()(using Site): Option[ShapeGeometry] =
-    if radius() == 0f then leftOut("its `radius` is 0")
-    else if !(height() > 0f) then leftOut(s"its `height` is ${height()}")
+    if radius() == 0f then leftOut("`radius` is 0")
+    else if !(height() > 0f) then leftOut(s"`height` is ${height()}")
     else swept(Profile.cone(radius(), height()))
 
-object ParaboloidRecipe extends SweptRecipe("paraboloid", "about z, with its apex at 0", untilV3):
+object ParaboloidRecipe
+    extends SweptRecipe("paraboloid", "paraboloid about z, with its apex at 0", untilV3):
   private val radius = float("radius", "radius at `zmax`", unit = "scene units")(1f)
   private val zmin = float("zmin", "z of the lower clip plane")(0f)
   private val zmax = float("zmax", "z of the upper clip plane")(1f)
 
   protected def geometry()(using Site): Option[ShapeGeometry] =
     val (z0, z1) = (Math.min(zmin(), zmax()), Math.max(zmin(), zmax()))
-    if radius() == 0f then leftOut("its `radius` is 0")
+    if radius() == 0f then leftOut("`radius` is 0")
     else if z0 == z1 then leftOut(s"`zmin` and `zmax` are both $z0")
-    else if z1 == 0f then leftOut("its `radius` is given at z = 0")
+    else if z1 == 0f then leftOut("`zmax`, where `radius` applies, is 0")
     else swept(Profile.paraboloid(radius(), z0, z1))
 
 object HyperboloidRecipe
-    extends SweptRecipe("hyperboloid", "what a line sweeps that turns about z", untilV3):
-  private val p1 = point("p1", "one end of the line")(Vec3.Zero)
-  private val p2 = point("p2", "its other end")(Vec3(1f, 1f, 1f))
+    extends SweptRecipe("hyperboloid", "hyperboloid: surface of a line rotated about z", untilV3):
+  private val p1 = point("p1", "start of the line")(Vec3.Zero)
+  private val p2 = point("p2", "end of the line")(Vec3(1f, 1f, 1f))
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     Profile.hyperboloid(p1(), p2()) match
@@ -108,7 +109,7 @@ object HyperboloidRecipe
       case Some(profile) =>
         if !profile.follows(p1()) then
           site.warn(
-            "the line from `p1` to `p2` is not nearest to the z-axis at z = 0: the hyperboloid " +
+            "the line from `p1` to `p2` is not closest to the z-axis at z = 0; the hyperboloid " +
               "is symmetric about z = 0 and passes through `p2` only, as in pbrt"
           )
         swept(profile)

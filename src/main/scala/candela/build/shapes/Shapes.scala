@@ -20,14 +20,14 @@ object Shapes:
       )
     )
 
-/** A shape to be placed.
+/** A shape before placement.
   *
-  * @param mask  where it has holes
-  * @param holes how it emits through them, if it is a light
+  * @param mask  alpha cutouts
+  * @param holes emission of the cutouts, if the shape is a light
   */
 final case class ShapePlan(geometry: ShapeGeometry, mask: Mask, holes: EmitterHoles)
 
-/** How light sampling takes an emitting surface: v2 and v3 forget its holes. */
+/** Light sampling of an alpha-masked emitter: v2 and v3 ignore its cutouts. */
 enum EmitterHoles:
   case Ignored, Everywhere
   case Where(alpha: FloatTexture)
@@ -37,10 +37,10 @@ enum EmitterHoles:
     case Everywhere => HiddenLight(light)
     case Where(alpha) => PerforatedLight(light, surface, alpha)
 
-/** What all shapes have.
+/** Base of shape recipes.
   *
-  * @param alphaIn       the dialects in which the shape can have holes
-  * @param shadowAlphaIn those in which it can have holes for shadow rays alone
+  * @param alphaIn       dialects with alpha cutouts
+  * @param shadowAlphaIn dialects with alpha cutouts for shadow rays only
   */
 abstract class ShapeRecipe(
     name: String,
@@ -51,11 +51,15 @@ abstract class ShapeRecipe(
 ) extends Recipe[Option[ShapePlan]](name, meaning, dialects):
   private val alpha =
     Option.when(alphaIn.exists(dialects))(
-      floatTexture("alpha", "0 where the surface has holes", alphaIn)(1f)
+      floatTexture("alpha", "alpha cutout; 0: transparent", alphaIn)(1f)
     )
   private val shadowAlpha =
     Option.when(shadowAlphaIn.exists(dialects))(
-      floatTexture("shadowalpha", "0 where it casts no shadow", shadowAlphaIn)(1f)
+      floatTexture(
+        "shadowalpha",
+        "alpha cutout for shadow rays; 0: casts no shadow",
+        shadowAlphaIn
+      )(1f)
     )
 
   protected def geometry()(using Site): Option[ShapeGeometry]
@@ -72,7 +76,7 @@ abstract class ShapeRecipe(
           else HoleMask(holes.getOrElse(Opaque), inShadow.getOrElse(Opaque))
         ShapePlan(geometry, mask, EmitterHoles.Ignored)
 
-  /** What is left of the surface, where it is not all of it. */
+  /** Alpha texture, unless fully opaque. */
   private def holesOf(field: Option[Field[FloatTexture]])(using site: Site): Option[FloatTexture] =
     val hasHoles = (a: Float) => if site.dialect == Dialect.V4 then a < 1f else a == 0f
     field.map(_()).filter(_.constant.forall(hasHoles))
@@ -84,14 +88,14 @@ abstract class ShapeRecipe(
 
   private val Opaque = ConstantFloat(1f)
 
-/** What meshes have beside. */
+/** Base of triangle meshes. */
 abstract class MeshRecipe(name: String, meaning: String, dialects: Set[Dialect] = every)
     extends ShapeRecipe(name, meaning, dialects, alphaIn = dialects, shadowAlphaIn = onlyV3)
 
-/** What a shape statement describes, before it is placed in the world. */
+/** Geometry of a shape statement, before placement in the world. */
 enum ShapeGeometry:
-  /** Triangles in object space: x y z a vertex, three vertices a triangle; normals (x y z) and uvs
-    * may be empty.
+  /** Triangles in object space: x y z per vertex, three vertex indices per triangle; normals
+    * (x y z) and uvs may be empty.
     */
   case Triangles(
       positions: Array[Float],
@@ -100,14 +104,14 @@ enum ShapeGeometry:
       indices: Array[Int]
   )
 
-  /** A single surface, given where it stands and whether its orientation is reversed. */
+  /** A single surface, created from its transform and whether its orientation is reversed. */
   case Solid(make: (Transform, Boolean) => Shape)
 
-  /** Many surfaces, likewise.
+  /** Many surfaces, created as above.
     *
-    * @param emits can they be area lights?
+    * @param emits whether they can be area lights
     */
   case Solids(make: (Transform, Boolean) => Vector[Shape], emits: Boolean)
 
-  /** Parts of different kinds. */
+  /** Several parts of different kinds. */
   case Several(parts: Vector[ShapeGeometry])

@@ -17,11 +17,11 @@ final class SoupBuilder:
 
   def triangleCount: Int = triangles
 
-  /** Adds a mesh; answers the number of its first triangle.
+  /** Adds a mesh and returns the index of its first triangle.
     *
-    * @param flipNormals turn the given shading normals around too (pbrt-v4 does with
+    * @param flipNormals whether to flip the given shading normals (pbrt-v4 does for
     *                    ReverseOrientation)
-    * @param firstLight  of its triangles' lights, −1: it does not emit
+    * @param firstLight  index of its first triangle's light; −1: it does not emit
     */
   def add(
       mesh: ShapeGeometry.Triangles,
@@ -51,7 +51,7 @@ final class SoupBuilder:
     triangles += mesh.indices.length / 3
     first
 
-  /** All of it, which is no longer here afterwards: large scenes need the memory. */
+  /** Returns the meshes and releases the builder's arrays, to save memory. */
   def result(tangents: Boolean): TriangleSoup =
     val owners = new Array[Int](if meshes.length == 1 then 0 else triangles)
     if meshes.length > 1 then
@@ -89,7 +89,7 @@ object SoupBuilder:
 
   private[build] def normals(n: Array[Float], toWorld: Transform, flip: Boolean): Array[Float] =
     if n.length == 0 || (toWorld.isIdentity && !flip) then n
-    else if toWorld.isFlat then Array.empty // the plane has normals of its own
+    else if toWorld.isFlat then Array.empty // a flattened mesh has its own normals
     else
       val m = toWorld.inverseM
       val sign = if flip then -1.0 else 1.0
@@ -98,7 +98,7 @@ object SoupBuilder:
         val x = n(3 * i) * sign
         val y = n(3 * i + 1) * sign
         val z = n(3 * i + 2) * sign
-        // Lengths stay different: they weigh the corners in the interpolation, as in pbrt
+        // Not normalised: lengths weight the interpolation, as in pbrt
         out(3 * i) = (m(0) * x + m(4) * y + m(8) * z).toFloat
         out(3 * i + 1) = (m(1) * x + m(5) * y + m(9) * z).toFloat
         out(3 * i + 2) = (m(2) * x + m(6) * y + m(10) * z).toFloat

@@ -7,35 +7,38 @@ import candela.math.*
 import candela.scenefile.{Dialect, ParamType}
 import candela.textures.*
 
-abstract class ImageMapRecipe[A](standIn: String) extends MappedRecipe[A]("imagemap", "a picture"):
-  private val filename = string("filename", "png, tga, jpg, exr or hdr", shown = "none")("")
+abstract class ImageMapRecipe[A](standIn: String)
+    extends MappedRecipe[A]("imagemap", "image texture"):
+  private val filename =
+    string("filename", "image file: png, tga, jpg, exr or hdr", shown = "none")("")
   private val wrap =
-    oneOf("wrap", "beyond the image", ImageMapRecipe.Wraps)("repeat")
-  protected val scale = float("scale", "factor of the values")(1f)
-  protected val invert = bool("invert", "1 − value", onlyV4)(false)
-  private val gammaNumber = float("gamma", "exponent that makes values linear", onlyV2)(1f)
+    oneOf("wrap", "wrap mode outside the image", ImageMapRecipe.Wraps)("repeat")
+  protected val scale = float("scale", "scale of the values")(1f)
+  protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
+  private val gammaNumber = float("gamma", "exponent that linearises values", onlyV2)(1f)
   private val gammaFlag =
-    bool("gamma", "are values sRGB-encoded?", onlyV3, "for .png and .tga")(true)
+    bool("gamma", "decode sRGB values", onlyV3, "for .png and .tga")(true)
   private val encoding =
     string(
       "encoding",
-      "sRGB, linear, or `gamma` and an exponent",
+      "encoding: sRGB, linear, or `gamma` and an exponent",
       onlyV4,
       "\"sRGB\" for .png, else \"linear\""
     )("sRGB")
   private val filter =
-    oneOf("filter", "of the lookup", ImageMapRecipe.FilterNames, onlyV4)("bilinear")
+    oneOf("filter", "texture filter", ImageMapRecipe.FilterNames, onlyV4)("bilinear")
   private val trilinear =
-    bool("trilinear", "filter between levels of detail, not along the footprint", untilV3)(false)
-  private val anisotropy = float("maxanisotropy", "longest footprint over its width")(8f)
+    bool("trilinear", "use trilinear instead of EWA filtering", untilV3)(false)
+  private val anisotropy =
+    float("maxanisotropy", "maximum anisotropy: footprint length over width")(8f)
 
-  /** The picture's lookup; None after a problem was reported. */
+  /** Returns the image's lookup. Reports problems and returns None. */
   protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using
       site: Site
   ): Option[ImageLookup] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
       case None =>
-        site.error("an imagemap needs a `filename`")
+        site.error("an \"imagemap\" needs `filename`")
         None
       case Some(p) =>
         for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
@@ -55,7 +58,7 @@ abstract class ImageMapRecipe[A](standIn: String) extends MappedRecipe[A]("image
     val kind =
       if isV4 then filter().toLowerCase else if trilinear() then "trilinear" else "ewa"
     site.resources.askForFootprints(s"$kind image textures")
-    // pbrt-v4 keeps 8-bit pictures in 8 bits
+    // pbrt-v4 stores 8-bit images with 8 bits
     val isBytes = stored match
       case _: ByteImage => true
       case _: Image => false
@@ -72,17 +75,17 @@ abstract class ImageMapRecipe[A](standIn: String) extends MappedRecipe[A]("image
   private def decoding(stored: StoredImage)(using site: Site): Float => Float =
     site.dialect match
       case Dialect.V2 =>
-        // Scaled before the exponent, as v2 does; `scale` is therefore not applied again
+        // v2 scales before the exponent; `scale` must not be applied twice
         val (s, g) = (scale(), gammaNumber())
         x => pow(s * x, g)
       case Dialect.V3 =>
         val eightBit = Seq(".png", ".tga").exists(filename().toLowerCase.endsWith)
         val isNumber = site.declaration.param("gamma").exists(_.paramType == ParamType.Float)
-        if isNumber then site.warn("`gamma` is true or false in v3: the number has no effect")
+        if isNumber then site.warn("`gamma` must be a bool in v3; the number is ignored")
         val flag = if isNumber then None else gammaFlag.given_()
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
       case Dialect.V4 =>
-        // `encoding` speaks of PNG; floating-point pictures are linear, TGA and JPEG sRGB
+        // `encoding` applies to PNG; floating-point images are linear, TGA and JPEG sRGB
         if filename().toLowerCase.endsWith(".png") then encoded()
         else if stored.encoding == Encoding.Linear then identity
         else Encoding.Srgb.decode(_)
@@ -95,7 +98,8 @@ abstract class ImageMapRecipe[A](standIn: String) extends MappedRecipe[A]("image
         val exponent = g.toFloat
         x => pow(x, exponent)
       case _ =>
-        site.error(s"`encoding` is sRGB, linear or gamma and a number; found `${encoding()}`")
+        val found = encoding()
+        site.error(s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\"")
         identity
 
   protected def outerScale(using site: Site): Float =
@@ -117,13 +121,13 @@ private object ImageMapRecipe:
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 
-/** Textures by face, without texture coordinates. */
-abstract class PtexRecipe[A] extends Recipe[A]("ptex", "a picture for each face", sinceV3):
+/** Per-face textures, without texture coordinates. */
+abstract class PtexRecipe[A] extends Recipe[A]("ptex", "Ptex per-face texture", sinceV3):
   declare(
-    string("filename", "a .ptx file", shown = "none")(""),
-    float("gamma", "exponent that makes values linear", onlyV3)(2.2f),
-    string("encoding", "sRGB, linear, or `gamma` and an exponent", onlyV4)("gamma 2.2"),
-    float("scale", "factor of the values", onlyV4)(1f)
+    string("filename", ".ptx file", shown = "none")(""),
+    float("gamma", "exponent that linearises values", onlyV3)(2.2f),
+    string("encoding", "encoding: sRGB, linear, or `gamma` and an exponent", onlyV4)("gamma 2.2"),
+    float("scale", "scale of the values", onlyV4)(1f)
   )
 
 object FloatPtexRecipe extends PtexRecipe[FloatTexture] with HalfFloat

@@ -6,8 +6,9 @@ import candela.textures.*
 
 abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Dialect])
     extends Recipe[A](name, meaning, dialects):
-  private val octaves = integer("octaves", "how many scales, at most")(8)
-  private val roughness = float("roughness", "strength of an octave in that before")(0.5f)
+  private val octaves = integer("octaves", "maximum number of octaves")(8)
+  private val roughness =
+    float("roughness", "amplitude of an octave relative to the previous")(0.5f)
 
   protected def fbm()(using Site): FloatTexture = FbmTexture(Solid.filtered, octaves(), roughness())
 
@@ -19,29 +20,32 @@ abstract class NoiseRecipe[A](name: String, meaning: String, dialects: Set[Diale
     MarbleTexture(Solid.filtered, octaves(), roughness(), scale, variation, last)
 
 object FloatFbmRecipe
-    extends NoiseRecipe[FloatTexture]("fbm", "noise of many scales: clouds", every):
+    extends NoiseRecipe[FloatTexture]("fbm", "fractional Brownian motion", every):
   protected def make()(using Site): FloatTexture = fbm()
 
 object RgbFbmRecipe
-    extends NoiseRecipe[RgbTexture]("fbm", "noise of many scales, as grey", untilV3):
+    extends NoiseRecipe[RgbTexture]("fbm", "fractional Brownian motion, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(fbm())
 
 object FloatWrinkledRecipe
-    extends NoiseRecipe[FloatTexture]("wrinkled", "creases of many scales", every):
+    extends NoiseRecipe[FloatTexture]("wrinkled", "turbulence: sum of absolute noise", every):
   protected def make()(using Site): FloatTexture = wrinkled()
 
-object RgbWrinkledRecipe extends NoiseRecipe[RgbTexture]("wrinkled", "creases, as grey", untilV3):
+object RgbWrinkledRecipe
+    extends NoiseRecipe[RgbTexture]("wrinkled", "turbulence, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(wrinkled())
 
-object FloatWindyRecipe extends Recipe[FloatTexture]("windy", "waves under gusts of wind"):
+object FloatWindyRecipe extends Recipe[FloatTexture]("windy", "noise resembling wind-blown waves"):
   protected def make()(using Site): FloatTexture = WindyTexture(Solid.filtered)
 
-object RgbWindyRecipe extends Recipe[RgbTexture]("windy", "waves, as grey", untilV3):
+object RgbWindyRecipe
+    extends Recipe[RgbTexture]("windy", "noise resembling wind-blown waves, as grey", untilV3):
   protected def make()(using Site): RgbTexture = GrayTexture(WindyTexture(Solid.filtered))
 
-object RgbMarbleRecipe extends NoiseRecipe[RgbTexture]("marble", "wavy layers of grey", every):
-  private val scale = float("scale", "layers in a unit of length, about")(1f)
-  private val variation = float("variation", "how far noise moves the layers")(0.2f)
+object RgbMarbleRecipe
+    extends NoiseRecipe[RgbTexture]("marble", "marble: layers of grey displaced by noise", every):
+  private val scale = float("scale", "approximate number of layers per unit of length")(1f)
+  private val variation = float("variation", "amplitude of the noise displacement")(0.2f)
   protected def make()(using site: Site): RgbTexture =
     val made = marble(scale(), variation())
     if site.resources.basis.isSrgb then made else RebasedTexture(made, site.resources.basis)

@@ -6,12 +6,12 @@ import candela.scenefile.Dialect
 import candela.textures.*
 
 abstract class CheckerboardRecipe[A]
-    extends MappedRecipe[A]("checkerboard", "squares of two in turn"):
-  private val dimension = integer("dimension", "2, or 3 for cubes in space")(2)
+    extends MappedRecipe[A]("checkerboard", "checkerboard of two textures"):
+  private val dimension = integer("dimension", "2, or 3 for a solid checkerboard")(2)
   private val aamode =
-    oneOf("aamode", "how edges are smoothed", Seq("closedform", "none"), untilV3)("closedform")
+    oneOf("aamode", "antialiasing of edges", Seq("closedform", "none"), untilV3)("closedform")
 
-  /** pbrt-v2 and v3 filter squares alone, v4 cubes as well. */
+  /** pbrt-v2 and v3 filter squares only, v4 also cubes. */
   protected def checks()(using site: Site): Checks =
     val isSolid = dimension() == 3
     val filter =
@@ -22,17 +22,17 @@ abstract class CheckerboardRecipe[A]
     if isSolid then Cubes(Solid.mapping, filter) else Squares(mapped(), filter)
 
 object FloatCheckerboardRecipe extends CheckerboardRecipe[FloatTexture]:
-  private val tex1 = floatTexture("tex1", "of even squares")(1f)
-  private val tex2 = floatTexture("tex2", "of odd squares")(0f)
+  private val tex1 = floatTexture("tex1", "value of even squares")(1f)
+  private val tex2 = floatTexture("tex2", "value of odd squares")(0f)
   protected def make()(using Site): FloatTexture = CheckerboardFloat(checks(), tex1(), tex2())
 
 object RgbCheckerboardRecipe extends CheckerboardRecipe[RgbTexture]:
-  private val tex1 = rgbTexture("tex1", "of even squares")(Rgb.White)
-  private val tex2 = rgbTexture("tex2", "of odd squares")(Rgb.Black)
+  private val tex1 = rgbTexture("tex1", "value of even squares")(Rgb.White)
+  private val tex2 = rgbTexture("tex2", "value of odd squares")(Rgb.Black)
   protected def make()(using Site): RgbTexture = CheckerboardRgb(checks(), tex1(), tex2())
 
 object FloatBilerpRecipe
-    extends MappedRecipe[FloatTexture]("bilerp", "blends the values at four corners"):
+    extends MappedRecipe[FloatTexture]("bilerp", "bilinear interpolation of four corner values"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       float(n, s"value at the corner $n")(d)
@@ -40,24 +40,24 @@ object FloatBilerpRecipe
     BilerpFloat(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
 object RgbBilerpRecipe
-    extends MappedRecipe[RgbTexture]("bilerp", "blends the values at four corners"):
+    extends MappedRecipe[RgbTexture]("bilerp", "bilinear interpolation of four corner values"):
   private val corners = Vector("v00", "v01", "v10", "v11").zip(Vector(0f, 1f, 0f, 1f)).map:
     (n, d) =>
       color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
   protected def make()(using Site): RgbTexture =
     BilerpRgb(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
-/** All versions of pbrt put `inside` outside the dots, and `outside` inside. */
-object FloatDotsRecipe extends MappedRecipe[FloatTexture]("dots", "round dots here and there"):
-  private val inside = floatTexture("inside", "around the dots, as pbrt has it")(1f)
-  private val outside = floatTexture("outside", "in the dots, as pbrt has it")(0f)
+/** All versions of pbrt use `inside` outside the dots and `outside` inside. */
+object FloatDotsRecipe extends MappedRecipe[FloatTexture]("dots", "polka dots"):
+  private val inside = floatTexture("inside", "value outside the dots, as in pbrt")(1f)
+  private val outside = floatTexture("outside", "value inside the dots, as in pbrt")(0f)
   protected def make()(using Site): FloatTexture = DotsFloat(mapped(), outside(), inside())
 
-object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "round dots here and there"):
-  private val inside = rgbTexture("inside", "around the dots, as pbrt has it")(Rgb.White)
-  private val outside = rgbTexture("outside", "in the dots, as pbrt has it")(Rgb.Black)
+object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "polka dots"):
+  private val inside = rgbTexture("inside", "value outside the dots, as in pbrt")(Rgb.White)
+  private val outside = rgbTexture("outside", "value inside the dots, as in pbrt")(Rgb.Black)
   protected def make()(using Site): RgbTexture = DotsRgb(mapped(), outside(), inside())
 
 object RgbUvRecipe
-    extends MappedRecipe[RgbTexture]("uv", "the coordinates, as red and green", untilV3):
+    extends MappedRecipe[RgbTexture]("uv", "texture coordinates as red and green", untilV3):
   protected def make()(using Site): RgbTexture = UvColor(mapped())

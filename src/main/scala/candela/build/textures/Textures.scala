@@ -5,7 +5,7 @@ import candela.color.Rgb
 import candela.scenefile.TextureDescription
 import candela.textures.*
 
-/** Recipes of textures: numbers and colours over a surface. */
+/** Recipes of float and spectrum textures. */
 object Textures:
   val floats: Recipes[FloatTexture] = Recipes(
     "float texture",
@@ -25,9 +25,9 @@ object Textures:
     )
   )
 
-  /** Makes a texture and gives it its name, for the statements that follow.
+  /** Builds a texture and registers its name for the statements that follow.
     *
-    * @param site with the texture's own transform
+    * @param site site with the texture's own transform
     */
   def define(t: TextureDescription, site: Site): Unit =
     if t.valueType == "float" then
@@ -37,9 +37,9 @@ object Textures:
       val made = colors.build(site).getOrElse(StandIns.color(site.resources.basis))
       site.resources.define(t.name, made)
 
-/** Of textures that are not rendered yet. */
+/** Recipes of unsupported textures, which fall back to 0.5. */
 trait HalfInstead[A] extends Recipe[A]:
-  override def pending: Option[String] = Some("0.5 is used all over")
+  override def pending: Option[String] = Some("using the constant 0.5")
 
 trait HalfFloat extends HalfInstead[FloatTexture]:
   protected def make()(using Site): FloatTexture = ConstantFloat(0.5f)
