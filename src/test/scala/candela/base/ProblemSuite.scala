@@ -22,5 +22,5 @@ class ProblemSuite extends AnyFunSuite:
     assert(p.message.startsWith("first") && p.message.endsWith("last"))
 
   test("a message of ordinary length is as it was written"):
-    val text = "`roughnes` is not a parameter of \"plastic\"; it has no effect — " + "y" * 300
+    val text = "`roughnes` is not a parameter of \"plastic\"; it is ignored — " + "y" * 300
     assert(Problem.error(at, text).message == text)

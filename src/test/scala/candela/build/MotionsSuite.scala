@@ -59,13 +59,16 @@ class MotionsSuite extends AnyFunSuite:
     def warned(world: String, words: String) =
       val found = SceneTexts.problems(text(world), Dialect.V3)
       assert(found.exists(_.message.contains(words)), s"$words in $found")
-    warned(group(s"AreaLightSource \"diffuse\"\n$moved$ball"), "a moving shape emits no light")
-    warned(group(s"${moved}LightSource \"point\"\n"), "a light can't move")
-    warned(group(s"${moved}Texture \"t\" \"float\" \"constant\"\n"), "a texture can't move")
+    warned(
+      group(s"AreaLightSource \"diffuse\"\n$moved$ball"),
+      "animated shapes can't be area lights"
+    )
+    warned(group(s"${moved}LightSource \"point\"\n"), "a light can't be animated")
+    warned(group(s"${moved}Texture \"t\" \"float\" \"constant\"\n"), "a texture can't be animated")
     val view = "ConcatTransform [1 0 0 0  0 1 0 0  0 0 1 .1  0 0 0 1]\n"
-    warned(group(view + moved + ball), "perspective map")
+    warned(group(view + moved + ball), "perspective transform")
 
   test("a shutter that closes before it opens is turned around, with a warning"):
     val swapped = text(group(moved + ball)).replace(".25", ".75")
     assert(SceneTexts.plan(swapped, Dialect.V3).shutter.contains(Shutter(0.5f, 0.75f)))
-    assert(SceneTexts.problems(swapped, Dialect.V3).exists(_.message.contains("exchanged")))
+    assert(SceneTexts.problems(swapped, Dialect.V3).exists(_.message.contains("swapping")))

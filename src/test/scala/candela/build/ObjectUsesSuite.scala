@@ -46,7 +46,7 @@ class ObjectUsesSuite extends AnyFunSuite:
   test("an emitting shape in an object is dark, with a warning at its light"):
     val text = scene("AreaLightSource \"diffuse\"\n" + ball, twice)
     val found = SceneTexts.problems(text, Dialect.V3)
-    assert(found.count(_.message.contains("emits no light")) == 1)
+    assert(found.count(_.message.contains("emission is ignored")) == 1)
     assert(found.head.at.map(_.line).contains(4))
     assert(features(text)("lights").startsWith("one light"))
 

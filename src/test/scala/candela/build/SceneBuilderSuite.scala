@@ -65,7 +65,10 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(v4.development.scale == 2f && v4.limit.map(_.most) == Some(3f))
     assert(SceneTexts.plan(s"$camera\n$nothing", Dialect.V3).development.scale == 1f)
     val closed = s"Camera \"perspective\" \"float shutterclose\" 0\n$nothing"
-    assert(SceneTexts.problems(closed, Dialect.V4).exists(_.message.contains("never opens")))
+    assert(SceneTexts.problems(
+      closed,
+      Dialect.V4
+    ).exists(_.message.contains("must be above `shutteropen`")))
 
   test("a crop window without a pixel is an error"):
     val empty = BuildOptions(cropWindow = Some((0.5f, 0.5f, 0f, 1f)))
@@ -109,7 +112,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   test("an instance of no object is an error with the nearest name"):
     val scene = s"WorldBegin\nObjectBegin \"leaf\"\n$triangle\nObjectEnd\nObjectInstance \"laef\"\n"
     val problem =
-      SceneTexts.problems(scene).find(_.message.contains("no object is named `laef`")).get
+      SceneTexts.problems(scene).find(_.message.contains("object `laef` is not defined")).get
     assert(problem.help.exists(_.contains("`leaf`")) && problem.at.map(_.line).contains(5))
 
   test("a named material is made once, however many shapes have it"):
@@ -124,7 +127,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
   test("a material name that nothing has is an error with the nearest name"):
     val scene = s"WorldBegin\nMakeNamedMaterial \"red\" \"string type\" \"matte\"\n" +
       s"NamedMaterial \"rde\"\n$triangle\n"
-    val problem = SceneTexts.problems(scene).find(_.message.contains("no material is named")).get
+    val problem = SceneTexts.problems(scene).find(_.message.contains("is not defined")).get
     assert(problem.help.exists(_.contains("`red`")))
 
   test("every triangle of a mesh that emits is a light"):

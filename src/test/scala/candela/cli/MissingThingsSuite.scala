@@ -66,7 +66,7 @@ class MissingThingsSuite extends AnyFunSuite:
       val args = Seq("--keep-going", "--spp", "1", "--outfile", image.toString, scene.toString)
       assert(Main.run(args, captured.terminal) == 0, captured.err)
       assert(captured.out.contains(", 1 placeholder\n"), captured.out)
-      assert(captured.err.contains("no file `no.png`; magenta is used"), captured.err)
+      assert(captured.err.contains("no file `no.png`; using magenta"), captured.err)
       val pixels = ImageFiles.load(image).toImage
       val middle = (0 until 3).map(c => pixels(2, 2, c))
       assert(middle(0) > 0.4f && middle(1) == 0f && middle(2) == middle(0), middle)

@@ -6,24 +6,24 @@ import candela.scenefile.Dialect
 
 /** How a type is shown in the gallery. */
 enum Example:
-  /** By lines that declare it; they stand in the gap of the category's [[Template]]. */
+  /** Lines of a scene that declare it, inserted into the category's [[Template]]. */
   case Lines(text: String)
 
-  /** Not at all, for a reason. */
+  /** Not shown, for the given reason. */
   case Unseen(reason: String)
 
-/** An example, or a reason for none, for every type of the categories that can be seen. */
+/** An example, or a reason for its absence, for every type of the visible categories. */
 object Examples:
   import Example.*
 
-  /** In which categories each type has a picture. */
+  /** Categories whose types have images. */
   val categories: Vector[Category] = Language.categories.filter(c => tables.contains(c.name))
 
-  /** Of a type, if it has one. */
+  /** The example of a type, if any. */
   def of(category: Category, recipe: Recipe[?]): Option[Example] =
     tables(category.name).get(key(recipe))
 
-  /** Examples that are of no type. */
+  /** Examples of unknown types. */
   def strays: Vector[String] =
     for
       category <- categories
@@ -31,10 +31,10 @@ object Examples:
       name <- tables(category.name).keys.toVector.sorted if !known(name)
     yield s"${category.name} $name"
 
-  /** The newest dialect that has it. */
+  /** The newest dialect with the type. */
   def dialect(recipe: Recipe[?]): Dialect = Dialect.values.filter(recipe.dialects).maxBy(_.ordinal)
 
-  /** A name that two dialects use for different things has the newest dialect's behind it. */
+  /** Name of a type; a name shared by different types is followed by the newest dialect. */
   private def key(recipe: Recipe[?]): String =
     val isTwice = Ambiguous(recipe.name)
     if isTwice then s"${recipe.name}/${dialect(recipe).toString.toLowerCase}" else recipe.name
@@ -58,4 +58,4 @@ object Examples:
 
   private def textures(kind: String, texts: Vector[(String, String)]): Map[String, Example] =
     shown(texts.map((name, rest) => name -> s"Texture \"shown\" \"$kind\" \"$name\" $rest")) +
-      ("ptex" -> Unseen("its files come from other programs"))
+      ("ptex" -> Unseen("input files are produced by other programs"))

@@ -11,20 +11,20 @@ import candela.scenefile.{Dialect, Parser}
 
 /** One type of the gallery.
   *
-  * @param example empty: nobody has written one yet
+  * @param example empty if no example has been written
   */
 final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[Example]):
   def dialect: Dialect = Examples.dialect(recipe)
 
-  /** Why there is no picture. */
-  def reason: Option[String] = recipe.pending.map(p => s"not yet: $p").orElse:
+  /** Reason for the absence of an image. */
+  def reason: Option[String] = recipe.pending.map(p => s"not supported yet: $p").orElse:
     example.collect { case Example.Unseen(why) => why }
 
-  /** The scene that shows it. */
+  /** The scene of the example. */
   def scene: Option[String] = example.collect:
     case Example.Lines(text) if reason.isEmpty => Template.scene(category.name, dialect, text)
 
-  /** Name of its picture, without ending. */
+  /** File name of its image, without extension. */
   def file: String =
     def slug(words: String) = words.toLowerCase.replaceAll("[^a-z0-9]+", "-").stripSuffix("-")
     val same = category.recipes.all.count(_.name == recipe.name)
@@ -36,11 +36,10 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
       Parser.parseText(s"$file.pbrt", scene.get, ReferenceScenes.Scenes, Some(dialect))
     SceneBuilder.build(description, options)
 
-/** Renders a small picture of each type that scene files can name, and writes the page that shows
-  * them.
+/** Renders a small image of each type of scene files and writes the gallery page.
   *
-  * Usage: `./sbt "Test/runMain candela.gallery.Gallery"` makes all of it anew; with words behind it
-  * only those pictures whose names contain one of them, and the page.
+  * Usage: `./sbt "Test/runMain candela.gallery.Gallery"` renders all images; with arguments, only
+  * those whose names contain one of them. The page is always written.
   */
 object Gallery:
   val Page: Path = Path.of("docs", "GALLERY.md")

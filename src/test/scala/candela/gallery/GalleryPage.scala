@@ -4,7 +4,7 @@ import candela.build.Category
 import candela.cli.{Described, DescribedType}
 import candela.scenefile.Dialect
 
-/** The gallery as a page of documentation. */
+/** The gallery as a documentation page. */
 final class GalleryPage(exhibits: Vector[Exhibit]):
   private val described = Described(Dialect.values.toSet)
 
@@ -30,7 +30,7 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
   private def type_(e: Exhibit): DescribedType =
     described.types(e.category)(e.category.recipes.all.indexOf(e.recipe))
 
-  /** Types without parameters have no heading of their own. */
+  /** Types without parameters have no separate heading. */
   def link(e: Exhibit): String =
     val words = type_(e)
     val heading =
@@ -38,16 +38,16 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
     s"REFERENCE.md#${GalleryPage.anchor(heading)}"
 
 object GalleryPage:
-  /** As GitHub names a heading. */
+  /** GitHub's anchor of a heading. */
   def anchor(heading: String): String =
     heading.toLowerCase.filter(c => c.isLetterOrDigit || c == ' ' || c == '-' || c == '_')
       .replace(' ', '-')
 
   val Introduction: String =
-    """# What there is, in pictures
+    """# Gallery
       |
-      |A small picture of each type of shape, material, texture, light, camera and medium that
-      |Candela renders, mostly with its defaults. `./sbt "Test/runMain candela.gallery.Gallery"`
-      |makes this page and its pictures anew from the tables that scenes are built by; how each type
-      |is shown stands in `src/test/scala/candela/gallery`, and a test fails if one is missing.
+      |A small image of each supported type of shape, material, texture, light, camera and medium,
+      |mostly with its defaults. `./sbt "Test/runMain candela.gallery.Gallery"` regenerates this page
+      |and its images from the recipes. The example scenes are in
+      |`src/test/scala/candela/gallery`; a test fails if one is missing.
       |""".stripMargin.stripTrailing

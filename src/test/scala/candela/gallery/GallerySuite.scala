@@ -8,7 +8,7 @@ import candela.base.SceneError
 import candela.build.BuildOptions
 import candela.render.{ReferenceScenes, Renderer}
 
-/** The gallery shows every type that there is. */
+/** Checks that the gallery shows every type. */
 final class GallerySuite extends AnyFunSuite:
 
   for e <- Gallery.exhibits do
@@ -16,7 +16,7 @@ final class GallerySuite extends AnyFunSuite:
       assert(e.reason.nonEmpty || e.scene.nonEmpty, "write one in src/test/scala/candela/gallery")
 
   for e <- Gallery.exhibits if e.scene.nonEmpty do
-    test(s"the example of ${e.file} is built without complaint, and something is seen"):
+    test(s"the example of ${e.file} builds without problems and renders a visible image"):
       val (plan, problems) =
         try e.plan(BuildOptions(spp = Some(2), quick = true))
         catch case error: SceneError => fail(error.problems.map(_.message).mkString("\n"))
@@ -24,15 +24,15 @@ final class GallerySuite extends AnyFunSuite:
       val rendering = Renderer.render(plan, threads = 1)
       assert(rendering.refused.isEmpty && rendering.image(plan.development).data.exists(_ > 0f))
 
-  test("no example is of a type that is not there"):
+  test("no example is of an unknown type"):
     assert(Examples.strays.isEmpty)
 
-  test("the page shows what the tables say"):
+  test("the page matches the recipes"):
     val found = Files.readString(Gallery.Page)
-    val help = "make it anew: ./sbt \"Test/runMain candela.gallery.Gallery\""
+    val help = "regenerate it: ./sbt \"Test/runMain candela.gallery.Gallery\""
     assert(found == GalleryPage(Gallery.exhibits).text, help)
 
-  test("every picture is there, no other, and all together are small"):
+  test("images exist for exactly the examples and are small in total"):
     val wanted = Gallery.exhibits.filter(_.scene.nonEmpty).map(_.file).sorted
     assert(wanted.distinct == wanted)
     assert(ReferenceScenes.names(Gallery.Pictures, ".png") == wanted)

@@ -2,7 +2,7 @@ package candela.gallery
 
 import candela.gallery.Example.Unseen
 
-/** Lights in a dark room, and cameras among balls. */
+/** Lights in a dark room and cameras among spheres. */
 private object LightExamples:
   val lights: Vector[(String, String)] = Vector(
     "point" -> "LightSource \"point\" \"rgb I\" [9 8 7] \"point3 from\" [1.2 -1 2.4]",

@@ -2,7 +2,7 @@ package candela.gallery
 
 import candela.gallery.Example.Unseen
 
-/** Clouds of about the size of the unit cube. */
+/** Media with about the size of the unit cube. */
 private object MediumExamples:
   private def inBall(medium: String): String =
     s"""$medium
@@ -33,7 +33,8 @@ private object MediumExamples:
     v4("cloud", s"$thin $place \"float density\" 4")
   )
 
-  val unseen: Map[String, Example] = Map("nanovdb" -> Unseen("its files come from other programs"))
+  val unseen: Map[String, Example] =
+    Map("nanovdb" -> Unseen("input files are produced by other programs"))
 
   private val box = "\"point p0\" [-.9 -.9 0] \"point p1\" [.9 .9 1.9]"
   private def volume(name: String, rest: String) = name -> s"Volume \"$name\" $box $thin $rest"

@@ -1,6 +1,6 @@
 package candela.gallery
 
-/** Shapes about as large as the unit sphere. */
+/** Shapes with about the size of the unit sphere. */
 private object ShapeExamples:
   val all: Vector[(String, String)] = Vector(
     "sphere" -> "Shape \"sphere\"",

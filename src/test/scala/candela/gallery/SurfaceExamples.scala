@@ -2,7 +2,7 @@ package candela.gallery
 
 import candela.gallery.Example.Unseen
 
-/** Materials of a ball, with their defaults where these can be told apart, and textures. */
+/** Textures, and materials of a sphere, with defaults if these are distinguishable. */
 private object SurfaceExamples:
   val materials: Vector[(String, String)] = Vector(
     "matte" -> "Material \"matte\" \"rgb Kd\" [.6 .3 .2]",
@@ -34,8 +34,8 @@ private object SurfaceExamples:
         |Material "mix" "string materials" ["one" "two"]""".stripMargin
   )
 
-  private val foreign = "its files come from other programs"
-  private val clear = "nothing is seen of it: rays go straight on"
+  private val foreign = "input files are produced by other programs"
+  private val clear = "invisible: rays pass through unscattered"
   val unseen: Map[String, Example] = Map(
     "measured/v4" -> Unseen(foreign),
     "fourier" -> Unseen(foreign),
@@ -49,7 +49,7 @@ private object SurfaceExamples:
   private val many = "\"float uscale\" 6 \"float vscale\" 6"
   private val solid = "\"integer octaves\" 6"
 
-  /** Numbers, which choose between two colours. */
+  /** Float textures, which blend two colours. */
   val floats: Vector[(String, String)] = Vector(
     "constant" -> "\"float value\" .3",
     "scale" -> "\"float scale\" .6 \"float tex\" .8",
@@ -64,7 +64,7 @@ private object SurfaceExamples:
     "windy" -> ""
   )
 
-  /** Colours. */
+  /** Spectrum textures. */
   val colors: Vector[(String, String)] = Vector(
     "constant" -> "\"rgb value\" [.2 .5 .4]",
     "scale" -> "\"rgb tex\" [.8 .5 .2] \"float scale\" .7",

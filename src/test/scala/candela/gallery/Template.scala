@@ -2,10 +2,10 @@ package candela.gallery
 
 import candela.scenefile.Dialect
 
-/** A small scene with a gap for what is to be shown, in each dialect. */
+/** Small scenes into which examples are inserted, in each dialect. */
 object Template:
 
-  /** The scene that shows `text`, lines that declare a thing of this category. */
+  /** Scene with `text`, which declares a type of this category. */
   def scene(category: String, dialect: Dialect, text: String): String =
     val words = Words(dialect)
     category match
@@ -25,7 +25,7 @@ object Template:
 Rotate 30 0 0 1
 Shape "sphere" "float radius" .9"""
 
-  /** A ball beside a disk that faces the camera: textures lie otherwise on each. */
+  /** A sphere and a disk facing the camera, which differ in their texture coordinates. */
   private val panel = """AttributeBegin
   Translate -.75 .3 .95
   Rotate -15 0 0 1
@@ -42,7 +42,7 @@ AttributeEnd"""
 Rotate 150 0 1 .3
 Shape "disk" "float radius" .5"""
 
-/** How a dialect says what all templates have. */
+/** Common parts of the templates, in the syntax of a dialect. */
 private final class Words(dialect: Dialect):
   private val isV4 = dialect == Dialect.V4
   private val isV2 = dialect == Dialect.V2
@@ -63,7 +63,7 @@ private final class Words(dialect: Dialect):
 
   def clay: String = matte(".65 .45 .3") + "Translate 0 0 1\nRotate 25 0 0 1\n"
 
-  /** A float texture `shown` chooses between two colours. */
+  /** Blends two colours by the float texture `shown`. */
   def blend(text: String): String =
     painted(
       s"""$text
@@ -120,7 +120,7 @@ private final class Words(dialect: Dialect):
        |AttributeEnd
        |""".stripMargin
 
-  /** On a floor of checks, under a sky and a lamp. */
+  /** On a checkerboard floor, lit by the environment and a distant light. */
   def onFloor(look: String, fov: Int, text: String): String =
     s"""${head(perspective(look, fov))}$sky
        |LightSource "distant" "$p from" [-2 -3 4] "rgb L" [1 1 .95]
@@ -129,7 +129,7 @@ private final class Words(dialect: Dialect):
        |AttributeEnd
        |$end""".stripMargin
 
-  /** A ball and a wall in the dark, but for the light. */
+  /** A sphere and a wall, lit only by the example. */
   def lit(text: String): String =
     val look = "LookAt 0 -6.5 3  0 0 .8  0 0 1"
     s"""${head(perspective(look, 26))}${matte(".6 .6 .6")}${floor(8)}
@@ -142,7 +142,7 @@ private final class Words(dialect: Dialect):
        |AttributeEnd
        |$end""".stripMargin
 
-  /** Balls on all sides of the camera; metres. */
+  /** Spheres all around the camera, in metres. */
   def seenBy(camera: String): String =
     val balls = Vector(
       ("0 1.6 .35", ".35", ".8 .3 .2"),
@@ -161,7 +161,7 @@ private final class Words(dialect: Dialect):
        |LightSource "distant" "$p from" [-2 -3 4] "rgb L" [1 1 .95]
        |$checkedFloor${balls.mkString}$end""".stripMargin
 
-  /** On a floor of checks, with a lamp beside it. */
+  /** On a checkerboard floor, lit from the side. */
   def foggy(text: String): String =
     s"""${head(perspective("LookAt 0 -6 2.4  0 0 .95  0 0 1", 24), hasMedia = true)}$sky
        |LightSource "distant" "$p from" [3 -2 4] "rgb L" [2 2 1.9]

@@ -25,15 +25,16 @@ final class LensFileSuite extends AnyFunSuite:
     assert(read == Vector(LensSurface(0.01, 0.002, 1.5, 0.004), LensSurface(0, 0.001, 0, 0.002)))
 
   test("what is no table of surfaces is refused, with its line"):
-    assert(LensFile.surfaces("1 2 3 4\n5 6 7") == Left("7 numbers are no whole surfaces of 4 each"))
-    assert(LensFile.surfaces("1 2\nx 4") == Left("`x` in line 2 is no number"))
+    val incomplete = "7 numbers don't form complete surfaces of 4 each"
+    assert(LensFile.surfaces("1 2 3 4\n5 6 7") == Left(incomplete))
+    assert(LensFile.surfaces("1 2\nx 4") == Left("`x` in line 2 is not a number"))
     assert(LensFile.surfaces("1 2 3 nan").isLeft && LensFile.surfaces("").isLeft)
     assert(LensFile.surfaces("1 2 1.5 0").left.exists(_.contains("surface 1")))
 
   test("a lens file is needed, and must be there"):
     for dialect <- Seq(Dialect.V3, Dialect.V4) do
       val errors = said("", dialect).filter(_.severity == Severity.Error)
-      assert(errors.exists(_.message.contains("needs a `lensfile`")))
+      assert(errors.exists(_.message.contains("needs `lensfile`")))
       val missing = said("\"string lensfile\" \"lenses/double-gauss.dat\"", dialect)
       assert(missing.exists(p => p.message.contains("no file") && p.severity == Severity.Error))
 
@@ -48,7 +49,7 @@ final class LensFileSuite extends AnyFunSuite:
     assert(none.exists(p => p.message.contains("too small") && p.severity == Severity.Error))
 
   test("of pbrt-v2 only forks have lenses"):
-    assert(said("", Dialect.V2).exists(_.message.contains("only some of its forks")))
+    assert(said("", Dialect.V2).exists(_.message.contains("only forks of pbrt-v2")))
 
   test("a stop's shape is one of four names, or an image"):
     for name <- Seq("gaussian", "square", "pentagon", "star", "textures/chart.png") do

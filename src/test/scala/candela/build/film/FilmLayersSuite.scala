@@ -95,19 +95,19 @@ final class FilmLayersSuite extends AnyFunSuite:
       val sensor = s"\"string sensor\" \"$name\""
       SceneTexts.problems(s"$view\n${film("rgb")} $sensor\n$world", Dialect.V4).map(_.message)
     assert(said("cie1931").isEmpty)
-    assert(said("nikon_d850").exists(_.contains("sees a smooth spectrum of each pixel's colour")))
-    assert(said("nikon").exists(_.contains("no sensor is named `nikon`")))
+    assert(said("nikon_d850").exists(_.contains("responds to a smooth spectrum")))
+    assert(said("nikon").exists(_.contains("unknown sensor \"nikon\"")))
 
   test("spectral images have bands of wavelengths, and say how they were found"):
     val said = SceneTexts.problems(s"$view\n${film("spectral")}\n$world", Dialect.V4)
-    assert(said.exists(_.message.contains("no wavelengths")))
+    assert(said.exists(_.message.contains("RGB, not spectral")))
     val image = render(s"$view\n${film("spectral")} \"integer nbuckets\" 5\n$world")
     assert(image.channelNames.take(4) == Image.RgbNames :+ "S0.407,000nm" && image.channels == 8)
     // Half of light of luminance 1, in the sky
     assert(pixel(image, 0, 0)("S0.595,000nm").forall(s => s > 0.4f && s < 0.6f))
     def wrong(parameters: String) =
       SceneTexts.problems(s"$view\n${film("spectral")} $parameters\n$world", Dialect.V4)
-    assert(wrong("\"integer nbuckets\" 0").exists(_.message.contains("`nbuckets` is 1 or more")))
+    assert(wrong("\"integer nbuckets\" 0").exists(_.message.contains("must be at least 1")))
     assert(wrong("\"float lambdamin\" 300").exists(_.message.contains("360 and 830 nm")))
 
   test("the layers are pbrt-v4's"):

@@ -44,7 +44,7 @@ final class IntegratorOptionsSuite extends AnyFunSuite:
     def errors(bounds: String) =
       SceneTexts.problems(window(s"\"path\" \"integer pixelbounds\" $bounds")).map(_.message)
     assert(errors("[90 95 0 10]").exists(_.contains("no pixel")))
-    assert(errors("[1 2 3]").exists(_.contains("takes x0 x1 y0 y1")))
+    assert(errors("[1 2 3]").exists(_.contains("must be x0 x1 y0 y1, found 3 numbers")))
 
   // A floor that a mirror lights: the light is a point, so that no path finds it by the mirror
   private def mirrored(integrator: String, mirror: String, eye: String): String =

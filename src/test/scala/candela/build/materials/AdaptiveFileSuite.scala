@@ -32,12 +32,12 @@ class AdaptiveFileSuite extends BsdfLaws:
         val _ = Files.write(file, bytes)
         AdaptiveFile.read(file, toRgb).fold(identity, _ => "")
       finally Files.delete(file)
-    assert(problem(Array.empty) == "the file ends in the middle")
-    assert(problem("tensor_fool!".getBytes ++ whole.drop(12)) == "this is no tensor file")
-    assert(problem(whole.take(200)).contains("the end"))
+    assert(problem(Array.empty) == "unexpected end of file")
+    assert(problem("tensor_fool!".getBytes ++ whole.drop(12)) == "not a tensor file")
+    assert(problem(whole.take(200)).contains("the end of the file"))
     val other = whole.clone
     other(12) = 7
-    assert(problem(other) == "tensor files of version 7.0 are not known")
+    assert(problem(other) == "version must be 1.0, found 7.0")
     for at <- 14 until 250 do
       val broken = whole.clone
       broken(at) = (broken(at) ^ 0x55).toByte

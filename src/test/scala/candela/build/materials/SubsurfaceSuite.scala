@@ -31,16 +31,21 @@ class SubsurfaceSuite extends AnyFunSuite:
     val unknown = """Material "subsurface" "string name" "Skin3" """
     assert(
       said(unknown, Dialect.V4) ==
-        Vector((Severity.Error, "no measured material is named `Skin3`"))
+        Vector((Severity.Error, "unknown measured material \"Skin3\""))
     )
     for d <- Seq(Dialect.V2, Dialect.V3) do
       val Vector((severity, message)) = said(unknown, d): @unchecked
-      assert(severity == Severity.Warning && message.contains("whole milk"))
+      assert(severity == Severity.Warning && message.contains("Wholemilk"))
 
   test("in v4, one coefficient needs the other"):
     val half = """Material "subsurface" "rgb sigma_a" [1 1 1]"""
     assert(
-      said(half, Dialect.V4) == Vector((Severity.Error, "`sigma_s` is not given, but its twin is"))
+      said(half, Dialect.V4) == Vector(
+        (
+          Severity.Error,
+          "`sigma_a` and `sigma_s` must be given together; `sigma_s` is missing"
+        )
+      )
     )
 
   test("a mixture shows the surface alone, and says so"):
@@ -50,13 +55,13 @@ class SubsurfaceSuite extends AnyFunSuite:
         |Material "mix" "string materials" ["a" "b"]
         |""".stripMargin
     val Vector((severity, message)) = said(mix, Dialect.V4): @unchecked
-    assert(severity == Severity.Warning && message.contains("does not travel beneath a mixed"))
+    assert(severity == Severity.Warning && message.contains("\"mix\" does not support subsurface"))
 
   test("the plan says whether light travels beneath surfaces"):
     def scene(integrator: String, material: String) =
       s"Integrator \"$integrator\"\nWorldBegin\nLightSource \"point\"\n$material Shape \"sphere\"\n"
     val medium = "Material \"subsurface\""
     assert(feature(scene("path", "Material \"matte\""), Dialect.V3) == "none")
-    assert(feature(scene("path", medium), Dialect.V3) == "light travels beneath 1 materials")
+    assert(feature(scene("path", medium), Dialect.V3) == "subsurface scattering in 1 materials")
     for (i, d) <- Seq("whitted" -> Dialect.V3, "path" -> Dialect.V4, "bdpt" -> Dialect.V4) do
-      assert(feature(scene(i, medium), d).contains("surface alone"), i)
+      assert(feature(scene(i, medium), d).contains("does not support it"), i)

@@ -57,5 +57,5 @@ final class SpectraSuite extends AnyFunSuite:
   test("a name that is neither a spectrum nor a file is an error"):
     val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D56\"\n"
     val p = SceneTexts.problems(text, Dialect.V4).head
-    assert(p.message.contains("no spectrum is named `stdillum-D56`"))
+    assert(p.message.contains("`stdillum-D56` is neither a named spectrum nor a file"))
     assert(p.help.exists(_.contains("`stdillum-D65`")))
