@@ -53,7 +53,7 @@ class DescribeCommandSuite extends AnyFunSuite:
 
   test("what is not supported says what is done instead"):
     assert(printed("plymesh").contains("not supported yet: the mesh is"))
-    assert(printed("accelerator bvh").contains("no effect: Candela's own"))
+    assert(printed("accelerator bvh").contains("no effect: Candela builds its own"))
 
   test("a name in several categories is described in each"):
     val out = printed("mix")

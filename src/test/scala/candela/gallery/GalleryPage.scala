@@ -47,7 +47,7 @@ object GalleryPage:
     """# Gallery
       |
       |A small image of each supported type of shape, material, texture, light, camera and medium,
-      |mostly with its defaults. `./sbt "Test/runMain candela.gallery.Gallery"` regenerates this page
-      |and its images from the recipes. The example scenes are in
+      |mostly with its defaults. `./sbt "Test/runMain candela.gallery.Gallery"` regenerates this
+      |page and its images from the recipes. The example scenes are in
       |`src/test/scala/candela/gallery`; a test fails if one is missing.
       |""".stripMargin.stripTrailing

@@ -12,8 +12,8 @@ private[build] object LightImages:
   /** Returns the image named by the string parameter `name`, in the scene's basis. Reports images
     * that can't be used.
     *
-    * pbrt-v2 and v3 treat the values of 8-bit files as linear; v4 decodes them. v2 reads the rows of
-    * TGA files bottom-up.
+    * pbrt-v2 and v3 treat the values of 8-bit files as linear; v4 decodes them. v2 reads the rows
+    * of TGA files bottom-up.
     */
   def read(name: String)(using site: Site): Option[Image] =
     for
