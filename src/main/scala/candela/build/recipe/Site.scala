@@ -97,7 +97,7 @@ object StandIns:
   val Magentas = "using magenta"
   val Ones = "using the constant 1"
   val MagentaSurface = "using a magenta surface"
-  val LeftOut = "it is ignored"
+  val LeftOut = "skipped"
   val Default = "using the default"
 
   /** Replacement for an unknown type. */
