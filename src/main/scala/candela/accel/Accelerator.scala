@@ -3,25 +3,25 @@ package candela.accel
 import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** Finds what a ray meets among many primitives. Immutable; the work space of a walk is in the
-  * ray.
+/** Acceleration structure over a set of primitives. Immutable; the traversal's scratch memory is in
+  * the ray.
   */
 abstract class Accelerator:
 
-  /** The closest hit in (0, `ray.tMax`): shortens the ray, fills `hit`. Otherwise sets
-    * `hit.primitive` to −1.
+  /** Finds the closest hit in (0, `ray.tMax`): shortens the ray and fills `hit`. Sets
+    * `hit.primitive` to −1 if the ray misses.
     */
   def closest(ray: Ray, hit: Hit): Boolean
 
-  /** Is there any hit in (0, `ray.tMax`)? `hit` is work space. */
+  /** Whether anything is hit in (0, `ray.tMax`). `hit` is scratch memory. */
   def isOccluded(ray: Ray, hit: Hit): Boolean
 
   def bounds: Bounds3
 
-  /** For the plan: what it is, with its size. */
+  /** Kind and size, for the render plan. */
   def describe: String
 
-/** Tests everything: the oracle of the other accelerators' tests and benchmarks. */
+/** Tests every primitive: the oracle for tests and benchmarks of the other accelerators. */
 final class BruteForce(primitives: Primitives) extends Accelerator:
   private val packed = primitives.packed(Array.range(0, primitives.count))
 
@@ -35,7 +35,7 @@ final class BruteForce(primitives: Primitives) extends Accelerator:
   def describe: String = s"none: ${primitives.count} primitives tested in turn"
 
 object Accelerator:
-  /** The box around boxes of six Floats each. */
+  /** Union of boxes of six Floats each. */
   def union(bounds: Array[Float]): Bounds3 =
     import candela.math.Vec3
     val all = Array.fill(6)(Float.PositiveInfinity)

@@ -2,17 +2,18 @@ package candela.accel
 
 import candela.geometry.Bounds3
 
-/** A hierarchy of two children a node, in flat arrays.
+/** Nodes of a binary BVH, in flat arrays.
   *
   * A node is 16 Floats (one cache line): the left child's box (min x y z, max x y z), the right
-  * one's, then as raw bits left child, right child, and their sizes if they are leaves. A child ≥ 0
-  * is the index of its node's first Float; below 0 it is a leaf whose first slot is its complement.
-  * With both boxes in the parent a walk tests them from one line, and visits no node in vain.
+  * child's box, then as raw bits the left child, the right child, and their primitive counts if
+  * they are leaves. A child ≥ 0 is the index of its node's first Float; a child below 0 is a leaf
+  * whose first slot is its complement. Each node stores both children's boxes, so traversal tests
+  * them from one cache line and visits no node in vain.
   *
-  * @param order     the primitives as the leaves hold them
-  * @param root      encoded as a child is
-  * @param rootCount how many primitives are in the root, if it is a leaf
-  * @param bounds    the box around all primitives
+  * @param order     primitives in leaf order
+  * @param root      encoded as a child
+  * @param rootCount number of primitives in the root, if it is a leaf
+  * @param bounds    bounds of all primitives
   */
 private[accel] final class BinaryTree(
     val order: Array[Int],
@@ -27,7 +28,7 @@ private[accel] final class BinaryTree(
   def child(node: Int, side: Int): Int = bits(node + 12 + side)
   def leafSize(node: Int, side: Int): Int = bits(node + 14 + side)
 
-  /** Slots of `order` from here on are in the subtree. */
+  /** First slot of `order` in the subtree. */
   def firstSlot(node: Int): Int =
     val left = child(node, 0)
     if left < 0 then ~left else firstSlot(left)
@@ -36,10 +37,10 @@ private[accel] final class BinaryTree(
     val right = child(node, 1)
     if right < 0 then ~right + leafSize(node, 1) else endSlot(right)
 
-  /** How many primitives are in the subtree. */
+  /** Number of primitives in the subtree. */
   def count(node: Int): Int = endSlot(node) - firstSlot(node)
 
-  /** Half the surface of the box that begins there in `nodes`. */
+  /** Half the surface area of the box at offset `at` of `nodes`. */
   def area(at: Int): Float =
     val x = nodes(at + 3) - nodes(at)
     val y = nodes(at + 4) - nodes(at + 1)

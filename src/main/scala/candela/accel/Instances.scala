@@ -4,23 +4,22 @@ import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** Objects that stand in many places without being copied: each place is a pair of matrices, and a
-  * ray that comes to it goes on in the object's space, among the object's own primitives.
+/** Object instances: an instance is a pair of matrices, and a ray that enters it is transformed to
+  * object space and traced against the object's own accelerator.
   *
-  * The direction keeps its length on the way there, whatever the matrix makes of it; so a distance
-  * means the same in both spaces. The matrices are applied in Double: all that is lost is the
-  * rounding of the object-space ray to Float, which [[Placement.locate]] adds to the error of a hit
-  * point.
+  * The transformed direction is not normalised, so distances mean the same in both spaces. Matrices
+  * are applied in Double: the only loss is the rounding of the object-space ray to Float, which
+  * [[Placement.locate]] adds to the error of a hit point.
   *
   * Source of the idea: Sutherland, "Sketchpad", 1963; for rays: Rubin and Whitted, "A 3-dimensional
   * Representation for Fast Rendering of Complex Scenes", SIGGRAPH 1980.
   *
-  * @param objects  what there is to be placed
+  * @param objects  accelerators of the objects
   * @param objectOf index into `objects` of each instance
-  * @param matrices those of the first instances, which stand still: 24 Doubles each, as
-  *                 [[candela.math.Motion]] writes them
-  * @param motions  of the instances after those
-  * @param open     when the shutter opens, and when it closes
+  * @param matrices matrices of the static instances, which come first: 24 Doubles each, as written
+  *   by [[candela.math.Motion]]
+  * @param motions  motions of the animated instances, which follow
+  * @param open     shutter opening time; `close` is its closing time
   */
 final class Instances private (
     objects: Array[Accelerator],
@@ -40,8 +39,8 @@ final class Instances private (
     if i < still then Placement.bounds(matrices, i * Motion.Doubles, box)
     else Placement.bounds(motions(i - still), open, close, box)
 
-  /** The closest hit of instance `i` in (0, `ray.tMax`): shortens the ray, and writes which
-    * primitive of the object it was to `hit.inner`; `hit.primitive` stays as it is.
+  /** Finds the closest hit of instance `i` in (0, `ray.tMax`): shortens the ray and writes the
+    * object's primitive to `hit.inner`; leaves `hit.primitive` unchanged.
     */
   def intersect(i: Int, ray: Ray, hit: Hit): Boolean =
     val local = enter(i, ray)
@@ -56,7 +55,7 @@ final class Instances private (
   def isHit(i: Int, ray: Ray, hit: Hit): Boolean =
     objects(objectOf(i)).isOccluded(enter(i, ray), hit)
 
-  /** The ray in the space of the object: it lies in `ray.nested`. */
+  /** Transforms the ray to object space; the result is `ray.nested`. */
   def enter(i: Int, ray: Ray): Ray =
     if i < still then Placement.enter(matrices, i * Motion.Doubles, ray)
     else
@@ -64,8 +63,8 @@ final class Instances private (
       motions(i - still).write(ray.time, space, 0)
       Placement.enter(space, 0, ray)
 
-  /** Takes a shading point on instance `i` from the object's space to the world; the ray is the one
-    * that has just been asked to [[enter]] it.
+  /** Transforms a shading point on instance `i` from object to world space, for the ray last passed
+    * to [[enter]] for it.
     */
   def locate(i: Int, ray: Ray, at: ShadingPoint): Unit =
     if i < still then Placement.locate(matrices, i * Motion.Doubles, at)
@@ -74,8 +73,9 @@ final class Instances private (
 object Instances:
   val Empty: Instances = of(Array.empty, Vector.empty)
 
-  /** @param places      (index into `objects`, object to world); those that move are numbered last
-    * @param open, close when the shutter is open
+  /** @param places      (index into `objects`, object to world); animated instances are numbered
+    *   last
+    * @param open, close shutter times
     */
   def of(
       objects: Array[Accelerator],

@@ -4,32 +4,33 @@ import candela.geometry.{Ray, ShadingPoint}
 import candela.sampling.SampleHash
 import candela.textures.FloatTexture
 
-/** Where a surface has holes. */
+/** Alpha test of a surface. */
 abstract class Mask:
 
-  /** Does the ray pass through `primitive` at this point as if nothing were there? The answer is
-    * always the same for the same ray.
+  /** Whether the ray passes through `primitive` at this point (alpha cutout). Deterministic for a
+    * given ray.
     *
-    * @param at     in the space of the ray
-    * @param shadow does the ray only ask whether something is in the way?
+    * @param at     hit point, in the space of the ray
+    * @param shadow whether the ray is an occlusion query
     */
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean
 
-/** No holes: not even asked. */
+/** Fully opaque. */
 object SolidMask extends Mask:
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean = false
 
-/** Holes where `alpha` is 0; `shadowAlpha` makes further ones for shadow rays alone. So in pbrt-v2
-  * and v3.
+/** Alpha cutout: `alpha` 0 is transparent; `shadowAlpha` 0 also, for shadow rays only. As in
+  * pbrt-v2 and v3.
   */
 final class HoleMask(alpha: FloatTexture, shadowAlpha: FloatTexture) extends Mask:
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     alpha(at) == 0f || (shadow && shadowAlpha(at) == 0f)
 
-/** A ray passes with probability 1 − `alpha`, decided by a hash of the ray: so in pbrt-v4.
+/** Stochastic alpha: a ray passes with probability 1 − `alpha`, decided by a hash of the ray, as in
+  * pbrt-v4.
   *
   * Source: Wyman and McGuire, "Improved Alpha Testing Using Hashed Sampling", TVCG 23(8), 2017, for
-  * thresholds by a hash.
+  * hashed thresholds.
   */
 final class StochasticMask(alpha: FloatTexture) extends Mask:
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
@@ -46,10 +47,10 @@ object StochasticMask:
     h = SampleHash.mix64(h + primitive * SampleHash.Step)
     SampleHash.toUnit((h >>> 32).toInt)
 
-/** The masks of a set of primitives; [[SolidMask]] where there is none.
+/** The masks of a set of primitives; [[SolidMask]] if opaque.
   *
-  * @param ofMesh  by number in the soup's meshes
-  * @param ofShape by number among the other shapes
+  * @param ofMesh  indexed by mesh of the triangle soup
+  * @param ofShape indexed by other shape
   */
 final class Masks(val ofMesh: Array[Mask], val ofShape: Array[Mask]):
   private def count(masks: Array[Mask]): Int = masks.count(_ ne SolidMask)

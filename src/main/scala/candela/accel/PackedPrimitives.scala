@@ -3,9 +3,9 @@ package candela.accel
 import candela.geometry.{Hit, Ray}
 import candela.shapes.{Shape, TriangleSoup, TriangleTest}
 
-/** Primitives in the order in which an accelerator's leaves hold them.
+/** Primitives in the leaf order of an accelerator.
   *
-  * A scene is traced through one of the two kinds only, so the call from the leaf has one target.
+  * A scene uses only one of the two subclasses, so the call from a leaf is monomorphic.
   */
 abstract class PackedPrimitives:
   /** Tests the slots from `first` until `end`; on a hit shortens the ray and fills `hit`. */
@@ -14,9 +14,9 @@ abstract class PackedPrimitives:
   def isHit(first: Int, end: Int, ray: Ray, hit: Hit): Boolean
 
 object PackedPrimitives:
-  /** Of two primitives at the same distance the one of the lower number is met, so that the answer
-    * does not depend on the order of asking: triangles see to that themselves, for others the ray
-    * is as long as the next Float.
+  /** Breaks ties: of two primitives at the same distance the lower number wins, so that the result
+    * does not depend on traversal order. Triangle tests do this themselves; for other shapes the
+    * ray is extended to the next Float.
     */
   private[accel] inline def withTies(primitive: Int, ray: Ray, hit: Hit)(
       inline intersect: Boolean
@@ -27,10 +27,10 @@ object PackedPrimitives:
     if !found || ray.tMax > end then ray.tMax = end
     found
 
-/** Primitives without holes.
+/** Opaque primitives.
   *
-  * @param order   which primitive is in each slot
-  * @param corners nine Floats a slot: x, y, z of a triangle's corners; unused for the others
+  * @param order   primitive in each slot
+  * @param corners nine Floats per slot: x, y, z of a triangle's corners; unused for other shapes
   */
 final class SolidPrimitives(
     order: Array[Int],
@@ -76,8 +76,7 @@ final class SolidPrimitives(
     if primitive < firstInstance then shapes(primitive - triangles).isHit(ray)
     else instances.isHit(primitive - firstInstance, ray, hit)
 
-/** Primitives some of which have holes: a hit on one of these is looked at more closely, and where
-  * there is a hole it is none.
+/** Primitives of which some are alpha-masked: their hits pass the alpha test or are rejected.
   *
   * @param order, corners as in [[SolidPrimitives]]
   */
@@ -130,7 +129,7 @@ final class MaskedPrimitives(
     else if shadow then instances.isHit(primitive - firstInstance, ray, hit)
     else instances.intersect(primitive - firstInstance, ray, hit)
 
-  /** `hit` says what was met before only if the closest is asked for. */
+  /** `hit` holds the previous hit only in closest-hit queries. */
   private def triangle(slot: Int, ray: Ray, hit: Hit, shadow: Boolean): Boolean =
     val number = if shadow then Int.MaxValue else order(slot)
     TriangleTest.intersect(corners, 9 * slot, 1, number, ray, hit)
@@ -150,7 +149,7 @@ final class MaskedPrimitives(
         false
       else true
 
-  /** A shape may be met again behind a hole: on from there with a ray that leaves it. */
+  /** A shape may be hit again behind a cutout: the search continues with a ray spawned there. */
   private def solid(
       shape: Shape,
       primitive: Int,

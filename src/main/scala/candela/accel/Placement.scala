@@ -3,14 +3,13 @@ package candela.accel
 import candela.geometry.{Bounds3, Frame, Ray, ShadingPoint}
 import candela.math.*
 
-/** The arithmetic of an object that stands somewhere, by the 24 Doubles that
-  * [[candela.math.Motion]] writes: three rows of object to world, three of its inverse. Affine maps
-  * only.
+/** Transforms of instances, from the 24 Doubles that [[candela.math.Motion]] writes: three rows of
+  * object to world, three of its inverse. Affine maps only.
   */
 object Placement:
   private inline val Inverse = 12
 
-  /** Takes the ray into the object's space: the answer is `ray.nested`, with the same distances. */
+  /** Transforms the ray to object space; the result is `ray.nested`, with the same distances. */
   def enter(m: Array[Double], at: Int, ray: Ray): Ray =
     val local = ray.nested
     val i = at + Inverse
@@ -31,7 +30,7 @@ object Placement:
     )
     local
 
-  /** Contains the object's box wherever its corners go, and the rounding of rays on the way in. */
+  /** Bounds of the transformed object box, including the rounding of transformed rays. */
   def bounds(m: Array[Double], at: Int, box: Bounds3): Bounds3 =
     if box.isEmpty then Bounds3.Empty
     else
@@ -49,11 +48,11 @@ object Placement:
       ) * gamma(2)
       Bounds3(corners.min - pad, corners.max + pad)
 
-  /** Contains the object's box wherever it is while the shutter is open.
+  /** Bounds of the object's box over the shutter interval.
     *
-    * Between two of the moments that are looked at, a corner leaves the straight way by an eighth
-    * of the step squared times its acceleration, and that is an eighth of the second difference of
-    * its places. Four times as much is added.
+    * Between two sampled times, a corner deviates from the chord by an eighth of the squared step
+    * times its acceleration, an eighth of the second difference of its positions. The bounds are
+    * padded by four times that.
     */
   def bounds(motion: Motion, open: Float, close: Float, box: Bounds3): Bounds3 =
     if box.isEmpty then Bounds3.Empty
@@ -72,20 +71,20 @@ object Placement:
       )
       Bounds3(swept.min - pad, swept.max + pad)
 
-  /** Half a turn goes by in steps of 2.8 degrees. */
+  /** Samples a rotation by 180 degrees in steps of 2.8 degrees. */
   private inline val Moments = 64
 
-  /** Takes a shading point from the object's space to the world.
+  /** Transforms a shading point from object to world space.
     *
-    * The error that its point then has: what it had, stretched; the rounding of a ray's origin when
-    * it comes back into the object's space, stretched likewise; and its own rounding.
-    * Normals: the true one keeps the side that the object calls its outside, also where the map
-    * mirrors; the shading normal follows it (so in pbrt-v2, v3 and v4).
+    * The point's error bound is the transformed error, plus the transformed rounding of a ray
+    * origin that returns to object space, plus the point's own rounding. The geometric normal keeps
+    * the object's outside even if the map swaps handedness; the shading normal follows it (as in
+    * pbrt-v2, v3 and v4).
     */
   def locate(m: Array[Double], at: Int, s: ShadingPoint): Unit =
     val rounding = s.pError + absolute(s.p) * gamma(1)
     s.p = point(m, at, s.p)
-    // Far from the world's origin, or close to it inside a large object, that of Doubles counts too
+    // Far from the world's origin, or near it inside a large object, Double rounding matters too
     val inverse = at + Inverse
     val error = rounding +
       (stretched(m, inverse, absolute(s.p)) + shift(m, inverse)) * DoubleError
@@ -96,7 +95,7 @@ object Placement:
     s.frame.set(Frame.along(n, vector(m, at, s.frame.s)))
     if s.wantsPartials then partials(m, at, across, n, s)
 
-  /** @param across the shading normal, mapped but of any length; `n` the one that is used */
+  /** @param across transformed shading normal, not normalised; `n` is the final one */
   private def partials(m: Array[Double], at: Int, across: Vec3, n: Vec3, s: ShadingPoint): Unit =
     val side = if (across dot n) < 0f then -1f else 1f
     val (tangentU, tangentV) = (vector(m, at, s.tangentU), vector(m, at, s.tangentV))
@@ -125,7 +124,7 @@ object Placement:
     (m(at + 8) * v.x + m(at + 9) * v.y + m(at + 10) * v.z).toFloat
   )
 
-  /** By the transposed inverse; of any length. */
+  /** Transforms by the inverse transpose; not normalised. */
   private def normal(m: Array[Double], at: Int, n: Vec3): Vec3 =
     val i = at + Inverse
     Vec3(
@@ -134,14 +133,14 @@ object Placement:
       (m(i + 2) * n.x + m(i + 6) * n.y + m(i + 10) * n.z).toFloat
     )
 
-  /** By how far the map moves the origin. */
+  /** Magnitude of the map's translation, per axis. */
   private def shift(m: Array[Double], at: Int): Vec3 =
     absolute(Vec3(m(at + 3).toFloat, m(at + 7).toFloat, m(at + 11).toFloat))
 
-  /** Some round-offs of Doubles. */
+  /** A few Double rounding errors. */
   private inline val DoubleError = 4e-15f
 
-  /** What a box of this half extent around the origin spans. */
+  /** Half extent of the transformed box with half extent `e` around the origin. */
   private def stretched(m: Array[Double], at: Int, e: Vec3): Vec3 =
     def row(r: Int) = (
       Math.abs(m(r)) * e.x + Math.abs(m(r + 1)) * e.y + Math.abs(m(r + 2)) * e.z

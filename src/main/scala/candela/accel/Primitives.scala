@@ -4,8 +4,8 @@ import candela.base.{loop, Parallel}
 import candela.geometry.Bounds3
 import candela.shapes.{Shape, TriangleSoup}
 
-/** All that a ray can meet, numbered: the triangles of the soup first, then the other shapes, then
-  * the instances of objects.
+/** All primitives that rays can hit, in order: the triangles of the soup, the other shapes, the
+  * object instances.
   */
 final class Primitives(
     val soup: TriangleSoup,
@@ -16,11 +16,11 @@ final class Primitives(
   private val firstInstance = soup.count + shapes.length
   def count: Int = firstInstance + instances.count
 
-  /** Is it a triangle without holes? */
+  /** Whether primitive `i` is an opaque triangle. */
   def isSolidTriangle(i: Int): Boolean =
     i < soup.count && (masks.isEmpty || (masks.ofMesh(soup.meshOf(i)) eq SolidMask))
 
-  /** Lower and upper corner of each primitive's box: six Floats. */
+  /** Bounds of each primitive as six Floats: lower and upper corner. */
   def bounds: Array[Float] =
     val all = new Array[Float](6 * count)
     loop(count)(i => write(all, 6 * i, boundsOf(i)))
@@ -39,7 +39,7 @@ final class Primitives(
     to(at + 4) = b.max.y
     to(at + 5) = b.max.z
 
-  /** The primitives in the given order, packed for testing one after the other. */
+  /** Primitives packed in the given order for sequential tests. */
   def packed(order: Array[Int], parallel: Parallel = Parallel.Alone): PackedPrimitives =
     val corners = new Array[Float](Math.multiplyExact(9, order.length))
     parallel.ranges(order.length): (from, until) =>

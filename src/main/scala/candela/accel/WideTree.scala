@@ -2,24 +2,24 @@ package candela.accel
 
 import candela.geometry.Bounds3
 
-/** A hierarchy of many children a node, made for vectors, all in flat arrays.
+/** Nodes and leaves of a wide BVH with a SIMD layout, in flat arrays.
   *
   * A node is six rows of `width` Floats (its children's min x, y, z, max x, y, z) and a row of raw
-  * bits, the children themselves: one load a row and slab. A child ≥ 0 is the index of its node's
-  * first Float. Below 0 it is the complement of a leaf (see [[WideTree.leaf]]): up to `lanes`
-  * triangles in a block, or up to 16 primitives of any kind in a row.
+  * bits, the children themselves: one load per row and slab. A child ≥ 0 is the index of its node's
+  * first Float. A child below 0 is the complement of a leaf (see [[WideTree.leaf]]): a block of up
+  * to `lanes` triangles, or up to 16 consecutive primitives of any kind.
   *
   * A block is nine rows of `lanes` Floats, x, y, z of the triangles' three corners, and a row of
-  * raw bits, their numbers. All boxes are somewhat larger than what is in them: see
+  * raw bits, their primitive numbers. All boxes are slightly larger than their contents: see
   * [[WideTree.pad]].
   *
   * Source of the layout: Wald, Benthin, Boulos, "Getting Rid of Packets", RT 2008.
   *
-  * @param width  children a node
-  * @param lanes  triangles a block
-  * @param count  of all primitives
-  * @param root   a child's code
-  * @param others the primitives that are in no block
+  * @param width  branching factor
+  * @param lanes  triangles per block
+  * @param count  total number of primitives
+  * @param root   encoded as a child
+  * @param others primitives outside blocks
   */
 private[accel] final class WideTree(
     val width: Int,
@@ -35,8 +35,8 @@ private[accel] final class WideTree(
   def blockCount: Int = blocks.length / WideTree.blockFloats(lanes)
 
 private[accel] object WideTree:
-  /** Widens a box, six Floats: to as far beside it as hits may be, and one Float more, so that no
-    * corner is on its planes: there, a ray along the plane has no distance.
+  /** Pads a box of six Floats by the tolerance of hits, and by one Float more to keep corners off
+    * its planes: a ray within a plane has no distance to it.
     */
   def pad(boxes: Array[Float], at: Int): Unit =
     var axis = at
@@ -48,14 +48,14 @@ private[accel] object WideTree:
       boxes(axis + 3) = Math.nextUp(high + more)
       axis += 1
 
-  /** Twice what [[candela.shapes.TriangleTest.Within]] allows. */
+  /** Twice the tolerance of [[candela.shapes.TriangleTest.Within]]. */
   private final val Pad = 4e-6f
 
   inline def floats(width: Int): Int = 7 * width
   inline def blockFloats(lanes: Int): Int = 10 * lanes
 
-  /** The code of a leaf: 26 bits of where (a block, or the first slot of `others`), 4 bits of how
-    * many less one, 1 bit of which kind.
+  /** Encodes a leaf: 26 bits of index (a block, or the first slot of `others`), 4 bits of count
+    * minus one, 1 bit of kind.
     */
   def leaf(isBlock: Boolean, first: Int, count: Int): Int =
     ~((first << 5) | ((count - 1) << 1) | (if isBlock then 1 else 0))
@@ -64,5 +64,5 @@ private[accel] object WideTree:
   inline def size(leaf: Int): Int = ((~leaf >> 1) & 15) + 1
   inline def first(leaf: Int): Int = ~leaf >>> 5
 
-  /** The code of no child at all: never arrived at, but as a root. */
+  /** Encodes an empty child; visited only as a root. */
   final val NoChild = -2147483648

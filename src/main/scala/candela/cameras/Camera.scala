@@ -3,66 +3,68 @@ package candela.cameras
 import candela.geometry.Ray
 import candela.math.Vec3
 
-/** How large the film is.
+/** Film size.
   *
   * @param width    of the full image in pixels, as `height`
-  * @param diagonal of the film in metres; only cameras with lenses of glass ask for it
+  * @param diagonal of the film in metres; used only by cameras with a lens system
   */
 final case class FilmFrame(width: Int, height: Int, diagonal: Float = 0.035f)
 
-/** Where on the film a point of the scene is seen, through one point of the aperture. Mutable, one
+/** Raster position at which a scene point is visible through a point of the aperture. Mutable, one
   * per worker.
   */
 final class FilmPlace:
-  /** As [[Camera.generate]] takes them; perhaps beside the film. */
+  /** Raster position in the coordinates of [[Camera.generate]]; may be outside the film. */
   var x, y: Float = 0f
 
-  /** The point of the aperture, in the world. */
+  /** The point of the aperture, in world space. */
   var eye: Vec3 = Vec3.Zero
 
-  /** From the seen point to the eye. */
+  /** Direction from the visible point to the eye. */
   var direction: Vec3 = Vec3.Z
 
-  /** If places are chosen all over the film: the density with which a ray from `eye` arrives, per
-    * area across the ray.
+  /** If film positions are uniformly sampled: the pdf with which a ray from `eye` arrives, per area
+    * perpendicular to the ray.
     */
   var density: Float = 0f
 
-/** Turns a place on the film into a ray into the world. */
+/** Maps film positions to rays in world space. */
 abstract class Camera:
 
-  /** Writes the ray through the film at (`x`, `y`).
+  /** Generates the ray through the film at (`x`, `y`).
     *
     * @param x in pixels from the left edge of the full image, `y` from its top
     * @param lensU with `lensV` a point in the unit square, for the aperture
     */
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit
 
-  /** Do rays differ in what their light counts? Then `generate` sets `ray.weight`; at 0 no light
-    * reaches the film there, and the ray itself is left as it was. All others leave the weight
-    * alone, and nobody looks at it.
+  /** Whether rays have different weights. If so, `generate` sets `ray.weight`; 0 means that no
+    * light reaches the film there, and leaves the ray unchanged. Otherwise the weight is neither
+    * set nor read.
     */
   def weighs: Boolean = false
 
-  /** Does it know where a point is seen? Then [[see]] and [[density]] have answers. */
+  /** Whether the camera can map scene points to the film: [[see]] and [[density]] are then
+    * implemented.
+    */
   def isTraceable: Boolean = false
 
-  /** Finds the place on the film from which a ray through (`lensU`, `lensV`) comes to `p`; false if
+  /** Finds the film position from which a ray through (`lensU`, `lensV`) arrives at `p`; false if
     * there is none.
     */
   def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean = false
 
-  /** [[FilmPlace.density]] of a ray that started at `eye`, at `p`. */
+  /** [[FilmPlace.density]] at `p` of a ray that started at `eye`. */
   def density(eye: Vec3, p: Vec3): Float = 0f
 
-  /** How far away the neighbours lie that `differential` takes, in pixels. */
+  /** Pixel offset of the neighbours that `differential` uses. */
   protected[cameras] def step: Float = 1f
 
-  /** Fills in the differential of a ray that `generate` has written, from the rays one pixel to the
+  /** Sets the differential of a ray that `generate` has written, from the rays one pixel to the
     * right and one below, through the same point of the aperture.
     *
-    * @param scale   by which its rays are moved towards the first: samples of a pixel lie closer
-    * @param scratch is written to
+    * @param scale   scale of the offsets: a pixel's samples are closer together
+    * @param scratch overwritten
     */
   final def differential(
       x: Float,
@@ -94,7 +96,7 @@ abstract class Camera:
 
   private def between(a: Vec3, b: Vec3, share: Float): Vec3 = a + (b - a) * share
 
-  /** Generates a ray; false if the lenses let none through. */
+  /** Generates a ray; false if the lens system blocks it. */
   private def reaches(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Boolean =
     generate(x, y, lensU, lensV, ray)
     !weighs || ray.weight > 0f

@@ -3,11 +3,11 @@ package candela.cameras
 import candela.geometry.Ray
 import candela.sampling.Sampler
 
-/** The rays of samples: through a point of the aperture, at a time while the shutter is open, and
-  * with neighbours where textures ask for them. Mutable, one per worker.
+/** Generates the camera rays of samples: lens position, time, and differentials if textures need
+  * them. Mutable, one per worker.
   *
-  * @param shutter           when it is open, if anything moves
-  * @param differentialScale of the neighbours; 0: nothing in the scene asks for them
+  * @param shutter           shutter interval, if anything is animated
+  * @param differentialScale scale of the differentials; 0 if nothing in the scene needs them
   */
 final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialScale: Float):
   private val weighs = camera.weighs
@@ -15,17 +15,18 @@ final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialSca
   private val open = shutter.getOrElse(Shutter(0f, 0f))
   private val scratch = Ray()
 
-  /** What [[next]] writes. */
+  /** Output of [[next]]. */
   val ray: Ray = Ray()
 
-  /** Writes the ray through the film at (`x`, `y`), in pixels, by the sampler's next numbers.
+  /** Generates the ray through the film at (`x`, `y`), in pixels, from the sampler's next
+    * dimensions.
     *
-    * @return what its light counts; 0: the lenses let none through, and there is no ray
+    * @return the ray's weight; 0 if the lens system blocks it, and there is no ray
     */
   def next(x: Float, y: Float, sampler: Sampler): Float =
     sampler.next2D()
     if moves then
-      ray.time = open.at(sampler.next1D()) // leaves x and y as they are
+      ray.time = open.at(sampler.next1D()) // leaves x and y unchanged
       scratch.time = ray.time
     camera.generate(x, y, sampler.x, sampler.y, ray)
     val weight = if weighs then ray.weight else 1f

@@ -1,10 +1,10 @@
 package candela.cameras
 
-/** Where on the surface next to the film light may enter that reaches a place of the film, as a
-  * rectangle for each of some rings of the film around its middle. It holds for places on the
-  * film's +x axis, and turns with the others.
+/** Exit pupil bounds: for each of several rings of film positions around the centre, the rectangle
+  * on the rear lens surface through which light can reach them. They hold for positions on the
+  * film's +x axis, and rotate with the others.
   *
-  * @param bounds      x0, x1, y0, y1 for each ring, in metres; x0 > x1: no light reaches it
+  * @param bounds      x0, x1, y0, y1 for each ring, in metres; x0 > x1 if no light reaches it
   * @param halfDiagonal of the film
   *
   * Source: Steinert et al., "General Spectral Camera Lens Simulation", Computer Graphics Forum
@@ -31,23 +31,20 @@ final class ExitPupil private (bounds: Array[Double], halfDiagonal: Double):
 object ExitPupil:
   private val Rings = 64
 
-  /** Cells across and up in which a pupil is looked for at a time; up is half as far, for both
-    * halves are alike.
-    */
+  /** Cells of the search grid across and up; up covers half the height, by symmetry. */
   private val Across = 48
   private val Up = 24
 
-  /** A pupil that covers fewer cells across than this is looked at more closely. */
+  /** Cells across below which the pupil is searched with a finer grid. */
   private val Enough = 12
   private val Zooms = 8
 
-  /** The rectangles, which hold all light that a stop without a shape of its own would let
-    * through.
+  /** Computes the rectangles, which contain all light that a circular stop would admit.
     *
-    * They are found by rays from both borders and the middle of each ring to a grid on the rear
-    * surface: first over the whole of it, then around the pupil of the ring before, which is never
-    * far away. Rims are then halved down between the outermost rays that pass and the next ones,
-    * and the rectangle grows by as much as pbrt's does, which has to make up for its own spacing.
+    * Traces rays from both borders and the middle of each ring to a grid on the rear surface: first
+    * over all of it, then around the previous ring's pupil, which is never far away. Bisects the
+    * edges between the outermost rays that pass and the next ones. Finally pads the rectangle by as
+    * much as pbrt, which has to make up for its grid spacing.
     */
   def of(lens: LensSystem, diagonal: Double): ExitPupil =
     val round = lens.withRoundStop
@@ -70,7 +67,7 @@ object ExitPupil:
             Math.min(reach, r.top + around)
           )
         case None =>
-          isDark = true // and further out it is no brighter
+          isDark = true // and so are all rings further out
           put(bounds, ring, 1.0, -1.0, 0.0)
     ExitPupil(bounds, half)
 
@@ -99,7 +96,7 @@ object ExitPupil:
         case _ => zooms = Zooms
     found
 
-  /** The rectangle around all rays from `radius` that pass. */
+  /** Bounds of all rays from `radius` that pass. */
   private def scan(lens: LensSystem, radius: Double, region: Region): Option[Region] =
     val ray = new Array[Double](6)
     def passes(x: Double, y: Double): Boolean =

@@ -1,21 +1,21 @@
 package candela.cameras
 
-/** A surface between two media, or the plane of the aperture stop; lengths in metres.
+/** A lens interface, or the plane of the aperture stop; lengths in metres.
   *
-  * @param radius    of curvature, positive if it bulges towards the scene; 0: the stop
-  * @param thickness along the axis to the next surface towards the film
-  * @param eta       index of refraction from here to that surface; 0 stands for air
+  * @param radius    radius of curvature, positive if convex towards the scene; 0 for the stop
+  * @param thickness distance along the axis to the next surface towards the film
+  * @param eta       index of refraction between here and that surface; 0 stands for air
   * @param aperture  radius up to which light passes
   */
 final case class LensSurface(radius: Double, thickness: Double, eta: Double, aperture: Double)
 
-/** Spherical surfaces on an axis, through which rays are traced.
+/** Spherical surfaces on a common axis, through which rays are traced.
   *
-  * Camera space: the film's middle is at the origin, the scene lies along +z. A ray is six numbers
-  * of an array that the caller lends: its origin, then its direction.
+  * Camera space: the film's centre is at the origin, the scene along +z. A ray is six numbers in
+  * the caller's array: its origin, then its direction.
   *
   * @param surfaces from the scene to the film
-  * @param stop     the shape of the aperture; empty: a disc
+  * @param stop     shape of the aperture; empty for a disk
   *
   * Source: Kolb, Mitchell, Hanrahan, "A Realistic Camera Model for Computer Graphics", SIGGRAPH
   * 1995; PBRT 4th ed., §5.4.
@@ -30,27 +30,28 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
   private val before = 1.0 +: behind.init
   private val shape: StopShape | Null = stop.orNull
 
-  /** Where the axis meets the outermost surface, and the one next to the film. */
+  /** Vertices of the front surface and of the rear surface, next to the film. */
   def frontZ: Double = vertex(0)
   def rearZ: Double = vertex(count - 1)
 
-  /** Radius of the surface next to the film. */
+  /** Radius of the rear surface. */
   def rearAperture: Double = surfaces.last.aperture
 
-  /** The same lenses at another distance from the film. */
+  /** The same system at another distance from the film. */
   def at(filmDistance: Double): LensSystem =
     LensSystem(surfaces.init :+ surfaces.last.copy(thickness = filmDistance), stop)
 
-  /** With a stop that is a disc and as large as whatever its shape lets through. */
+  /** The same system with a circular stop that contains the stop's shape. */
   def withRoundStop: LensSystem =
     stop.fold(this): s =>
       val open = surfaces.map: e =>
         if e.radius == 0.0 then e.copy(aperture = e.aperture * s.extent) else e
       LensSystem(open)
 
-  /** Takes a ray that starts at the film out into the scene.
+  /** Traces a ray from the film into the scene.
     *
-    * @return how much of its light passes: 1, or what the stop's shape says; 0: it is blocked
+    * @return transmitted fraction: 1, or the transmission of the stop's shape; 0 if the ray is
+    *   blocked
     */
   def fromFilm(ray: Array[Double]): Double =
     unit(ray)
@@ -61,7 +62,7 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
       i -= 1
     weight
 
-  /** Takes a ray that comes from the scene to the film's side; false if it is blocked. */
+  /** Traces a ray from the scene to the film's side; false if it is blocked. */
   def fromScene(ray: Array[Double]): Boolean =
     unit(ray)
     var passes = true
@@ -101,14 +102,14 @@ final class LensSystem(val surfaces: Vector[LensSurface], val stop: Option[StopS
     if discriminant < 0.0 then false
     else
       val root = Math.sqrt(discriminant)
-      // Of the sphere's two sides the one that the surface is a part of
+      // The root on the surface's side of the sphere
       val t = if (ray(5) > 0.0) == (r < 0.0) then -b - root else -b + root
       if !(t >= 0.0) then false
       else
         advance(ray, t)
         ray(0) * ray(0) + ray(1) * ray(1) <= limit(i)
 
-  /** By Snell's law; false at total reflection. */
+  /** Snell's law; false at total internal reflection. */
   private def refracts(i: Int, ray: Array[Double], ratio: Double): Boolean =
     val center = vertex(i) - radius(i)
     val inverse = 1.0 / radius(i)

@@ -3,17 +3,17 @@ package candela.cameras
 import candela.geometry.Ray
 import candela.math.*
 
-/** When the shutter is open, in the scene's unit of time. */
+/** Shutter interval, in the scene's unit of time. */
 final case class Shutter(open: Float, close: Float):
   def duration: Float = close - open
 
-  /** The time that a number in [0, 1) stands for. */
+  /** Maps a number in [0, 1) to a time. */
   def at(u: Float): Float = lerp(u, open, close)
 
-/** A camera that moves while the shutter is open: each ray leaves it where it is at the ray's time.
+/** An animated camera: each ray uses the transform at its time.
   *
-  * @param camera  stands at the origin and looks along +z
-  * @param toWorld moves it
+  * @param camera  at the origin, looking along +z
+  * @param toWorld its animated transform
   */
 final class MovingCamera(camera: Camera, toWorld: Motion) extends Camera:
   override def weighs: Boolean = camera.weighs

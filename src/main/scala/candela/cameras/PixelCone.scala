@@ -3,14 +3,14 @@ package candela.cameras
 import candela.geometry.{Frame, Ray, ShadingPoint}
 import candela.math.*
 
-/** The footprint of a pixel on a surface anywhere, as if the camera saw the place: what pbrt-v4
-  * takes where a ray has no differential of its own. The camera's sharpest pixel is taken, so that
-  * nothing is blurred too much.
+/** Approximate footprint of a pixel at any surface point, as if the camera saw the point: pbrt-v4's
+  * fallback for rays without differentials. Uses the camera's smallest pixel footprint, so as not
+  * to blur too much.
   *
-  * @param eye      the camera's position
+  * @param eye      position of the camera
   * @param stepX    between the origins of neighbouring rays (orthographic cameras), with `stepY`
   * @param turnX    between their unit directions (perspective cameras), with `turnY`
-  * @param scale    by the density of samples
+  * @param scale    scale by the sample density
   */
 final class PixelCone(
     eye: Vec3,
@@ -29,14 +29,15 @@ final class PixelCone(
     val distance = along.length
     val isApart = distance > 0f
     val inverse = if isApart then 1f / distance else 0f
-    // One Vec3 whatever the case: the compiler keeps only such off the heap
+    // A single Vec3 for all cases: the compiler keeps only that off the heap
     val axis = Vec3(along.x * inverse, along.y * inverse, if isApart then along.z * inverse else 1f)
     val frame = Frame.around(axis)
     val n = frame.toLocal(at.geometricNormal)
     at.dpdx = frame.toWorld(meeting(Vec3(stepX, 0f, 0f), directionX, n, distance)) * scale
     at.dpdy = frame.toWorld(meeting(Vec3(0f, stepY, 0f), directionY, n, distance)) * scale
 
-  /** From the point at `distance` along z to where the other ray meets its tangent plane. */
+  /** Vector from the point at `distance` along z to the offset ray's hit with its tangent plane.
+    */
   private def meeting(o: Vec3, d: Vec3, n: Vec3, distance: Float): Vec3 =
     val p = Vec3(0f, 0f, distance)
     val t = ((p - o) dot n) / (d dot n)
@@ -45,7 +46,7 @@ final class PixelCone(
     Vec3(if meets then v.x else 0f, if meets then v.y else 0f, if meets then v.z else 0f)
 
 object PixelCone:
-  /** Rays along the image's diagonal, of which the closest neighbours count. */
+  /** Rays along the image's diagonal, of which the closest neighbours are used. */
   private val Probes = 512
 
   def of(camera: Camera, eye: Vec3, width: Int, height: Int, scale: Float): PixelCone =

@@ -3,12 +3,12 @@ package candela.cameras
 import candela.geometry.Ray
 import candela.math.*
 
-/** What both projective cameras share: the film's place in camera space.
+/** Common parameters of projective cameras: the film's position in camera space.
   *
   * @param screen        left, right, bottom, top of the film on the plane z = 1 of camera space,
-  *                      before the field of view is applied
-  * @param lensRadius    0: a pinhole
-  * @param focalDistance along the viewing axis, to the plane of sharp focus
+  *   before the field of view is applied
+  * @param lensRadius    0 for a pinhole
+  * @param focalDistance distance along the viewing axis to the plane of focus
   */
 final case class ProjectiveSetup(
     cameraToWorld: Transform,
@@ -19,7 +19,7 @@ final case class ProjectiveSetup(
     focalDistance: Float
 )
 
-/** Shared geometry, in world space and ready to use. */
+/** Common base of projective cameras, with precomputed world-space geometry. */
 abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   private val (left, right, bottom, top) = setup.screen
   private val stepX = (right - left) / setup.width
@@ -43,10 +43,12 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   protected final def filmX(onScreen: Float): Float = (onScreen - left) / stepX
   protected final def filmY(onScreen: Float): Float = (onScreen - top) / stepY
 
-  /** For `c`, a point in camera space before the camera, seen from (`lx`, `ly`, 0). */
+  /** Finds the film position of `c`, a point in camera space in front of the camera, seen from
+    * (`lx`, `ly`, 0).
+    */
   protected def locate(c: Vec3, lx: Float, ly: Float, out: FilmPlace): Unit
 
-  /** Density at `c` of rays from `eye`, per area across the ray; both in camera space. */
+  /** Pdf at `c` of rays from `eye`, per area perpendicular to the ray; both in camera space. */
   protected def densityInside(eye: Vec3, c: Vec3): Float
 
   final override def see(p: Vec3, lensU: Float, lensV: Float, out: FilmPlace): Boolean =
@@ -66,20 +68,20 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   final override def density(eye: Vec3, p: Vec3): Float =
     val from = toCamera.point(eye)
     val to = toCamera.point(p)
-    // A linear map scales volumes by its determinant, and so areas across a direction by that over
-    // the stretch of the direction
+    // A linear map scales volumes by its determinant; hence it scales areas perpendicular to a
+    // direction by the determinant over the direction's scale
     val d = to - from
     val stretch = world(d.x, d.y, d.z).length / d.length
     (densityInside(from, to) * (stretch / volume)).toFloat
 
-  /** Of rays from one point through all of the screen, which has this area at z = 1. */
+  /** Pdf of rays from one point through the whole screen, of area `area` at z = 1. */
   protected final def fanDensity(eye: Vec3, c: Vec3, area: Float): Float =
     val d = c - eye
     val distance2 = d.lengthSquared
     val cosine = d.z / sqrt(distance2)
     if cosine > 0f then 1f / (area * cosine * cosine * cosine * distance2) else 0f
 
-  /** Where the plane of focus is met on the way from the lens to `c`. */
+  /** Intersection of the plane of focus with the line from the lens to `c`. */
   protected final def focusX(c: Vec3, lx: Float): Float =
     lx + (c.x - lx) * (setup.focalDistance / c.z)
   protected final def focusY(c: Vec3, ly: Float): Float =
@@ -96,9 +98,8 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
     axisX.z * x + axisY.z * y + axisZ.z * z
   )
 
-  /** Starts the ray on the lens at (u, v), which lies around the axis, through the point of the
-    * plane of focus that the pinhole ray from camera-space (`ox`, `oy`, 0) along (`dx`, `dy`, 1)
-    * meets.
+  /** Starts the ray on the lens at (u, v), around the axis, towards the point at which the pinhole
+    * ray from camera-space (`ox`, `oy`, 0) along (`dx`, `dy`, 1) hits the plane of focus.
     */
   protected final def throughLens(
       ox: Float,
@@ -141,10 +142,10 @@ final class PerspectiveCamera(setup: ProjectiveSetup, fov: Float) extends Projec
   protected def densityInside(eye: Vec3, c: Vec3): Float =
     fanDensity(eye, c, screenArea * spread * spread)
 
-/** Parallel projection along +z of camera space; the screen is in units of camera space.
+/** Orthographic camera along +z of camera space; the screen is in units of camera space.
   *
-  * With a lens all rays start on it, as in every pbrt: what lies before or behind the plane of
-  * focus is then seen as by a perspective camera.
+  * With a lens all rays start on it, as in all pbrt versions: points off the plane of focus then
+  * appear as by a perspective camera.
   */
 final class OrthographicCamera(setup: ProjectiveSetup) extends ProjectiveCamera(setup):
 

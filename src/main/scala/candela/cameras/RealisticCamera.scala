@@ -3,16 +3,16 @@ package candela.cameras
 import candela.geometry.Ray
 import candela.math.*
 
-/** Takes pictures through lenses of glass onto a film of some centimetres; the scene's unit is the
+/** Camera with a simulated lens system and a film of some centimetres; the scene's unit is the
   * metre.
   *
-  * A ray's weight makes the mean over samples the measurement that the film makes: cos⁴θ of the
-  * angle between its path to the rear lens and the axis, times the area in which it was chosen.
-  * Rays that hit the rim of a lens weigh nothing, which darkens the corners.
+  * A ray's weight turns the mean over samples into the film's measurement: cos⁴θ of the angle
+  * between the axis and the ray to the rear element, times the area over which it was sampled. Rays
+  * that hit a lens rim have weight 0, which causes vignetting.
   *
-  * @param lens  focused
-  * @param pupil of the lens
-  * @param gain  weight of a ray for each square metre of the pupil's rectangle, but for cos⁴θ
+  * @param lens  the focused lens system
+  * @param pupil exit pupil of the lens system
+  * @param gain  weight of a ray per square metre of the pupil's rectangle, without cos⁴θ
   *
   * Source: Kolb et al. 1995, as [[LensSystem]], equation 4; PBRT 4th ed., §5.4.7.
   */
@@ -32,7 +32,7 @@ final class RealisticCamera(
   override protected[cameras] def step: Float = 0.05f
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
-    // The image stands on its head and is mirrored
+    // The image on the film is upside down and reversed left to right
     val filmX = 0.5 * filmWidth - x * stepX
     val filmY = y * stepY - 0.5 * filmWidth * aspect
     val radius = Math.sqrt(filmX * filmX + filmY * filmY)
@@ -59,10 +59,10 @@ final class RealisticCamera(
         ray.set(o, d.normalized, Float.PositiveInfinity)
 
 object RealisticCamera:
-  /** In W·s/m² for each unit of radiance: what a film gathers in `seconds`. */
+  /** Gain in W·s/m² per unit of radiance: the film's exposure in `seconds`. */
   def exposureGain(lens: LensSystem, seconds: Double): Double =
     seconds / (lens.rearZ * lens.rearZ)
 
-  /** So that the middle of the image is about as bright as by other cameras. */
+  /** Gain that makes the image centre about as bright as with other cameras. */
   def relativeGain(pupil: ExitPupil): Double =
     if pupil.isDark(0) then 0.0 else 1 / pupil.area(0)

@@ -4,14 +4,13 @@ import candela.geometry.Ray
 import candela.lights.SphereMap
 import candela.math.*
 
-/** Looks to all sides from one point; the image's middle looks along −x of camera space in the
-  * equirectangular layout, and along +y in the equal-area one.
+/** Sees all directions from one point; the image centre looks along −x of camera space in the
+  * equirectangular mapping, and along +y in the equal-area mapping.
   *
-  * @param map   how the image covers the sphere, around the camera's y axis
-  * @param folds do images end at their border, as octahedral ones do, so that a place beyond is one
-  *              on the same border? Else longitude and latitude just go on
-  * @param step  to the neighbours of differentials, in pixels; these lie far apart where the map
-  *              bends
+  * @param map   mapping between image and sphere, around the camera's y axis
+  * @param folds whether a position past a border maps to the same border, as in octahedral images;
+  *   otherwise longitude and latitude simply continue
+  * @param step  pixel offset of the differentials; large where the mapping bends
   *
   * Source: PBRT 4th ed., §5.3; for the border Clarberg 2008, as [[candela.lights.EqualAreaMap]].
   */
@@ -29,7 +28,7 @@ final class SphericalCamera(
     val v = y / frame.height
     val d =
       if folds then
-        // Over a vertical border, then over a horizontal one: each mirrors the other coordinate
+        // Folds over a vertical border, then a horizontal one: each reflects the other coordinate
         val isBeside = u < 0f || u > 1f
         val v1 = if isBeside then 1f - v else v
         val isBeyond = v1 < 0f || v1 > 1f

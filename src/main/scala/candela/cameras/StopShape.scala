@@ -1,15 +1,14 @@
 package candela.cameras
 
-/** An aperture that is no disc, as a picture: how much light passes at each place of the square
-  * around the stop.
+/** A non-circular aperture, as an image: the transmission over the square around the stop.
   *
-  * @param values row by row, each from the left; the first row is the lowest
+  * @param values in rows from the left; the first row is the lowest
   */
 final class StopShape(width: Int, height: Int, values: Array[Float]):
   require(values.length == width * height, s"$width × $height")
 
-  /** Radius of the smallest disc around the middle that holds all that lets light through, in radii
-    * of the stop; 0: nothing does. An interpolated texel reaches one texel further on each side.
+  /** Radius of the smallest centred disk that contains all non-zero transmission, in radii of the
+    * stop; 0 if there is none. An interpolated texel extends by one texel on each side.
     */
   val extent: Double =
     val corners =
@@ -21,7 +20,7 @@ final class StopShape(width: Int, height: Int, values: Array[Float]):
       yield Math.hypot((x + 0.5 + dx) / width * 2 - 1, (y + 0.5 + dy) / height * 2 - 1)
     corners.maxOption.getOrElse(0.0)
 
-  /** Interpolated between texels, black beyond the picture.
+  /** Bilinear interpolation between texels, black outside the image.
     *
     * @param x in radii of the stop from the axis, as `y`
     */
@@ -41,17 +40,17 @@ final class StopShape(width: Int, height: Int, values: Array[Float]):
     if x < 0 || y < 0 || x >= width || y >= height then 0.0 else values(y * width + x)
 
 object StopShape:
-  /** Scaled so that as much light passes as through the disc that the square encloses. */
+  /** Scaled to transmit as much light as the disk inscribed in the square. */
   def asBrightAsDisc(width: Int, height: Int, values: Array[Float]): StopShape =
     val mean = values.map(_.toDouble).sum / values.length
     val scale = if mean > 0 then Math.PI / 4 / mean else 0.0
     StopShape(width, height, values.map(v => (v * scale).toFloat))
 
-/** The shapes that pbrt-v4 has names for, 256 texels wide as there. They stand upside down. */
+/** pbrt-v4's named shapes, 256 texels wide as there. They are flipped vertically. */
 object StopShapes:
   private val Size = 256
 
-  /** By name: what shines through at (x, y), in radii of the stop. */
+  /** By name: the transmission at (x, y), in radii of the stop. */
   val all: Map[String, () => StopShape] = Map(
     // A bell that is 0 at the rim of the stop
     "gaussian" -> (() => sampled((x, y) => Math.exp(-(x * x + y * y)) - Math.exp(-1))),
@@ -60,7 +59,8 @@ object StopShapes:
     "star" -> (() => polygon(starCorners))
   )
 
-  /** Of a pentagram, one point towards −x; the inner ones lie where its lines cross. */
+  /** Corners of a pentagram with one point towards −x; the inner corners are where its lines cross.
+    */
   private def starCorners =
     val inner = Math.cos(Math.toRadians(72)) / Math.cos(Math.toRadians(36))
     Vector.tabulate(10)(i => corner(if i % 2 == 1 then 1.0 else inner, Math.PI * i / 5))
@@ -68,7 +68,7 @@ object StopShapes:
   private def corner(radius: Double, angle: Double): (Double, Double) =
     (radius * Math.cos(angle), radius * Math.sin(angle))
 
-  /** 1 inside, by crossings of a line to the right of the place. */
+  /** 1 inside the polygon, 0 outside, by the even–odd rule with a ray to the right. */
   private def polygon(corners: Vector[(Double, Double)]): StopShape =
     val edges = corners.zip(corners.tail :+ corners.head)
     sampled: (x, y) =>

@@ -6,12 +6,13 @@ import candela.math.*
 import candela.sampling.Warp
 import candela.shapes.SurfaceSampler
 
-/** A surface that emits the same `emitted` radiance from each point in all directions of its
-  * outside (`twoSided`: of both sides).
+/** Diffuse area light: uniform `emitted` radiance from each point on the outside (`twoSided`: from
+  * both sides).
   *
-  * @param box contains the surface
-  * @param axis mean of its normals, and the cosine of the largest angle that a normal makes with it
-  * @param isContrary do rays that meet it see the other side shine?
+  * @param box  bounds of the surface
+  * @param axis mean normal of the surface, and the cosine of the largest angle between a normal and
+  *   it
+  * @param isContrary whether rays see the emission on the other side than light sampling does
   */
 final class AreaLight(
     surface: SurfaceSampler,
@@ -55,7 +56,7 @@ final class AreaLight(
     out.p = place.p
     out.pError = place.pError
     out.n = place.n
-    // Either side takes one half of the numbers
+    // Each side takes one half of the sample range
     val isInside = twoSided && v1 < 0.5f
     val first = if !twoSided then v1 else if isInside then 2f * v1 else 2f * v1 - 1f
     val up = if isInside then -place.n else place.n
@@ -68,15 +69,15 @@ final class AreaLight(
     val cosine = w dot n
     surface.areaPdf(p) * sided(if twoSided then Math.abs(cosine) else cosine)
 
-  /** Density of a direction. */
+  /** Pdf of a direction, per solid angle. */
   private def sided(cosine: Float): Float =
     Warp.cosineHemispherePdf(cosine) * (if twoSided then 0.5f else 1f)
 
   def meetingPdf(from: Vec3, ray: EmittedRay): Float =
     surface.pdf(from, ray.p, ray.n) * ray.cosine
 
-/** A surface that lights the scene and is nowhere to be seen: pbrt-v4's emitters whose `alpha` is
-  * 0. No ray meets it, so that only [[sample]] finds it.
+/** A light-emitting but invisible surface: pbrt-v4's emitters with `alpha` 0. Rays never hit it;
+  * only [[sample]] finds it.
   */
 final class HiddenLight(light: SurfaceLight) extends Light:
   def isDelta: Boolean = true

@@ -5,11 +5,11 @@ import candela.geometry.{Ball, Frame}
 import candela.math.*
 import candela.sampling.Warp
 
-/** A point that shines, perhaps more into some directions than into others. */
+/** A point light, possibly anisotropic. */
 abstract class PositionedLight(position: Vec3) extends Light:
   final def isDelta: Boolean = true
 
-  /** In W·sr⁻¹, into the unit direction `w` of world space. */
+  /** Intensity in the unit direction `w` of world space, in W·sr⁻¹. */
   def intensity(w: Vec3): Rgb
 
   final def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
@@ -25,7 +25,7 @@ abstract class PositionedLight(position: Vec3) extends Light:
 
   final def power(scene: Ball): Float = bounds.fold(0f)(_.power)
 
-  /** Directions among which are all that the light shines in; of density [[directionPdf]]. */
+  /** Samples a direction from a superset of those with emission; its pdf is [[directionPdf]]. */
   protected def direction(u1: Float, u2: Float): Vec3
   protected def directionPdf(w: Vec3): Float
 
@@ -47,22 +47,22 @@ abstract class PositionedLight(position: Vec3) extends Light:
   final def meetingPdf(from: Vec3, ray: EmittedRay): Float = (position - from).lengthSquared
 
 object PositionedLight:
-  /** What the cosine of a cone's edge may be off by rounding: light there must not be missed. */
+  /** Tolerance for rounding of the cosine at a cone's edge, so as not to miss light there. */
   private[lights] inline val Slack = 1e-4f
 
-/** One that may shine in any direction. */
+/** A point light that may emit in any direction. */
 abstract class RoundLight(position: Vec3) extends PositionedLight(position):
   protected def direction(u1: Float, u2: Float): Vec3 = Warp.uniformSphere(u1, u2)
   protected def directionPdf(w: Vec3): Float = Warp.UniformSpherePdf
 
-/** One that shines within a cone.
+/** A point light that emits within a cone.
   *
-  * @param axis   in light space
+  * @param axis   axis of the cone, in light space
   * @param spread 1 − cos of the angle between axis and edge
   */
 abstract class ConeLight(frame: LightFrame, axis: Vec3, spread: Float)
     extends PositionedLight(frame.position):
-  // Where the light's space is stretched its cone is none in the world
+  // An anisotropically scaled light space turns its cone into another shape in world space
   private val isCone = frame.keepsAngles
   private val around = Frame.around(frame.toWorld(axis))
 
@@ -74,13 +74,14 @@ abstract class ConeLight(frame: LightFrame, axis: Vec3, spread: Float)
     else if (w dot around.n) >= 1f - spread - PositionedLight.Slack then Warp.uniformConePdf(spread)
     else 0f
 
-/** A point that sends `all` (W·sr⁻¹) in all directions. */
+/** An isotropic point light of intensity `all` (W·sr⁻¹). */
 final class PointLight(position: Vec3, all: Rgb) extends RoundLight(position):
   def intensity(w: Vec3): Rgb = all
   def bounds: Option[LightBounds] =
     Some(LightBounds.everywhere(position, 4f * Pi * all.max))
 
-/** Parallel light of `irradiance` on a plane facing it, that travels against `toLight` (unit). */
+/** Directional light: irradiance `irradiance` on a plane facing it, arriving from `toLight` (unit).
+  */
 final class DistantLight(toLight: Vec3, irradiance: Rgb) extends Light:
   def isDelta: Boolean = true
 

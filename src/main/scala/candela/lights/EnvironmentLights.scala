@@ -4,10 +4,10 @@ import candela.color.Rgb
 import candela.math.*
 import candela.sampling.{Distribution2D, Warp}
 
-/** The same radiance from all directions.
+/** Uniform infinite light.
   *
-  * @param complete must `sample` find it? If not it is left to BSDF sampling, which serves a
-  *                 uniform light at least as well and costs no shadow ray
+  * @param complete whether `sample` must find the light; if false, only BSDF sampling does, which
+  *   serves a uniform light at least as well and saves a shadow ray
   */
 final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends EnvironmentLight:
   override def isSampled: Boolean = complete && !emitted.isBlack
@@ -21,11 +21,11 @@ final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends Environ
     out.pdf = pdf(from, out.wi)
     out.isInfinite = true
 
-/** Radiance from an image around the scene.
+/** Infinite light with an environment map.
   *
-  * @param complete must `sample` reach every bright pixel? If not, pixels darker than the mean are
-  *                 left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
-  *                 Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
+  * @param complete whether `sample` must reach every non-black pixel; if false, pixels darker than
+  *   the mean are left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
+  *   Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
   */
 final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Boolean)
     extends EnvironmentLight:
@@ -58,7 +58,7 @@ final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Bo
     val place = distribution.sample(u1, u2)
     val s = layout.stretch(place.y)
     out.wi = frame.toWorld(layout.toDirection(place.x, place.y))
-    // Within a pixel of one colour the place needs no way back from the direction
+    // With constant pixels, the sampled position saves mapping the direction back to the image
     out.radiance = if image.smooth then radiance(from, out.wi) else image.at(place)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true

@@ -3,13 +3,13 @@ package candela.lights
 import candela.geometry.Bounds3
 import candela.math.*
 
-/** Where lights are, where they shine and how much: enough to guess how much they matter at a
-  * point.
+/** Spatial and directional bounds of the emission of one or more lights, to estimate their
+  * contribution to a point.
   *
-  * @param axis         unit mean direction of the surfaces' normals
-  * @param cosNormals   of the largest angle between a normal and `axis` (θo)
-  * @param cosEmission  of the largest angle between a normal and light that it sends out (θe)
-  * @param power        in watts, any common scale
+  * @param axis         mean direction of the surface normals (unit)
+  * @param cosNormals   cosine of the largest angle between a normal and `axis` (θo)
+  * @param cosEmission  cosine of the largest angle between a normal and emitted light (θe)
+  * @param power        emitted power, in a unit common to all lights
   *
   * Source: Conty Estevez and Kulla, "Importance Sampling of Many Lights with Adaptive Tree
   * Splitting", PACMCGIT 1(2), 2018; the bound for cones as in Pharr, Jakob, Humphreys, "Physically
@@ -28,8 +28,8 @@ final case class LightBounds(
   private val radius2 = square(box.radius)
   private val minDistance2 = Math.max(radius2, square(box.extent.length * 0.5f))
 
-  /** Larger where these lights may bring more light to `p` with normal `n` (zero vector: a point
-    * that takes light from all around). Zero only where they can bring none.
+  /** Estimate of the contribution to `p` with normal `n` (zero vector: a point that receives light
+    * from all directions). Zero only if these lights can't contribute.
     */
   def importance(p: Vec3, n: Vec3): Float =
     val toCenter = center - p
@@ -38,7 +38,7 @@ final case class LightBounds(
     val cosAxis0 = -(axis dot wi)
     val cosAxis = if twoSided then Math.abs(cosAxis0) else cosAxis0
     val sinAxis = safeSqrt(1f - square(cosAxis))
-    // θb: half the angle under which the box is seen; from inside, all directions
+    // θb: half the angle subtended by the bounding sphere; all directions from inside
     val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
     val sinBox = safeSqrt(1f - square(cosBox))
     val cosX = LightBounds.cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
@@ -71,13 +71,13 @@ object LightBounds:
   def everywhere(p: Vec3, power: Float): LightBounds =
     LightBounds(Bounds3(p, p), Vec3.Z, -1f, 0f, power, twoSided = false)
 
-  /** cos(max(0, a − b)), and the sine. */
+  /** cos(max(0, a − b)); `sinDifference` is sin(max(0, a − b)). */
   private def cosDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
     if cosA > cosB then 1f else cosA * cosB + sinA * sinB
   private def sinDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
     if cosA > cosB then 0f else sinA * cosB - cosA * sinB
 
-  /** The narrowest cone around two cones, as axis and cosine of the half-angle. */
+  /** Smallest cone around two cones, as axis and cosine of the half-angle. */
   private def unionCones(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
     val angleA = Math.acos(clamp(cosA, -1f, 1f).toDouble)
     val angleB = Math.acos(clamp(cosB, -1f, 1f).toDouble)

@@ -4,29 +4,29 @@ import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 import candela.sampling.Discrete
 
-/** Which light to sample at a point. Immutable. */
+/** Light sampling distribution over the lights of a scene. Immutable. */
 abstract class LightSelection:
 
-  /** Chooses a light for the point `p` with normal `n`: its index, or −1 if none can bring
-    * light.
+  /** Samples a light for the point `p` with normal `n`; returns its index, or −1 if no light can
+    * contribute.
     */
   def choose(p: Vec3, n: Vec3, u: Float): Int
 
-  /** The probability with which `choose` returns `light`. */
+  /** Probability with which `choose` returns `light`. */
   def probability(p: Vec3, n: Vec3, light: Int): Float
 
-  /** Both at once: what `choose` returns, and with which probability. */
+  /** Samples a light and computes its probability. */
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit
 
   def describe: String
 
-/** Which light was chosen, and how probable that was; mutable, one per worker. */
+/** A sampled light with its probability; mutable, one per worker. */
 final class LightChoice:
-  /** −1: none. */
+  /** Index of the light; −1 if none. */
   var light: Int = -1
   var probability: Float = 0f
 
-/** Only one light: nothing to choose. */
+/** The only light. */
 final class SingleLight extends LightSelection:
   def choose(p: Vec3, n: Vec3, u: Float): Int = 0
   def probability(p: Vec3, n: Vec3, light: Int): Float = 1f
@@ -35,8 +35,8 @@ final class SingleLight extends LightSelection:
     out.probability = 1f
   def describe: String = "one light"
 
-/** By a binary tree of [[LightBounds]], going down at each node by the importance of its children;
-  * the lights at infinity are chosen each as often as the whole tree.
+/** Importance sampling over a binary tree of [[LightBounds]]: descends by the importance of the two
+  * children; each light at infinity is as likely as the whole tree.
   *
   * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
   */
@@ -46,13 +46,14 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private val finite: Array[(Int, LightBounds)] =
     for i <- lights.indices.toArray; b <- lights(i).bounds.toArray if b.power > 0f yield (i, b)
 
-  /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf. */
+  /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf.
+    */
   private val nodes = new Array[LightBounds](Math.max(1, 2 * finite.length))
   private val children = new Array[Int](nodes.length)
   private var used = 0
 
-  /** Per light: the way from the root as bits, low bit first, 1 = second child; −1: not in the
-    * tree.
+  /** Path from the root to each light as bits, low bit first, 1 = second child; −1 if the light is
+    * not in the tree.
     */
   private val trail = Array.fill(lights.length)(-1L)
 
@@ -79,7 +80,8 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
     nodes(node) = all
     all
 
-  /** Halves by the axis on which centres spread most: depth stays at log2 of the count. */
+  /** Median split along the axis of largest centroid extent: the depth stays at log2 of the count.
+    */
   private def split(part: Array[(Int, LightBounds)])
       : (Array[(Int, LightBounds)], Array[(Int, LightBounds)]) =
     val centers = candela.geometry.Bounds3.of(part.map(_._2.box.center)).extent
@@ -146,11 +148,11 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
       probability
 
 object LightSelection:
-  /** The plainest that serves these lights. */
+  /** The simplest exact specialisation for these lights. */
   def of(lights: Array[Light]): LightSelection =
     if lights.length == 1 then SingleLight() else LightTree(lights)
 
-  /** @param scene holds all surfaces */
+  /** @param scene bounds of all surfaces */
   def of(lights: Array[Light], strategy: LightStrategy, scene: Bounds3): LightSelection =
     strategy match
       case LightStrategy.Importance => of(lights)
@@ -158,18 +160,17 @@ object LightSelection:
       case LightStrategy.Power => FixedSelection.byPower(lights, Ball.around(scene))
       case LightStrategy.Uniform => FixedSelection.uniform(lights)
 
-/** By what the lights of a scene are chosen.
+/** Light sampling strategy.
   *
-  * All have the same mean; how noisy an image is depends on it. `Importance` goes by place and
-  * normal (a tree of lights), `Power` by the light that each sends into the scene, `Uniform` takes
-  * all alike.
+  * The choice affects noise only. `Importance` depends on position and normal (a light tree),
+  * `Power` on the emitted power; `Uniform` samples all lights with equal probability.
   */
 enum LightStrategy:
   case Importance, Power, Uniform
 
-/** The same chances everywhere.
+/** Fixed probabilities, independent of position.
   *
-  * @param weights of the lights, on any scale; 0: never chosen
+  * @param weights of the lights, in any unit; 0 means never sampled
   *
   * Source: PBRT 3rd ed., §14.3.1; 4th ed., §12.6.1 and §12.6.2.
   */
@@ -190,12 +191,12 @@ final class FixedSelection(weights: Array[Float], override val describe: String)
     out.probability = if out.light < 0 then 0f else probability(p, n, out.light)
 
 object FixedSelection:
-  /** @param scene holds all surfaces: what the power of far lights falls on */
+  /** @param scene bounding sphere of all surfaces, which lights at infinity illuminate */
   def byPower(lights: Array[Light], scene: Ball): FixedSelection =
     val powers = lights.map(l => if l.isSampled then Math.max(0f, l.power(scene)) else 0f)
     val known = powers.filter(_ > 0f)
     val mean = if known.isEmpty then 1f else known.sum / known.length
-    // Surroundings seen through a portal don't tell how much comes in
+    // The power that a portal admits is unknown
     val weights = lights.zip(powers).map: (light, power) =>
       if power == 0f && light.isSampled && light.bounds.isEmpty then mean else power
     FixedSelection(weights, s"${lights.length} lights, by power")

@@ -5,18 +5,18 @@ import candela.color.Rgb
 import candela.image.Image
 import candela.math.*
 
-/** What lights look up in a flat image. */
+/** Filter and wrap mode of a light's image. */
 enum PictureLookup:
-  /** The pixel's colour. */
+  /** Nearest pixel. */
   case Nearest
 
-  /** Bilinear between pixel centres; beyond the border the border goes on. */
+  /** Bilinear, clamped at the border. */
   case Smooth
 
-  /** Bilinear; beyond the border the other side follows. */
+  /** Bilinear, repeating. */
   case SmoothRepeating
 
-/** A flat image that a light shows; (x, y) in [0, 1], y down from its top.
+/** A flat image emitted by a light; (x, y) in [0, 1], y down from the top.
   *
   * @param image red, green, blue, linear
   */
@@ -43,7 +43,7 @@ final class Picture(image: Image, lookup: PictureLookup):
     if lookup == PictureLookup.SmoothRepeating then Math.floorMod(i, size)
     else clamp(i, 0, size - 1)
 
-  /** Mean over the pixels of `f` of their colour, weighted by their place (x, y). */
+  /** Mean of `f` over the pixels' colours, weighted by their position (x, y). */
   def mean(f: (Rgb, Float, Float) => Float): Float =
     var sum = 0.0
     loop(height): y =>
@@ -56,11 +56,11 @@ final class Picture(image: Image, lookup: PictureLookup):
         )
     (sum / (width.toDouble * height)).toFloat
 
-/** Colours between the four nearest pixels of an image. */
+/** Bilinear interpolation between the four nearest pixels. */
 private[lights] object Bilinear:
 
-  /** @param x, y  in pixels, from the first one's centre
-    * @param pixel where in `data` the pixel (i, j) begins, which may be beyond the border
+  /** @param x, y  in pixels, from the first pixel's centre
+    * @param pixel offset in `data` of the pixel (i, j), which may be outside the image
     */
   inline def apply(data: Array[Float], x: Float, y: Float)(inline pixel: (Int, Int) => Int): Rgb =
     val i = Math.floor(x).toInt

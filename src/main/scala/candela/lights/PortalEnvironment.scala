@@ -7,18 +7,19 @@ import candela.image.Image
 import candela.math.*
 import candela.sampling.WindowedDistribution2D
 
-/** Radiance from an image around the scene that comes in through a rectangular window alone.
+/** Infinite light with an environment map, visible through a rectangular portal only.
   *
-  * The image is redrawn so that straight lines along the window's sides are its rows and columns;
-  * what a point sees of the window then is a rectangle of the image, and just that is sampled.
+  * The image is resampled so that straight lines parallel to the portal's sides become its rows and
+  * columns. A point then sees the portal as a rectangle of the image, and samples just that.
   *
   * Source: Bitterli, Novák, Jarosz, "Portal-Masked Environment Map Sampling", CGF 34(4), 2015; PBRT
   * 4th ed., §12.5.3.
   *
-  * @param frame    turns the image
-  * @param corner   of the window, in world space
-  * @param opposite its other end
-  * @param window   its sides along `s` and `t`; the light is on the side of `n`
+  * @param frame    orientation of the image
+  * @param corner   a corner of the portal, in world space
+  * @param opposite the opposite corner
+  * @param window   the portal's frame, with sides along `s` and `t`; the light is on the side of
+  *   `n`
   */
 final class PortalEnvironment(
     frame: LightFrame,
@@ -30,7 +31,7 @@ final class PortalEnvironment(
   private val width = image.width
   private val height = image.height
 
-  /** As seen through the window: one colour a pixel. */
+  /** The rectified environment map: one colour per pixel. */
   private val rectified: Picture =
     val drawn = Image.rgb(width, height)
     loop(width * height): i =>
@@ -50,25 +51,25 @@ final class PortalEnvironment(
 
   override def isSampled: Boolean = distribution.integral(0f, 0f, 1f, 1f) > 0
 
-  /** What comes in is known only from where it arrives. */
+  /** The power admitted depends on the receiving point. */
   protected def total: Float = 0f
   override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
 
-  /** World direction of the place of the rectified image. */
+  /** World direction of a position in the rectified image. */
   private def direction(x: Float, y: Float): Vec3 =
     val a = Math.tan((x - 0.5) * Math.PI).toFloat
     val b = Math.tan((y - 0.5) * Math.PI).toFloat
     window.toWorld(Vec3(a, b, 1f).normalized)
 
-  /** Image area per steradian around the direction `w` of the window's frame. */
+  /** Image area per steradian at the direction `w` of the portal's frame. */
   private def density(w: Vec3): Float =
     InvPi * InvPi * w.z / ((1f - w.x * w.x) * (1f - w.y * w.y))
 
   private def place(along: Float, z: Float): Float =
     clamp(Math.atan2(along.toDouble, z.toDouble).toFloat * InvPi + 0.5f, 0f, 1f)
 
-  /** What `from` sees of the window, (x0, y0, x1, y1) of the image, is handed to `use`; or `none`
-    * if the window is behind.
+  /** Passes the rectangle (x0, y0, x1, y1) of the image that `from` sees through the portal to
+    * `use`; `none` if the portal faces away.
     */
   private inline def seen[A](from: Vec3, none: A)(
       inline use: (Float, Float, Float, Float) => A

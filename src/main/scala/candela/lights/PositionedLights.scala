@@ -4,24 +4,24 @@ import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.math.*
 
-/** How a spotlight fades between its bright cone and its edge. */
+/** Falloff of a spotlight between its inner cone and its edge. */
 enum Fade:
-  /** The fourth power of the way from the edge, in cosines: pbrt-v2 and v3. */
+  /** Fourth power of the distance from the edge, in cosines: pbrt-v2 and v3. */
   case Quartic
 
-  /** 3t² − 2t³ of it: pbrt-v4. */
+  /** Smoothstep, 3t² − 2t³: pbrt-v4. */
   case Cubic
 
-  /** For `t` from 0 at the edge to 1. */
+  /** Evaluates the falloff for `t` from 0 (edge) to 1. */
   def apply(t: Float): Float = this match
     case Quartic => square(square(t))
     case Cubic => t * t * (3f - 2f * t)
 
-/** A cone of light from a point along `axis` (unit, in light space).
+/** Spotlight along `axis` (unit, in light space).
   *
-  * @param all     intensity within the bright cone, in W·sr⁻¹
-  * @param cosEdge of the angle between axis and edge, where the light ends
-  * @param cosFull of the angle where it begins to fade
+  * @param all     intensity within the inner cone, in W·sr⁻¹
+  * @param cosEdge cosine of the angle between axis and edge, where the light ends
+  * @param cosFull cosine of the angle at which the falloff begins
   */
 final class SpotLight(
     frame: LightFrame,
@@ -56,15 +56,16 @@ final class SpotLight(
       )
 
 object SpotLight:
-  /** ∫ of the intensity over all directions, where it is 1 within the bright cone, for
-    * [[Fade.Cubic]]: the fading part counts half.
+  /** ∫ of the intensity over all directions for unit intensity within the inner cone and
+    * [[Fade.Cubic]]: the falloff region has weight 1/2.
     */
   def solidAngle(cosEdge: Float, cosFull: Float): Float =
     TwoPi * ((1f - cosFull) + (cosFull - cosEdge) * 0.5f)
 
-/** A point that shines as measured: its intensity into each direction is in an image.
+/** Goniometric light: a point light with measured intensity, stored as an image over all
+  * directions.
   *
-  * The image's pole (+z of its map) is the light's +y, as in all of pbrt.
+  * The image's pole (+z of its map) is the light's +y, as in all pbrt versions.
   */
 final class GoniometricLight(frame: LightFrame, image: SphereImage)
     extends RoundLight(frame.position):
@@ -76,11 +77,12 @@ final class GoniometricLight(frame: LightFrame, image: SphereImage)
   def bounds: Option[LightBounds] =
     Some(LightBounds.everywhere(frame.position, 4f * Pi * image.meanOfMax))
 
-/** A slide projector at a point, looking along its +z.
+/** Projection light at a point, looking along its +z.
   *
-  * @param tanHalf of half the angle of the image's shorter side
-  * @param slide   None: all of the (square) image is white
-  * @param upright is the image's top on the light's +y? So in pbrt-v4; in v2 and v3 on −y
+  * @param tanHalf tangent of half the field of view of the image's shorter side
+  * @param slide   image to project; if empty, a white square
+  * @param upright whether the top of the image is at the light's +y, as in pbrt-v4; at −y in v2 and
+  *   v3
   */
 final class ProjectionLight(
     frame: LightFrame,
@@ -120,44 +122,44 @@ final class ProjectionLight(
       )
 
 object ProjectionLight:
-  /** Cosine between axis and direction below which nothing is projected, as in all of pbrt. */
+  /** Cosine with the axis below which nothing is projected, as in all pbrt versions. */
   private inline val Near = 1e-3f
 
-  /** 1 − cos of a cone that holds the image. */
+  /** 1 − cos of a cone that contains the image. */
   private def spread(slide: Option[Picture], tanHalf: Float): Float =
     1f - Screen(slide.fold(1f)(_.aspect), tanHalf).cosCorner + PositionedLight.Slack
 
-  /** The image at distance 1 from the projector. */
+  /** The image plane at distance 1 from the projector. */
   final class Screen(aspect: Float, tanHalf: Float):
     val halfWidth: Float = tanHalf * Math.max(1f, aspect)
     val halfHeight: Float = tanHalf * Math.max(1f, 1f / aspect)
     def area: Float = 4f * halfWidth * halfHeight
     def cosCorner: Float = 1f / sqrt(1f + square(halfWidth) + square(halfHeight))
 
-    /** Steradians per area at the place (x, y) of the image: the cube of the cosine. */
+    /** Steradians per image area at (x, y): the cube of the cosine. */
     def stretch(x: Float, y: Float): Float =
       val length2 = 1f + square((2f * x - 1f) * halfWidth) + square((2f * y - 1f) * halfHeight)
       1f / (length2 * sqrt(length2))
 
-  /** Total power that `slide` lets through, in lumens.
+  /** Total power that `slide` transmits, in lumens.
     *
-    * @param luminance of its colours
+    * @param luminance luminance of a colour
     */
   def power(slide: Picture, tanHalf: Float, luminance: Rgb => Float): Float =
     val screen = Screen(slide.aspect, tanHalf)
     screen.area * slide.mean((c, x, y) => luminance(c) * screen.stretch(x, y))
 
-/** Where a light is and how it is turned: between its own directions and the world's. Directions
-  * come back with unit length, whatever the transform scales.
+/** Position and orientation of a light: maps between light and world directions. Directions are
+  * returned with unit length, whatever the transform scales.
   */
 final class LightFrame(lightToWorld: Transform):
   private val toWorldRows = lightToWorld.m.map(_.toFloat)
   private val toLightRows = lightToWorld.inverseM.map(_.toFloat)
 
-  /** In world space. */
+  /** Position in world space. */
   val position: Vec3 = lightToWorld.point(Vec3.Zero)
 
-  /** Are angles in the light's space those of the world? Not if the transform stretches. */
+  /** Whether the transform preserves angles; false for anisotropic scaling. */
   val keepsAngles: Boolean =
     val columns = Seq(Vec3.X, Vec3.Y, Vec3.Z).map(lightToWorld.vector)
     val length2 = columns.map(_.lengthSquared).max

@@ -5,11 +5,11 @@ import candela.color.Rgb
 import candela.image.Image
 import candela.math.*
 
-/** A colour for each direction, from an image that `layout` spreads over the sphere.
+/** An environment map: a colour per direction, from an image mapped to the sphere by `layout`.
   *
   * @param image  red, green, blue, linear
-  * @param factor of the image's values
-  * @param smooth bilinear between pixel centres (pbrt-v2, v3), or each pixel of one colour (v4)
+  * @param factor scale of the image's values
+  * @param smooth whether lookups are bilinear (pbrt-v2, v3) or nearest-pixel (v4)
   */
 final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val smooth: Boolean):
   val width: Int = image.width
@@ -23,10 +23,10 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
       d(3 * i + 2) *= factor.b
     d
 
-  /** Towards the unit direction `d` of light space. */
+  /** Colour in the unit direction `d` of light space. */
   def apply(d: Vec3): Rgb = at(layout.toImage(d))
 
-  /** At the image place (x, y, 0). */
+  /** Colour at the image position (x, y, 0). */
   def at(place: Vec3): Rgb =
     if smooth then between(place)
     else
@@ -34,7 +34,7 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
       val first = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
       Rgb(data(first), data(first + 1), data(first + 2))
 
-  /** Bilinear, whatever `smooth` says. */
+  /** Bilinear lookup, regardless of `smooth`. */
   def between(place: Vec3): Rgb =
     val fx = place.x * width - 0.5f
     val fy = place.y * height - 0.5f
@@ -43,7 +43,7 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
   private def pixel(x: Int, y: Int): Int =
     3 * (layout.wrapY(x, y, width, height) * width + layout.wrapX(x, y, width, height))
 
-  /** Mean brightness over the pixel: what lookups within it average to. */
+  /** Mean brightness of lookups within the pixel. */
   def brightness(x: Int, y: Int): Float =
     if !smooth then brightness(pixel(x, y))
     else
@@ -56,7 +56,7 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
 
   private def brightness(at: Int): Float = (data(at) + data(at + 1) + data(at + 2)) * (1f / 3f)
 
-  /** Of the largest component, over all directions. */
+  /** Mean of the largest component over all directions. */
   def meanOfMax: Float =
     var sum = 0.0
     var weights = 0.0
@@ -69,8 +69,8 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
     (sum / weights).toFloat
 
 object SphereImage:
-  /** What each pixel of a 3×3 neighbourhood adds to the mean of bilinear lookups in the middle one:
-    * the products of 1/8, 3/4, 1/8.
+  /** Weights of a 3×3 neighbourhood in the mean of bilinear lookups within its centre pixel: the
+    * products of 1/8, 3/4, 1/8.
     */
   private val Tent: Array[Float] =
     val side = Array(0.125f, 0.75f, 0.125f)

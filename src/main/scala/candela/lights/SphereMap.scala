@@ -2,25 +2,26 @@ package candela.lights
 
 import candela.math.*
 
-/** How an image covers the sphere of directions; (x, y) are in [0, 1], y down from the image's
-  * top.
+/** Mapping between an image and the sphere of directions; (x, y) in [0, 1], y down from the top.
   */
 abstract class SphereMap:
 
-  /** Image place of the unit direction `d`, as (x, y, 0). */
+  /** Image position of the unit direction `d`, as (x, y, 0). */
   def toImage(d: Vec3): Vec3
 
-  /** Unit direction of the image place. */
+  /** Unit direction of an image position. */
   def toDirection(x: Float, y: Float): Vec3
 
-  /** Steradians per unit of image area at the place; 0 where the map degenerates. */
+  /** Steradians per unit of image area; 0 where the mapping degenerates. */
   def stretch(y: Float): Float
 
-  /** The pixel beyond the border, (x, y) moved back into a `width` × `height` image. */
+  /** Maps pixels outside a `width` × `height` image back into it. */
   def wrapX(x: Int, y: Int, width: Int, height: Int): Int
   def wrapY(x: Int, y: Int, width: Int, height: Int): Int
 
-/** Longitude along x, colatitude from +z down y: the layout of pbrt-v2's and v3's `mapname`. */
+/** Equirectangular mapping: longitude along x, colatitude from +z down y; the layout of pbrt-v2's
+  * and v3's `mapname`.
+  */
 object LatLongMap extends SphereMap:
   def toImage(d: Vec3): Vec3 =
     val phi = Math.atan2(d.y.toDouble, d.x.toDouble).toFloat
@@ -37,10 +38,10 @@ object LatLongMap extends SphereMap:
 
   def wrapX(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(x, width)
 
-  // Beyond a pole pbrt has the other one's row, as of a texture that repeats
+  // Beyond a pole pbrt reads the opposite row, as for a repeating texture
   def wrapY(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(y, height)
 
-/** The equal-area octahedral map of pbrt-v4's environment images.
+/** The equal-area octahedral mapping of pbrt-v4's environment maps.
   *
   * Source: Clarberg, "Fast Equal-Area Mapping of the (Hemi)Sphere using SIMD", JGT 13(3), 2008.
   */
@@ -50,7 +51,7 @@ object EqualAreaMap extends SphereMap:
     val ay = Math.abs(d.y)
     val az = Math.abs(d.z)
     val r = safeSqrt(1f - az)
-    // Of the first octant, in [0, 1]
+    // Position in the first octant, in [0, 1]
     val longer = if ax >= ay then ax else ay
     val shorter = if ax >= ay then ay else ax
     val half = if longer == 0f then 0f else arcTangent(shorter / longer) * (2f * InvPi)
@@ -61,8 +62,9 @@ object EqualAreaMap extends SphereMap:
     val v = if d.z < 0f then 1f - u0 else v0
     Vec3((Math.copySign(u, d.x) + 1f) * 0.5f, (Math.copySign(v, d.y) + 1f) * 0.5f, 0f)
 
-  /** For `x` in [0, 1], off by at most 2e-8 and rounding; `Math.atan2` took 6 % of a render under
-    * an image. Source: Abramowitz and Stegun, "Handbook of Mathematical Functions", 1964, 4.4.49.
+  /** Arctangent for `x` in [0, 1], with an error of at most 2e-8 plus rounding; `Math.atan2` took 6
+    * % of a render with an environment map. Source: Abramowitz and Stegun, "Handbook of
+    * Mathematical Functions", 1964, 4.4.49.
     */
   private def arcTangent(x: Float): Float =
     val z = x * x
@@ -87,7 +89,7 @@ object EqualAreaMap extends SphereMap:
 
   def stretch(y: Float): Float = 4f * Pi
 
-  // Beyond a border the octahedron goes on at the same border, mirrored at its middle
+  // Outside a border the octahedron continues at the same border, reflected about its midpoint
   def wrapX(x: Int, y: Int, width: Int, height: Int): Int =
     val inside = if x < 0 then -1 - x else if x >= width then 2 * width - 1 - x else x
     if y < 0 || y >= height then width - 1 - inside else inside

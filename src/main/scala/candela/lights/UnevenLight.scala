@@ -5,17 +5,17 @@ import candela.geometry.{Ball, ShadingPoint}
 import candela.math.*
 import candela.shapes.SurfaceSampler
 
-/** A surface whose points shine unlike: a factor for each of what `even` emits. Points are chosen
-  * as if all shone alike, and looked at then.
+/** An area light with spatially varying emission: the emission of `even`, scaled at each point.
+  * Points are sampled as for uniform emission.
   *
-  * @param even of the same surface
+  * @param even uniform light on the same surface
   */
 abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends SurfaceLight:
 
-  /** Of the emission that is sampled at a point. */
+  /** Scale of the emission at the sampled point. */
   protected def factor(at: ShadingPoint): Rgb
 
-  /** An upper bound of the factor, or its mean: for how often the light is chosen. */
+  /** Upper bound or mean of the scale, for light selection. */
   protected def strength: Float
 
   override def isContrary: Boolean = even.isContrary
@@ -23,7 +23,7 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     even.sample(from, u1, u2, out)
     if out.pdf > 0f then
-      // What the ray meets first is either the chosen point or hides it
+      // The ray's closest hit is either the sampled point or occludes it
       out.ray.set(from, out.wi, Float.PositiveInfinity)
       if surface.meets(out.ray, out.hit, out.at) then out.radiance = out.radiance * factor(out.at)
       else out.pdf = 0f
@@ -35,7 +35,7 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
   def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
     even.emit(scene, u1, u2, v1, v2, out)
     if out.pdf > 0f then
-      // A look back at the point, from so close that nothing of a smooth surface is between
+      // Traces back to the point, from so close that no smooth surface occludes it
       val work = out.sample
       val start = out.p + out.direction * (UnevenLight.Near * sqrt(surface.area))
       work.ray.set(start, -out.direction, Float.PositiveInfinity)
@@ -52,12 +52,12 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
     even.bounds.map(b => b.copy(power = b.power * strength))
 
 object UnevenLight:
-  /** Part of the surface's extent. */
+  /** Fraction of the surface's extent. */
   private val Near = 1e-2f
 
-/** A surface that shows a picture over its u and v (v up), each of its points shining evenly.
+/** An area light textured by an image over u and v (v up).
   *
-  * @param plain of the same surface, emitting the factor of the picture
+  * @param plain light of the same surface with the image's scale as its emission
   */
 final class PictureLight(plain: AreaLight, surface: SurfaceSampler, picture: Picture)
     extends UnevenLight(plain, surface):
@@ -70,9 +70,9 @@ final class PictureLight(plain: AreaLight, surface: SurfaceSampler, picture: Pic
 
   protected lazy val strength: Float = picture.mean((c, _, _) => c.max)
 
-/** A surface with holes that emits where it has none, as far as it is there.
+/** An area light on an alpha-masked surface: emission is scaled by alpha.
   *
-  * @param alpha how much of the surface is there: rays that meet it find all of that
+  * @param alpha opacity of the surface; the part that rays hit is opaque
   */
 final class PerforatedLight(
     light: SurfaceLight,

@@ -5,14 +5,14 @@ import candela.math.*
 import candela.sampling.HenyeyGreenstein
 import candela.textures.PerlinNoise
 
-/** A cloud of noise, denser below.
+/** Procedural cloud of noise, denser at the bottom.
   *
-  * @param toUnit    from world space to the unit cube, which is the box in the cloud's own space
-  * @param corner    of the box
+  * @param toUnit    world space to the unit cube, which is the box in the cloud's own space
+  * @param corner    lower corner of the box
   * @param extent    of the box: from `corner` to the opposite one
-  * @param density   factor of the noise; the whole is held to [0, 1]
-  * @param wispiness how far the noise is shifted by finer noise
-  * @param frequency of the noise
+  * @param density   scale of the noise; the result is clamped to [0, 1]
+  * @param wispiness amplitude of the displacement by finer noise
+  * @param frequency frequency of the noise
   *
   * The formula is pbrt-v4's.
   */
@@ -36,7 +36,7 @@ final class CloudMedium(
     val d = densityAt(corner.x + x * extent.x, height, corner.z + z * extent.z)
     out.setDensity(d, absorption, scattering)
 
-  /** In the cloud's own space. */
+  /** Density at a point of the cloud's own space. */
   private[media] def densityAt(px: Float, py: Float, pz: Float): Float =
     var x = frequency * px
     var y = frequency * py
@@ -70,5 +70,5 @@ final class CloudMedium(
     clamp(puffs + 2f * Math.max(0f, 0.5f - py), 0f, 1f)
 
 object CloudMedium:
-  /** By which the noise's slope is measured. */
+  /** Step of the noise's finite differences. */
   private inline val Step = 0.01f

@@ -3,16 +3,18 @@ package candela.media
 import candela.color.Rgb
 import candela.math.*
 
-/** The radiance of a medium where it is opaque and only absorbs, from place to place. */
+/** Spatially varying emission of a medium, as the radiance it has where it is opaque and purely
+  * absorbing.
+  */
 abstract class Glow:
   /** Sets the three `glow…` of `out`. */
   def fill(x: Float, y: Float, z: Float, out: MediumPoint): Unit
 
   def describe: String
 
-/** One colour, times a grid. */
+/** Constant colour, scaled by a grid. */
 final class ColoredGlow(emitted: Rgb, scale: SampledGrid) extends Glow:
-  def describe: String = s"glowing (${scale.describe})"
+  def describe: String = s"emissive (${scale.describe})"
 
   def fill(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val s = Math.max(0f, scale(x, y, z))
@@ -20,11 +22,11 @@ final class ColoredGlow(emitted: Rgb, scale: SampledGrid) extends Glow:
     out.glowG = emitted.g * s
     out.glowB = emitted.b * s
 
-/** The colour of a black body of a grid's temperature, times another grid.
+/** Blackbody emission from a grid of temperatures, scaled by another grid.
   *
   * @param offset subtracted from the grid's temperatures, in K
-  * @param factor then multiplies them
-  * @param colors of black bodies, up to the hottest that there is
+  * @param factor scale of the difference
+  * @param colors blackbody colours up to the highest temperature
   */
 final class ThermalGlow(
     temperature: SampledGrid,
@@ -33,7 +35,7 @@ final class ThermalGlow(
     colors: ThermalColors,
     scale: SampledGrid
 ) extends Glow:
-  def describe: String = s"glowing by temperature (${temperature.describe})"
+  def describe: String = s"emissive by temperature (${temperature.describe})"
 
   def fill(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val s = scale(x, y, z)
@@ -44,8 +46,8 @@ final class ThermalGlow(
       out.glowG = 0f
       out.glowB = 0f
 
-/** A table of colours by temperature, linear in between. What is not hotter than
-  * [[ThermalColors.Coldest]] is black.
+/** A table of blackbody colours by temperature, linearly interpolated. Black up to
+  * [[ThermalColors.Coldest]].
   */
 final class ThermalColors(hottest: Float, color: Float => Rgb):
   import ThermalColors.*

@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.math.Transform
 import candela.sampling.HenyeyGreenstein
 
-/** A grid of densities, which multiply the coefficients.
+/** A medium with a grid of densities, which scale its coefficients.
   *
   * @param absorption, scattering coefficients at a density of 1, per scene unit
   */
@@ -38,7 +38,7 @@ object GridMedium:
   private def bounds(density: SampledGrid): MajorantGrid =
     MajorantGrid.of(density.nx, density.ny, density.nz)(density.most)
 
-/** Three grids, one for each colour. */
+/** Three grids, one per colour. */
 final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid):
   private[media] def most(
       x0: Float,
@@ -52,10 +52,10 @@ final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid
     val mg = g.most(x0, y0, z0, x1, y1, z1)
     Math.max(Math.max(mr, mg), b.most(x0, y0, z0, x1, y1, z1))
 
-/** Grids of coefficients; what is not given as a grid is the same all over the box.
+/** A medium with grids of coefficients; a coefficient without a grid is constant in the box.
   *
-  * @param constant absorption or scattering where it has no grid
-  * @param factor   of all coefficients
+  * @param constant absorption or scattering without a grid
+  * @param factor   scale of all coefficients
   */
 final class ColorGridMedium(
     toUnit: Transform,
@@ -79,7 +79,7 @@ final class ColorGridMedium(
   def isChromatic: Boolean = true
 
   def describe: String =
-    s"grid ${size.describe} of colours" + (if glow.isDefined then ", glowing" else "")
+    s"grid ${size.describe} of colours" + (if glow.isDefined then ", emissive" else "")
 
   protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val a = absorbing

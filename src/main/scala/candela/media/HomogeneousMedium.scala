@@ -5,10 +5,10 @@ import candela.geometry.Ray
 import candela.math.*
 import candela.sampling.HenyeyGreenstein
 
-/** The same everywhere, without end. Distances and transmittances are exact.
+/** Homogeneous, unbounded medium. Distances and transmittances are exact.
   *
   * @param absorption, scattering coefficients, per scene unit
-  * @param emitted    radiance that it has where it is opaque and only absorbs
+  * @param emitted    radiance where the medium is opaque and purely absorbing
   */
 final class HomogeneousMedium(
     absorption: Rgb,
@@ -34,7 +34,7 @@ final class HomogeneousMedium(
     val distance = if ofHero > 0f then -log(1f - first) / ofHero else Float.PositiveInfinity
     val scatters = distance < end
     val length = if scatters then distance else end
-    // The hero's density of this event is ofHero·exp(−ofHero·length), or without the factor
+    // The hero's pdf of this event is ofHero·exp(−ofHero·length), or without the factor
     val s = scattering
     val t = extinction
     w.r *= weight(t.r, ofHero, length)
@@ -50,7 +50,7 @@ final class HomogeneousMedium(
       w.scale(s * inverse)
       w.scaleDensity(s.r * inverse, s.g * inverse, s.b * inverse)
     else
-      // Light sampling takes the exact transmittance: it passes with density 1
+      // Light sampling uses the exact transmittance: its probability of passing is 1
       val passing = weight(0f, ofHero, length)
       w.scaleLight(passing, passing, passing)
     w.balance()
@@ -68,7 +68,7 @@ final class HomogeneousMedium(
       weight(scattering.b, 0f, length)
     )
 
-  /** exp(−(sigma − ofHero)·length), where nothing times any length is nothing. */
+  /** exp(−(sigma − ofHero)·length), with 0 times infinity as 0. */
   private def weight(sigma: Float, ofHero: Float, length: Float): Float =
     if sigma == ofHero then 1f else exp((ofHero - sigma) * length)
 

@@ -3,23 +3,22 @@ package candela.media
 import candela.base.loop
 import candela.math.*
 
-/** Bounds of a medium's density from above: one for each cell of the unit cube. Where they are low,
-  * a ray makes long steps.
+/** Majorants of a medium's density, one per cell of the unit cube. Low majorants allow long steps.
   */
 final class MajorantGrid(val nx: Int, val ny: Int, val nz: Int, values: Array[Float]):
   def apply(x: Int, y: Int, z: Int): Float = values((z * ny + y) * nx + x)
   def describe: String = s"$nx×$ny×$nz"
 
 object MajorantGrid:
-  /** Cells along an axis at most; as in pbrt-v4. */
+  /** Maximum number of cells along an axis, as in pbrt-v4. */
   private val Finest = 16
 
-  /** The same bound everywhere. */
+  /** A constant majorant. */
   def constant(most: Float): MajorantGrid = MajorantGrid(1, 1, 1, Array(most))
 
-  /** As fine as samples of this number along each axis give reason to.
+  /** Majorants at a resolution suited to this number of samples along each axis.
     *
-    * @param most the bound in a box of the unit cube: x0, y0, z0, x1, y1, z1
+    * @param most upper bound in a box of the unit cube: x0, y0, z0, x1, y1, z1
     */
   def of(nx: Int, ny: Int, nz: Int)(
       most: (Float, Float, Float, Float, Float, Float) => Float
@@ -42,13 +41,13 @@ object MajorantGrid:
       )
     MajorantGrid(cx, cy, cz, values)
 
-/** The way of a ray through a [[MajorantGrid]], cell by cell. Mutable, one per worker.
+/** Traversal of a [[MajorantGrid]] by a ray, cell by cell. Mutable, one per worker.
   *
   * Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
   * 1987.
   */
 final class MajorantWalk:
-  /** Of the current cell: where the ray enters and leaves it, and its bound. */
+  /** The current cell: the ray's entry and exit distances, and the majorant. */
   var begin, end, most = 0f
 
   /** The ray in the space of the unit cube. */
@@ -60,7 +59,9 @@ final class MajorantWalk:
   private var nextX, nextY, nextZ = 0f
   private var deltaX, deltaY, deltaZ = 0f
 
-  /** Goes to where the ray enters the unit cube; false if it does not before `until`. */
+  /** Moves to the cell where the ray enters the unit cube; false if it does not enter before
+    * `until`.
+    */
   def enter(origin: Vec3, direction: Vec3, until: Float, bounds: MajorantGrid): Boolean =
     grid = bounds
     ox = origin.x
@@ -84,7 +85,7 @@ final class MajorantWalk:
       deltaZ = 1f / (grid.nz * Math.abs(dz))
       true
 
-  /** Goes to the next cell; false at the way's end. */
+  /** Moves to the next cell; false at the end of the traversal. */
   def next(): Boolean =
     if !(end < last) then false
     else

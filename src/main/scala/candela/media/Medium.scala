@@ -4,49 +4,48 @@ import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.{HenyeyGreenstein, RandomStream}
 
-/** What fills space between surfaces, and scatters, absorbs or emits light there. Immutable.
+/** A participating medium, which scatters, absorbs or emits light between surfaces. Immutable.
   *
-  * Scattering is decided by chance, absorption is a weight: what only absorbs makes no noise where
-  * its transmittance is known, and little where it must be estimated.
+  * Scattering is sampled, absorption is a weight: a purely absorbing medium adds no noise where its
+  * transmittance is known analytically, and little where it is estimated.
   */
 abstract class Medium:
   val phase: HenyeyGreenstein
 
-  /** Follows the camera's path along `ray`, as far as `ray.tMax`, to where the medium scatters it.
-    * Changes `work.weights` to what is left, and adds to `work`'s glow what the medium emits on the
-    * way.
+  /** Traces the camera path along `ray`, up to `ray.tMax`, to the next scattering event. Multiplies
+    * `work.weights` by the path's weight, and adds the emission on the way to `work`'s glow.
     *
-    * @param first a number in [0, 1) of the path's sampler, for the first collision
-    * @param emits is the medium's own light to be added?
-    * @return the ray's parameter where it is scattered; −1: nowhere
+    * @param first number in [0, 1) from the path's sampler, for the first collision
+    * @param emits whether to add the medium's emission
+    * @return the ray's parameter at the scattering event; −1 if there is none
     */
   def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float
 
-  /** Changes `work.shadow` to what arrives of light along `ray`, as far as `ray.tMax`. */
+  /** Multiplies `work.shadow` by the transmittance along `ray`, up to `ray.tMax`. */
   def dim(ray: Ray, work: MediumWork): Unit
 
-  /** Does it treat colours differently? */
+  /** Whether the coefficients depend on colour. */
   def isChromatic: Boolean
 
   def isEmissive: Boolean
 
-  /** For the plan. */
+  /** Summary for the render plan. */
   def describe: String
 
 object Medium:
-  /** Do these coefficients treat colours differently? */
+  /** Whether these coefficients depend on colour. */
   private[media] def isChromatic(absorption: Rgb, scattering: Rgb): Boolean =
     Seq(absorption + scattering, scattering).exists(c => c.r != c.g || c.g != c.b)
 
-/** Coefficients at one place, per scene unit; mutable. Emission is that of the place, per length:
-  * the absorption coefficient times the radiance that the medium would have if it were opaque.
+/** Coefficients at a point, per scene unit; mutable. Emission is local, per length: the absorption
+  * coefficient times the radiance of an opaque medium.
   */
 final class MediumPoint:
   var absorbR, absorbG, absorbB = 0f
   var scatterR, scatterG, scatterB = 0f
   var glowR, glowG, glowB = 0f
 
-  /** Those of a medium where it is `density` times as dense; `glow` stays as it is. */
+  /** Sets the coefficients to `density` times the given ones; leaves `glow` unchanged. */
   def setDensity(density: Float, absorption: Rgb, scattering: Rgb): Unit =
     absorbR = density * absorption.r
     absorbG = density * absorption.g
@@ -55,18 +54,18 @@ final class MediumPoint:
     scatterG = density * scattering.g
     scatterB = density * scattering.b
 
-/** Work space of walks through media, one per worker. */
+/** Scratch memory of media traversals, one per worker. */
 final class MediumWork:
   val random = RandomStream()
 
-  /** Of the path from the camera, and of the light that is sampled at one of its points. */
+  /** Weights of the camera path, and of the light sampled at one of its vertices. */
   val weights = PathWeights()
   val shadow = PathWeights()
 
   private[media] val walk = MajorantWalk()
   private[media] val point = MediumPoint()
 
-  /** Light that media on the path emitted towards the camera. */
+  /** Radiance emitted by media along the path towards the camera. */
   var glowR, glowG, glowB = 0f
 
   def start(hero: Int): Unit =

@@ -3,31 +3,29 @@ package candela.media
 import candela.color.Rgb
 import candela.math.*
 
-/** What a path through media carries, in three colours. Mutable, one per worker and purpose.
+/** Weights of a path through media, in three colours. Mutable, one per worker and purpose.
   *
-  * Where a medium treats colours differently, one of them (the hero) decides by chance what
-  * happens, and the path is weighted as if each of the three might have decided: the balance
-  * heuristic over the three. So all numbers here are those of each colour over the hero's density,
-  * scaled such that the densities `u` have a mean of 1: the throughput is then that of the combined
-  * estimate.
+  * In chromatic media, one colour (the hero) drives all random decisions, and the path is weighted
+  * as if each of the three might have done so: the balance heuristic over the three. All numbers
+  * are those of each colour over the hero's pdf, scaled to a mean of 1 for the pdfs `u`: the
+  * throughput is then that of the combined estimator.
   *
   * Sources: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014; Miller, Georgiev,
-  * Jarosz,
-  * "A null-scattering path integral formulation of light transport", TOG 38(4), 2019; PBRT 4th ed.,
-  * §14.2.
+  * Jarosz, "A null-scattering path integral formulation of light transport", TOG 38(4), 2019; PBRT
+  * 4th ed., §14.2.
   */
 final class PathWeights:
-  /** The colour by which chance decides: 0, 1 or 2. */
+  /** The colour that drives sampling: 0, 1 or 2. */
   var hero: Int = 0
 
   /** Throughput. */
   var r, g, b = 1f
 
-  /** Density with which this path is made, by each colour. */
+  /** Pdf of this path by each colour. */
   var ur, ug, ub = 1f
 
-  /** Density with which light sampling would have made it, but for the choice of the point on the
-    * light; 0: it could not.
+  /** Pdf of this path by light sampling, without that of the point on the light; 0 if light
+    * sampling could not generate it.
     */
   var lr, lg, lb = 0f
 
@@ -71,18 +69,20 @@ final class PathWeights:
     lg *= sg
     lb *= sb
 
-  /** A direction was just chosen with this density (0: no light sampling competes with it). */
+  /** Starts a new segment in a direction of this pdf (0 if light sampling does not compete with
+    * it).
+    */
   def turn(pdf: Float): Unit =
     val l = if pdf > 0f then 1f / pdf else 0f
     lr = ur * l
     lg = ug * l
     lb = ub * l
 
-  /** Passes the optical depths `t` without a collision, for all three kinds of numbers. */
+  /** Passes the optical depths `t` without a collision, for throughput and both kinds of pdf. */
   def pass(tr: Float, tg: Float, tb: Float): Unit =
     if tr != tg || tg != tb then
       val th = ofHero(tr, tg, tb)
-      // Differences first: both of two exponentials may be 0
+      // Differences first: both exponentials may underflow to 0
       val er = exp(th - tr)
       val eg = exp(th - tg)
       val eb = exp(th - tb)
@@ -92,7 +92,7 @@ final class PathWeights:
       scaleDensity(er, eg, eb)
       scaleLight(er, eg, eb)
 
-  /** Brings the mean of the densities back to 1. */
+  /** Rescales the mean of the pdfs to 1. */
   def balance(): Unit =
     if ur != ug || ug != ub || ur != 1f then
       val sum = ur + ug + ub
@@ -103,5 +103,7 @@ final class PathWeights:
         scaleLight(s, s, s)
       else scale(0f)
 
-  /** Lets a faint path end with probability 1 − `chance`, and makes up for it otherwise. */
+  /** Russian roulette: terminates a faint path with probability 1 − `chance`, and compensates
+    * otherwise.
+    */
   def gamble(u: Float, chance: Float): Unit = scale(if u < chance then 1f / chance else 0f)

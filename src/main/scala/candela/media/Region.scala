@@ -5,11 +5,11 @@ import candela.geometry.{Bounds3, Ray}
 import candela.math.*
 import candela.sampling.HenyeyGreenstein
 
-/** A box that is filled with a medium whose density varies: pbrt-v2's volumes. Unlike a [[Medium]]
-  * it needs no surface around it, and several may overlap. Immutable.
+/** A box filled with a medium of varying density: pbrt-v2's volumes. Unlike a [[Medium]] it needs
+  * no bounding surface, and several may overlap. Immutable.
   *
-  * @param toWorld from the volume's space, where `box` is
-  * @param filling what it is filled with
+  * @param toWorld from volume space, in which `box` is given
+  * @param filling coefficients of the medium
   */
 abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   private val toVolume = toWorld.inverse
@@ -18,10 +18,10 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   val emitted: Rgb = filling.emitted
   val phase: HenyeyGreenstein = filling.phase
 
-  /** At a place of the volume's space within the box. */
+  /** Density at a point of volume space within the box. */
   protected def density(p: Vec3): Float
 
-  /** Is it the same all over the box? */
+  /** Whether the density is constant in the box. */
   def isUniform: Boolean
 
   def describe: String
@@ -32,7 +32,7 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
       p.z >= box.min.z && p.z <= box.max.z
     if isInside then density(p) else 0f
 
-  /** Sets `overlap` to the part of the ray's way from `from` to `to` that is in the box. */
+  /** Sets `overlap` to the part of the ray between `from` and `to` that is in the box. */
   final def clip(ray: Ray, from: Float, to: Float, overlap: Overlap): Boolean =
     val o = toVolume.point(ray.origin)
     val d = toVolume.vector(ray.direction)
@@ -43,17 +43,17 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
     overlap.cut(o.z, d.z, box.min.z, box.max.z)
     overlap.begin <= overlap.end
 
-/** What a [[Region]] is filled with.
+/** Coefficients of a [[Region]].
   *
   * @param absorption, scattering, emitted  at a density of 1, per scene unit
   */
 final case class Filling(absorption: Rgb, scattering: Rgb, emitted: Rgb, phase: HenyeyGreenstein)
 
-/** A part of a ray's way; mutable. */
+/** An interval of a ray; mutable. */
 final class Overlap:
   var begin, end = 0f
 
-  /** Leaves what is between two planes across an axis. */
+  /** Clips to the slab between two planes perpendicular to an axis. */
   private[media] def cut(o: Float, d: Float, low: Float, high: Float): Unit =
     if d == 0f then
       if o < low || o > high then end = Float.NegativeInfinity
@@ -63,18 +63,18 @@ final class Overlap:
       begin = Math.max(begin, Math.min(a, b))
       end = Math.min(end, Math.max(a, b))
 
-/** The same all over a box. */
+/** Constant density in a box. */
 final class UniformRegion(toWorld: Transform, box: Bounds3, filling: Filling)
     extends Region(toWorld, box, filling):
   def isUniform: Boolean = true
   def describe: String = "homogeneous"
   protected def density(p: Vec3): Float = 1f
 
-/** Thinner with height above the box's lowest corner, exponentially.
+/** Density that decreases exponentially with height above the box's lowest corner.
   *
-  * @param up     unit vector along which height is measured
+  * @param up     axis of height (unit)
   * @param ground density at height 0
-  * @param fall   by how much its logarithm falls, per unit of the volume's space
+  * @param fall   decrease of its logarithm, per unit of volume space
   */
 final class ExponentialRegion(
     toWorld: Transform,

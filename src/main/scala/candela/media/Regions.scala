@@ -4,16 +4,16 @@ import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
 
-/** All volumes of a scene, whose densities add up where they overlap. Immutable; the work space of
-  * a walk is a [[RegionWork]].
+/** All volumes of a scene; densities add up where they overlap. Immutable; scratch memory is a
+  * [[RegionWork]].
   */
 final class Regions(all: Array[Region]):
   def newWork(): RegionWork = RegionWork(all.length)
 
   def describe: String = s"${all.length} (${all.map(_.describe).mkString("; ")})"
 
-  /** Sets `out.overlap` to the part of the ray, as far as `ray.tMax`, from where it first enters a
-    * region to where it last leaves one.
+  /** Sets `out.overlap` to the part of the ray, up to `ray.tMax`, from its first entry into a
+    * region to its last exit from one.
     */
   def clip(ray: Ray, out: RegionWork): Boolean =
     var begin = Float.PositiveInfinity
@@ -28,12 +28,12 @@ final class Regions(all: Array[Region]):
     out.overlap.end = end
     begin < end
 
-  /** Adds to `out.depth…` the optical depth of the ray's way from `from` to `to`: exact where a
-    * region is uniform, else summed in steps.
+  /** Adds the optical depth of the ray between `from` and `to` to `out.depth…`: exact for uniform
+    * regions, else by ray marching.
     *
     * @param unit   length of the ray's direction
-    * @param step   length of a step, in scene units
-    * @param offset of the first sample, as a part of a step
+    * @param step   step size, in scene units
+    * @param offset offset of the first sample, as a fraction of a step
     */
   def addDepth(
       ray: Ray,
@@ -65,7 +65,7 @@ final class Regions(all: Array[Region]):
         out.depthB += length * region.extinction.b
       i += 1
 
-  /** Sets coefficients at a place, and the density of each region. */
+  /** Sets the coefficients at a point, and the density of each region. */
   def at(p: Vec3, out: RegionWork): Unit =
     out.scatterR = 0f
     out.scatterG = 0f
@@ -86,8 +86,8 @@ final class Regions(all: Array[Region]):
       out.glowB += d * region.emitted.b
       i += 1
 
-  /** How the regions together scatter from `wi` to `wo` at the place of the last [[at]]: by the
-    * mean of their phase functions, weighted by the luminance of what they scatter.
+  /** Phase function of all regions from `wi` to `wo` at the point of the last [[at]]: the mean of
+    * their phase functions, weighted by the luminance of their scattering coefficients.
     */
   def phase(wo: Vec3, wi: Vec3, work: RegionWork): Float =
     var sum, weights = 0f
@@ -101,10 +101,10 @@ final class Regions(all: Array[Region]):
     if weights > 0f then sum / weights else 0f
 
 object Regions:
-  /** Of a way through a region: whatever step a scene asks for, a ray comes to an end. */
+  /** Maximum number of steps through a region, for any step size. */
   inline val MostSteps = 65536
 
-/** Work space of walks through [[Regions]], one per worker. */
+/** Scratch memory for traversing [[Regions]], one per worker. */
 final class RegionWork(count: Int):
   val overlap = Overlap()
   private[media] val density = new Array[Float](count)
@@ -112,7 +112,7 @@ final class RegionWork(count: Int):
   /** Optical depth. */
   var depthR, depthG, depthB = 0f
 
-  /** What is scattered and emitted at a place, per scene unit. */
+  /** Scattering and emission at a point, per scene unit. */
   var scatterR, scatterG, scatterB = 0f
   var glowR, glowG, glowB = 0f
 
@@ -121,7 +121,7 @@ final class RegionWork(count: Int):
     depthG = 0f
     depthB = 0f
 
-  /** What passes the optical depth. */
+  /** Transmittance of the optical depth. */
   def transmittance: Rgb = Rgb(exp(-depthR), exp(-depthG), exp(-depthB))
 
   def scatters: Boolean = scatterR > 0f || scatterG > 0f || scatterB > 0f

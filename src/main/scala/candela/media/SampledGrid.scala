@@ -2,17 +2,17 @@ package candela.media
 
 import candela.math.*
 
-/** What a grid of samples has beyond its outermost ones. */
+/** Values of a grid outside its outermost samples. */
 enum GridEdge:
-  /** Nothing: so in pbrt-v3 and v4. */
+  /** Zero, as in pbrt-v3 and v4. */
   case Zero
 
-  /** The outermost samples go on: so in pbrt-v2. */
+  /** Clamped to the outermost samples, as in pbrt-v2. */
   case Clamped
 
-/** Numbers over the unit cube, linear between the centres of its cells.
+/** Values over the unit cube, trilinearly interpolated between cell centres.
   *
-  * @param values nx·ny·nz of them, x first
+  * @param values nx·ny·nz values, x fastest
   */
 final class SampledGrid(
     val nx: Int,
@@ -47,7 +47,7 @@ final class SampledGrid(
     else if x < 0 || y < 0 || z < 0 || x >= nx || y >= ny || z >= nz then 0f
     else values((z * ny + y) * nx + x)
 
-  /** The greatest value in a box, or more; at least 0. */
+  /** Upper bound of the values in a box; at least 0. */
   def most(x0: Float, y0: Float, z0: Float, x1: Float, y1: Float, z1: Float): Float =
     def first(p: Float, n: Int) = clamp(Math.floor(p * n - 0.5).toInt, 0, n - 1)
     def last(p: Float, n: Int) = clamp(Math.floor(p * n - 0.5).toInt + 1, 0, n - 1)
@@ -63,7 +63,7 @@ final class SampledGrid(
   def describe: String = s"$nx×$ny×$nz"
 
 object SampledGrid:
-  /** One sample, in the middle of the cube. With zeros around it, it is 1 there alone and half of
-    * it at the middle of each side.
+  /** A single sample at the centre of the cube. Surrounded by zeros, it is 1 there alone and half
+    * of it at the centre of each face.
     */
   val One: SampledGrid = SampledGrid(1, 1, 1, Array(1f))

@@ -4,13 +4,12 @@ import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
 
-/** A medium that varies within a box, outside of which it is not. Collisions are sampled with a
-  * density that nowhere falls short of the true one, and those beyond the true one change nothing
-  * (null collisions, Woodcock tracking).
+/** A heterogeneous medium within a box. Collisions are sampled with a majorant of the extinction;
+  * the excess are null collisions (Woodcock tracking).
   *
-  * @param toUnit  from world space to the unit cube, which the medium fills
-  * @param bounds  greatest density, cell by cell
-  * @param most    coefficients of extinction at a density of 1, per scene unit
+  * @param toUnit  world space to the unit cube, which the medium fills
+  * @param bounds  majorants of the density, per cell
+  * @param most    extinction coefficients at a density of 1, per scene unit
   *
   * Sources: Woodcock et al. 1965; Novák, Georgiev, Hanika, Jarosz, "Monte Carlo Methods for
   * Volumetric Light Transport Simulation", CGF 37(2), 2018, §4.4 (weighted tracking) and §5.1.4
@@ -18,7 +17,7 @@ import candela.math.*
   */
 abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb) extends Medium:
 
-  /** Coefficients at a place of the unit cube; of `glow` only if the medium is emissive. */
+  /** Coefficients at a point of the unit cube; those of `glow` only if the medium is emissive. */
   protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit
 
   final def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float =
@@ -104,10 +103,10 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     w.b *= b
     w.scaleDensity(r, g, b)
 
-  /** A collision that does not scatter: what is absorbed is a weight.
+  /** A null or absorbing collision: absorption is a weight.
     *
-    * @param mr, mg, mb density of collisions, per unit of the ray's parameter
-    * @param chance     the hero's, of going on; light sampling always does
+    * @param mr, mg, mb pdf of collisions, per unit of the ray's parameter
+    * @param chance     the hero's probability of continuing; light sampling always continues
     */
   private def meetNothing(
       w: PathWeights,
@@ -128,7 +127,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     w.scaleDensity(kr, kg, kb)
     w.scaleLight(mr * inverse, mg * inverse, mb * inverse)
 
-  /** What the medium emits at a collision of any kind, over the density of such collisions. */
+  /** Adds the emission at a collision of any kind, over the pdf of such collisions. */
   private def addGlow(work: MediumWork, mr: Float, mg: Float, mb: Float, unit: Float): Unit =
     val w = work.weights
     val p = work.point
@@ -140,5 +139,5 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
       work.glowB += w.b * p.glowB * weight
 
 object VaryingMedium:
-  /** What is left of the light, where going on is left to chance. */
+  /** Transmittance below which Russian roulette applies. */
   private val Faint = 0.02f

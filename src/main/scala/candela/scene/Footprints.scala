@@ -4,16 +4,17 @@ import candela.cameras.PixelCone
 import candela.geometry.{Ray, ShadingPoint}
 import candela.math.Vec3
 
-/** Which part of a texture a sample stands for, along a path.
+/** Texture footprints of path vertices: ray differentials where available, else an approximation.
   *
-  * @param followsSpecular do differentials go on past mirrors and glass? Else they end there
-  * @param otherwise       the footprint of rays that have none; if empty, textures show their
-  *                        finest detail to them
+  * @param followsSpecular if true, differentials continue through specular scattering; else they
+  *   end at the first hit
+  * @param otherwise       footprint of rays without differentials; if empty, textures are not
+  *   filtered for them
   */
 final class Footprints(followsSpecular: Boolean, otherwise: Option[PixelCone]):
   private val cone: PixelCone | Null = otherwise.orNull
 
-  /** Fills in the footprint of the point that the ray has met. */
+  /** Sets the footprint of the hit point `at`. */
   def find(ray: Ray, at: ShadingPoint): Unit =
     val rays = ray.differential
     if rays.isKnown && rays.meet(at) then at.footprintInUv()
@@ -24,7 +25,7 @@ final class Footprints(followsSpecular: Boolean, otherwise: Option[PixelCone]):
         at.footprintInUv()
       else at.clearFootprint()
 
-  /** The ray goes on from `at` to `wi`, having come from `wo` (world space). */
+  /** Updates the differential of a ray scattered at `at` from `wo` to `wi` (world space). */
   def scattered(
       ray: Ray,
       at: ShadingPoint,
@@ -39,7 +40,7 @@ final class Footprints(followsSpecular: Boolean, otherwise: Option[PixelCone]):
       else if ((wo dot at.frame.n) < 0f) == ((wi dot at.frame.n) < 0f) then rays.reflect(at, wo, wi)
       else rays.refract(at, wo, wi, eta)
 
-  /** The ray goes straight on through an interface: as after any other scattering in pbrt-v2 and
-    * v3, while v4 keeps its differential.
+  /** Updates the differential of a ray that passes an interface unscattered: pbrt-v2 and v3 treat
+    * it as any other scattering event; v4 keeps the differential.
     */
   def passed(ray: Ray): Unit = if cone == null then ray.differential.isKnown = false

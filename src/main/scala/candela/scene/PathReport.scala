@@ -6,47 +6,49 @@ import candela.geometry.ShadingPoint
 import candela.lights.LightSample
 import candela.math.Vec3
 
-/** Says what happens along one path, in the order in which it happens: for whoever looks for the
-  * reason of a bad sample. Directions at a BSDF are in its frame, all else is in the world.
+/** Reports the events of one path in order, for debugging a bad sample. BSDF directions are in the
+  * shading frame, everything else is in world space.
   *
-  * @param say takes one line
+  * @param say receives one line at a time
   */
 final class PathReport(say: String => Unit):
   private var vertices = 0
   private var throughput = Rgb.White
 
-  /** A path has come to a surface that scatters; what its BSDF is asked is told, too. */
+  /** Reports a scattering vertex; returns a BSDF that also reports its evaluations. */
   def scatters(at: ShadingPoint, bsdf: Bsdf): Bsdf =
     vertices += 1
     say(s"$vertices: point ${at.p} (error ${at.pError}), material ${at.material}: ${name(bsdf)}")
-    say(s"   normal ${at.geometricNormal}, of the frame ${at.frame.n}; u ${at.u}, v ${at.v}")
+    say(s"   normal ${at.geometricNormal}, shading normal ${at.frame.n}; u ${at.u}, v ${at.v}")
     ReportedBsdf(bsdf, this)
 
   def value(wo: Vec3, wi: Vec3, f: Rgb): Unit = say(s"   wo $wo, wi $wi: f $f")
 
-  def density(pdf: Float): Unit = say(s"   of which the pdf is $pdf")
+  def density(pdf: Float): Unit = say(s"   pdf $pdf")
 
-  /** The throughput is the product of all weights: of integrators that follow every sample. */
+  /** Accumulates the throughput as the product of all weights: right for integrators that follow
+    * every sample.
+    */
   def bounce(wo: Vec3, s: BsdfSample): Unit =
     throughput = throughput * s.weight
     val kind = if s.isSpecular then "specular, " else ""
-    say(s"   goes on from wo $wo to wi ${s.wi}: ${kind}weight ${s.weight}, pdf ${s.pdf}, " +
+    say(s"   continues from wo $wo to wi ${s.wi}: ${kind}weight ${s.weight}, pdf ${s.pdf}, " +
       s"throughput $throughput")
 
   def chosen(light: Int, s: LightSample): Unit =
     say(s"   light $light is sampled: radiance ${s.radiance}, pdf ${s.pdf}, direction ${s.wi}")
 
   def found(light: Int, radiance: Rgb): Unit =
-    say(s"   light $light is met: radiance $radiance, throughput $throughput")
+    say(s"   light $light is hit: radiance $radiance, throughput $throughput")
 
-  /** The path sees another side of the surface that it has come to. */
+  /** Reports the replacement of the BSDF at the current vertex. */
   def sees(bsdf: Bsdf, how: String): Bsdf =
     say(s"   $how: ${name(bsdf)}")
     ReportedBsdf(bsdf, this)
 
   private def name(bsdf: Bsdf): String = bsdf.getClass.getSimpleName
 
-/** Tells of every question and its answer. */
+/** Reports every query and its result. */
 private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends WrappedBsdf(bsdf):
   override def f(wo: Vec3, wi: Vec3): Rgb =
     val value = bsdf.f(wo, wi)
@@ -59,12 +61,12 @@ private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Wrapped
     density
 
   override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    told(wo, bsdf.sample(wo, choice, u1, u2))
+    reported(wo, bsdf.sample(wo, choice, u1, u2))
 
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
-    told(wo, bsdf.sampleSpecular(wo, choice))
+    reported(wo, bsdf.sampleSpecular(wo, choice))
 
-  private def told(wo: Vec3, sample: BsdfSample): BsdfSample =
+  private def reported(wo: Vec3, sample: BsdfSample): BsdfSample =
     report.bounce(wo, sample)
     sample
 

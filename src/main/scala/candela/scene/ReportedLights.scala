@@ -5,14 +5,14 @@ import candela.geometry.{Ball, ShadingPoint}
 import candela.lights.*
 import candela.math.Vec3
 
-/** Lights that tell a [[PathReport]] what is asked of them, and are else the same. */
+/** Decorates lights to report their queries to a [[PathReport]]; otherwise unchanged. */
 private[scene] object ReportedLights:
   def of(light: Light, index: Int, report: PathReport): Light = light match
     case l: SurfaceLight => OnSurface(l, index, report)
     case l: EnvironmentLight => Around(l, index, report)
     case l => Other(l, index, report)
 
-  /** Light paths are not told. */
+  /** Light subpaths are not reported. */
   private sealed trait Emitting(source: Light) extends Light:
     override def isContrary: Boolean = source.isContrary
     override def power(scene: Ball): Float = source.power(scene)
@@ -55,7 +55,7 @@ private[scene] object ReportedLights:
   private final class Around(light: EnvironmentLight, index: Int, report: PathReport)
       extends EnvironmentLight
       with Emitting(light):
-    protected def total: Float = 0f // `power` is not asked for it here
+    protected def total: Float = 0f // unused: `power` delegates
     def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
       light.sample(from, u1, u2, out)
       report.chosen(index, out)

@@ -7,13 +7,12 @@ import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
 import candela.math.Vec3
 import candela.shapes.Shape
 
-/** A shape that is no triangle, with what it looks like.
+/** A shape other than a triangle, with its appearance.
   *
   * @param material index into the scene's materials
-  * @param light    index into its lights, −1: it does not emit
-  * @param inverted do its normals point to the other side where rays meet it than where light
-  *                 sampling does? So with some of pbrt's, whose emission is seen on one side while
-  *                 what they light lies on the other
+  * @param light    index into the scene's lights; −1 if the shape does not emit
+  * @param inverted whether the normals seen by rays are opposite to those of light sampling: some
+  *   of pbrt's shapes emit visibly on one side and illuminate the other
   */
 final case class ShapeInstance(
     shape: Shape,
@@ -22,14 +21,14 @@ final case class ShapeInstance(
     inverted: Boolean = false
 )
 
-/** All that a ray can meet, and all that lights it. Immutable; shared by all workers.
+/** Geometry, materials, lights and media of a scene. Immutable; shared by all workers.
   *
   * @param surfaces        numbered as the accelerator's primitives; instances follow
-  * @param sidesByGeometry does the geometric normal say which directions are reflections? So in
-  *                        pbrt-v2 and v3, which thereby keep light from leaking through; pbrt-v4
-  *                        goes by the shading normal alone
-  * @param footprints      if textures ask for them, or displacements for partial derivatives
-  * @param report          is told of every surface that scatters; see [[reported]]
+  * @param sidesByGeometry whether the geometric normal separates reflection from transmission, as
+  *   in pbrt-v2 and v3, which prevents light leaks; pbrt-v4 uses the shading normal only
+  * @param footprints      present if textures need footprints, or displacements need partial
+  *   derivatives
+  * @param report          receives every scattering surface; see [[reported]]
   */
 final class Scene(
     surfaces: Surfaces,
@@ -48,7 +47,7 @@ final class Scene(
   private val footprintRule: Footprints | Null = footprints.orNull
   private val hasFootprints = footprints.isDefined
 
-  /** Those of `lights` that surround the scene, with their indices. */
+  /** The infinite lights among `lights`, with their indices. */
   val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
   val environmentIndex: Array[Int] =
     lights.indices.filter(i => lights(i).isInstanceOf[EnvironmentLight]).toArray
@@ -57,17 +56,17 @@ final class Scene(
     case s: SurfaceLight => s
     case _ => null
 
-  /** Holds all surfaces. */
+  /** Bounding sphere of all surfaces. */
   lazy val ball: Ball = Ball.around(accelerator.bounds)
 
   def closest(ray: Ray, hit: Hit): Boolean = accelerator.closest(ray, hit)
 
   def isOccluded(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
 
-  /** A point to be filled in by `surface` with all that the materials ask for. */
+  /** Returns an empty point for `surface` to fill, with all that the materials need. */
   def newPoint(): ShadingPoint = ShadingPoint(wantsPartials = hasFootprints)
 
-  /** Tells a ray that was just set on its way from `at` what became of its neighbours. */
+  /** Updates the differential of a ray just spawned at `at`. */
   def scattered(
       ray: Ray,
       at: ShadingPoint,
@@ -86,7 +85,7 @@ final class Scene(
     val rule = footprintRule
     if rule != null then rule.passed(ray)
 
-  /** Works out the geometry of the hit that `closest` found. */
+  /** Computes the geometry of the hit that `closest` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val primitive = hit.primitive
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
@@ -94,14 +93,14 @@ final class Scene(
     val rule = footprintRule
     if rule != null && at.wantsPartials then rule.find(ray, at)
 
-  /** Does light pass here as if nothing were there? */
+  /** Whether light passes this surface unscattered. */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 
-  /** Are there surfaces where it does? Then shadow rays must look at what they hit. */
+  /** Whether any surface is an interface; shadow rays must then examine their hits. */
   val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
 
-  /** Traces a ray through interfaces to the first other surface and computes its geometry; false if
-    * the ray leaves the scene.
+  /** Traces a ray through interfaces to the closest other surface and computes its geometry; false
+    * if the ray escapes.
     */
   def closestBehindInterfaces(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     var found = closest(ray, hit)
@@ -117,7 +116,7 @@ final class Scene(
     val report = told
     if report == null then made else report.scatters(at, made)
 
-  /** The same scene, of which one path is told. */
+  /** Returns the same scene, reporting one path. */
   def reported(report: PathReport): Scene =
     val telling = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))
     Scene(
@@ -132,20 +131,20 @@ final class Scene(
       Some(report)
     )
 
-  /** Does any surface split light by wavelength? */
+  /** Whether any surface is dispersive. */
   val isDispersive: Boolean = materials.exists(_.isDispersive)
 
-  /** Does light travel beneath any surface? */
+  /** Whether any surface has subsurface scattering. */
   val hasSubsurface: Boolean = materials.exists(_.isSubsurface)
 
-  /** Does it beneath surfaces of this material? */
+  /** Whether this material has subsurface scattering. */
   def isSubsurface(material: Int): Boolean = materials(material).isSubsurface
 
-  /** How light travels beneath the surface; null: it does not. */
+  /** The BSSRDF at `at`; null if the material has none. */
   def bssrdf(at: ShadingPoint): Bssrdf | Null = materials(at.material).bssrdf(at)
 
-  /** One material may have several numbers. */
+  /** One material may have several indices. */
   def isSameMaterial(a: Int, b: Int): Boolean = materials(a) eq materials(b)
 
-  /** The light whose surface `at` is on; only if `at.areaLight` ≥ 0. */
+  /** The light whose surface `at` is on; requires `at.areaLight` ≥ 0. */
   def surfaceLight(at: ShadingPoint): SurfaceLight = surfaceLights(at.areaLight)

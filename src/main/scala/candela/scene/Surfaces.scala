@@ -4,8 +4,8 @@ import candela.accel.{Instances, Masks, Primitives}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.shapes.TriangleSoup
 
-/** What one accelerator's primitives look like: those of the world, or of an object that instances
-  * place in it.
+/** Geometry and appearance of one accelerator's primitives: those of the world, or of an instanced
+  * object.
   */
 final class Surfaces(
     val soup: TriangleSoup,
@@ -14,11 +14,11 @@ final class Surfaces(
 ):
   def count: Int = soup.count + solids.length
 
-  /** What an accelerator is made of: these, and instances of others. */
+  /** The primitives to build an accelerator from: these surfaces, and `instances` of others. */
   def primitives(instances: Instances = Instances.Empty): Primitives =
     Primitives(soup, solids.map(_.shape), instances, masks)
 
-  /** Works out the geometry of the hit on `primitive`, in the space of these surfaces. */
+  /** Computes the geometry of the hit on `primitive`, in the space of these surfaces. */
   def fill(primitive: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     if primitive < soup.count then soup.surface(primitive, hit, at)
     else
@@ -28,18 +28,18 @@ final class Surfaces(
       at.areaLight = solid.light
       if solid.inverted then at.invert()
 
-/** The instances of a scene, with what their objects look like.
+/** The instances of a scene, with the surfaces of their objects.
   *
-  * @param objects surfaces of each object, as `instances` numbers them
+  * @param objects surfaces of each object, in the numbering of `instances`
   */
 final class Instanced(val objects: Array[Surfaces], val instances: Instances):
 
-  /** Works out the geometry of a hit on instance `i`, in world space. */
+  /** Computes the geometry of a hit on instance `i`, in world space. */
   def fill(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
     instances.locate(i, ray, at)
 
-  /** For the plan. */
+  /** Summary for the render plan. */
   def describe: String =
     if instances.count == 0 then "none"
     else

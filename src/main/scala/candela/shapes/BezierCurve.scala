@@ -3,10 +3,10 @@ package candela.shapes
 import candela.base.loop
 import candela.math.*
 
-/** One cubic Bézier curve with its width at both ends.
+/** A cubic Bézier curve with its width at both ends.
   *
   * @param points  twelve numbers: its four control points
-  * @param normals of a ribbon, at both ends; None for others
+  * @param normals normals at both ends of a ribbon; None for other curves
   */
 final class BezierCurve(
     val points: Array[Double],
@@ -15,7 +15,9 @@ final class BezierCurve(
     val normals: Option[(Vec3, Vec3)]
 )
 
-/** From the curves of scene files to cubic Bézier curves, twelve numbers each; and cutting them. */
+/** Converts the curves of scene files to cubic Bézier curves of twelve numbers each, and splits
+  * them.
+  */
 object BezierCurve:
 
   private def point(p: Array[Float], i: Int): Array[Double] =
@@ -24,14 +26,14 @@ object BezierCurve:
   private def mix(t: Double, a: Array[Double], b: Array[Double]): Array[Double] =
     Array.tabulate(3)(k => (1 - t) * a(k) + t * b(k))
 
-  /** A chain: the first of `degree` + 1 control points, each other of `degree` more. */
+  /** A Bézier chain: the first `degree` + 1 control points, then `degree` more per curve. */
   def ofBezier(p: Array[Float], degree: Int): Vector[Array[Double]] =
     Vector.tabulate((p.length / 3 - 1) / degree): i =>
       val at = Vector.tabulate(degree + 1)(k => point(p, degree * i + k))
       if degree == 2 then raised(at(0), at(1), at(2)) else at.flatten.toArray
 
-  /** A uniform B-spline: each run of `degree` + 1 control points makes a curve. By blossoming, with
-    * the knots 0, 1, 2, … (Ramshaw, "Blossoms are polar forms", CAGD 6, 1989).
+  /** A uniform B-spline: every `degree` + 1 consecutive control points make a curve. By blossoming,
+    * with the knots 0, 1, 2, … (Ramshaw, "Blossoms are polar forms", CAGD 6, 1989).
     */
   def ofBSpline(p: Array[Float], degree: Int): Vector[Array[Double]] =
     Vector.tabulate(p.length / 3 - degree): i =>
@@ -44,11 +46,11 @@ object BezierCurve:
         val d = mix(0.5, c, mix(1.0 / 3, at(2), at(3)))
         Array.concat(a, b, c, d)
 
-  /** A curve of degree 2 as one of degree 3. */
+  /** Degree elevation from 2 to 3. */
   private def raised(a: Array[Double], b: Array[Double], c: Array[Double]): Array[Double] =
     Array.concat(a, mix(2.0 / 3, a, b), mix(1.0 / 3, b, c), c)
 
-  /** The control points of the part of a curve from u0 to u1. */
+  /** Control points of the part of a curve from u0 to u1. */
   def part(points: Array[Double], u0: Double, u1: Double): Array[Double] =
     def blossom(a: Double, b: Double, c: Double, k: Int): Double =
       def at(i: Int) = points(3 * i + k)

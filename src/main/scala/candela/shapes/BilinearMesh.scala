@@ -3,14 +3,14 @@ package candela.shapes
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 
-/** Patches of four corners each, in world space: p(u, v) blends the corners p00, p10, p01, p11
-  * linearly in u and in v, so that edges are straight and neighbours meet in them without a gap.
+/** Bilinear patches in world space: p(u, v) interpolates the corners p00, p10, p01, p11 linearly in
+  * u and in v. Edges are straight, so neighbours meet without a gap.
   *
-  * @param positions x, y, z a vertex
-  * @param indices   four vertices a patch, in the order p00, p10, p01, p11
-  * @param normals   three Floats a vertex, any length; empty: none
-  * @param uvs       two Floats a vertex; empty: the patch's own u and v
-  * @param flipped   the geometric normal is −∂p/∂u × ∂p/∂v
+  * @param positions x, y, z per vertex
+  * @param indices   four vertices per patch, in the order p00, p10, p01, p11
+  * @param normals   three Floats per vertex, any length; empty without normals
+  * @param uvs       two Floats per vertex; empty to use the patch's own u and v
+  * @param flipped   whether the geometric normal is −∂p/∂u × ∂p/∂v
   */
 final class BilinearMesh(
     val positions: Array[Float],
@@ -25,10 +25,10 @@ final class BilinearMesh(
     val i = 3 * indices(4 * patch + corner)
     Vec3(positions(i), positions(i + 1), positions(i + 2))
 
-  /** Does the ray meet the patch in (0, `ray.tMax`)? If `write`, then its distance becomes
-    * `ray.tMax`, and `hit.u` and `hit.v` say where on the patch.
+  /** Tests for a hit on the patch in (0, `ray.tMax`). If `write`, sets `ray.tMax` to its distance,
+    * and `hit.u` and `hit.v` to its position on the patch.
     *
-    * The lines of constant u that the ray meets have u that solve a quadratic equation (Reshetov,
+    * The lines of constant u that the ray hits have u that solve a quadratic equation (Reshetov,
     * "Cool Patches: A Geometric Approach to Ray/Bilinear Patch Intersections", Ray Tracing Gems,
     * 2019). In Double: rounding leaves gaps at edges of 1e-16 of the distance, which the margins
     * around u and v cover.
@@ -71,8 +71,8 @@ final class BilinearMesh(
       val root = Math.sqrt(discriminant)
       val s = if c1 < 0.0 then 0.5 * (root - c1) else -0.5 * (root + c1)
       val d2 = dx * dx + dy * dy + dz * dz
-      // A ray that starts on the patch, where pError is 0 as in a plane z = 0, meets it at the
-      // distance 0 up to the rounding of these coordinates
+      // A ray that starts on the patch, with pError 0 as in a plane z = 0, hits it at distance 0 up
+      // to the rounding of these coordinates
       val least = BilinearMesh.Rounding * (Math.abs(ax) + Math.abs(ay) + Math.abs(az) +
         Math.abs(ex) + Math.abs(ey) + Math.abs(ez) + Math.abs(fx) + Math.abs(fy) + Math.abs(fz) +
         Math.abs(gx) + Math.abs(gy) + Math.abs(gz))
@@ -112,11 +112,11 @@ final class BilinearMesh(
       found
 
 object BilinearMesh:
-  /** By how much a patch reaches beyond its edges, in u and v. */
+  /** Margin by which a patch extends past its edges, in u and v. */
   private[shapes] inline val Margin = 1e-6
 
-  /** Of a distance, relative to the coordinates that it is from: a million times Double's, and far
-    * less than Float's.
+  /** Rounding error of a distance, relative to the coordinates: a million times that of Double, and
+    * far below that of Float.
     */
   private[shapes] inline val Rounding = 1e-10
 

@@ -3,7 +3,7 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** One patch of a [[BilinearMesh]], which holds all its data. */
+/** A patch of a [[BilinearMesh]], which holds all its data. */
 final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
 
   def bounds: Bounds3 = Bounds3.of((0 until 4).map(mesh.vertex(patch, _)))
@@ -47,7 +47,7 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
           partials(p, u, v, tv * inverse, -tu * inverse, -sv * inverse, su * inverse, at)
         else partials(p, u, v, 1f, 0f, 0f, 1f, at)
 
-  /** How point and normal change with the texture coordinates s and t, once the frame is known. */
+  /** Derivatives of point and normal by the texture coordinates s and t; requires the frame. */
   private def partials(
       p: BilinearPatch.Corners,
       u: Float,
@@ -63,7 +63,7 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
     val dpds = pu * duds + pv * dvds
     val dpdt = pu * dudt + pv * dvdt
     val a = mesh.normals
-    // The normal before it is made a unit vector, and its derivatives
+    // The normal before normalisation, and its derivatives
     val isFacet = a.length == 0
     val side = if mesh.flipped then -1f else 1f
     val n = if isFacet then (pu cross pv) * side else triple(blend(a, 3, _, u, v))
@@ -117,8 +117,8 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
       value(a, each, k, 3) - value(a, each, k, 1)
     )
 
-  /** ∂p/∂u × ∂p/∂v is an affine function of u and v, so the cone around those of the corners holds
-    * all.
+  /** ∂p/∂u × ∂p/∂v is affine in u and v, so a cone around the corners' normals contains all
+    * normals.
     */
   def normals: (Vec3, Float) =
     val p = BilinearPatch.Corners(mesh, patch)
@@ -134,7 +134,7 @@ final class BilinearPatch(mesh: BilinearMesh, patch: Int) extends Shape:
     else
       val axis = sum.normalized
       val cosine = corners.map(axis dot _).min
-      // Beyond a right angle the cone's inside is no longer convex; rounding takes some digits
+      // A cone wider than a hemisphere is not convex; the margin covers rounding
       if cosine <= 0f then (axis, -1f) else (axis, cosine - 1e-5f)
 
   private lazy val sampling = BilinearSampling(BilinearPatch.Corners(mesh, patch))
@@ -152,12 +152,12 @@ object BilinearPatch:
   /** Never written to. */
   private val NoHit = Hit()
 
-  /** `v`, turned as `from` must be to become `to`: unit vectors that are not opposite. */
+  /** `v`, rotated as from `from` to `to`: unit vectors that are not opposite. */
   private def turned(v: Vec3, from: Vec3, to: Vec3): Vec3 =
     val sum = from + to
     v - sum * ((sum dot v) / (1f + (from dot to))) + to * (2f * (from dot v))
 
-  /** The corners of a patch, and what follows from them; made for hits and samples only. */
+  /** The corners of a patch and derived quantities; created for hits and samples only. */
   private[shapes] final class Corners(
       val p00: Vec3,
       val p10: Vec3,
@@ -176,7 +176,7 @@ object BilinearPatch:
         (w00 * p00.z + w10 * p10.z + w01 * p01.z + w11 * p11.z).toFloat
       )
 
-    /** Bound of the error of a point on the patch. */
+    /** Error bound of a point on the patch. */
     def error(p: Vec3): Vec3 =
       val a = TriangleSoup.error(p, p00, p10, p01)
       val b = TriangleSoup.error(p, p01, p10, p11)

@@ -2,8 +2,8 @@ package candela.shapes
 
 import candela.math.*
 
-/** Points on a bilinear patch, nearly uniform by area: u and v have the bilinear density that is
-  * right at the corners. On parallelograms it is uniform.
+/** Samples a bilinear patch nearly uniformly by area: the pdf of u and v is bilinear and exact at
+  * the corners. Uniform for parallelograms.
   *
   * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 4th ed., §6.6.2.
   */
@@ -24,11 +24,11 @@ private[shapes] final class BilinearSampling(corners: BilinearPatch.Corners):
     val nodes = BilinearSampling.Gauss
     (for (u, a) <- nodes; (v, b) <- nodes yield a * b * weight(u, v)).sum
 
-  /** `orient` turns a facet's normal at (u, v) outwards; `out.pdf` is per area. */
+  /** `orient` orients the geometric normal at (u, v) outwards; `out.pdf` is per area. */
   def sample(u1: Float, u2: Float)(
       orient: (Float, Float, Vec3) => Vec3
   )(out: SurfaceSample): Unit =
-    // First v by its marginal density, then u given v
+    // First v by its marginal pdf, then u given v
     val v = BilinearSampling.linear(u2, w00 + w10, w01 + w11)
     val u = BilinearSampling.linear(u1, lerp(v, w00, w01), lerp(v, w10, w11))
     out.p = point(u, v)
@@ -41,12 +41,12 @@ private[shapes] final class BilinearSampling(corners: BilinearPatch.Corners):
   private def density(u: Float, v: Float): Float =
     lerp(v, lerp(u, w00, w10), lerp(u, w01, w11)) / mean
 
-  /** The density per area with which `sample` returns the point p. */
+  /** Pdf per area with which `sample` returns the point p. */
   def perArea(p: Vec3): Float =
     var u = 0.5
     var v = 0.5
-    // Newton's method on the two equations (p(u, v) − p) · ∂p/∂u = 0 and · ∂p/∂v = 0, less the
-    // second derivatives: p is on the patch, so it converges like Newton's
+    // Newton's method on (p(u, v) − p) · ∂p/∂u = 0 and (p(u, v) − p) · ∂p/∂v = 0, without the
+    // second derivatives: p is on the patch, so convergence is still quadratic
     var steps = 12
     while steps > 0 do
       val uf = u.toFloat
@@ -73,10 +73,10 @@ private[shapes] object BilinearSampling:
     val x = 0.5f * sqrt(0.6f)
     Seq((0.5f - x, 5f / 18), (0.5f, 8f / 18), (0.5f + x, 5f / 18))
 
-  /** x in [0, 1] with a density that goes linearly from a to b, up to a factor. */
+  /** Samples x in [0, 1] with an unnormalised pdf that is linear from a to b. */
   private def linear(u: Float, a: Float, b: Float): Float =
     if a + b <= 0f then u
     else
-      // The root of the distribution's inverse that does not cancel
+      // The root of the inverse CDF without cancellation
       val root = Math.sqrt((1.0 - u) * a * a + u.toDouble * b * b)
       Math.min(OneMinusEpsilon.toDouble, u * (a.toDouble + b) / (a + root)).toFloat

@@ -4,15 +4,15 @@ import scala.collection.mutable
 
 import candela.base.loop
 
-/** The neighbourhood of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and
-  * stands for the edge from that vertex to the face's next one as well.
+/** Connectivity of a triangle mesh in flat arrays. Corner 3f + k is vertex k of face f, and also
+  * represents the edge from that vertex to the face's next vertex.
   *
   * Source: Rossignac, Safonova, Szymczak, "3D compression made simple: Edgebreaker on a corner
   * table", SMI 2001.
   *
-  * @param vertices the vertex at each corner
-  * @param twins    the same edge seen from the neighbouring face, or −1 on the boundary
-  * @param start    for each vertex one of its corners, where walks around it begin
+  * @param vertices vertex at each corner
+  * @param twins    the same edge in the adjacent face, or −1 on the boundary
+  * @param start    a corner of each vertex, where the traversal of its one-ring begins
   */
 private[shapes] final class CornerTable(
     val vertices: Array[Int],
@@ -23,11 +23,11 @@ private[shapes] final class CornerTable(
 
   def vertexCount: Int = start.length
 
-  /** Writes the neighbours of `vertex` into `ring`: clockwise from anywhere if it is inside (for
-    * faces that wind counter-clockwise), counter-clockwise from edge to edge if it is on the
-    * boundary.
+  /** Writes the one-ring of `vertex` into `ring`: clockwise from an arbitrary neighbour for an
+    * interior vertex (if faces wind counter-clockwise), counter-clockwise from edge to edge for a
+    * boundary vertex.
     *
-    * @return how many, negated on the boundary
+    * @return the number of neighbours, negated on the boundary
     */
   def ring(vertex: Int, ring: Array[Int]): Int =
     val first = start(vertex)
@@ -50,7 +50,7 @@ private[shapes] final class CornerTable(
         corner = twins(previous(corner))
       -count
 
-  /** An upper bound for what `ring` writes. */
+  /** Upper bound of the one-ring size. */
   def longestRing: Int =
     val corners = new Array[Int](vertexCount)
     vertices.foreach(v => corners(v) += 1)
@@ -61,7 +61,7 @@ private[shapes] object CornerTable:
   inline def next(corner: Int): Int = if corner % 3 == 2 then corner - 2 else corner + 1
   inline def previous(corner: Int): Int = if corner % 3 == 0 then corner + 2 else corner - 1
 
-  /** Finds the neighbours of all faces.
+  /** Computes the adjacency of all faces.
     *
     * @throws MeshError unless each edge has one face on each side, or one face in all
     */
@@ -82,12 +82,14 @@ private[shapes] object CornerTable:
         twins(twin) = corner
     CornerTable(vertices, twins, start)
 
-  /** Different for different edges. The factor spreads it: the map folds the halves together, and
+  /** Unique key of a directed edge. The factor scrambles it: the map folds the halves together, and
     * those of the plain key are alike in most edges.
     */
   private def key(from: Int, to: Int): Long = (from.toLong << 32 | to) * 0x9e3779b97f4a7c15L
 
-  /** Two faces run along an edge the same way: is there a third, or is one of the two turned? */
+  /** Describes an edge along which two faces run the same way: a third face, or one of the two
+    * flipped.
+    */
   private def badEdge(vertices: Array[Int], corner: Int, other: Int): MeshError =
     val from = vertices(corner)
     val to = vertices(next(corner))

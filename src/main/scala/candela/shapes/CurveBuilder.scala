@@ -5,9 +5,9 @@ import scala.collection.mutable.ArrayBuilder
 import candela.base.loop
 import candela.math.*
 
-/** Gathers curves of one kind for one [[CurveSegments]].
+/** Collects curves of one kind for one [[CurveSegments]].
   *
-  * @param space   None: curves are moved to the world as they come
+  * @param space   object to world; if empty, curves are transformed to world space when added
   * @param flipped see [[CurveSegments]]
   */
 final class CurveBuilder(
@@ -21,8 +21,8 @@ final class CurveBuilder(
   private val widths = ArrayBuilder.ofFloat()
   private val normals = ArrayBuilder.ofFloat()
 
-  /** Adds a curve, cut into 2^`splitDepth` segments of equal parts of u; None: it needs no
-    * transform. Lengths change by the factor `scale`.
+  /** Adds a curve, split into 2^`splitDepth` segments of equal length in u. `toWorld` is empty if
+    * the curve needs no transform. Lengths are scaled by `scale`.
     */
   def add(curve: BezierCurve, splitDepth: Int, toWorld: Option[Transform], scale: Float): Unit =
     val n = 1 << splitDepth
@@ -57,9 +57,8 @@ final class CurveBuilder(
 
 object CurveBuilder:
 
-  /** Placed curves. They are moved to the world if this keeps their shape: a turn, a move and a
-    * scale that is the same for all directions. Else they stay in their own space, in which widths
-    * are measured.
+  /** Builds the segments of transformed curves: in world space if the transform is a similarity
+    * (rotation, translation, uniform scale); else in object space, where widths are measured.
     */
   def segments(
       curves: Seq[BezierCurve],

@@ -3,19 +3,19 @@ package candela.shapes
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** Thin strips along cubic Bézier curves, cut into segments with a box each: hair, grass, wool.
+/** Thin strips along cubic Bézier curves, split into segments with a box each: hair, grass, wool.
   *
-  * A ray meets a segment where it passes the curve within half of its width; all is seen as if
-  * projected onto the plane across the ray (Nakamaru and Ohno, "Ray Tracing for Curves Primitive",
-  * Journal of WSCG 10, 2002; Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.7).
+  * A ray hits a segment if it passes the curve within half its width, as projected onto the plane
+  * perpendicular to the ray (Nakamaru and Ohno, "Ray Tracing for Curves Primitive", Journal of WSCG
+  * 10, 2002; Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.7).
   *
-  * @param points  twelve Floats a segment: its four control points
-  * @param params  two Floats a segment: the part of its curve's u in [0, 1] that it is
-  * @param widths  two Floats a segment: its width at either end
-  * @param normals for ribbons six Floats a segment: unit normals at both ends of the *curve*
-  * @param space   where points, widths and normals are; None: in the world
-  * @param flipped is the normal −∂p/∂u × ∂p/∂v?
-  * @param errorWidths how far spawned rays keep away, in widths
+  * @param points  twelve Floats per segment: its four control points
+  * @param params  two Floats per segment: its range of the curve's u in [0, 1]
+  * @param widths  two Floats per segment: its width at either end
+  * @param normals for ribbons six Floats per segment: unit normals at both ends of the *curve*
+  * @param space   space of points, widths and normals; if empty, world space
+  * @param flipped whether the normal is −∂p/∂u × ∂p/∂v
+  * @param errorWidths offset of spawned rays, in widths
   */
 final class CurveSegments(
     points: Array[Float],
@@ -54,8 +54,8 @@ final class CurveSegments(
     val i = 12 * segment + 3 * k
     Vec3(points(i), points(i + 1), points(i + 2))
 
-  /** The nearest hit in (0, `ray.tMax`) shortens the ray; `hit` gets u along the curve and v across
-    * it.
+  /** Finds the closest hit in (0, `ray.tMax`) and shortens the ray; `hit` receives u along the
+    * curve and v across it.
     */
   def intersect(segment: Int, ray: Ray, hit: Hit): Boolean = test(segment, ray, hit, write = true)
 
@@ -85,7 +85,8 @@ final class CurveSegments(
       dz = m(8) * ex + m(9) * ey + m(10) * ez
     val p = points
     val i = 12 * segment
-    // Across the ray: y also across the chord, so that the segment is thin in y
+    // Perpendicular to the ray: y also perpendicular to the chord, which makes the segment thin in
+    // y
     val cx = p(i + 9).toDouble - p(i)
     val cy = p(i + 10).toDouble - p(i + 1)
     val cz = p(i + 11).toDouble - p(i + 2)
@@ -94,7 +95,7 @@ final class CurveSegments(
     var yz = dx * cy - dy * cx
     var y2 = yx * yx + yy * yy + yz * yz
     if !(y2 > 1e-24 * (cx * cx + cy * cy + cz * cz) * (dx * dx + dy * dy + dz * dz)) then
-      // The chord runs along the ray: any direction across
+      // The chord is parallel to the ray: any perpendicular direction
       if Math.abs(dx) > Math.abs(dy) then
         yx = -dz
         yy = 0.0
@@ -170,7 +171,7 @@ final class CurveSegments(
           write
         )
 
-  /** Fills in the geometry of the hit that `intersect` found. */
+  /** Computes the geometry of the hit that `intersect` found. */
   def surface(segment: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     geometry.fill(segment, ray, hit, at)
 
@@ -178,8 +179,8 @@ object CurveSegments:
   /** Never written to. */
   private val NoHit = Hit()
 
-/** One of [[CurveSegments]], which hold all its data. Turning towards every ray it has no surface
-  * of its own, so that no point on it can be chosen: it can't be a light.
+/** A segment of [[CurveSegments]], which hold all its data. It faces every ray and has no surface
+  * of its own, so points on it can't be sampled: it can't be a light.
   */
 final class CurveSegment(segments: CurveSegments, index: Int) extends Shape:
   def bounds: Bounds3 = segments.bounds(index)
@@ -191,13 +192,13 @@ final class CurveSegment(segments: CurveSegments, index: Int) extends Shape:
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit = out.pdf = 0f
   def areaPdf(p: Vec3): Float = 0f
 
-/** How a curve fills its width. */
+/** Cross-section of a curve. */
 enum CurveKind:
   /** A strip that faces every ray. */
   case Flat
 
-  /** The same strip, with the normals of a round hair. */
+  /** A strip that faces every ray, with the normals of a cylinder. */
   case Cylinder
 
-  /** A strip that faces where its normals point. */
+  /** A strip oriented by its normals. */
   case Ribbon

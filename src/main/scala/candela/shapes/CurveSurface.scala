@@ -3,9 +3,8 @@ package candela.shapes
 import candela.geometry.{Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** The geometry of hits on [[CurveSegments]], whose arrays these are: as pbrt has it, down to the
-  * normals of flat and round curves, which in their middle point away from where the ray comes
-  * from.
+/** Geometry of hits on [[CurveSegments]], which own these arrays. Follows pbrt, even in the normals
+  * of flat and cylinder curves, which point away from the ray's origin in their middle.
   */
 private[shapes] final class CurveSurface(
     points: Array[Float],
@@ -35,7 +34,7 @@ private[shapes] final class CurveSurface(
     val dpdv = across(segment, hit, direction, dpdu) * width
     at.p = ray.at(ray.tMax)
     val way = at.p - ray.origin
-    // A ribbon that is seen edge-on may be met face on by the ray that leaves it
+    // A ray that leaves a ribbon seen edge-on may hit it again face-on
     at.pError = error(Math.max(errorWidths * width, 0.5f * w)) + Vec3(
       (Math.abs(ray.ox) + Math.abs(way.x)) * gamma(3),
       (Math.abs(ray.oy) + Math.abs(way.y)) * gamma(3),
@@ -46,11 +45,11 @@ private[shapes] final class CurveSurface(
     val n = toWorld.normal(dpdu cross dpdv).normalized
     at.geometricNormal = if flipped then -n else n
     at.frame.set(Frame.along(at.geometricNormal, toWorld.vector(dpdu)))
-    // As in pbrt, the normal is taken not to turn
+    // As in pbrt, the normal is assumed constant
     if at.wantsPartials then
       at.setPartials(toWorld.vector(dpdu), toWorld.vector(dpdv), Vec3.Zero, Vec3.Zero)
 
-  /** The derivative by s in [0, 1] along the segment. */
+  /** Derivative by s in [0, 1] along the segment. */
   private def tangent(segment: Int, s: Float): Vec3 =
     val m = 1f - s
     val d = (control(segment, 1) - control(segment, 0)) * (3f * m * m) +
@@ -62,12 +61,12 @@ private[shapes] final class CurveSurface(
     val i = 12 * segment + 3 * k
     Vec3(points(i), points(i + 1), points(i + 2))
 
-  /** The direction of ∂p/∂v. */
+  /** Direction of ∂p/∂v. */
   private def across(segment: Int, hit: Hit, direction: Vec3, dpdu: Vec3): Vec3 = kind match
     case CurveKind.Ribbon => (walk.normal(segment, hit.u) cross dpdu).normalized
     case CurveKind.Flat => CurveSurface.sideways(direction, dpdu)
     case CurveKind.Cylinder =>
-      // Turned about the curve by −90° to 90° from edge to edge
+      // Rotated about the curve by −90° to 90° from edge to edge
       val flat = CurveSurface.sideways(direction, dpdu)
       val angle = (0.5f - hit.v.toFloat) * Pi
       flat * cos(angle) + (dpdu.normalized cross flat) * sin(angle)
@@ -81,7 +80,7 @@ private[shapes] final class CurveSurface(
       Vec3(row(0), row(4), row(8))
 
 private[shapes] object CurveSurface:
-  /** The unit vector across a curve and across the ray; seen along the ray, any. */
+  /** Unit vector perpendicular to a curve and to the ray; arbitrary if they are parallel. */
   private def sideways(direction: Vec3, dpdu: Vec3): Vec3 =
     val across = direction cross dpdu
     if across.isZero then Frame.around(direction).s else across.normalized

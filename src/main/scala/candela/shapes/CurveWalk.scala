@@ -3,7 +3,7 @@ package candela.shapes
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 
-/** Finds where a ray passes a piece of a curve, by halving it until it is straight.
+/** Intersects a ray with a curve segment by subdividing it until it is straight.
   *
   * @param normals empty unless the curve is a ribbon; see [[CurveSegments]] for the arrays
   */
@@ -15,7 +15,7 @@ private[shapes] final class CurveWalk(
   private val isRibbon = normals.length > 0
 
   /** Tests the part s0 to s1 of a segment, with its control points in the ray's space, after
-    * halving it `depth` times. (wx, wy, wz) is the ray's unit direction in the curve's space.
+    * `depth` levels of subdivision. (wx, wy, wz) is the ray's unit direction in the curve's space.
     */
   // format: off
   def refine(
@@ -39,7 +39,7 @@ private[shapes] final class CurveWalk(
     if CurveWalk.apart(y0, y1, y2, y3, half) || CurveWalk.apart(x0, x1, x2, x3, half) then
       false
     else if depth > 0 then
-      // De Casteljau at the middle
+      // De Casteljau at the midpoint
       val x01 = 0.5 * (x0 + x1)
       val y01 = 0.5 * (y0 + y1)
       val z01 = 0.5 * (z0 + z1)
@@ -74,7 +74,7 @@ private[shapes] final class CurveWalk(
         )
         // format: on
         first || second
-    // Beyond the perpendiculars at both ends the neighbours are in charge
+    // Points past the perpendiculars at both ends belong to the neighbouring segments
     else if (y1 - y0) * -y0 + x0 * (x0 - x1) < 0.0 || (y2 - y3) * -y3 + x3 * (x3 - x2) < 0.0 then
       false
     else
@@ -105,14 +105,14 @@ private[shapes] final class CurveWalk(
             if write then
               ray.tMax = t.toFloat
               hit.u = curveU(segment, s).toFloat
-              // Which side of the curve, by the sign of its tangent × (the way to the ray)
+              // The side of the curve is the sign of its tangent × (vector to the ray)
               val tx = m * m * (x1 - x0) + 2.0 * m * w * (x2 - x1) + w * w * (x3 - x2)
               val ty = m * m * (y1 - y0) + 2.0 * m * w * (y2 - y1) + w * w * (y3 - y2)
               val part = if width > 0.0 then Math.sqrt(distance2) / width else 0.0
               hit.v = (if x * ty - y * tx > 0.0 then 0.5 + part else 0.5 - part).toFloat
             true
 
-  /** u on the curve, of a place in its segment. */
+  /** The curve's u at a parameter of its segment. */
   inline def curveU(segment: Int, s: Double): Double =
     val u0 = params(2 * segment)
     u0 + s * (params(2 * segment + 1) - u0)
@@ -138,7 +138,7 @@ private[shapes] final class CurveWalk(
     val b = CurveWalk.share(u, angle).toFloat
     Vec3(n(i), n(i + 1), n(i + 2)) * a + Vec3(n(i + 3), n(i + 4), n(i + 5)) * b
 
-  /** Between the normals at both ends of a ribbon. */
+  /** Angle between the normals at both ends of a ribbon. */
   private def normalAngle(segment: Int): Double =
     val n = normals
     val i = 6 * segment
@@ -148,22 +148,23 @@ private[shapes] final class CurveWalk(
 
 private[shapes] object CurveWalk:
 
-  /** Are all four coordinates on one side of zero, farther than `half`? */
+  /** Whether all four coordinates are on one side of zero, farther than `half`. */
   inline def apart(a: Double, b: Double, c: Double, d: Double, half: Double): Boolean =
     (a > half && b > half && c > half && d > half) ||
       (a < -half && b < -half && c < -half && d < -half)
 
-  /** The largest second difference of four control points, in one coordinate. */
+  /** Largest second difference of four control points, in one coordinate. */
   inline def bend(a: Double, b: Double, c: Double, d: Double): Double =
     Math.max(Math.abs(a - 2 * b + c), Math.abs(b - 2 * c + d))
 
-  /** How often to halve a curve until it is straight to a twentieth of its width (the bound of
+  /** Subdivision depth at which a curve is straight to a twentieth of its width (the bound of
     * Nakamaru and Ohno, 2002): log4 of √2·6·bend / (8·width/20).
     */
   def depth(bend: Double, half: Double): Int =
     val ratio = 1.4142135623730951 * 6.0 * bend / (8.0 * 0.1 * half)
     if !(ratio >= 4.0) then 0 else Math.min(10, Math.getExponent(ratio) / 2)
 
-  /** The weight of an end's normal in spherical interpolation; if both agree, in linear. */
+  /** Weight of an end's normal in spherical interpolation; in linear interpolation if both agree.
+    */
   private def share(part: Double, angle: Double): Double =
     if angle > 1e-6 then Math.sin(part * angle) / Math.sin(angle) else part

@@ -3,12 +3,12 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** A flat disk or annulus, perhaps swept over less than a full turn, in any affine position.
+/** A disk or annulus, optionally partial, under any affine transform.
   *
-  * @param height      its z in object space
-  * @param innerRadius of the hole, 0: none
+  * @param height      z in object space
+  * @param innerRadius radius of the hole; 0 for none
   * @param phiMax      sweep in radians
-  * @param reversed    is the outside the side of object space's −z?
+  * @param reversed    whether the outside faces −z of object space
   */
 final class Disk(
     objectToWorld: Transform,
@@ -35,7 +35,7 @@ final class Disk(
   def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, distance(ray))
   def isHit(ray: Ray): Boolean = isWithin(ray, distance(ray))
 
-  /** How far it is along the ray to the disk's plane. */
+  /** Distance along the ray to the disk's plane. */
   private def plane(ray: Ray): Double =
     (height - objectZ(ray.ox, ray.oy, ray.oz)) / alongZ(ray)
 
@@ -60,7 +60,7 @@ final class Disk(
     val wz = ray.oz + t * ray.dz
     val x = objectX(wx, wy, wz)
     val y = objectY(wx, wy, wz)
-    // Put back into the plane: the point is exact but for the rounding of the way to world space
+    // Projected back onto the plane: the point is exact except for the transform's rounding
     put(x, y, height, at)
     val local = Vec3(x.toFloat, y.toFloat, height)
     at.geometricNormal = normal

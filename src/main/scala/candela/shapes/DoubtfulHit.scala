@@ -3,36 +3,36 @@ package candela.shapes
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 
-/** The rare end of [[TriangleTest]]: Floats say that the ray goes through, Doubles doubt it. The
-  * triangle is seen edge-on or has no area, or it is so small and far that Floats can't tell the
-  * ray from its neighbours.
+/** Slow path of [[TriangleTest]], for hits accepted in Float and questionable in Double: triangles
+  * that are edge-on, degenerate, or so small and distant that Float can't tell the ray from its
+  * neighbours.
   *
-  * Sources: the bound on the error of t from Pharr, Jakob, Humphreys, "Physically Based Rendering",
-  * 3rd ed., §3.9.6; what it does to boxes, from Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
+  * Sources: the error bound of t from Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd
+  * ed., §3.9.6; its effect on boxes, from Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
   */
 object DoubtfulHit:
-  /** The square of the sine under which a triangle is seen, or of that between its sides, from
-    * which on up the Double test has ten digits.
+  /** Squared sine of the angle between triangle and ray, or between the triangle's sides, from
+    * which the Double test has ten digits.
     */
   final val Slim = 1e-12
 
   /** The same, below which nothing is divided by it. */
   final val Thin = 1e-24
 
-  /** By how much barycentric weights may be outside and the point stay where it is. */
+  /** Tolerance of barycentric weights outside the triangle that does not move the point. */
   final val Rounded = 1e-6
 
-  /** By how much barycentric weights may be outside for reasons of rounding alone. */
+  /** Tolerance of barycentric weights outside the triangle that rounding alone explains. */
   private inline val Apart = 1e-3
 
-  /** A corner that is at least so much of the distance ahead is ahead, whatever was rounded. */
+  /** A corner ahead by at least this fraction of the distance is ahead despite rounding. */
   private inline val Ahead = 1e-5f
 
-  /** How much a slab's distances may be off, for the rounding of the Float test: 6 round-offs. */
+  /** Error of a slab's distances caused by the rounding of the Float test: 6 rounding errors. */
   private inline val Slack = 1.0 + 6 * MachineEpsilon
 
-  /** @param e0, e1, e2 the Float test's edge functions
-    * @param b1, b2, t  the Double test's weights and distance; nothing if `thin`
+  /** @param e0, e1, e2 edge functions of the Float test
+    * @param b1, b2, t  weights and distance of the Double test; undefined if `thin`
     */
   def test(
       v: Array[Float],
@@ -70,8 +70,8 @@ object DoubtfulHit:
           hit.v = Math.max(0.0, Math.min(1.0 - hit.u, b2))
       true
 
-  /** The distance of the ray's part in the triangle's box that is next to `t`; NaN: it passes by.
-    * What Floats took for a hit may be beside the triangle by any distance if it is seen edge-on.
+  /** Clamps `t` to the ray's interval within the triangle's box; NaN if the ray misses the box. A
+    * Float hit may be any distance off an edge-on triangle.
     */
   private def intoBox(v: Array[Float], at: Int, s: Int, ray: Ray, t: Double): Double =
     var near = 0.0
@@ -96,7 +96,7 @@ object DoubtfulHit:
       axis += 1
     if near <= far * Slack then Math.max(near, Math.min(far, t)) else Double.NaN
 
-  /** The mean that the Float test makes of the corners' distances; NaN if it may be behind. */
+  /** The Float test's mean of the corners' distances; NaN if it may be behind the origin. */
   private def mean(
       v: Array[Float],
       at: Int,
@@ -129,7 +129,7 @@ object DoubtfulHit:
       val least = minT(maxX, maxY, max3(Math.abs(s0), Math.abs(s1), Math.abs(s2)), maxE, inv)
       if t > least then t else Double.NaN
 
-  /** What t must exceed to be surely positive: the rounding error of the test itself. */
+  /** Lower bound of t to be positive: the rounding error of the test itself. */
   private def minT(maxX: Float, maxY: Float, maxZ: Float, maxE: Float, inv: Float): Float =
     val deltaZ = gamma(3) * maxZ
     val deltaX = gamma(5) * (maxX + maxZ)

@@ -2,12 +2,12 @@ package candela.shapes
 
 import candela.base.loop
 
-/** A smooth surface as triangles: points of the limit surface and its normals, vertex by vertex.
+/** A subdivision surface as triangles: limit positions and normals of the vertices.
   *
-  * @param positions x, y, z for each vertex
-  * @param normals   x, y, z for each vertex; their lengths differ, the longest is 1. See
-  *                  [[LoopSubdivision]].
-  * @param indices   three vertices for each triangle, in the winding of the input
+  * @param positions x, y, z per vertex
+  * @param normals   x, y, z per vertex; their lengths differ, the longest is 1. See
+  *   [[LoopSubdivision]].
+  * @param indices   three vertices per triangle, in the winding of the input
   */
 final class SubdividedMesh(
     val positions: Array[Float],
@@ -15,18 +15,18 @@ final class SubdividedMesh(
     val indices: Array[Int]
 )
 
-/** Loop subdivision: each level splits every triangle in four and moves the vertices towards a
-  * smooth limit, onto which the last level's vertices are then pushed.
+/** Loop subdivision: each level splits every triangle in four and smooths the vertices; after the
+  * last level, vertices are moved to the limit surface.
   *
-  * It makes pbrt's mesh (v2, v3 and v4 agree), with pbrt's habits:
-  *  - Vertices keep their numbers; those on edges follow, in the order of faces and their edges.
-  *  - Normals come from the limit positions of a vertex's neighbours. They point to the side from
-  *    which the faces wind ''clockwise'', against the right-hand rule, and pbrt makes that the
-  *    outside of the surface. Their lengths weigh them where a triangle interpolates its corners'
-  *    normals, so they are left as they are but for one common factor.
-  *  - On the boundary the limit point has the weights 1/5, 3/5, 1/5, which Hoppe et al. give for
-  *    other refinement rules than those used here (these would have 1/6, 2/3, 1/6).
-  *  - Where several fans of faces touch in one vertex, the fan of the last face shapes it.
+  * Reproduces pbrt's mesh (v2, v3 and v4 agree), including its conventions:
+  * - Vertices keep their numbers; edge vertices follow, in the order of faces and their edges.
+  * - Normals come from the limit positions of the one-ring. They point to the side from which the
+  *   faces wind ''clockwise'', against the right-hand rule, and pbrt makes that the outside of the
+  *   surface. Their lengths are weights when a triangle interpolates its corners' normals, so they
+  *   are kept up to one common factor.
+  * - Boundary limit points use the weights 1/5, 3/5, 1/5, which Hoppe et al. give for other
+  *   refinement rules than those used here (these would have 1/6, 2/3, 1/6).
+  * - Where several fans of faces touch in one vertex, the fan of the last face determines it.
   *
   * Sources: Loop, "Smooth subdivision surfaces based on triangles", 1987; Hoppe et al., "Piecewise
   * smooth surface reconstruction", SIGGRAPH 1994; Warren, "Subdivision methods for geometric
@@ -35,17 +35,17 @@ final class SubdividedMesh(
 object LoopSubdivision:
   import CornerTable.{next, previous}
 
-  /** @param levels    how often to split, from 0
-    * @param indices   three vertices for each face; neighbours wind the same way
-    * @param positions x, y, z for each vertex; vertices that no face uses are left out
-    * @throws MeshError if the faces form no surface, with or without boundary
+  /** @param levels    number of subdivision levels, from 0
+    * @param indices   three vertices per face; neighbours have consistent winding
+    * @param positions x, y, z per vertex; unreferenced vertices are removed
+    * @throws MeshError if the faces are not a manifold surface, with or without boundary
     */
   def subdivide(levels: Int, indices: Array[Int], positions: Array[Float]): SubdividedMesh =
     MeshInput.check(levels, indices, positions)
     val (vertices, used) = MeshInput.withoutUnused(indices, positions.length / 3)
     var table = CornerTable.of(vertices, used.length)
     var points = Array.tabulate(3 * used.length)(i => positions(3 * used(i / 3) + i % 3).toDouble)
-    // Refined vertices have their parent's valence or 6 at most: one buffer serves all levels.
+    // Refined vertices have their parent's valence, or at most 6: one buffer serves all levels.
     val ring = new Array[Int](Math.max(table.longestRing, 6))
     loop(levels): _ =>
       val odd = oddVertices(table)
@@ -54,15 +54,15 @@ object LoopSubdivision:
     val limit = moved(table, points, 3 * table.vertexCount, 1.0 / 5, limitWeight, ring)
     SubdividedMesh(limit.map(_.toFloat), LoopNormals.of(table, limit, ring), table.vertices)
 
-  /** The weight of each neighbour when an inner vertex moves (Warren). */
+  /** Weight of each neighbour in the new position of an interior vertex (Warren). */
   private def evenWeight(valence: Int): Double =
     if valence == 3 then 3.0 / 16 else 3.0 / (8 * valence)
 
-  /** The weight of each neighbour in the limit point of an inner vertex. */
+  /** Weight of each neighbour in the limit point of an interior vertex. */
   private def limitWeight(valence: Int): Double =
     1 / (valence + 3 / (8 * evenWeight(valence)))
 
-  /** For each corner the new vertex on its edge, numbered on from the old ones. */
+  /** The new vertex on each corner's edge, numbered after the existing ones. */
   private def oddVertices(table: CornerTable): Array[Int] =
     val odd = new Array[Int](table.vertices.length)
     var count = table.vertexCount
@@ -83,7 +83,7 @@ object LoopSubdivision:
     val refined = moved(table, points, 3 * (odd.max + 1), 1.0 / 8, evenWeight, ring)
     loop(odd.length): corner =>
       val twin = table.twins(corner)
-      if twin < corner then // so each edge has one turn
+      if twin < corner then // visits each edge once
         val from = 3 * table.vertices(corner)
         val to = 3 * table.vertices(next(corner))
         val at = 3 * odd(corner)
@@ -97,10 +97,10 @@ object LoopSubdivision:
               (points(here + axis) + points(there + axis)) / 8
     refined
 
-  /** All vertices of `table`, moved towards their neighbours, at the head of `size` numbers.
+  /** Smoothed positions of all vertices of `table`, at the start of an array of `size` numbers.
     *
-    * @param edgeWeight of the two neighbours along the boundary
-    * @param weight     of each neighbour of an inner vertex, by their number
+    * @param edgeWeight weight of the two neighbours along the boundary
+    * @param weight     weight of each neighbour of an interior vertex, by valence
     */
   private def moved(
       table: CornerTable,
@@ -164,20 +164,20 @@ object LoopSubdivision:
   private inline def child(corner: Int, which: Int): Int =
     3 * (4 * (corner / 3) + which) + corner % 3
 
-  /** From the corner `at` with the number of `from` to the one with the number of `to`. */
+  /** From the corner `at`, numbered as `from`, to the corner numbered as `to`. */
   private inline def turned(at: Int, from: Int, to: Int): Int = at - from % 3 + to % 3
 
-/** Normals of a subdivision surface: products of two tangents, which are weighted sums of a
-  * vertex's neighbours. Conventions: see [[LoopSubdivision]].
+/** Normals of a subdivision surface: cross products of two tangents, which are weighted sums of the
+  * one-ring. Conventions: see [[LoopSubdivision]].
   *
   * Source: Hoppe et al., "Piecewise smooth surface reconstruction", SIGGRAPH 1994, §4; PBRT 3rd
   * ed., §3.8.3.
   */
 private[shapes] object LoopNormals:
 
-  /** x, y, z for each vertex; the longest has length 1, all are zero if none has a length.
+  /** x, y, z per vertex; the longest has length 1, or all are zero.
     *
-    * @param ring work space for the neighbours of one vertex
+    * @param ring scratch buffer for the one-ring of a vertex
     */
   def of(table: CornerTable, points: Array[Double], ring: Array[Int]): Array[Float] =
     val normals = new Array[Double](3 * table.vertexCount)
@@ -206,13 +206,14 @@ private[shapes] object LoopNormals:
       longest = Math.max(longest, Math.sqrt(x * x + y * y + z * z))
     normals.map(x => if longest > 0 then (x / longest).toFloat else 0f)
 
-  /** In the tangent along the boundary: from its first to its last neighbour. */
+  /** Weight in the tangent along the boundary: from its first to its last neighbour. */
   private def edgeWeight(i: Int, count: Int): Double =
     if i == 0 then -1 else if i == count - 1 then 1 else 0
 
-  /** The weight of neighbour `i` of `count` in the tangent that leads from the boundary into the
-    * surface. Neighbours count relative to the vertex, whose own weight so is minus the sum of
-    * theirs. That is pbrt's for up to four; for more it is 0, which is what their weights sum to.
+  /** Weight of neighbour `i` of `count` in the tangent from the boundary into the surface.
+    * Neighbours are relative to the vertex, whose own weight thus is minus their sum. That is
+    * pbrt's weight for up to four neighbours; for more, pbrt's is 0, which is what their weights
+    * sum to.
     */
   private def inwardWeight(i: Int, count: Int): Double =
     val atEdge = i == 0 || i == count - 1
@@ -224,19 +225,19 @@ private[shapes] object LoopNormals:
         val theta = Math.PI / (count - 1)
         if atEdge then -Math.sin(theta) else (2 - 2 * Math.cos(theta)) * Math.sin(i * theta)
 
-/** What must hold before an array of faces is looked at as a surface. */
+/** Validates an array of faces before it is read as a surface. */
 private[shapes] object MeshInput:
 
-  /** @throws MeshError at the first thing that is wrong */
+  /** @throws MeshError at the first violation */
   def check(levels: Int, indices: Array[Int], positions: Array[Float]): Unit =
     def fail(message: String) = throw MeshError(message)
     val vertexCount = positions.length / 3
-    if levels < 0 then fail(s"a mesh can't be subdivided $levels times")
+    if levels < 0 then fail(s"levels of subdivision must not be negative, found $levels")
     if positions.length % 3 != 0 then
-      fail(s"${positions.length} coordinates are no whole number of points")
-    if indices.isEmpty then fail("a mesh without faces")
+      fail(s"${positions.length} coordinates are not a multiple of 3")
+    if indices.isEmpty then fail("the mesh has no faces")
     if indices.length % 3 != 0 then
-      fail(s"${indices.length} indices are no whole number of triangles")
+      fail(s"${indices.length} indices are not a multiple of 3")
     if indices.length.toDouble * Math.pow(4, levels) > Int.MaxValue - 8 then
       fail(s"$levels levels make too many triangles of ${indices.length / 3}")
     indices.indices.find(i => indices(i) < 0 || indices(i) >= vertexCount).foreach: i =>
@@ -250,7 +251,7 @@ private[shapes] object MeshInput:
       if a == b || b == c || c == a then
         fail(s"face $f uses a vertex twice: $a, $b, $c")
 
-  /** The faces, and for each vertex that they use its old number, in the old order. */
+  /** The faces, and the old number of each vertex that they use, in the old order. */
   def withoutUnused(indices: Array[Int], vertexCount: Int): (Array[Int], Array[Int]) =
     val uses = new Array[Boolean](vertexCount)
     indices.foreach(i => uses(i) = true)
@@ -259,7 +260,7 @@ private[shapes] object MeshInput:
     loop(used.length)(i => renumbered(used(i)) = i)
     (indices.map(i => renumbered(i)), used)
 
-/** A mesh that can't be what its author meant. The message names the faces and vertices, counted
-  * from 0 in the order of the input; who reads scene files adds the place.
+/** An invalid mesh. The message names faces and vertices, counted from 0 in input order; the scene
+  * reader adds the location.
   */
 final class MeshError(message: String) extends RuntimeException(message, null, false, false)

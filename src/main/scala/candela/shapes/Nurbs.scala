@@ -2,24 +2,24 @@ package candela.shapes
 
 import candela.base.loop
 
-/** One direction of a NURBS surface: the B-spline basis over a knot vector.
+/** One parameter of a NURBS surface: the B-spline basis over a knot vector.
   *
-  * @param count of control points
+  * @param count number of control points
   * @param order degree + 1
-  * @param knots `count + order` numbers that never fall
+  * @param knots `count + order` non-decreasing numbers
   */
 final class KnotVector(val count: Int, val order: Int, val knots: Array[Double]):
   private val degree = order - 1
 
-  /** The first of the `order` control points that matter at t. At a knot the span below counts. */
+  /** First of the `order` control points that influence t. At a knot, the span below applies. */
   def first(t: Double): Int =
     var span = degree
     while span < count - 1 && (t > knots(span + 1) || knots(span) == knots(span + 1)) do span += 1
-    // A span of no length at the end: the one before
+    // Empty spans at the end: use the previous span
     while span > degree && knots(span) == knots(span + 1) do span -= 1
     span - degree
 
-  /** Of those the weights at t, and how they change with t: two arrays of `order`.
+  /** Weights of those control points at t, and their derivatives: two arrays of `order`.
     *
     * Source: Cox–de Boor; Piegl and Tiller, "The NURBS Book", 2nd ed., §2.5, equations 2.5 and 2.7.
     */
@@ -37,7 +37,7 @@ final class KnotVector(val count: Int, val order: Int, val knots: Array[Double])
       degree * (left - right)
     (current, slopes)
 
-  /** The p + 1 functions of degree p that are not zero, from the p of one degree less. */
+  /** The p + 1 non-zero basis functions of degree p, from the p of one degree less. */
   private def raise(lower: Array[Double], span: Int, p: Int, t: Double): Array[Double] =
     Array.tabulate(p + 1): j =>
       val i = span - p + j
@@ -50,13 +50,13 @@ final class KnotVector(val count: Int, val order: Int, val knots: Array[Double])
 
   private def ratio(a: Double, b: Double): Double = if b == 0 then 0.0 else a / b
 
-/** A NURBS surface as a grid of vertices.
+/** A NURBS surface, evaluated as a grid of vertices.
   *
-  * @param points four numbers a control point, x·w, y·w, z·w and w, row by row of one v
+  * @param points four numbers per control point, x·w, y·w, z·w and w, in rows of constant v
   */
 final class Nurbs(u: KnotVector, v: KnotVector, points: Array[Double]):
 
-  /** Position, ∂p/∂u × ∂p/∂v (zero at a pole): six numbers. */
+  /** Position and ∂p/∂u × ∂p/∂v (zero at a pole): six numbers. */
   def at(s: Double, t: Double): Array[Double] =
     val (wu, du) = u.weights(s)
     val (wv, dv) = v.weights(t)

@@ -2,13 +2,13 @@ package candela.shapes
 
 import candela.math.*
 
-/** The outline of a quadric of revolution about z: x² + y² = g0 + g1·z + g2·z², from `zMin` to
-  * `zMax`. Its v runs along z, from `vStart` on over `vSpan`.
+/** Profile of a quadric of revolution about z: x² + y² = g0 + g1·z + g2·z², from `zMin` to `zMax`.
+  * Its v runs along z, from `vStart` over `vSpan`.
   *
   * u = 0 is not always at y = 0: it is in the direction (seamX, seamY) + v·(seamDx, seamDy) of the
-  * xy-plane, which turns along a hyperboloid.
+  * xy-plane, which rotates along a hyperboloid.
   *
-  * @param vSpan negative if v runs downwards; then the surface is inside out
+  * @param vSpan negative if v runs downwards; the surface is then inside out
   */
 final class Profile(
     val g0: Double,
@@ -23,7 +23,7 @@ final class Profile(
     seamDx: Double = 0,
     seamDy: Double = 0
 ):
-  /** The square of the radius; below 0 where there is no surface. */
+  /** Squared radius; negative where there is no surface. */
   inline def radius2(z: Double): Double = g0 + z * (g1 + z * g2)
 
   /** Half the derivative of `radius2`: −z of the outward gradient (x, y, −slope) of half the
@@ -33,7 +33,7 @@ final class Profile(
 
   inline def v(z: Double): Double = (z - vStart) / vSpan
 
-  /** The angle from the seam to (x, y), in [0, 2π). */
+  /** Angle from the seam to (x, y), in [0, 2π). */
   def angle(x: Double, y: Double, z: Double): Double =
     val t = v(z)
     val sx = seamX + t * seamDx
@@ -41,48 +41,49 @@ final class Profile(
     val a = Math.atan2(sx * y - sy * x, sx * x + sy * y)
     if a < 0 then a + 2 * Math.PI else a
 
-  /** The direction of the seam. */
+  /** Direction of the seam. */
   def seam(z: Double): Double = Math.atan2(seamY + v(z) * seamDy, seamX + v(z) * seamDx)
 
-  /** By how much the seam turns for a step in v. */
+  /** Derivative of the seam's angle by v. */
   def seamPerV(z: Double): Double =
     val sx = seamX + v(z) * seamDx
     val sy = seamY + v(z) * seamDy
     val length2 = sx * sx + sy * sy
     if length2 > 0 then (sx * seamDy - sy * seamDx) / length2 else 0.0
 
-  /** Is the point as far from the z-axis as the outline there, to a thousandth? */
+  /** Whether the point's distance from the z-axis agrees with the profile, to a thousandth. */
   def follows(p: Vec3): Boolean =
     val radius2 = p.x.toDouble * p.x + p.y.toDouble * p.y
     Math.abs(this.radius2(p.z.toDouble) - radius2) <= 1e-3 * radius * radius
 
-  /** The largest radius. */
+  /** Largest radius. */
   def radius: Double =
     val turn = if g2 < 0 then Math.max(zMin, Math.min(zMax, -0.5 * g1 / g2)) else zMin
     Math.sqrt(Seq(zMin, zMax, turn).map(z => Math.max(0.0, radius2(z))).max)
 
-/** The outlines of pbrt's shapes. */
+/** The profiles of pbrt's shapes. */
 object Profile:
 
   def cylinder(radius: Float, zMin: Float, zMax: Float): Profile =
     Profile(radius.toDouble * radius, 0, 0, zMin, zMax, zMin, zMax.toDouble - zMin)
 
-  /** From z = 0, where it is `radius` wide, to the tip at `height`. */
+  /** From z = 0, with radius `radius`, to the apex at `height`. */
   def cone(radius: Float, height: Float): Profile =
     val r2 = radius.toDouble * radius
     val h = height.toDouble
     Profile(r2, -2 * r2 / h, r2 / (h * h), 0, h, 0, h)
 
-  /** With its apex at the origin, and `radius` wide at `zMax`. */
+  /** With its apex at the origin, and radius `radius` at `zMax`. */
   def paraboloid(radius: Float, zMin: Float, zMax: Float): Profile =
     Profile(0, radius.toDouble * radius / zMax, 0, zMin, zMax, zMin, zMax.toDouble - zMin)
 
   def sphere(radius: Float, zMin: Float, zMax: Float): Profile =
     Profile(radius.toDouble * radius, 0, -1, zMin, zMax, zMin, zMax.toDouble - zMin)
 
-  /** What the line from `a` to `b` sweeps, if it is nearest to the z-axis at z = 0. A quadric that
-    * is symmetric about z = 0 can't follow other lines; as in pbrt it then passes through b and
-    * through a + 2k·(b − a) for the first k = 1, 2 whose distance from the plane z = 0 differs.
+  /** The surface that the line from `a` to `b` sweeps, if the line is closest to the z-axis at z =
+    * 0. A quadric that is symmetric about z = 0 can't follow other lines; as in pbrt it then passes
+    * through b and through a + 2k·(b − a) for the first k = 1, 2 whose distance from the plane z =
+    * 0 differs.
     *
     * @return None if both points have the same z
     */

@@ -3,14 +3,14 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** A cylinder, cone, paraboloid or hyperboloid, perhaps swept over less than a full turn, anywhere
-  * in the world and of any affine shape. Open at its ends.
+/** A cylinder, cone, paraboloid or hyperboloid, optionally partial, under any affine transform.
+  * Open at its ends.
   *
-  * The quadratic is solved in Double, after the ray's origin is moved to where the ray is nearest
-  * to the shape's middle: so its coefficients don't cancel when the ray comes from far away.
+  * Solves the quadratic in Double, with the ray's origin moved to the point closest to the shape's
+  * centre: its coefficients then do not cancel for distant ray origins.
   *
-  * @param phiMax   sweep in radians, 2π for a full turn
-  * @param reversed is the outside the side that the gradient points away from?
+  * @param phiMax   sweep in radians, 2π for a full revolution
+  * @param reversed whether the outside faces against the gradient
   */
 final class Quadric(
     objectToWorld: Transform,
@@ -41,7 +41,7 @@ final class Quadric(
   def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, nearest(ray))
   def isHit(ray: Ray): Boolean = isWithin(ray, nearest(ray))
 
-  /** The smallest distance > 0 at which the ray meets the surface, or −1. */
+  /** Distance > 0 of the closest hit, or −1. */
   private def nearest(ray: Ray): Double =
     val dx = alongX(ray)
     val dy = alongY(ray)
@@ -61,8 +61,8 @@ final class Quadric(
     else
       val root = Math.sqrt(discriminant)
       val q = if b < 0.0 then root - b else -(b + root)
-      // Along an axis or a generator a is 0 and one root is infinite or NaN: no comparison below
-      // takes it for a hit
+      // For a ray along an axis or a generator a is 0, and one root is infinite or NaN: all
+      // comparisons below reject it
       val s0 = q / a
       val s1 = c / q
       val near = if s1 < s0 then s1 else s0
@@ -84,7 +84,7 @@ final class Quadric(
     var x = objectX(wx, wy, wz)
     var y = objectY(wx, wy, wz)
     var z = objectZ(wx, wy, wz)
-    // Behind a hole the t is a Float, a millionth off; two of Newton's steps along the gradient
+    // Behind an alpha cutout t is a Float, a millionth off; two Newton steps along the gradient
     // bring the point onto the surface
     var steps = 2
     while steps > 0 do
@@ -99,7 +99,7 @@ final class Quadric(
     put(x, y, z, at)
     val slope = profile.slope(z)
     val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
-    // A tip points up, as far as it has a direction at all
+    // An apex points up, as the gradient is zero there
     val up = if gradient.isZero then Vec3.Z else gradient
     at.geometricNormal = objectToWorld.normal(up).normalized * outside
     at.u = Math.min(1.0, profile.angle(x, y, z) / phiMax).toFloat
@@ -110,11 +110,11 @@ final class Quadric(
     ))
     if at.wantsPartials then partials(x, y, z, at)
 
-  /** A step in v goes along the outline, and turns with the seam. */
+  /** ∂p/∂v follows the profile, and rotates with the seam. */
   private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
     val slope = profile.slope(z)
     val radius2 = x * x + y * y
-    // At a tip any direction is as good
+    // Any direction serves at an apex
     val widening = if radius2 > 0 then profile.vSpan * slope / radius2 else 0.0
     val turn = profile.seamPerV(z)
     val alongU = Vec3((-y * phiMax).toFloat, (x * phiMax).toFloat, 0f)

@@ -3,11 +3,11 @@ package candela.shapes
 import candela.math.*
 import candela.sampling.Distribution1D
 
-/** Points on a placed surface of revolution, nearly uniform by area before it is placed: uniform in
-  * φ, and in z as the area of each of [[RevolutionSampling.Rings]] rings says.
+/** Samples a transformed surface of revolution, nearly uniformly by area before the transform:
+  * uniformly in φ, and in z by the areas of [[RevolutionSampling.Rings]] rings.
   *
-  * The gradient g = (x, y, −slope) of half the implicit function gives areas: on the untransformed
-  * surface dA = |g| dz dφ, and in the world dA = |det M| · |M⁻ᵀ g| dz dφ.
+  * The gradient g = (x, y, −slope) of half the implicit function yields areas: on the untransformed
+  * surface dA = |g| dz dφ, and in world space dA = |det M| · |M⁻ᵀ g| dz dφ.
   */
 private[shapes] final class RevolutionSampling(
     objectToWorld: Transform,
@@ -28,7 +28,7 @@ private[shapes] final class RevolutionSampling(
     val s = profile.slope(z)
     if radius2 > 0 then Math.sqrt(radius2 + s * s) else 0.0
 
-  /** dA / (dz dφ) in the world. */
+  /** dA / (dz dφ) in world space. */
   private def stretch(x: Double, y: Double, z: Double): Double =
     val m = objectToWorld.inverseM
     val s = -profile.slope(z)
@@ -37,7 +37,7 @@ private[shapes] final class RevolutionSampling(
     val nz = m(2) * x + m(6) * y + m(10) * s
     determinant * Math.sqrt(nx * nx + ny * ny + nz * nz)
 
-  /** In the world; by quadrature, to six digits or more. */
+  /** World-space area, by quadrature, to six digits or more. */
   lazy val area: Double =
     var sum = 0.0
     for i <- 0 until Rings; x <- Gauss do
@@ -53,7 +53,7 @@ private[shapes] final class RevolutionSampling(
   /** `out.n` is the gradient's direction, `out.pdf` is per world area. */
   def sample(u1: Float, u2: Float, out: SurfaceSample): Unit =
     val part = rings.sample(u1)
-    // In Double up to the world point, for whose rounding alone `pError` stands
+    // In Double up to the world point: `pError` covers its rounding only
     val z = profile.zMin + part * span
     val r = Math.sqrt(Math.max(0.0, profile.radius2(z)))
     val phi = profile.seam(z) + u2.toDouble * phiMax
@@ -66,7 +66,7 @@ private[shapes] final class RevolutionSampling(
       .normalized
     out.pdf = density(rings.pdf(part), x, y, z)
 
-  /** The density per world area with which `sample` returns the point p. */
+  /** Pdf per world area with which `sample` returns the point p. */
   def perArea(p: Vec3): Float =
     val m = objectToWorld.inverseM
     val x = m(0) * p.x + m(1) * p.y + m(2) * p.z + m(3)

@@ -3,24 +3,24 @@ package candela.shapes
 import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** A surface that rays can meet, other than a triangle of a mesh; in world space, immutable. */
+/** A surface that rays can hit, other than a mesh triangle; in world space, immutable. */
 abstract class Shape extends SurfaceSampler:
 
-  /** Contains the whole surface. */
+  /** Bounds of the whole surface. */
   def bounds: Bounds3
 
-  /** Is there a hit in (0, `ray.tMax`)? Then `ray.tMax` becomes its distance; `hit.u` and `hit.v`
-    * may hold what `surface` wants to know again, `hit.primitive` is left to the caller.
+  /** Finds the closest hit in (0, `ray.tMax`) and sets `ray.tMax` to its distance; `hit.u` and
+    * `hit.v` may store values for `surface`, `hit.primitive` is set by the caller.
     */
   def intersect(ray: Ray, hit: Hit): Boolean
 
-  /** The same question without the answer's details; the ray stays as it is. */
+  /** Whether the ray hits the shape in (0, `ray.tMax`); leaves the ray unchanged. */
   def isHit(ray: Ray): Boolean
 
-  /** A cone that holds all outside normals: its unit axis, and the cosine of its half-angle. */
+  /** A cone that contains all outward normals: its unit axis, and the cosine of its half-angle. */
   def normals: (Vec3, Float)
 
-  /** Fills in the geometry of the hit that `intersect` found. */
+  /** Computes the geometry of the hit that `intersect` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit
 
   final def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
@@ -28,33 +28,33 @@ abstract class Shape extends SurfaceSampler:
     if isMet then surface(ray, hit, at)
     isMet
 
-/** A surface on which points can be chosen, as seen from a point: what an area light needs. */
+/** A surface whose points can be sampled, as required of an area light. */
 abstract class SurfaceSampler:
 
-  /** In square units of world space. */
+  /** Area in world space. */
   def area: Float
 
-  /** Chooses a point that may be visible from `from`; `out.pdf` is 0 if there is none. */
+  /** Samples a point that may be visible from `from`; `out.pdf` is 0 if there is none. */
   def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     sampleArea(u1, u2, out)
     out.pdf = SurfaceSampler.perSolidAngle(out.pdf, from, out.p, out.n)
 
-  /** The density per solid angle at `from` with which `sample` returns the point `p` of this
-    * surface, whose unit normal is `n`.
+  /** Pdf per solid angle at `from` with which `sample` returns the point `p` of this surface, whose
+    * unit normal is `n`.
     */
   def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
     SurfaceSampler.perSolidAngle(areaPdf(p), from, p, n)
 
-  /** Chooses a point anywhere, wherever it is seen from; `out.pdf` is per area. */
+  /** Samples a point of the whole surface, visible or not; `out.pdf` is per area. */
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit
 
-  /** The density per area with which `sampleArea` returns the point `p` of this surface. */
+  /** Pdf per area with which `sampleArea` returns the point `p` of this surface. */
   def areaPdf(p: Vec3): Float
 
-  /** Is there a hit in (0, `ray.tMax`)? Then `at` gets its geometry. */
+  /** Whether the ray hits the surface in (0, `ray.tMax`); `at` then receives the geometry. */
   def meets(ray: Ray, hit: Hit, at: ShadingPoint): Boolean
 
-/** A point on a surface; mutable, one per worker. Its vectors are stored in place. */
+/** A sampled point on a surface; mutable, one per worker. Its vectors are stored in place. */
 final class SurfaceSample:
   private val ownP, ownPError = MutableVec3()
   private val ownN = MutableVec3(0f, 0f, 1f)
@@ -62,22 +62,22 @@ final class SurfaceSample:
   def p: MutableVec3 = ownP
   def p_=(v: Vec3): Unit = ownP.set(v)
 
-  /** Conservative bound of the error of `p`, per component. */
+  /** Conservative error bound of `p`, per component. */
   def pError: MutableVec3 = ownPError
   def pError_=(v: Vec3): Unit = ownPError.set(v)
 
-  /** Unit normal on the outside. */
+  /** Outward unit normal. */
   def n: MutableVec3 = ownN
   def n_=(v: Vec3): Unit = ownN.set(v)
 
-  /** Per solid angle at the point that asked, or per area. */
+  /** Pdf, per solid angle at the reference point, or per area. */
   var pdf: Float = 0f
 
-  /** Work space of [[TriangleSampler]]. */
+  /** Scratch memory of [[TriangleSampler]]. */
   val triangle = candela.sampling.SphericalTriangle()
 
 object SurfaceSampler:
-  /** Turns a density per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */
+  /** Converts a pdf per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */
   def perSolidAngle(perArea: Float, from: Vec3, p: Vec3, n: Vec3): Float =
     val d = p - from
     val distance2 = d.lengthSquared

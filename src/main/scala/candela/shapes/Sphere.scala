@@ -3,16 +3,15 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
 
-/** A sphere, perhaps cut by two planes of constant z and swept over less than a full turn, anywhere
-  * in the world and of any affine shape.
+/** A sphere, optionally clipped by two planes of constant z and partial in φ, under any affine
+  * transform.
   *
-  * The quadratic is solved in Double: Float data give a discriminant that is exact enough for
-  * spheres a million radii away (stability suite), and the hit point's error is that of its
-  * rounding alone.
+  * Solves the quadratic in Double: with Float data its discriminant is exact enough for spheres a
+  * million radii away (stability suite), and the hit point's error is that of its rounding alone.
   *
-  * @param zMin, zMax clip planes in object space; −radius, radius for a full sphere
+  * @param zMin, zMax clipping planes in object space; −radius, radius for a full sphere
   * @param phiMax     sweep in radians, 2π for a full sphere
-  * @param reversed   is the outside the side that p − centre points away from?
+  * @param reversed   whether the outside faces the centre
   */
 final class Sphere(
     objectToWorld: Transform,
@@ -36,7 +35,7 @@ final class Sphere(
   def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, nearest(ray))
   def isHit(ray: Ray): Boolean = isWithin(ray, nearest(ray))
 
-  /** The smallest distance > 0 at which the ray meets the sphere, or −1. */
+  /** Distance > 0 of the closest hit, or −1. */
   private def nearest(ray: Ray): Double =
     val ox = objectX(ray.ox, ray.oy, ray.oz)
     val oy = objectY(ray.ox, ray.oy, ray.oz)
@@ -69,7 +68,7 @@ final class Sphere(
     full || (z >= zMin && z <= zMax && phi(x, y) <= phiMax)
 
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
-    // Once more in Double: from a million radii away the Float t is a twentieth of one off
+    // In Double: at a distance of a million radii the Float t is off by a twentieth of a radius
     val t = refined(nearest(ray), ray.tMax)
     val wx = ray.ox + t * ray.dx
     val wy = ray.oy + t * ray.dy
@@ -95,7 +94,7 @@ final class Sphere(
     val perU = phiMax.toDouble
     val perV = thetaMax - thetaMin
     val r = Math.sqrt(x * x + y * y)
-    // At a pole any direction is as good
+    // Any direction serves at a pole
     val c = if r > 0 then x / r else 1.0
     val s = if r > 0 then y / r else 0.0
     val alongU = Vec3((-y * perU).toFloat, (x * perU).toFloat, 0f)
@@ -123,11 +122,11 @@ final class Sphere(
       if reversed then out.n = -out.n
     else super.sample(from, u1, u2, out)
 
-  /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` per world
+  /** Uniform in z and φ, hence uniform by area on the untransformed sphere; `out.pdf` is per world
     * area.
     */
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
-    // In Double up to the world point, for whose rounding alone `pError` stands (SpawnedRaySuite)
+    // In Double up to the world point: `pError` covers its rounding only (SpawnedRaySuite)
     val z = zMin + u1.toDouble * (zMax.toDouble - zMin)
     val r = Math.sqrt(Math.max(0.0, radius.toDouble * radius - z * z))
     val angle = u2.toDouble * phiMax

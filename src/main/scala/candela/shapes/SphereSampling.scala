@@ -3,17 +3,15 @@ package candela.shapes
 import candela.geometry.Frame
 import candela.math.*
 
-/** Sampling the part of a sphere that a point outside sees: uniform over the cone of directions.
+/** Samples the part of a sphere visible from a point outside: uniform over the cone of directions.
   *
   * Source: Shirley, Wang, Zimmerman, "Monte Carlo Techniques for Direct Lighting Calculations", TOG
-  * 15(1), 1996. Doubles inside: seen from afar the cone is too narrow for Float cosines, and from
-  * close by so is the angle at the centre that most of the cone spans (SphereSamplingSuite).
+  * 15(1), 1996. Computed in Double: from afar the cone is too narrow for Float cosines, and close
+  * to the sphere so is the angle at the centre that most of the cone spans (SphereSamplingSuite).
   */
 object SphereSampling:
 
-  /** 1 − cos of the cone's half-angle, given sin² of it, without the cancellation of the plain
-    * words.
-    */
+  /** 1 − cos of the cone's half-angle from its sin², without cancellation. */
   private def oneMinusCos(sin2: Double): Double = sin2 / (1 + Math.sqrt(Math.max(0.0, 1 - sin2)))
 
   private def distanceSquared(a: Vec3, b: Vec3): Double =
@@ -39,8 +37,7 @@ object SphereSampling:
     val sin2Theta = oneMinusCosTheta * (2 - oneMinusCosTheta)
     val cosTheta = 1 - oneMinusCosTheta
     val halfChord = Math.sqrt(Math.max(0.0, radius2 - distance2 * sin2Theta))
-    // d cos θ − half the chord, by the product of both crossings: nothing cancels close to the
-    // sphere
+    // d cos θ − half the chord, from the product of both roots: nothing cancels close to the sphere
     val toSample = (distance2 - radius2) / (distance * cosTheta + halfChord)
     val sinAlpha = (toSample * Math.sqrt(sin2Theta) / radius).toFloat
     val cosAlpha = ((distance - toSample * cosTheta) / radius).toFloat
@@ -49,7 +46,7 @@ object SphereSampling:
     val n = frame.toWorld(Vec3(sinAlpha * cos(phi), sinAlpha * sin(phi), cosAlpha))
     out.n = n
     out.p = center + n * radius
-    // centre + r·n: one product and one sum, each rounded; the parts may exceed the result
+    // centre + r·n: one product and one sum, each rounded; the terms may exceed the result
     out.pError = Vec3(
       (Math.abs(center.x) + Math.abs(n.x) * radius) * gamma(5),
       (Math.abs(center.y) + Math.abs(n.y) * radius) * gamma(5),

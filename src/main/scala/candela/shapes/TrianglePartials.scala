@@ -3,13 +3,13 @@ package candela.shapes
 import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
 
-/** How point and normal change over a triangle. */
+/** Partial derivatives of point and normal over a triangle. */
 private[shapes] object TrianglePartials:
 
-  /** Fills in the partial derivatives at a point, once its frame is known.
+  /** Sets the partial derivatives at a point; requires its frame.
     *
-    * A triangle whose corners' u and v do not span an area gets tangents of unit length in any
-    * direction. Where a mesh has normals, the tangents for displacements follow them.
+    * A triangle with degenerate u and v gets arbitrary unit tangents. If a mesh has normals, the
+    * tangents for displacements follow them.
     *
     * @param e1, e2 edges from the first corner to the second and to the third
     */
@@ -26,7 +26,7 @@ private[shapes] object TrianglePartials:
     val k1 = i1 - mesh.firstVertex
     val k2 = i2 - mesh.firstVertex
     val t = mesh.uvs
-    // Differences of the parameters along the two edges; those without any are (0,0), (1,0), (1,1)
+    // Differences of the parameters along the two edges; the default uv are (0,0), (1,0), (1,1)
     val isPlain = t.length == 0
     val u1 = if isPlain then 1f else t(2 * k1) - t(2 * k0)
     val v1 = if isPlain then 0f else t(2 * k1 + 1) - t(2 * k0 + 1)
@@ -46,7 +46,7 @@ private[shapes] object TrianglePartials:
         at.dndu = Vec3.Zero
         at.dndv = Vec3.Zero
       else
-        // Of the interpolated normal as it is, not of the unit vector made of it: so in pbrt
+        // Derivative of the interpolated normal before normalisation, as in pbrt
         val n0 = normal(n, k0)
         val d1 = normal(n, k1) - n0
         val d2 = normal(n, k2) - n0
@@ -70,18 +70,18 @@ private[shapes] object TrianglePartials:
   private def normal(n: Array[Float], vertex: Int): Vec3 =
     Vec3(n(3 * vertex), n(3 * vertex + 1), n(3 * vertex + 2))
 
-  /** Of the determinant of u and v; pbrt's. */
+  /** Threshold of the determinant of u and v, as in pbrt. */
   private val Degenerate = 1e-8f
 
-/** Along which tangents displacements of a mesh with normals are differentiated, and to which side
-  * they rise.
+/** Tangents along which displacements of a mesh with normals are differentiated, and the side to
+  * which they rise.
   */
 enum BumpTangents:
   /** As long as the surface's own, along the normals' side (pbrt-v4). */
   case Along
 
-  /** Unit vectors, turned half around: bumps of u and v appear as dents (pbrt-v3 and v2). */
+  /** Unit vectors, rotated by 180 degrees: bumps of u and v appear as dents (pbrt-v3 and v2). */
   case Turned
 
-  /** The same, sinking instead of rising (meshes of pbrt-v2 whose orientation is reversed). */
+  /** As [[Turned]], with the displacement negated (pbrt-v2's meshes of reversed orientation). */
   case TurnedSinking

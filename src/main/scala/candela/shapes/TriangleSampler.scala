@@ -4,9 +4,9 @@ import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.sampling.{SphericalTriangle, Warp}
 
-/** Points on one triangle of the soup: uniform by the solid angle under which they are seen, so
-  * that neither distance nor slant makes noise; by area where the triangle is seen so small that
-  * both are the same, or so large that the eye is about on it.
+/** Samples a triangle of the soup uniformly by solid angle, so that distance and slant add no
+  * noise; by area if the solid angle is so small that both are the same, or so large that the
+  * reference point is almost on the triangle.
   *
   * Sources: [[SphericalTriangle]]; by area Heitz, "A Low-Distortion Map Between Triangle and
   * Square", 2019.
@@ -20,7 +20,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
   private val cross = (p1 - p0) cross (p2 - p0)
   val area: Float = 0.5f * cross.length
 
-  /** Unit normal on the outside, as [[TriangleSoup.surface]] orients it at the centroid. */
+  /** Outward unit normal, as [[TriangleSoup.surface]] orients it at the centroid. */
   val normal: Vec3 =
     val at = candela.geometry.ShadingPoint()
     val hit = candela.geometry.Hit()
@@ -65,8 +65,8 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
   private def isByAngle(solidAngle: Double): Boolean =
     solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle
 
-  /** Where the ray from `from` in direction `w` meets the triangle, by weights of its corners that
-    * keep the point on it whatever is rounded.
+  /** Intersects the ray from `from` in direction `w` with the triangle, as barycentric weights that
+    * keep the point on it despite rounding.
     */
   private def place(from: Vec3, w: Vec3, out: SurfaceSample): Unit =
     val e1x = p1.x.toDouble - p0.x
@@ -101,8 +101,8 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     )
 
 object TriangleSampler:
-  /** In sr, the range of PBRT 4th ed., §6.5.4: below it the density by area is as good as
-    * constant, above it the eye is about in the triangle's plane.
+  /** Range of solid angles in sr, from PBRT 4th ed., §6.5.4: below it the pdf by area is nearly
+    * constant, above it the reference point is almost in the triangle's plane.
     */
   private inline val MinSolidAngle = 3e-4
   private inline val MaxSolidAngle = 6.22

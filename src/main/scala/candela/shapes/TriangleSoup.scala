@@ -3,16 +3,16 @@ package candela.shapes
 import candela.geometry.{Bounds3, Frame, Hit, ShadingPoint}
 import candela.math.*
 
-/** One mesh of the soup: which vertices and triangles are its own, and what it looks like.
+/** A mesh of the soup: its ranges of vertices and triangles, and its appearance.
   *
-  * @param firstVertex   of its vertices in [[TriangleSoup.positions]], in vertices
-  * @param firstTriangle of its triangles
-  * @param normals       three Floats a vertex, world space, any length; empty: flat facets
-  * @param uvs           two Floats a vertex; empty: (0,0), (1,0), (1,1) in every triangle
-  * @param flipped       the geometric normal is −(p1−p0)×(p2−p0)
+  * @param firstVertex   index of its first vertex in [[TriangleSoup.positions]], in vertices
+  * @param firstTriangle index of its first triangle
+  * @param normals       three Floats per vertex, world space, any length; empty for flat shading
+  * @param uvs           two Floats per vertex; if empty, (0,0), (1,0), (1,1) in every triangle
+  * @param flipped       whether the geometric normal is −(p1−p0)×(p2−p0)
   * @param material      index into the scene's materials
-  * @param firstLight    index of the light of its first triangle, the others follow; −1: no emitter
-  * @param bumps         how displacements are taken, if it has normals
+  * @param firstLight    light of its first triangle, the others follow; −1 if it does not emit
+  * @param bumps         tangents for displacements, if it has normals
   */
 final class Mesh(
     val firstVertex: Int,
@@ -29,9 +29,9 @@ final class Mesh(
 /** All triangles of a scene in world space.
   *
   * @param positions x, y, z of every vertex of every mesh
-  * @param indices   three vertices a triangle, counted over all meshes
-  * @param owners    the mesh of each triangle; may be empty if there is only one
-  * @param tangents  does any material ask for the direction of u? If not, it isn't computed
+  * @param indices   three vertices per triangle, numbered over all meshes
+  * @param owners    mesh of each triangle; may be empty if there is only one
+  * @param tangents  whether any material needs the direction of u; it is not computed otherwise
   */
 final class TriangleSoup(
     val positions: Array[Float],
@@ -51,7 +51,7 @@ final class TriangleSoup(
   def bounds(triangle: Int): Bounds3 =
     Bounds3.of(Seq(vertex(triangle, 0), vertex(triangle, 1), vertex(triangle, 2)))
 
-  /** Geometry of the point with barycentric weights (1−hit.u−hit.v, hit.u, hit.v).
+  /** Computes the geometry of the point with barycentric weights (1−hit.u−hit.v, hit.u, hit.v).
     *
     * The weights sum to one in Double, so the point lies in the triangle's plane up to the final
     * rounding to Float, which `pError` bounds (stability suite: self-intersection).
@@ -85,7 +85,8 @@ final class TriangleSoup(
     at.areaLight =
       if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
 
-  /** The point and the bound of its error; `j0` … are the corners' first coordinates. */
+  /** Computes the point and its error bound; `j0` … are the offsets of the corners' coordinates.
+    */
   private def place(j0: Int, j1: Int, j2: Int, b1: Double, b2: Double, at: ShadingPoint): Unit =
     val b0 = 1.0 - b1 - b2
     val p = positions
@@ -99,7 +100,9 @@ final class TriangleSoup(
       TriangleSoup.error(z, p(j0 + 2), p(j1 + 2), p(j2 + 2))
     )
 
-  /** The unit normal, times `side`; any across the longer side if the triangle has no area. */
+  /** Sets the geometric unit normal, times `side`; any normal perpendicular to the longer side if
+    * the triangle has no area.
+    */
   private def facet(j0: Int, j1: Int, j2: Int, side: Double, at: ShadingPoint): Unit =
     val p = positions
     val ax = p(j1).toDouble - p(j0)
@@ -123,7 +126,8 @@ final class TriangleSoup(
       at.geometricNormal =
         if along.isZero then Vec3.Z else Frame.around(along.normalized).s * side.toFloat
 
-  /** Sets `n` to the interpolated normal, of unit length; leaves it if the corners' normals cancel.
+  /** Sets `n` to the interpolated normal, normalised; leaves it unchanged if the corners' normals
+    * cancel.
     */
   private def shadingNormal(
       mesh: Mesh,
@@ -183,16 +187,16 @@ final class TriangleSoup(
       else (e1 * v2 - e2 * v1) * Math.signum(determinant)
 
 object TriangleSoup:
-  /** Rounding a Double point to Float is off by half an ulp; one more for what uses it. */
+  /** Rounding a Double point to Float costs half an ulp; one more for its use. */
   def roundingError(p: Vec3): Vec3 =
     Vec3(Math.abs(p.x) * gamma(2), Math.abs(p.y) * gamma(2), Math.abs(p.z) * gamma(2))
 
-  /** What the rounding of Double coordinates leaves: it counts where a point of a large triangle is
-    * close to the origin.
+  /** Rounding error of Double coordinates: it matters for points of a large triangle close to the
+    * origin.
     */
   private inline val DoubleError = 2e-15f
 
-  /** Bound of the error of a point that is a mean of the corners. */
+  /** Error bound of a point that is a mean of the corners. */
   private[shapes] def error(p: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Vec3 = Vec3(
     error(p.x, p0.x, p1.x, p2.x),
     error(p.y, p0.y, p1.y, p2.y),

@@ -2,25 +2,25 @@ package candela.shapes
 
 import candela.geometry.{Hit, Ray}
 
-/** The ray–triangle test: watertight, so that a ray through a closed mesh's edge or vertex always
-  * meets one of the triangles that share it.
+/** Watertight ray–triangle test: a ray through an edge or vertex of a closed mesh always hits one
+  * of the triangles that share it.
   *
-  * Whatever it accepts lies, to a relative [[Within]], inside the triangle's box: that is what lets
-  * hierarchies of boxes find the very hits that testing everything finds.
+  * Every accepted hit lies, to a relative [[Within]], inside the triangle's box: any BVH thus finds
+  * exactly the hits of the brute-force test.
   *
   * Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
   */
 object TriangleTest:
 
   /** Tests the nine Floats of `v` from `at` on: the corners' coordinates. On a hit in (0,
-    * `ray.tMax`) shortens the ray, writes the barycentric weights, and is true.
+    * `ray.tMax`) shortens the ray, writes the barycentric weights, and returns true.
     */
   def intersect(v: Array[Float], at: Int, ray: Ray, hit: Hit): Boolean =
     test(v, at, 1, Int.MaxValue, ray, hit, write = true)
 
-  /** The same for Floats that are `stride` apart. Of two triangles at the same distance the one of
-    * the lower number is met, so that the answer does not depend on the order of asking:
-    * `hit.primitive` is the number of what has been met so far, or −1.
+  /** As above, for Floats at a distance of `stride`. Of two triangles at the same distance the
+    * lower `number` wins, so that the result does not depend on traversal order: `hit.primitive` is
+    * the number of the closest hit so far, or −1.
     */
   def intersect(
       v: Array[Float],
@@ -32,14 +32,14 @@ object TriangleTest:
   ): Boolean =
     test(v, at, stride, primitive, ray, hit, write = true)
 
-  /** As `intersect`, leaving ray and hit alone. */
+  /** As `intersect`, leaving ray and hit unchanged. */
   def isHit(v: Array[Float], at: Int, ray: Ray, hit: Hit): Boolean =
     test(v, at, 1, Int.MaxValue, ray, hit, write = false)
 
   def isHit(v: Array[Float], at: Int, stride: Int, ray: Ray, hit: Hit): Boolean =
     test(v, at, stride, Int.MaxValue, ray, hit, write = false)
 
-  /** By how much, relative to a triangle's extent along each axis, a hit may be outside its box. */
+  /** Tolerance of a hit outside the triangle's box, relative to its extent along each axis. */
   final val Within = 2e-6f
 
   private inline def test(
@@ -57,8 +57,8 @@ object TriangleTest:
     val ox = ray.oAlongX
     val oy = ray.oAlongY
     val oz = ray.oAlongZ
-    // Into the space where the ray starts at 0 and runs along +z: shear x and y now, z at the end.
-    // Kernels that test several triangles at once repeat this, operation by operation
+    // Transforms to ray space, with origin 0 and direction +z: shears x and y now, scales z at the
+    // end. Kernels that test several triangles at once repeat this, operation by operation
     val z0 = v(at + kz * s) - oz
     val z1 = v(at + (3 + kz) * s) - oz
     val z2 = v(at + (6 + kz) * s) - oz
@@ -80,10 +80,9 @@ object TriangleTest:
       e0 + e1 + e2 == 0f
     then false
     else
-      // The ray goes through. Where, is found anew in Double from the corners as they are (Möller
-      // and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats
-      // are off by 1e-7 of the way to the farthest corner, which is too much close to a large
-      // triangle and for a small one far away
+      // The hit is recomputed in Double from the corners (Möller and Trumbore, "Fast, Minimum
+      // Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats are off by 1e-7 of the distance
+      // to the farthest corner, too much close to a large triangle and for a small distant one
       val px = v(at).toDouble
       val py = v(at + s).toDouble
       val pz = v(at + 2 * s).toDouble
@@ -138,7 +137,7 @@ object TriangleTest:
         else
           if write then
             ray.tMax = end
-            // Held to the edge, a point on a plane 1e6 wide would move by hundredths
+            // Clamped to the edge, a point on a plane 1e6 wide would move by hundredths
             hit.u = b1
             hit.v = b2
           true

@@ -176,11 +176,12 @@ class LoopSubdivisionSuite extends AnyFunSuite:
     assert(refused(1, Array(0, 1, 2, 1, 0, 3, 0, 1, 4), square) ==
       "the edge between vertices 0 and 1 belongs to 3 faces (0, 1, 2); " +
       "a surface has at most two there")
-    assert(refused(1, Array(0, 1, 2, 0), square) == "4 indices are no whole number of triangles")
-    assert(refused(1, Array(), square) == "a mesh without faces")
+    assert(refused(1, Array(0, 1, 2, 0), square) == "4 indices are not a multiple of 3")
+    assert(refused(1, Array(), square) == "the mesh has no faces")
     assert(refused(1, Array(0, 1, 2), square.take(8)) ==
-      "8 coordinates are no whole number of points")
-    assert(refused(-1, Array(0, 1, 2), square) == "a mesh can't be subdivided -1 times")
+      "8 coordinates are not a multiple of 3")
+    assert(refused(-1, Array(0, 1, 2), square) ==
+      "levels of subdivision must not be negative, found -1")
     assert(refused(15, Array(0, 1, 2), square) == "15 levels make too many triangles of 1")
     assert(refused(1, Array(0, 1, 2), square.updated(4, Float.NaN)) ==
       "a coordinate of vertex 1 is NaN")

@@ -2,14 +2,14 @@ package candela.accel.building
 
 import candela.base.Parallel
 
-/** Divides many records, between two of sixteen slabs.
+/** Binned SAH split with 16 bins, for large ranges of primitives.
   *
-  * It is a cut across the axis along which centres are spread widest. Only if that is a poor one,
-  * the two others are tried, too: in meshes this is rare and so costs little, yet the trees are
-  * better than if it is never done (docs/decisions/0012).
+  * Splits along the axis of largest centroid extent. Only if that split is poor, tries the two
+  * other axes as well: this is rare in meshes, so costs little, yet improves the trees
+  * (docs/decisions/0012).
   *
   * @param shift see [[Sweep]]
-  * @param binOf for each axis the bin of each record, if it was filled last
+  * @param binOf bin of each record, by axis, as last filled
   */
 private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[Array[Byte]])
     extends Cut:
@@ -23,7 +23,7 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
     levels.tighten(depth)
     attemptWidest(first, end, levels, depth)
     if best.sweep.cost == Float.PositiveInfinity then
-      // All centres may be in one bin of a range that was taken too wide
+      // If the centroid range was overestimated, all centroids may fall into one bin
       levels.measure(depth, records, first, end)
       attemptWidest(first, end, levels, depth)
     val area = BoxRecord.halfArea(levels.boxes, depth * BoxRecord.Ints)
@@ -57,14 +57,14 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
     trial.low = low
     trial.scale = scale
     trial.sweep.cost = Float.PositiveInfinity
-    // A point, or one so small that its inverse overflows, has no slabs; nor has infinity
+    // A centroid range that is empty, infinite, or so small that its inverse overflows has no bins
     if scale > 0f && scale < Float.PositiveInfinity then
       val bins = trial.bins
       fill(bins, first, end, axis, low, scale)
       trial.sweep.run(Bins.Count, end - first, shift)
       levels.clip(depth, axis, low + bins.firstUsed / scale, low + (bins.lastUsed + 1) / scale)
 
-  /** What a cut across that axis costs if every `step`th record is looked at. */
+  /** SAH cost of a split along the axis, estimated from every `step`th record. */
   private def sampled(
       first: Int,
       end: Int,
@@ -88,8 +88,7 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
   def divide(first: Int, end: Int): Unit =
     partition(binOf(axis), best.sweep.cut, first, first + best.sweep.left, end)
 
-  /** Exchanges the records left of `middle` that belong to its right with those right of it that
-    * belong to its left: the first with the first, and so on.
+  /** Swaps the misplaced records on both sides of `middle`: the first with the first, and so on.
     */
   protected def partition(bins: Array[Byte], cut: Int, first: Int, middle: Int, end: Int): Unit =
     partitioner.run(bins, cut, first, middle, end)
@@ -99,9 +98,10 @@ private[building] class BinnedCut(records: Array[Int], shift: Int, binOf: Array[
   protected def narrow(levels: Levels, depth: Int): Unit =
     levels.part(depth, axis, best.low + (best.sweep.cut + 1) / best.scale)
 
-/** The slabs of one attempt, and the best cut between them.
+/** Bins of one attempt, with their best split.
   *
-  * `low` is where the first one begins, in twice the coordinate, `scale` slabs per unit of that.
+  * `low` is the lower bound of the first bin, in twice the coordinate; `scale` is in bins per unit
+  * of that.
   */
 private[building] final class Slabs:
   val bins: Bins = Bins()
@@ -110,13 +110,13 @@ private[building] final class Slabs:
   var scale = 0f
 
 private[building] object BinnedCut:
-  /** Of the cost of a node that isn't divided: a cut in half through a plane mesh leaves 0.5. */
+  /** Fraction of the unsplit node's cost; a median split of a planar mesh costs 0.5. */
   inline val Poor = 0.6f
 
-  /** Of more records than twice this, so many are looked at to choose between axes. */
+  /** Sample size for choosing an axis, for ranges of more than twice as many records. */
   inline val Sample = 512
 
-/** As [[BinnedCut]], with several threads for each division; the same comes out. */
+/** Multi-threaded counterpart of [[BinnedCut]], with the same result. */
 private[building] final class SharedCut(
     records: Array[Int],
     shift: Int,
@@ -148,7 +148,7 @@ private[building] final class SharedCut(
     val chunks = parallel.threads
     if chunks == 1 then super.partition(bins, cut, first, middle, end)
     else
-      // How many records are on the wrong side before each chunk of the left part, and of the right
+      // Number of misplaced records before each chunk of the left and right parts
       val left = wrongBefore(bins, first, middle, bin => bin > cut)
       val right = wrongBefore(bins, middle, end, bin => bin <= cut)
       val pairs = left(chunks)
@@ -186,7 +186,7 @@ private[building] final class SharedCut(
       counts(k + 1) = count
     counts.scanLeft(0)(_ + _).tail
 
-  /** Where the wrong record of that number is. */
+  /** Position of the misplaced record with the given rank. */
   private inline def find(
       bins: Array[Byte],
       first: Int,

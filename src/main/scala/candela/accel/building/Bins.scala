@@ -1,18 +1,18 @@
 package candela.accel.building
 
-/** Slabs of equal width across an axis, and the boxes whose centres are in them.
+/** Bins of equal width over centroids along an axis, with the bounds of their primitives.
   *
   * Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", RT 2007.
   */
 private[building] final class Bins:
-  /** The union of each slab's boxes: see [[BoxRecord]]. */
+  /** Bounds of each bin: see [[BoxRecord]]. */
   val boxes = new Array[Int](BoxRecord.Ints * Bins.Count)
   val counts = new Array[Int](Bins.Count)
 
-  /** Fills them anew with records[first, end), and notes in which each one is.
+  /** Clears the bins, fills them with records[first, end), and stores the bin of each record.
     *
-    * @param low   where the first slab begins, in twice the coordinate
-    * @param scale slabs per unit of that
+    * @param low   lower bound of the first bin, in twice the coordinate
+    * @param scale bins per unit of that
     */
   def fill(
       records: Array[Int],
@@ -24,7 +24,7 @@ private[building] final class Bins:
       scale: Float
   ): Unit =
     clear()
-    // A few at a time: first where they are, then their boxes, while they are still at hand
+    // In small batches, first the bins, then the boxes while they are still in cache
     val isLong = end - first >= Bins.Long
     var from = first
     while from < end do
@@ -34,7 +34,7 @@ private[building] final class Bins:
       else grow(records, binOf, from, until)
       from = until
 
-  /** Fills them with every `step`th record. */
+  /** Fills the bins with every `step`th record. */
   def sample(
       records: Array[Int],
       first: Int,
@@ -97,7 +97,7 @@ private[building] final class Bins:
     java.util.Arrays.fill(boxes, BoxRecord.Least)
     java.util.Arrays.fill(counts, 0)
 
-  /** Adds what others hold. */
+  /** Merges the contents of `others`. */
   def add(others: Bins): Unit =
     var bin = 0
     while bin < Bins.Count do
@@ -105,7 +105,7 @@ private[building] final class Bins:
       BoxRecord.grow(boxes, bin * BoxRecord.Ints, others.boxes, bin * BoxRecord.Ints)
       bin += 1
 
-  /** The first that holds anything. */
+  /** First non-empty bin. */
   def firstUsed: Int =
     var bin = 0
     while bin < Bins.Count - 1 && counts(bin) == 0 do bin += 1
@@ -121,9 +121,9 @@ private[building] object Bins:
 
   private inline val Chunk = 64
 
-  /** So many records fill the bins' boxes soon, which then hardly grow. */
+  /** Range length from which bins quickly reach their final bounds and then rarely grow. */
   private inline val Long = 2048
 
-  /** Rounding may place the outermost just outside. */
+  /** Clamps to the valid bins, as rounding may place the outermost record just outside. */
   inline def place(middle: Float, low: Float, scale: Float): Int =
     Math.max(0, Math.min(((middle - low) * scale).toInt, Count - 1))

@@ -4,25 +4,23 @@ import candela.accel.Primitives
 import candela.base.Parallel
 import candela.shapes.TriangleSoup
 
-/** A primitive's box as the builder of hierarchies sorts it: eight Ints, of which 0 to 2 are −min
-  * x, y, z, 4 to 6 are max x, y, z, and 3 is the primitive's number.
+/** A primitive's box as sorted by the BVH builder: eight Ints, of which 0 to 2 are −min x, y, z, 4
+  * to 6 are max x, y, z, and 3 is the primitive's number.
   *
-  * Coordinates are Ints of the same order as the Floats they stand for, and minima are negated: so
-  * a
-  * union is six maxima of Ints, which the compiler makes without branches. A comparison of Floats
-  * is a branch that the processor can't foresee while a box still grows, and `math.max` of Floats
-  * minds NaN and −0 (docs/decisions/0012).
+  * Coordinates are Ints in the same order as their Floats, and minima are negated: a union is six
+  * integer maxima, which compile without branches. Float comparisons are branches, mispredicted
+  * while a box still grows, and `math.max` on Floats handles NaN and −0 (docs/decisions/0012).
   */
 private[building] object BoxRecord:
   inline val Ints = 8
 
-  /** Where the primitive's number is. */
+  /** Offset of the primitive's number. */
   inline val Number = 3
 
-  /** From −min to max of the same axis. */
+  /** Offset from −min to max of the same axis. */
   inline val High = 4
 
-  /** −∞, encoded: in each place of a box that holds nothing. */
+  /** Encoded −∞: every coordinate of an empty box. */
   inline val Least = -2139095041
 
   inline def encode(x: Float): Int =
@@ -32,7 +30,7 @@ private[building] object BoxRecord:
   inline def decode(i: Int): Float =
     java.lang.Float.intBitsToFloat(i ^ ((i >> 31) & 0x7fffffff))
 
-  /** Twice the centre along an axis. */
+  /** Twice the centroid along an axis. */
   inline def middle(records: Array[Int], at: Int, axis: Int): Float =
     decode(records(at + High + axis)) - decode(records(at + axis))
 
@@ -66,7 +64,7 @@ private[building] object BoxRecord:
     box(at + 5) = Math.max(box(at + 5), by(from + 5))
     box(at + 6) = Math.max(box(at + 6), by(from + 6))
 
-  /** The same, with branches: faster where a box holds most of what is added to it. */
+  /** Union with branches: faster if the box already contains most of what is added. */
   inline def growRarely(box: Array[Int], at: Int, by: Array[Int], from: Int): Unit =
     if by(from) > box(at) then box(at) = by(from)
     if by(from + 1) > box(at + 1) then box(at + 1) = by(from + 1)
@@ -75,7 +73,7 @@ private[building] object BoxRecord:
     if by(from + 5) > box(at + 5) then box(at + 5) = by(from + 5)
     if by(from + 6) > box(at + 6) then box(at + 6) = by(from + 6)
 
-  /** The union of records[first, end) into a box. */
+  /** Stores the union of records[first, end) in a box. */
   def uniteInto(box: Array[Int], at: Int, records: Array[Int], first: Int, end: Int): Unit =
     var lowX, lowY, lowZ, highX, highY, highZ = Least
     var i = first * Ints
@@ -122,7 +120,7 @@ private[building] object BoxRecord:
     to(at + 5) = encode(maxY)
     to(at + 6) = encode(maxZ)
 
-  /** As six Floats: min x, y, z, max x, y, z. */
+  /** Decodes to six Floats: min x, y, z, max x, y, z. */
   def read(box: Array[Int], at: Int, to: Array[Float], toAt: Int): Unit =
     to(toAt) = -decode(box(at))
     to(toAt + 1) = -decode(box(at + 1))
@@ -131,7 +129,7 @@ private[building] object BoxRecord:
     to(toAt + 4) = decode(box(at + 5))
     to(toAt + 5) = decode(box(at + 6))
 
-  /** Those of all primitives. */
+  /** Records of all primitives. */
   def all(primitives: Primitives, parallel: Parallel): Array[Int] =
     val soup = primitives.soup
     val records = new Array[Int](Math.multiplyExact(Ints, primitives.count))

@@ -5,24 +5,26 @@ import candela.base.Parallel
 import candela.geometry.Bounds3
 import candela.math.Vec3
 
-/** Builds hierarchies top-down by the surface area heuristic; [[Cut]] says how a range of
-  * primitives is divided.
+/** Top-down binary BVH builder using the surface area heuristic (SAH); [[Cut]] splits a range of
+  * primitives.
   *
-  * The records of the primitives' boxes (see [[BoxRecord]]) are sorted in place on the way down, so
-  * that each pass reads them one after the other. The upper part of the tree is built by all
-  * threads together, a division at a time; below it each takes whole subtrees. The tree is the same
-  * for any number of threads, bit for bit: what is left for later depends on the number of
-  * primitives alone, and maxima and counts don't depend on who finds them first.
+  * Sorts the primitives' records (see [[BoxRecord]]) in place, so that each pass reads them
+  * sequentially. All threads together build the upper part of the tree, one split at a time; below
+  * it, each builds whole subtrees. The tree is bit-identical for any number of threads: the
+  * subtrees depend on the number of primitives only, and maxima and counts do not depend on their
+  * order.
   */
 private[accel] object BvhBuilder:
-  /** Of a box pair, in units of a primitive test (measured: about one). */
+  /** Cost of testing a pair of boxes, in units of a primitive test (measured: about one). */
   inline val TraversalCost = 1f
 
-  /** From here on halves, which bounds the depth by this + log2(primitives). */
+  /** Depth from which median splits replace SAH splits, which bounds the depth by this +
+    * log2(primitives).
+    */
   inline val MaxSahDepth = 64
 
-  /** Subtrees are built by one thread each if they have no more records than this, or than a part
-    * of the whole tree: small enough that all threads end at about the same time.
+  /** Largest subtree built by a single thread, in records, and as a fraction of the whole tree:
+    * small enough that all threads finish at about the same time.
     */
   private val LeastDeferred = 1 << 15
   private val DeferredParts = 64
@@ -32,7 +34,7 @@ private[accel] object BvhBuilder:
   def of(primitives: Primitives, size: LeafSize, parallel: Parallel): BinaryTree =
     ofRecords(BoxRecord.all(primitives, parallel), size, parallel)
 
-  /** Sorts the records on the way. */
+  /** Builds the tree and sorts `records`. */
   private[building] def ofRecords(
       records: Array[Int],
       size: LeafSize,

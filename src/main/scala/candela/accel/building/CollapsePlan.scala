@@ -3,19 +3,21 @@ package candela.accel.building
 import candela.accel.BinaryTree
 import candela.base.{loop, Parallel}
 
-/** Decides which subtrees of a binary tree become leaves of a [[candela.accel.WideTree]] and which
-  * nodes vanish into those above, so that the expected cost of a ray is least.
+/** Plans the collapse of a binary BVH into a [[candela.accel.WideTree]]: selects the subtrees that
+  * become leaves and the nodes that merge into their ancestors, to minimise the expected cost of a
+  * ray.
   *
-  * Each subtree is asked what it costs at least to hang it up as 1, 2, … `width` children. The
-  * answer for k is the best division of k among its two halves, the answer for 1 a leaf or a node
+  * Computes for each subtree the minimum cost of representing it as 1, 2, … `width` children. The
+  * cost for k is the best split of k between its two children; the cost for 1 is a leaf or a node
   * of `width` children. Source: Ylitie, Karras, Laine, "Efficient Incoherent Ray Traversal on GPUs
   * Through Compressed Wide BVHs", HPG 2017, §3.1.
   *
-  * Lower parts of the tree are priced side by side, each by one thread, then the rest above them.
+  * The lower parts of the tree are evaluated in parallel, each by one thread, then the rest above
+  * them.
   *
-  * @param width      children a node
-  * @param lanes      triangles a block
-  * @param isTriangle may this primitive be tested in a block?
+  * @param width      branching factor
+  * @param lanes      triangles per block
+  * @param isTriangle whether a primitive may be tested in a block
   */
 private[building] final class CollapsePlan(
     width: Int,
@@ -26,14 +28,14 @@ private[building] final class CollapsePlan(
 ):
   import CollapsePlan.*
 
-  /** For each binary node and k children: 0, as for k − 1 (or a leaf, if k is 1); otherwise how
-    * many of the k go to its left half.
+  /** Choice for each binary node and k children: 0 to keep that for k − 1 (or a leaf, if k is 1);
+    * otherwise the number of the k children in its left subtree.
     */
   private val choices = new Array[Byte](Math.multiplyExact(tree.nodeCount, width))
 
   def choice(node: Int, k: Int): Int = choices(node / BinaryTree.NodeFloats * width + k - 1)
 
-  /** May these slots of the tree's order be one block? */
+  /** Whether these slots of the tree's order may form one block. */
   def isBlock(first: Int, end: Int): Boolean =
     var i = first
     while i < end && isTriangle(tree.order(i)) do i += 1
@@ -50,7 +52,7 @@ private[building] final class CollapsePlan(
 
   private def partSize = BvhBuilder.partSize(tree.order.length)
 
-  /** Subtrees for one thread each, in the order of a walk. */
+  /** Subtrees for one thread each, in traversal order. */
   private def partsBelow(node: Int, area: Float): Vector[Part] =
     if tree.count(node) <= partSize then Vector(Part(node, area))
     else
@@ -58,17 +60,17 @@ private[building] final class CollapsePlan(
         val child = tree.child(node, side)
         if child < 0 then Vector.empty else partsBelow(child, tree.area(node + 6 * side))
 
-  /** @param done what is priced already, in the order of a walk */
+  /** @param done subtrees evaluated already, in traversal order */
   private final class Pricer(done: Vector[Priced]):
     private var next = 0
 
-    /** The costs of a subtree as 1, 2, … children, for each level of the recursion. */
+    /** Costs of a subtree as 1, 2, … children, for each level of the recursion. */
     private val costs = FloatStack(width)
 
     def cost(level: Int, k: Int): Float = costs(level, k)
 
-    /** Fills level `level` of `costs` and the choices of the subtree; answers how many triangles
-      * are in it, or very many if there is anything else.
+    /** Fills level `level` of `costs` and the choices of the subtree; returns its number of
+      * triangles, or a very large number if it contains other primitives.
       */
     def price(node: Int, area: Float, level: Int): Int =
       if next < done.length && done(next).node == node then
@@ -84,7 +86,7 @@ private[building] final class CollapsePlan(
         choose(node, area, level, count)
         count
 
-    /** Level `level` holds the left half's costs, the next one the right half's. */
+    /** Level `level` holds the left child's costs, the next level the right child's. */
     private def choose(node: Int, area: Float, level: Int, count: Int): Unit =
       val at = node / BinaryTree.NodeFloats * width
       var split = 0
@@ -126,7 +128,7 @@ private[building] final class CollapsePlan(
         if isOne then count else Many
 
 private[building] object CollapsePlan:
-  /** What a node costs, a block of triangles, and each other primitive: only ratios count. */
+  /** Costs of a node, a triangle block, and each other primitive: only ratios matter. */
   inline val NodeCost = 1f
   inline val BlockCost = 1f
   inline val OtherCost = 2f
@@ -135,16 +137,16 @@ private[building] object CollapsePlan:
 
   private final class Part(val node: Int, val area: Float)
 
-  /** @param count of triangles, or very many
+  /** @param count number of triangles, or very large
     * @param costs as 1, 2, … children
     */
   private final class Priced(val node: Int, val count: Int, val costs: Array[Float])
 
-/** Rows of Floats numbered from 1, one for each level of a recursion. */
+/** Rows of Floats indexed from 1, one for each level of a recursion. */
 private[building] final class FloatStack(width: Int):
   private val rows = new Array[Float](130 * (width + 1))
 
-  /** A row for what is not decided yet. */
+  /** Row for undecided choices. */
   val found = new Array[Float](width + 1)
 
   def apply(level: Int, k: Int): Float = rows(level * (width + 1) + k)

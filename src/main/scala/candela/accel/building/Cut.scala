@@ -1,38 +1,38 @@
 package candela.accel.building
 
-/** A way to divide a range of records (see [[BoxRecord]]), and the best division that it found
-  * last. Has work space, and so belongs to one worker.
+/** Split strategy for a range of records (see [[BoxRecord]]), with the best split last found. Owns
+  * scratch memory: one per worker.
   */
 private[building] abstract class Cut:
 
-  /** Looks for the best division of records[first, end), whose box and whose centres' range are at
-    * `depth`; false if there is none.
+  /** Finds the best split of records[first, end), whose bounds and centroid range are at `depth`;
+    * false if there is none.
     */
   def find(first: Int, end: Int, levels: Levels, depth: Int): Boolean
 
-  /** What it found: boxes of both parts, and how many are on the left. */
+  /** The split found: bounds of both parts, and the number of records on the left. */
   protected def sweep: Sweep
 
-  /** Sorts the records so that the left part comes first. */
+  /** Partitions the records, left part first. */
   def divide(first: Int, end: Int): Unit
 
-  /** What the division says about where the centres are: of the left part to depth + 1, of the
-    * right part to depth, where it waits for its turn.
+  /** Narrows the centroid ranges by the split: the left part's at depth + 1, the right part's at
+    * depth, where it awaits its turn.
     */
   protected def narrow(levels: Levels, depth: Int): Unit
 
   final def cost: Float = sweep.cost
   final def left: Int = sweep.left
 
-  /** Takes `levels` to the left part at depth + 1; the right part takes the place of the whole. */
+  /** Moves `levels` to the left part at depth + 1; the right part replaces the whole. */
   final def descend(levels: Levels, depth: Int): Unit =
     val here = depth * BoxRecord.Ints
     sweep.leftBox(levels.boxes, here + BoxRecord.Ints)
     sweep.rightBox(levels.boxes, here)
     narrow(levels, depth)
 
-/** Divides few records, between any two neighbours in the order of centres along the longest
-  * side.
+/** Exact SAH split for small ranges, with a candidate between any two neighbouring centroids along
+  * the longest axis.
   */
 private[building] final class FewCut(records: Array[Int], shift: Int) extends Cut:
   import FewCut.Most
@@ -61,15 +61,15 @@ private[building] final class FewCut(records: Array[Int], shift: Int) extends Cu
       BoxRecord.copy(records, from, sorted, i * BoxRecord.Ints)
       i += 1
     sweep.run(n, n, shift)
-    // Of boxes without an area all cuts are as good; halves are as good and shallow
+    // For boxes without area all splits cost the same; median splits keep the tree shallow
     sweep.cost > 0f && sweep.cost < Float.PositiveInfinity
 
   def divide(first: Int, end: Int): Unit =
     System.arraycopy(sorted, 0, records, first * BoxRecord.Ints, (end - first) * BoxRecord.Ints)
 
-  /** Few records stay few, whose centres are looked at anyway. */
+  /** Small ranges stay small, and their centroids are examined anyway. */
   protected def narrow(levels: Levels, depth: Int): Unit = ()
 
 private[building] object FewCut:
-  /** From here on up bins are as good, and faster. */
+  /** Range length above which bins are as good, and faster. */
   inline val Most = 8

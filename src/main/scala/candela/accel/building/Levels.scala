@@ -1,19 +1,18 @@
 package candela.accel.building
 
-/** What is known about the part of a tree that is being built, for each depth on the way to it: its
-  * box, and between which planes its centres are.
+/** Bounds and centroid range of the subtree under construction, for each depth on the path to it.
   *
-  * The planes are only bounds. They come for nothing from the boxes and from the cuts above, while
-  * to measure them would be another pass over the records.
+  * The ranges are conservative. They follow for free from the bounds and the splits above;
+  * measuring them would take another pass over the records.
   */
 private[building] final class Levels:
   /** See [[BoxRecord]]. */
   val boxes = new Array[Int](BoxRecord.Ints * Levels.Most)
 
-  /** In twice the coordinates: low x, y, z, high x, y, z. */
+  /** Twice the coordinates: low x, y, z, high x, y, z. */
   private val ranges = new Array[Float](6 * Levels.Most)
 
-  /** Others that know what this one does of that depth. */
+  /** Returns new levels with a copy of this depth. */
   def copy(depth: Int): Levels =
     val other = Levels()
     BoxRecord.copy(boxes, depth * BoxRecord.Ints, other.boxes, depth * BoxRecord.Ints)
@@ -24,7 +23,7 @@ private[building] final class Levels:
   def extent(depth: Int, axis: Int): Float =
     ranges(6 * depth + 3 + axis) - ranges(6 * depth + axis)
 
-  /** Nothing is known about the centres yet. */
+  /** Resets the centroid range to unbounded. */
   def open(depth: Int): Unit =
     java.util.Arrays.fill(ranges, 6 * depth, 6 * depth + 3, Float.NegativeInfinity)
     java.util.Arrays.fill(ranges, 6 * depth + 3, 6 * depth + 6, Float.PositiveInfinity)
@@ -34,7 +33,7 @@ private[building] final class Levels:
     if low > ranges(at) then ranges(at) = low
     if high < ranges(at + 3) then ranges(at + 3) = high
 
-  /** Centres are within the box. */
+  /** Clips the centroid range to the bounds. */
   def tighten(depth: Int): Unit =
     val box = depth * BoxRecord.Ints
     var axis = 0
@@ -44,7 +43,7 @@ private[building] final class Levels:
       clip(depth, axis, 2f * low, 2f * high)
       axis += 1
 
-  /** Looks where the centres are. */
+  /** Measures the centroid range. */
   def measure(depth: Int, records: Array[Int], first: Int, end: Int): Unit =
     var axis = 0
     while axis < 3 do
@@ -60,10 +59,10 @@ private[building] final class Levels:
       ranges(6 * depth + 3 + axis) = high
       axis += 1
 
-  /** The axis along which centres are spread widest. */
+  /** Axis of largest centroid extent. */
   def widest(depth: Int): Int = most(extent(depth, 0), extent(depth, 1), extent(depth, 2))
 
-  /** The axis of the box's longest side. */
+  /** Longest axis of the bounds. */
   def longest(depth: Int): Int =
     val at = depth * BoxRecord.Ints
     most(BoxRecord.side(boxes, at, 0), BoxRecord.side(boxes, at, 1), BoxRecord.side(boxes, at, 2))
@@ -73,20 +72,20 @@ private[building] final class Levels:
     else if y >= z then 1
     else 2
 
-  /** Centres of the left child, at depth + 1, are below the plane; those of the right, which takes
-    * the place of the whole, are above it.
+  /** Splits the centroid range: the left child, at depth + 1, is below the plane; the right child,
+    * which replaces the whole, is above it.
     */
   def part(depth: Int, axis: Int, plane: Float): Unit =
     System.arraycopy(ranges, 6 * depth, ranges, 6 * depth + 6, 6)
     clip(depth + 1, axis, Float.NegativeInfinity, plane)
     clip(depth, axis, plane, Float.PositiveInfinity)
 
-  /** Takes box and range of `depth` to the next one. */
+  /** Copies bounds and range of `depth` to the next depth. */
   def descend(depth: Int): Unit =
     val here = depth * BoxRecord.Ints
     BoxRecord.copy(boxes, here, boxes, here + BoxRecord.Ints)
     System.arraycopy(ranges, 6 * depth, ranges, 6 * depth + 6, 6)
 
 private[building] object Levels:
-  /** The depth of a tree by the surface area heuristic, that of halving 2³¹ boxes, and one more. */
+  /** Maximum SAH depth, plus the depth of median splits of 2³¹ boxes, plus one. */
   inline val Most = 128

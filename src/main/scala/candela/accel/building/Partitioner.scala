@@ -1,10 +1,10 @@
 package candela.accel.building
 
-/** Moves records (see [[BoxRecord]]) to their side of a cut.
+/** Partitions records (see [[BoxRecord]]) by a split.
   *
-  * The wrong ones are first listed, some at a time, and then exchanged: listing them takes no
-  * branch that depends on the data. Source: Edelkamp and Weiß, "BlockQuicksort: Avoiding Branch
-  * Mispredictions in Quicksort", ESA 2016.
+  * Lists the misplaced records in batches, then swaps them: listing takes no data-dependent branch.
+  * Source: Edelkamp and Weiß, "BlockQuicksort: Avoiding Branch Mispredictions in Quicksort", ESA
+  * 2016.
   */
 private[building] final class Partitioner(records: Array[Int]):
   import Partitioner.Block
@@ -12,10 +12,10 @@ private[building] final class Partitioner(records: Array[Int]):
   private val onLeft = new Array[Int](Block)
   private val onRight = new Array[Int](Block)
 
-  /** Exchanges the records left of `middle` that belong to its right with those right of it that
-    * belong to its left: the first with the first, and so on. There must be as many of both.
+  /** Swaps the misplaced records on both sides of `middle`: the first with the first, and so on.
+    * Both sides must have equally many.
     *
-    * @param bins the bin of each record: to `cut` they belong to the left
+    * @param bins bin of each record; bins up to `cut` belong to the left
     */
   def run(bins: Array[Byte], cut: Int, first: Int, middle: Int, end: Int): Unit =
     val left = onLeft

@@ -3,13 +3,13 @@ package candela.accel.building
 import candela.accel.BinaryTree
 import candela.base.{loop, Parallel}
 
-/** Builds a subtree over a range of records, which it sorts in place. Belongs to one worker.
+/** Builds a subtree over a range of records, which it sorts in place. One per worker.
   *
   * @param records  see [[BoxRecord]]
-  * @param cut      for more than a few records
-  * @param levels   know the box of the range that is built
-  * @param size     of leaves
-  * @param deferred ranges of at most so many records are left for later; 0: none
+  * @param cut      split strategy for large ranges
+  * @param levels   hold the bounds of the range to build
+  * @param size     leaf size
+  * @param deferred ranges of at most this many records are deferred; 0 for none
   */
 private[building] final class SubtreeBuilder(
     records: Array[Int],
@@ -20,22 +20,24 @@ private[building] final class SubtreeBuilder(
 ):
   import BinaryTree.NodeFloats
 
-  /** No more of what is in blocks than one of them is ever cut: it is other things. */
+  /** If a block holds as many triangles as [[FewCut]] splits, only ranges with other primitives get
+    * there: their cost is per primitive.
+    */
   private val few = FewCut(records, if size.block < FewCut.Most then size.shift else 0)
 
   private var nodes = new Array[Float](NodeFloats * 64)
   private var length = 0
 
-  /** What was left for later: a child that seems a leaf of −k primitives is the kth of these. */
+  /** Deferred ranges: a child that looks like a leaf of −k primitives is the kth of these. */
   val later = scala.collection.mutable.ArrayBuffer.empty[Later]
 
   def trimmedNodes: Array[Float] = java.util.Arrays.copyOf(nodes, length)
 
-  /** How many are in the leaf that [[build]] made last; 0: it made a node. */
+  /** Number of primitives in the leaf that [[build]] last made; 0 if it made a node. */
   var leafSize = 0
 
-  /** Makes the subtree over records[first, end), whose box and range are at `depth`; answers its
-    * code as a child.
+  /** Builds the subtree over records[first, end), whose bounds and range are at `depth`; returns
+    * its child code.
     */
   def build(first: Int, end: Int, depth: Int): Int =
     val n = end - first
@@ -73,7 +75,7 @@ private[building] final class SubtreeBuilder(
     leafSize = -later.length
     ~first
 
-  /** Two parts of as many records, wherever they are. */
+  /** Median split by position in the array, ignoring the geometry. */
   private def halve(first: Int, end: Int, depth: Int): Int =
     val node = newNode()
     val middle = (first + end) >>> 1
@@ -102,15 +104,15 @@ private[building] final class SubtreeBuilder(
 
 private[building] object SubtreeBuilder:
 
-  /** Twice as much room, as long as there can be. */
+  /** Doubles a capacity, up to the maximum. */
   private def more(length: Int): Int =
     val most = Int.MaxValue / BinaryTree.NodeFloats * BinaryTree.NodeFloats
-    if length == most then throw IllegalStateException("a hierarchy has no place in an array")
+    if length == most then throw IllegalStateException("the BVH exceeds the maximum array length")
     Math.min(2L * length, most.toLong).toInt
 
 /** A range of records whose subtree is still to be built.
   *
-  * @param levels know it at `depth`
+  * @param levels hold its bounds and range at `depth`
   */
 private[building] final class Later(
     val first: Int,
@@ -119,22 +121,22 @@ private[building] final class Later(
     val levels: Levels
 )
 
-/** A part of a tree, laid out as a [[BinaryTree]]; its nodes count from its own first Float.
+/** A part of a tree in the layout of [[BinaryTree]]; node indices are relative to its own first
+  * Float.
   *
-  * @param leafSize of the root, if it is a leaf; −k: it is the kth of the parts that were left for
-  *                 later
+  * @param leafSize size of the root, if it is a leaf; −k if it is the kth deferred part
   */
 private[building] final class Subtree(val root: Int, val leafSize: Int, val nodes: Array[Float])
 
 private[building] object Subtree:
   import BinaryTree.NodeFloats
 
-  /** The tree of which `top` is the upper part, and `parts` what it left for later. */
+  /** Joins the upper part `top` and its deferred parts into one tree. */
   def join(top: Subtree, parts: Array[Subtree], parallel: Parallel): Subtree =
     val starts = parts.scanLeft(top.nodes.length.toLong)(_ + _.nodes.length)
     if starts.last > Int.MaxValue - 8 then
       val count = starts.last / NodeFloats
-      throw IllegalStateException(s"a hierarchy of $count nodes has no place in an array")
+      throw IllegalStateException(s"a BVH of $count nodes exceeds the maximum array length")
     val all = java.util.Arrays.copyOf(top.nodes, starts.last.toInt)
     parallel.each(parts.length): i =>
       val start = starts(i).toInt
@@ -152,7 +154,7 @@ private[building] object Subtree:
 
   private def moved(code: Int, start: Int): Int = if code < 0 then code else code + start
 
-  /** For each child: where its code is, the code, and its size. */
+  /** Visits every child: the offset of its code, the code, and its size. */
   private inline def children(nodes: Array[Float], from: Int, until: Int)(
       inline use: (Int, Int, Int) => Unit
   ): Unit =
@@ -169,21 +171,21 @@ private[building] object Subtree:
   private def setBits(nodes: Array[Float], at: Int, value: Int): Unit =
     nodes(at) = java.lang.Float.intBitsToFloat(value)
 
-/** How many primitives a leaf of the binary tree may have.
+/** Leaf size of the binary BVH.
   *
-  * Triangles of one block are tested at the cost of one, so a range that fits into a block is not
-  * divided, and cuts are priced by the blocks that they leave, as in Wald, Woop, Benthin, Johnson,
+  * The triangles of a block are tested at the cost of one, so a range that fits into a block is not
+  * split, and splits are priced by their number of blocks, as in Wald, Woop, Benthin, Johnson,
   * Ernst, "Embree: A Kernel Framework for Efficient CPU Ray Tracing", TOG 33(4), 2014.
   *
-  * @param most    primitives of any kind, if that is cheaper than to divide them
-  * @param block   triangles of a block, a power of two; 1: there are none
-  * @param isPlain may this primitive be in a block?
+  * @param most    maximum number of primitives of any kind, if a leaf is cheaper than a split
+  * @param block   triangles per block, a power of two; 1 without blocks
+  * @param isPlain whether a primitive may be in a block
   */
 private[accel] final class LeafSize(val most: Int, val block: Int, isPlain: Int => Boolean):
-  /** For what [[Sweep]] prices a cut by: log2 of `block`. */
+  /** log2 of `block`, the granularity of the SAH cost in [[Sweep]]. */
   val shift: Int = Integer.numberOfTrailingZeros(block)
 
-  /** Are these records no more than a block? */
+  /** Whether these records fit into one block. */
   def isBlock(records: Array[Int], first: Int, end: Int): Boolean =
     var i = first
     if end - first <= block then
@@ -191,5 +193,5 @@ private[accel] final class LeafSize(val most: Int, val block: Int, isPlain: Int 
     i == end
 
 private[accel] object LeafSize:
-  /** Each primitive is tested for itself. */
+  /** No blocks: primitives are tested one by one. */
   def single(most: Int): LeafSize = LeafSize(most, 1, _ => true)

@@ -1,25 +1,25 @@
 package candela.accel.building
 
-/** Finds the cheapest cut through items that stand in a row, by the surface area heuristic:
-  * Goldsmith and Salmon, "Automatic Creation of Object Hierarchies", CG&A 7(5), 1987.
+/** Finds the cheapest split of a sequence of items by the surface area heuristic: Goldsmith and
+  * Salmon, "Automatic Creation of Object Hierarchies", CG&A 7(5), 1987.
   *
-  * The union so far is in local variables: in an array each step would wait for the last one's
-  * writing. Both parts' boxes are made when they are asked for, as few of the cuts are taken.
+  * The running union is in local variables: in an array, each step would wait for the previous
+  * step's store. The bounds of both parts are computed on demand, as few splits are used.
   *
-  * @param items   their boxes: see [[BoxRecord]]
-  * @param weights of the items
+  * @param items   their bounds: see [[BoxRecord]]
+  * @param weights number of primitives in each item
   */
 private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
-  /** Half the area of the union of each item with all after it. */
+  /** Half the surface area of the union of each item with all after it. */
   private val areas = new Array[Float](weights.length)
 
-  /** How many items there are. */
+  /** Number of items. */
   private var length = 0
 
-  /** Σ half area · blocks of both parts; infinite if there is no cut. */
+  /** Σ half area · blocks of both parts; infinite without a split. */
   var cost: Float = Float.PositiveInfinity
 
-  /** The last item of the left part, and the weight of that part. */
+  /** Last item of the left part; `left` is that part's weight. */
   var cut = 0
   var left = 0
 
@@ -29,9 +29,9 @@ private[building] final class Sweep(items: Array[Int], weights: Array[Int]):
   private def union(first: Int, end: Int, to: Array[Int], at: Int): Unit =
     BoxRecord.uniteInto(to, at, items, first, end)
 
-  /** Looks at the first `n` items, which weigh `total` together.
+  /** Evaluates the splits of the first `n` items, of total weight `total`.
     *
-    * @param shift weights are paid for in blocks of 1 << shift, begun ones as whole ones
+    * @param shift weights are charged in blocks of 1 << shift, rounded up
     */
   def run(n: Int, total: Int, shift: Int): Unit =
     length = n

@@ -4,12 +4,12 @@ import candela.accel.{BinaryTree, Primitives, WideTree}
 import candela.base.{loop, FloatBuffer, IntBuffer, Parallel}
 import candela.shapes.TriangleSoup
 
-/** Makes nodes and leaves of a [[WideTree]] from the binary tree that [[BvhBuilder]] makes, as a
-  * [[CollapsePlan]] finds best.
+/** Collapses the binary BVH of [[BvhBuilder]] into the nodes and leaves of a [[WideTree]],
+  * following a [[CollapsePlan]].
   *
-  * One thread writes the upper part; below it each writes whole subtrees, which are put behind it
-  * in their order. How many there are depends on the number of primitives alone, so all is the
-  * same, bit for bit, for any number of threads.
+  * One thread writes the upper part; below it, each thread writes whole subtrees, which are
+  * appended in order. Their number depends on the number of primitives only: the result is
+  * bit-identical for any number of threads.
   */
 private final class WideBuilder(
     width: Int,
@@ -39,13 +39,13 @@ private final class WideBuilder(
   private val ownerStarts = starts(_.owners.length)
   private val otherStarts = starts(_.others.length)
 
-  /** Rows as a [[WideTree]] has them. */
+  /** Rows in the layout of [[WideTree]]. */
   val nodes: Array[Float] = new Array[Float](nodeStarts.last)
 
-  /** Which primitives are in the lanes of the blocks; −1: none. */
+  /** Primitives in the lanes of the blocks; −1 if empty. */
   val owners: Array[Int] = new Array[Int](ownerStarts.last)
 
-  /** Which primitives are in the leaves that are no blocks. */
+  /** Primitives in the leaves other than blocks. */
   val others: Array[Int] = new Array[Int](otherStarts.last)
 
   parallel.each(writers.length): i =>
@@ -64,16 +64,16 @@ private final class WideBuilder(
   for i <- later.indices do
     nodes(later(i).codeAt) = java.lang.Float.intBitsToFloat(moved(codes(i + 1), i + 1))
 
-  /** A child's code as in a [[WideTree]]. */
+  /** Child code in the encoding of [[WideTree]]. */
   def rootCode: Int = topCode
 
   private def starts(length: WideWriter => Int): Array[Int] =
     val all = writers.scanLeft(0L)(_ + length(_))
     if all.last > Int.MaxValue - 8 then
-      throw IllegalStateException("a hierarchy has no place in an array")
+      throw IllegalStateException("the BVH exceeds the maximum array length")
     all.map(_.toInt)
 
-  /** What a code of part `i` is in the whole. */
+  /** Relocates a child code of part `i` to the whole tree. */
   private def moved(code: Int, i: Int): Int =
     if code == WideTree.NoChild then code
     else if code >= 0 then code + nodeStarts(i)
@@ -84,7 +84,7 @@ private final class WideBuilder(
 
 private[accel] object WideBuilder:
 
-  /** @param maxLeaf of the binary tree that it is made of, but for triangles */
+  /** @param maxLeaf maximum leaf size of the binary BVH, except for triangles */
   def of(
       primitives: Primitives,
       width: Int,
@@ -127,10 +127,10 @@ private[accel] object WideBuilder:
         i += 1
     all
 
-/** Writes the nodes and leaves of a [[WideTree]] or of a part of one, as a [[CollapsePlan]] says.
-  * Belongs to one thread. All numbers in its codes count from its own first node, block or slot.
+/** Writes the nodes and leaves of a [[WideTree]] or a part of one, following a [[CollapsePlan]].
+  * One per thread. Indices in its codes are relative to its own first node, block or slot.
   *
-  * @param partSize subtrees of at most so many primitives are left for later; 0: none
+  * @param partSize subtrees of at most this many primitives are deferred; 0 for none
   */
 private[building] final class WideWriter(
     width: Int,
@@ -141,19 +141,19 @@ private[building] final class WideWriter(
 ):
   val nodes = FloatBuffer()
 
-  /** Which primitives are in the lanes of the blocks; −1: none. */
+  /** Primitives in the lanes of the blocks; −1 if empty. */
   val owners = IntBuffer()
 
-  /** Which primitives are in the leaves that are no blocks. */
+  /** Primitives in the leaves other than blocks. */
   val others = IntBuffer()
 
   private val padded = new Array[Float](6)
 
-  /** What was left for later, and where its code is to be put. */
+  /** Deferred subtrees, with the offsets of their codes. */
   val later = scala.collection.mutable.ArrayBuffer.empty[WideWriter.Later]
 
-  /** Writes what becomes of a binary node or, below 0, of a leaf with `size` primitives; answers
-    * its code.
+  /** Writes the collapsed form of a binary node or, below 0, of a leaf with `size` primitives;
+    * returns its code.
     */
   def write(code: Int, size: Int): Int =
     if code < 0 then leaf(~code, ~code + size)
@@ -176,11 +176,11 @@ private[building] final class WideWriter(
         i += 1
       WideTree.leaf(isBlock = false, at, end - first)
 
-  /** The node that takes the place of this binary one, and all below it. */
+  /** Writes the wide node that replaces this binary node, and all below it. */
   private def node(binary: Int): Int =
     val at = nodes.length
     loop(WideTree.floats(width))(_ => nodes += 0f)
-    val boxes = new Array[Int](width) // of the children: where in the tree's nodes
+    val boxes = new Array[Int](width) // offsets of the children's boxes in the binary tree
     val count = gather(binary, plan.choice(binary, 1), width, boxes, 0)
     var k = 0
     while k < width do
@@ -199,7 +199,7 @@ private[building] final class WideWriter(
       k += 1
     at
 
-  /** Appends the children that `binary` has if `left` of `k` are in its left half. */
+  /** Appends the children of `binary`, with `left` of `k` in its left subtree. */
   private def gather(binary: Int, left: Int, k: Int, boxes: Array[Int], count: Int): Int =
     val some = hang(binary, 0, left, boxes, count)
     hang(binary, 1, k - left, boxes, some)
@@ -218,7 +218,7 @@ private[building] final class WideWriter(
     WideTree.pad(padded, 0)
     loop(6)(row => nodes(at + row * width + lane) = padded(row))
 
-  /** Met by no ray: it begins at infinity or lies behind. */
+  /** Writes a lane that every ray misses: it begins at infinity or ends behind the origin. */
   private def writeEmpty(at: Int, lane: Int): Unit =
     var row = 0
     while row < 6 do
@@ -230,6 +230,6 @@ private[building] object WideWriter:
 
   /** A binary node whose subtree is still to be written.
     *
-    * @param codeAt where its code is to be put
+    * @param codeAt offset at which to store its code
     */
   final class Later(val node: Int, val codeAt: Int)

@@ -5,11 +5,11 @@ import candela.accel.building.{BvhBuilder, LeafSize}
 import candela.base.Parallel
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** A bounding volume hierarchy of two children a node: the plain twin of [[WideBvh]], and for sets
-  * of primitives that are too large for that.
+/** A binary BVH: the reference implementation of [[WideBvh]], and the fallback for primitive counts
+  * beyond its limit.
   *
-  * Source of the walk: Aila and Laine, "Understanding the Efficiency of Ray Traversal on GPUs", HPG
-  * 2009.
+  * Source of the traversal: Aila and Laine, "Understanding the Efficiency of Ray Traversal on
+  * GPUs", HPG 2009.
   */
 final class Bvh(
     primitives: Primitives,
@@ -46,7 +46,7 @@ final class Bvh(
     val ix = ray.invX
     val iy = ray.invY
     val iz = ray.invZ
-    // Where in a box the near plane of each axis stands, and the far one
+    // Offsets of the near and far planes of each axis within a box
     val nx = if ix < 0f then 3 else 0
     val ny = if iy < 0f then 4 else 1
     val nz = if iz < 0f then 5 else 2
@@ -60,8 +60,8 @@ final class Bvh(
     var going = primitives.count > 0
     while going do
       if node >= 0 then
-        // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): such a slab is
-        // passed
+        // Comparisons with `if` ignore the NaN of 0·∞ (origin on a slab plane): the slab counts as
+        // hit
         var near = 0f
         var far = ray.tMax * Bvh.FarSlack
         var t = (b(node + nx) - ox) * ix
@@ -118,7 +118,7 @@ final class Bvh(
         else if packed.intersect(first, first + leafSize, ray, hit) then found = true
         node = Bvh.Pop
       if going && node == Bvh.Pop then
-        // Take the next subtree that begins before the closest hit
+        // Pop the next subtree that begins before the closest hit
         going = false
         while !going && top > 0 do
           top -= 1
@@ -134,11 +134,11 @@ final class Bvh(
     private inline def toRawBits: Int = java.lang.Float.floatToRawIntBits(x)
 
 object Bvh:
-  /** More than 1 + 12 round-offs: keeps the rounding of slab distances, of hits and of the Float
-    * triangle test from missing a box that is grazed (Ize, "Robust BVH Ray Traversal", JCGT 2(2),
-    * 2013).
+  /** Exceeds 1 + 12 rounding errors: the rounding of slab distances, hits and the Float triangle
+    * test must not lose a box that is hit at grazing incidence (Ize, "Robust BVH Ray Traversal",
+    * JCGT 2(2), 2013).
     */
   private inline val FarSlack = 1.000001f
 
-  /** A node code for "nothing here": no leaf can start at that slot. */
+  /** Node code for "pop the stack": no leaf can start at that slot. */
   private inline val Pop = Int.MinValue

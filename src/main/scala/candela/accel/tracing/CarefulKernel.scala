@@ -3,8 +3,8 @@ package candela.accel.tracing
 import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 
-/** Walks a [[WideTree]] with rays that are not tame: so long, short or far away that Floats
-  * overflow on the way. In Double, where they don't; slow, and rare.
+/** Traverses a [[WideTree]] in Double, for rays that are not tame: directions or origins so large
+  * or small that Floats overflow. Slow, and rarely used.
   */
 private[tracing] object CarefulKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
@@ -53,7 +53,7 @@ private[tracing] object CarefulKernel extends WideKernel:
           far = Math.min(far, Math.max(a, b))
         axis += 1
       if near <= far * Slack then
-        // Rounded down, as what begins later may be passed over
+        // Rounded down, as subtrees that begin later may be skipped
         ray.lanes(k) = java.lang.Float.floatToRawIntBits((near * (2.0 - Slack)).toFloat)
         hits |= 1 << k
       k += 1

@@ -5,15 +5,16 @@ import candela.base.loop
 import candela.geometry.{Bounds3, Hit, Ray}
 import candela.math.*
 
-/** A uniform voxel grid, walked voxel by voxel along the ray.
+/** A uniform grid, traversed voxel by voxel.
   *
   * Source: Amanatides and Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", Eurographics
-  * 1987; the resolution, 3·∛n voxels along the longest side, as in PBRT's `grid`. That has at most
-  * 64 a side; here it is as many as make four voxels a primitive, if these are more.
+  * 1987; the resolution, 3·∛n voxels along the longest side, as in PBRT's `grid`. PBRT limits a
+  * side to 64 voxels; here the limit is four voxels per primitive, if that is more.
   *
-  * All places are relative to the lower corner, so that a grid far from the origin loses no digits.
-  * A primitive is listed in every voxel that its box overlaps, padded by a hundredth of a voxel
-  * against the rounding of Floats; the walk itself is in Double (stability suite: rays from afar).
+  * All positions are relative to the lower corner, so that a grid far from the origin loses no
+  * precision. A primitive is listed in every voxel that its box overlaps, padded by a hundredth of
+  * a voxel against Float rounding; the traversal itself is in Double (stability suite: rays from
+  * afar).
   */
 final class Grid(primitives: Primitives) extends Accelerator:
   val bounds: Bounds3 = Accelerator.union(primitives.bounds)
@@ -43,7 +44,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
     loop(primitives.count)(i => overlapped(boxes, i)(v => starts(v + 1) += 1))
     loop(voxels): v =>
       if starts(v + 1) > Int.MaxValue - starts(v) then
-        throw IllegalStateException("the voxels' lists of primitives have no place in an array")
+        throw IllegalStateException("the grid's primitive lists exceed the maximum array length")
       starts(v + 1) += starts(v)
     val next = starts.clone()
     val all = new Array[Int](starts(voxels))
@@ -71,7 +72,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
         y += 1
       z += 1
 
-  /** Voxel number along an axis of the box side `side` (0–2 lower, 3–5 upper), moved by `pad`
+  /** Voxel index, along its axis, of the box side `side` (0–2 lower, 3–5 upper), offset by `pad`
     * voxels.
     */
   private def voxelOf(boxes: Array[Float], i: Int, side: Int, pad: Float): Int =
@@ -91,7 +92,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
     var found = false
     val entry = enter(ray)
     if entry >= 0.0 then
-      // From the grid's corner; in Double, as rays may come from a million sides away
+      // Relative to the grid's corner; in Double, as rays may start a million grid sizes away
       val ox = ray.ox.toDouble - bounds.min.x
       val oy = ray.oy.toDouble - bounds.min.y
       val oz = ray.oz.toDouble - bounds.min.z
@@ -101,7 +102,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
       val stepX = if ray.dx < 0f then -1 else 1
       val stepY = if ray.dy < 0f then -1 else 1
       val stepZ = if ray.dz < 0f then -1 else 1
-      // Distance of the next voxel wall on each axis, and between two walls
+      // Distance to the next voxel boundary on each axis, and between two boundaries
       var nextX = wall(x, stepX, 0, ox, ray.dx)
       var nextY = wall(y, stepY, 1, oy, ray.dy)
       var nextZ = wall(z, stepZ, 2, oz, ray.dz)
@@ -122,7 +123,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
           else if packed.intersect(primitive, primitive + 1, ray, hit) then found = true
           slot += 1
         if going then
-          // `tMax` is the closest hit: behind the next wall there can be no closer one
+          // `tMax` is the closest hit: voxels past the next boundary hold none closer
           if nextX <= nextY && nextX <= nextZ then
             x += stepX
             going = nextX <= ray.tMax && x >= 0 && x < resolution(0)
@@ -137,7 +138,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
             nextZ += deltaZ
     found
 
-  /** Distance at which the ray enters the grid, 0 if it starts inside; −1: it misses. */
+  /** Distance at which the ray enters the grid, 0 if it starts inside; −1 if it misses. */
   private def enter(ray: Ray): Double =
     var near = 0.0
     var far = ray.tMax.toDouble
@@ -152,7 +153,7 @@ final class Grid(primitives: Primitives) extends Accelerator:
       if t1 * Slack < far then far = t1 * Slack
     if near <= far && primitives.count > 0 then near else -1.0
 
-  /** As if the box were a little larger, for rays that graze it. */
+  /** Enlarges the box slightly, for rays at grazing incidence. */
   private inline val Slack = 1.0000004
 
   private def start(p: Double, axis: Int): Int =
@@ -165,5 +166,5 @@ final class Grid(primitives: Primitives) extends Accelerator:
     else ((if step > 0 then i + 1 else i) * width(axis).toDouble - o) / d
 
 object Grid:
-  /** Of large sets. */
+  /** Limit for large sets. */
   private val VoxelsPerPrimitive = 4.0

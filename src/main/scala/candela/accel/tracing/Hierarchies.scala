@@ -4,14 +4,14 @@ import candela.accel.{Accelerator, Primitives}
 import candela.accel.building.WideBuilder
 import candela.base.Parallel
 
-/** Which hierarchy suits a set of primitives and this JVM. */
+/** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:
   def of(primitives: Primitives, parallel: Parallel = Parallel.Alone): Accelerator =
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
     else if hasVectors && primitives.count >= Few then vector(primitives, parallel = parallel)
     else scalar(primitives, parallel = parallel)
 
-  /** Walked in plain Scala alone. */
+  /** Wide BVH traversed by scalar code only. */
   def scalar(
       primitives: Primitives,
       width: Int = 4,
@@ -19,7 +19,7 @@ object Hierarchies:
   ): Accelerator =
     WideBvh(WideBuilder.of(primitives, width, 4, MaxLeaf, parallel), ScalarKernel, Int.MaxValue)
 
-  /** Walked by vectors from the given ray on; only if [[hasVectors]]. */
+  /** Wide BVH traversed by SIMD code from the given ray on; requires [[hasVectors]]. */
   def vector(
       primitives: Primitives,
       patience: Int = Patience,
@@ -31,24 +31,25 @@ object Hierarchies:
   private[tracing] def careful(primitives: Primitives): Accelerator =
     WideBvh(WideBuilder.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
 
-  /** Is the JVM's incubating Vector API there (`--add-modules jdk.incubator.vector`), and are this
-    * machine's vectors worth it?
+  /** Whether the JVM's incubating Vector API is available (`--add-modules jdk.incubator.vector`),
+    * and this machine's SIMD is worth using.
     */
   lazy val hasVectors: Boolean =
     ModuleLayer.boot.findModule("jdk.incubator.vector").isPresent && VectorKernel.isWorthIt
 
   private inline val MaxLeaf = 4
 
-  /** Until vectors are compiled they cost about half a second of a thread that tries them and of
-    * the compiler, and then half as much a ray as scalars: about the time that scalars take for
-    * this many rays of each thread and kind (docs/decisions/0010-ray-kernels.md).
+  /** Rays after which the SIMD kernel is tried. Compiling it costs about half a second of compiler
+    * time and of the thread that tries it; a ray then takes half as long as by scalar code. That
+    * breaks even after about this many rays of each thread and kind
+    * (docs/decisions/0010-ray-kernels.md).
     */
   private inline val Patience = 100000
 
-  /** A tree of fewer has too few nodes for vectors to make up for being compiled: a room of 36
-    * triangles took 2.4 s more of processor time for 4 million samples.
+  /** Primitive count below which a tree has too few nodes for SIMD to repay its compilation: a room
+    * of 36 triangles took 2.4 s more of processor time for 4 million samples.
     */
   private inline val Few = 1000
 
-  /** Blocks of more would not fit into one array. */
+  /** Primitive count above which blocks would not fit into one array. */
   private inline val Most = 60000000

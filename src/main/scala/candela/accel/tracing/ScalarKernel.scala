@@ -3,11 +3,11 @@ package candela.accel.tracing
 import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 
-/** Walks a [[WideTree]] in plain Scala: for JVMs without the Vector API, and as long as the vectors
-  * of [[VectorKernel]] are not compiled.
+/** Traverses a [[WideTree]] by scalar code: for JVMs without the Vector API, and until the JVM has
+  * compiled [[VectorKernel]].
   *
-  * Minima and maxima are those of Ints, and what decides is made of signs: branches that depend on
-  * boxes and triangles can't be foreseen (docs/decisions/0010-ray-kernels.md).
+  * Minima and maxima are on Ints, and decisions are computed from sign bits: branches that depend
+  * on boxes and triangles are unpredictable (docs/decisions/0010-ray-kernels.md).
   */
 private[tracing] object ScalarKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
@@ -20,7 +20,7 @@ private[tracing] object ScalarKernel extends WideKernel:
 
   def name: String = "scalar"
 
-  /** Where the sizes are constants, the JVM's compiler unrolls the loops. */
+  /** Constant sizes let the JVM unroll the loops. */
   private def isNarrow(tree: WideTree): Boolean = tree.width == 4 && tree.lanes == 4
 
   private inline def walk(
@@ -42,8 +42,8 @@ private[tracing] object ScalarKernel extends WideKernel:
       corners => through(tree.blocks, corners, lanes, ray)
     )
 
-  /** Bits of the children that the ray meets. Of a slab's two distances the lesser one, as an Int,
-    * is the near one: but where both are negative, and all is behind.
+  /** Bit mask of the children that the ray hits. Of a slab's two distances the lesser one, as an
+    * Int, is the near one, unless both are negative, and the slab is behind the origin.
     */
   private inline def met(
       b: Array[Float],
@@ -71,17 +71,17 @@ private[tracing] object ScalarKernel extends WideKernel:
         Math.min(Math.max(lowZ, highZ), end)
       )
       inline if !anyHit then ray.lanes(k) = near
-      // Is far + Slack before near? The difference must not overflow where far is negative
+      // Tests far + Slack < near; the difference must not overflow if far is negative
       missed |= ((Math.max(far, Behind) + WideWalk.Slack - near) >>> 31) << k
       k += 1
     missed ^ ((1 << width) - 1)
 
-  /** Less than any distance by more than the slack. */
+  /** Below any distance by more than the slack. */
   private inline val Behind = -100
 
   private inline def plane(x: Float, o: Float, i: Float): Int = bits((x - o) * i)
 
-  /** Bits of the block's lanes whose triangles may be hit: the Float part of
+  /** Bit mask of the block's lanes whose triangles may be hit: the Float part of
     * [[candela.shapes.TriangleTest]], operation by operation.
     */
   private inline def through(v: Array[Float], corners: Int, inline lanes: Int, ray: Ray): Int =
@@ -112,7 +112,7 @@ private[tracing] object ScalarKernel extends WideKernel:
       val s1 = bits(e1)
       val s2 = bits(e2)
       val all = bits(e0 * e1 * e2) & Int.MaxValue
-      // No sign, or all signs, or a zero: then the product is one, too, or no number
+      // No sign bit, all sign bits, or a zero, for which the product is also zero or NaN
       val zero = (all - 1) | (WideWalk.Infinity - all)
       may |= ((~(s0 | s1 | s2) | (s0 & s1 & s2) | zero) >>> 31) << k
       k += 1

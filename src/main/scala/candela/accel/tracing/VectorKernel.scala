@@ -5,13 +5,13 @@ import jdk.incubator.vector.{FloatVector, IntVector, VectorMask, VectorOperators
 import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 
-/** Walks a [[WideTree]] by the JDK's Vector API, a node or a block of triangles in one go. The tree
-  * has blocks of as many triangles as this machine's vectors have lanes.
+/** Traverses a [[WideTree]] with the JDK's Vector API: SIMD tests of a node or a triangle block at
+  * once. The tree's blocks have as many triangles as this machine has SIMD lanes.
   *
-  * To be touched only where the module jdk.incubator.vector is there.
+  * Requires the module jdk.incubator.vector when first accessed.
   */
 private[tracing] object VectorKernel extends WideKernel:
-  // Static and final once compiled, so that the JVM's compiler knows them
+  // Static and final: constants to the JVM's compiler
   private val isHuge = FloatVector.SPECIES_PREFERRED.length > 16
   private val F: VectorSpecies[java.lang.Float] =
     if isHuge then FloatVector.SPECIES_512 else FloatVector.SPECIES_PREFERRED
@@ -19,13 +19,13 @@ private[tracing] object VectorKernel extends WideKernel:
     if isHuge then IntVector.SPECIES_512 else IntVector.SPECIES_PREFERRED
   private val W: Int = F.length
 
-  /** Before, asking a mask for its bits made an object. */
+  /** In earlier versions, converting a mask to bits allocates. */
   private val HasMaskBits = Runtime.version.feature >= 19
   private val LaneBits: IntVector = IntVector.fromArray(I, Array.tabulate(W)(1 << _), 0)
   private val Zeros: IntVector = IntVector.zero(I)
   private val Infinities: IntVector = IntVector.broadcast(I, WideWalk.Infinity)
 
-  /** Two vectors of children, or one of sixteen: a mask of theirs is then as many. */
+  /** Two vectors of children, or one of sixteen lanes; a mask has as many bits. */
   private val N: Int = Math.min(16, 2 * W)
 
   def width: Int = N
@@ -53,7 +53,7 @@ private[tracing] object VectorKernel extends WideKernel:
       corners => through(t, corners, ray)
     )
 
-  /** One bit for each lane that is set. */
+  /** One bit for each set lane. */
   private inline def bits(m: VectorMask[Integer]): Int =
     if HasMaskBits then m.toLong.toInt
     else Zeros.blend(LaneBits, m).reduceLanes(VectorOperators.OR)
@@ -61,9 +61,9 @@ private[tracing] object VectorKernel extends WideKernel:
   private inline def plane(b: Array[Float], at: Int, o: Float, i: Float): IntVector =
     FloatVector.fromArray(F, b, at).sub(o).mul(i).reinterpretAsInts()
 
-  /** As many children as a vector has lanes, from `node` on: which ones the ray meets. Of a slab's
-    * two distances the lesser one, as an Int, is the near one: but where both are negative,
-    * and all is behind.
+  /** Bit mask of the children that the ray hits, for one vector of children from `node` on. Of a
+    * slab's two distances the lesser one, as an Int, is the near one, unless both are negative, and
+    * the slab is behind the origin.
     */
   private inline def met(
       b: Array[Float],
@@ -89,8 +89,8 @@ private[tracing] object VectorKernel extends WideKernel:
     inline if !anyHit then near.intoArray(ray.lanes, lane)
     bits(near.compare(VectorOperators.LE, far))
 
-  // No vector is kept for longer than a node or a block: the JVM would write it to memory again and
-  // again, for the case that it has to leave compiled code
+  // No vector lives longer than a node or a block: the JVM would store it to memory repeatedly, in
+  // case it has to leave compiled code
   private inline def through(t: Array[Float], corners: Int, ray: Ray): Int =
     // The Float part of TriangleTest, operation by operation
     val x = corners + ray.kx * W
@@ -113,5 +113,5 @@ private[tracing] object VectorKernel extends WideKernel:
     val s2 = e2.reinterpretAsInts()
     val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
     val zero = all.sub(1).or(Infinities.sub(all))
-    // No sign, or all signs, or a zero: then the product is one, too, or no number
+    // No sign bit, all sign bits, or a zero, for which the product is also zero or NaN
     bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))

@@ -2,37 +2,39 @@ package candela.accel.tracing
 
 import java.util.concurrent.atomic.AtomicBoolean
 
-/** When walks by a kernel that is slow until the JVM has compiled it begin to pay: as soon as it
-  * has been seen to be faster than the scalar one, on the same rays.
+/** Decides when a kernel that is slow until the JVM has compiled it starts to pay: as soon as it is
+  * measured to be faster than the scalar kernel on the same rays.
   *
-  * Code with vectors takes a hundred times as long before. So one thread at a time tries it, a
-  * [[WarmUp.Batch]] of rays by both kernels, while the others walk on with scalars. The first
-  * [[WarmUp.Enough]] tries make the JVM compile it; later ones look whether it has, at no more than
-  * a fraction of the time. What was compiled stays so for all scenes.
+  * Uncompiled SIMD code is about a hundred times slower. So one thread at a time runs a trial, a
+  * [[WarmUp.Batch]] of rays by both kernels, while the others continue with scalar code. The first
+  * [[WarmUp.Enough]] trials make the JVM compile the kernel; later ones check, for no more than a
+  * fraction of the time, whether it has. Compiled code remains so for all scenes.
   */
 private[tracing] final class WarmUp:
   import WarmUp.*
 
-  /** Has the kernel been faster? Never goes back. */
+  /** Whether the kernel has been faster. Never reverts. */
   @volatile var isOver = false
 
   private val isTrying = AtomicBoolean()
 
-  // Of the thread that is trying
+  // State of the thread that runs trials
   private var tries = 0
   private var scalarNanos, fastNanos = 0L
 
-  /** Walks until the next try: written by all threads without order, as many or few more do. */
+  /** Traversals until the next trial; threads write it unsynchronised, as a few more or less do not
+    * matter.
+    */
   private var pause = 0
 
-  /** Is it the caller's turn? Then it has to [[tell]]. */
+  /** Whether it is the caller's turn to run a trial; it must then call [[tell]]. */
   def turn(): Boolean =
     if pause > 0 then
       pause -= 1
       false
     else isTrying.compareAndSet(false, true)
 
-  /** How long both kernels took for one ray. */
+  /** Records the time that both kernels took for one ray. */
   def tell(scalar: Long, fast: Long): Unit =
     scalarNanos += scalar
     fastNanos += fast
@@ -48,14 +50,14 @@ private[tracing] final class WarmUp:
 private[tracing] object WarmUp:
   final val Batch = 64
 
-  /** Walks after which the JVM wants to compile a method with a loop (its Tier4 thresholds). */
+  /** Traversals after which the JVM compiles a method with a loop (its Tier4 thresholds). */
   final val Enough = 5120
 
-  /** How much longer walks go on with scalars than a try takes. */
+  /** Time spent in scalar traversal between trials, relative to a trial. */
   private final val Rest = 8
 
-  /** Times slower that counts as such: one interruption is no reason to wait for ever. */
+  /** Cap on a measured slowdown, so that one interruption does not delay the decision for ever. */
   private final val Most = 1000L
 
-  /** One for each walk of the one kernel that has to be warm. */
+  /** One for each query of the one kernel that needs to warm up. */
   val closest, occluded = WarmUp()

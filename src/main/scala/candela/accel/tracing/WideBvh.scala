@@ -3,14 +3,15 @@ package candela.accel.tracing
 import candela.accel.{Accelerator, WideTree}
 import candela.geometry.{Bounds3, Hit, Ray}
 
-/** A bounding volume hierarchy whose nodes have as many children as vectors test in one go.
+/** A wide BVH whose branching factor is the number of boxes that SIMD code tests at once.
   *
-  * A ray's first walks are done in plain Scala: a small picture is finished before the JVM has
-  * compiled code with vectors. After that many, vectors are tried until they are faster (see
-  * [[WarmUp]]). Which kernel walks is never seen in a picture: all find the same hits, bit by bit.
+  * A ray object's first traversals use scalar code: a small image is finished before the JVM has
+  * compiled the SIMD kernel. After that, the SIMD kernel is tried until it is faster (see
+  * [[WarmUp]]). The choice of kernel never affects an image: all find bit-identical hits.
   *
-  * @param fast     for all rays once it is faster
-  * @param patience after how many walks of a ray object it is tried; 0: it is taken at once
+  * @param fast     kernel for all rays once it is faster
+  * @param patience number of traversals per ray object after which `fast` is tried; 0 to use it at
+  *   once
   */
 final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience: Int)
     extends Accelerator:
@@ -50,7 +51,7 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience
   private def tryOccluded(ray: Ray, hit: Hit): Boolean =
     compare(ray, hit, WarmUp.occluded, _.isOccluded(tree, ray, hit))
 
-  /** The same walk by both kernels, and how long each took. */
+  /** Runs the same traversal by both kernels and measures their times. */
   private inline def compare(
       ray: Ray,
       hit: Hit,
@@ -67,16 +68,18 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience
     warmUp.tell(middle - begin, System.nanoTime - middle)
     found
 
-/** A way to walk a [[WideTree]]. All find the same hits, bit by bit; rays and tree must be tame. */
+/** Traversal kernel for a [[WideTree]]. All kernels find bit-identical hits; rays and tree must be
+  * tame.
+  */
 private[tracing] abstract class WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean
   def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean
   def name: String
 
 private[tracing] object WideKernel:
-  /** Neither products of coordinates nor those with inverse directions leave the range of Floats:
-    * then a box's distances are off by no more than [[WideWalk.Slack]], and the edge functions of
-    * [[candela.shapes.TriangleTest]] are numbers.
+  /** Whether products of coordinates, also with inverse directions, stay within the range of
+    * Floats: the error of a box's distances is then at most [[WideWalk.Slack]], and the edge
+    * functions of [[candela.shapes.TriangleTest]] are never NaN.
     */
   def isTame(ray: Ray): Boolean =
     isTame(ray.ox) && isTame(ray.oy) && isTame(ray.oz) &&
@@ -89,7 +92,7 @@ private[tracing] object WideKernel:
   /** False for NaN, too. */
   private inline def isTame(x: Float): Boolean = Math.abs(x) < Far
 
-  /** Zeros are: a box beside the ray then begins at infinity. */
+  /** Zero is tame: a box that the ray misses then begins at infinity. */
   private inline def isTameDirection(x: Float): Boolean =
     x == 0f || (Math.abs(x) > Small && Math.abs(x) < Large)
 

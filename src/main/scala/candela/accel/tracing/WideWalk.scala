@@ -4,20 +4,20 @@ import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 import candela.shapes.TriangleTest
 
-/** The walks through a [[WideTree]], made into kernels by their two questions. All of it is
-  * inlined: each kernel has loops of its own, without calls through interfaces.
+/** Traversals of a [[WideTree]], made into kernels by their two box and triangle tests. All of it
+  * is inlined: each kernel has loops of its own, without interface calls.
   *
-  * The walk to the closest hit goes to the nearest child first and keeps the others on a stack of
-  * Longs, each its distance's bits over its code, sorted as it is put there. Distances are never
-  * negative, and such Floats are ordered as their bits are: comparing Ints is cheaper than
-  * comparing Floats, which have NaN and −0 to look after.
+  * Closest-hit traversal is front-to-back: it visits the nearest child first and pushes the others
+  * on a stack of Longs, each its distance's bits above its code, sorted as it is pushed. Distances
+  * are never negative, so their bits have the order of the Floats: comparing Ints is cheaper than
+  * comparing Floats, with their NaN and −0.
   *
-  * The walk to any hit has no order: in that of the distances it would see as many nodes. An entry
-  * of its stack is a node under the bits of those of its children that are still to be visited.
+  * Any-hit traversal is unordered: front-to-back order visits as many nodes. An entry of its stack
+  * is a node below the bits of its children that are still to be visited.
   */
 private[tracing] object WideWalk:
 
-  /** The walk to any hit or to the closest one: see [[occluded]] and [[closest]]. */
+  /** Any-hit or closest-hit traversal: see [[occluded]] and [[closest]]. */
   inline def walk(
       tree: WideTree,
       inline width: Int,
@@ -32,10 +32,10 @@ private[tracing] object WideWalk:
     else closest(tree, width, lanes, ray, hit, boxes, triangles)
 
   /** @param width, lanes those of the tree, as constants if the kernel has any
-    * @param boxes     (node, limit): bits of the children that begin before `limit`, the bits of a
-    *                  distance; writes where they begin to `ray.lanes`, as bits too
-    * @param triangles (block's first Float): bits of the lanes whose triangles may be hit; none
-    *                  that [[TriangleTest]] accepts is missing
+    * @param boxes     (node, limit): bit mask of the children that begin before `limit`, the bits
+    *   of a distance; writes their entry distances to `ray.lanes`, also as bits
+    * @param triangles (block's first Float): bit mask of the lanes whose triangles may be hit;
+    *   includes every triangle that [[TriangleTest]] accepts
     */
   private inline def closest(
       tree: WideTree,
@@ -109,7 +109,7 @@ private[tracing] object WideWalk:
         limit = limitOf(ray.tMax)
         node = WideTree.NoChild
       if node == WideTree.NoChild then
-        // The next subtree that begins before the closest hit
+        // Pop the next subtree that begins before the closest hit
         var going = top > 0
         while going do
           top -= 1
@@ -120,7 +120,7 @@ private[tracing] object WideWalk:
           else going = top > 0
     found
 
-  /** As [[closest]], but `boxes` writes nothing. */
+  /** Any-hit counterpart of [[closest]]; `boxes` writes nothing. */
   private inline def occluded(
       tree: WideTree,
       inline width: Int,
@@ -159,7 +159,8 @@ private[tracing] object WideWalk:
         from = next.toInt
       if found || hits == 0 then node = WideTree.NoChild
       else
-        // What is left of the node stays on the stack, or is overwritten if it is nothing
+        // The rest of the node's children stay on the stack; if none is left, the entry is
+        // overwritten
         val rest = hits & (hits - 1)
         stack(top) = entry(rest, from)
         top += -rest >>> 31
@@ -170,18 +171,18 @@ private[tracing] object WideWalk:
   private inline def entry(high: Int, node: Int): Long =
     (high.toLong << 32) | (node & 0xffffffffL)
 
-  /** By how many Floats a box's distances may be off: its three operations' rounding, that of the
-    * Float triangle test and of the hit's distance, 12 half units in the last place in all.
+  /** Error bound of a box's distances, in Floats (ulps): the rounding of its three operations, of
+    * the Float triangle test and of the hit's distance, 12 half units in the last place in all.
     */
   final val Slack = 16
 
-  /** What begins later than this is behind the end of the ray. Finite: what begins at infinity is
-    * never met.
+  /** Subtrees that begin beyond this limit lie past the end of the ray. Finite: what begins at
+    * infinity is never hit.
     */
   inline def limitOf(tMax: Float): Int =
     Math.min(java.lang.Float.floatToRawIntBits(tMax) + Slack, Largest)
 
   private final val Largest = 0x7f7fffff
 
-  /** The bits of infinity: what is above is no number. */
+  /** The bits of infinity; larger ones are NaN. */
   final val Infinity = 0x7f800000
