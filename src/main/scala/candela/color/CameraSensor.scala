@@ -1,23 +1,23 @@
 package candela.color
 
-/** The sensor of a camera: three kinds of cells, by what they make of each wavelength.
+/** A camera sensor: spectral responses of its three channels.
   *
-  * @param curves of the cells for red, green and blue; 0 beyond their ends
+  * @param curves responses for red, green and blue; 0 outside their range
   *
   * Source of the measurements: Langlands and Fascione, "PhysLight: An End-to-End Pipeline for
   * Scene-Referred Lighting", SIGGRAPH 2020 Talks; PBRT 4th ed., §5.4.2.
   */
 final class CameraSensor(curves: Vector[Spectrum]):
 
-  /** What the cells make of a colour, in units in which the observer's y makes luminance of it. */
+  /** Response of the channels to a colour, in units in which the observer's y yields luminance. */
   lazy val response: ColorResponse =
     val grid = Array.tabulate(95)(i => 360f + 5f * i)
     val scale = 5 / Colorimetry.luminanceOfD65
     ColorResponse(curves.map: curve =>
       Detector(grid, grid.map(nm => (scale * curve(nm) * Colorimetry.D65(nm)).toFloat)))
 
-  /** From what the cells make of light to linear sRGB, for photographs taken in daylight of this
-    * colour temperature: nine numbers row by row, by which a chart's colours err least.
+  /** Matrix from sensor response to linear sRGB, for photographs taken in daylight of this colour
+    * temperature: nine numbers in row order, with the least error over a colour chart.
     */
   def toSrgb(kelvin: Float): Array[Float] = (Colorimetry.rgbOfXyz * toXyz(kelvin)).toFloats
 
@@ -34,13 +34,13 @@ final class CameraSensor(curves: Vector[Spectrum]):
       Matrix3.tabulate((r, c) => a.lazyZip(b).map((x, y) => x(r) * y(c)).sum)
     (products(seen, seen).inverse * products(seen, wanted)).transposed
 
-  /** What three responses make of light that was reflected, over what the second makes of all. */
+  /** Three responses to reflected light, over the second response to the unfiltered light. */
   private def projected(reflectance: Spectrum, light: Spectrum, responses: Vector[Spectrum]) =
     val all = CameraSensor.integral(nm => light(nm) * responses(1)(nm))
     responses.map(r => CameraSensor.integral(nm => reflectance(nm) * light(nm) * r(nm)) / all)
 
 object CameraSensor:
-  /** As pbrt-v4 calls them. */
+  /** Names as in pbrt-v4. */
   val names: Vector[String] = Vector(
     "canon_eos_100d", "canon_eos_1dx_mkii", "canon_eos_200d", "canon_eos_200d_mkii", "canon_eos_5d",
     "canon_eos_5d_mkii", "canon_eos_5d_mkiii", "canon_eos_5d_mkiv", "canon_eos_5ds", "canon_eos_m",
@@ -51,8 +51,8 @@ object CameraSensor:
   def named(name: String): Option[CameraSensor] =
     Option.when(names.contains(name))(CameraSensor(spectra(s"camera-$name")))
 
-  /** Eight spectra in place of the 24 that pbrt-v4 fits to, those of a ColorChecker: their products
-    * for any two wavelengths sum to the same, to four digits, and the fit depends on nothing else.
+  /** Eight spectra in place of the 24 of a ColorChecker, to which pbrt-v4 fits: their products for
+    * any two wavelengths have the same sum, to four digits, and the fit depends on nothing else.
     * The matrices of all sensors agree to 2e-4 of their largest number.
     */
   private lazy val chart: Vector[Spectrum] = spectra("chart")
@@ -62,18 +62,18 @@ object CameraSensor:
     Vector.tabulate(rows.head.length - 1): c =>
       Spectrum(rows.map(_(0)), rows.map(_(c + 1)), Spectrum.Outside.Zero)
 
-  /** Over the wavelengths that pbrt-v4 has, in nm. */
+  /** Integral over pbrt-v4's range of wavelengths, in nm. */
   private def integral(f: Float => Float): Double =
     (360 to 830).map(nm => f(nm.toFloat).toDouble).sum
 
-/** Makes light of one white look as that of sRGB's white does.
+/** White balance by chromatic adaptation to the white of sRGB.
   *
   * Source: Lam, "Metamerism and Colour Constancy", PhD thesis, University of Bradford 1985, whose
-  * responses of the eye are scaled as von Kries proposed; CIE 15:2004, §3.1, for daylight.
+  * cone responses are scaled as von Kries proposed; CIE 15:2004, §3.1, for daylight.
   */
 object WhiteBalance:
 
-  /** Of D65 and sRGB, as x and y of CIE 1931. */
+  /** D65, the white of sRGB, as x and y of CIE 1931. */
   private val Target = (0.3127, 0.3290)
 
   private val ToResponse = Matrix3(
@@ -84,8 +84,8 @@ object WhiteBalance:
     )
   )
 
-  /** The map of linear sRGB, nine numbers row by row, that makes daylight of the colour temperature
-    * `kelvin` white.
+  /** Matrix on linear sRGB, nine numbers in row order, that maps daylight of the colour temperature
+    * `kelvin` to white.
     */
   def ofDaylight(kelvin: Float): Array[Float] =
     val from = response(chromaticity(Daylight.correlated(kelvin)))
@@ -94,7 +94,7 @@ object WhiteBalance:
     val ofXyz = ToResponse.inverse * scale * ToResponse
     (Colorimetry.rgbOfXyz * ofXyz * Colorimetry.xyzOfRgb).toFloats
 
-  /** Of daylight; below 4000 K, where there is none, of a black body. */
+  /** Chromaticity of daylight; below 4000 K, where daylight is undefined, of a black body. */
   private[color] def chromaticity(kelvin: Double): (Double, Double) =
     if kelvin < 4000 then
       val body = Spectrum.blackbody(kelvin.toFloat)

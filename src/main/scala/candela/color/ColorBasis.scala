@@ -1,16 +1,16 @@
 package candela.color
 
-/** The three components in which light is multiplied on its way through a scene, as a linear map
-  * from and to linear sRGB that keeps white (1, 1, 1).
+/** The three components in which light is multiplied during transport: a linear map to and from
+  * linear sRGB that preserves white (1, 1, 1).
   *
-  * Light is scattered wavelength by wavelength, and the product of two colours' spectra has another
-  * colour than the product of their sRGB components: bounces off coloured surfaces drift. A basis
-  * with sharper primaries drifts less, at no cost for each ray.
+  * Light scatters per wavelength, and the product of two colours' spectra has another colour than
+  * the product of their sRGB components: colours drift with every bounce. A basis with sharper
+  * primaries drifts less, at no cost per ray.
   *
   * Source of the idea: Ward and Eydelberg-Vileshin, "Picture Perfect RGB Rendering Using Spectral
   * Prefiltering and Sharp Color Primaries", Eurographics Workshop on Rendering 2002.
   *
-  * @param toRows nine numbers, row by row: the map to sRGB
+  * @param toRows nine numbers in row order: the matrix to sRGB
   */
 final class ColorBasis private (toRows: Array[Float], fromRows: Array[Float]):
 
@@ -22,14 +22,13 @@ final class ColorBasis private (toRows: Array[Float], fromRows: Array[Float]):
 object ColorBasis:
   private val identity = Array(1f, 0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f)
 
-  /** The components of sRGB themselves: how pbrt-v2 and v3 multiply colours. */
+  /** The components of sRGB: how pbrt-v2 and v3 multiply colours. */
   val Srgb: ColorBasis = ColorBasis(identity, identity)
 
-  /** For pbrt-v4, which renders wavelengths. Fitted so that products of the spectra of a light and
-    * up to four surfaces, smooth and mostly of low saturation, have the colours that they have by
-    * wavelength. Over 1,200 such products it is off by 4.7 % of a channel (root mean square; sRGB:
-    * 7.4 %), on average by 0.1 % in blue (sRGB: 2.0 %). Every sRGB colour has components that are
-    * not negative.
+  /** For pbrt-v4, a spectral renderer. Fitted to the spectral products of a light and up to four
+    * surfaces, with smooth spectra of mostly low saturation. Over 1,200 such products its error is
+    * 4.7 % of a channel (root mean square; sRGB: 7.4 %), on average 0.1 % in blue (sRGB: 2.0 %).
+    * Every sRGB colour has non-negative components.
     */
   val Sharp: ColorBasis = ofRows(
     Array(

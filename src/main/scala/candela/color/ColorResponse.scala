@@ -2,36 +2,36 @@ package candela.color
 
 import candela.base.loop
 
-/** What wavelengths count for a detector of light.
+/** Spectral response of a light detector.
   *
-  * @param nm      where the light's spectrum is asked for
-  * @param weights by which it counts there; of light whose spectrum is D65, scaled to luminance 1
-  *                and dimmed to what is asked for, their sum is all
+  * @param nm      wavelengths at which the light's spectrum is evaluated
+  * @param weights responses at these wavelengths; for light with the spectrum of D65, scaled to
+  *   luminance 1 and attenuated as requested, their sum is the total response
   */
 final class Detector(val nm: Array[Float], val weights: Array[Float])
 
-/** What several detectors make of light of which only the colour is known, taken to have the
-  * spectrum that pbrt-v4 gives a light of this colour: D65, filtered by a smooth reflectance (see
-  * [[Upsampling]]).
+/** Response of several detectors to light of known colour, assumed to have the spectrum that
+  * pbrt-v4 assigns to it: D65, filtered by a smooth reflectance (see [[Upsampling]]).
   *
-  * It grows as the light does, so that it is kept for colours whose largest component is 1, and is
-  * linear between them.
+  * The response is proportional to the light: a table stores it for colours with a largest
+  * component of 1, and interpolates linearly.
   */
 final class ColorResponse(detectors: Vector[Detector]):
   import ColorResponse.*
   private val count = detectors.size
 
-  // By which component is the largest, then by that after it and by that before it
+  // Indexed by the largest component, then by the next and the previous component
   private val table = new Array[Float](3 * Nodes * Nodes * count)
   for largest <- 0 until 3 do fill(largest)
 
-  /** To and fro through the table, since the fit finds its way to colours that are near. */
+  /** Traverses the table back and forth, since the fit proceeds from one colour to a nearby one.
+    */
   private def fill(largest: Int): Unit =
     val walk = Upsampling.Walk()
     for i <- Nodes - 1 to 0 by -1 do
       for k <- 0 until Nodes do
         val j = if (Nodes - 1 - i) % 2 == 0 then Nodes - 1 - k else k
-        // Half as bright as a reflectance can be: so in pbrt-v4
+        // Half the maximum reflectance, as in pbrt-v4
         val half = Array(0.5, 0.5, 0.5)
         half((largest + 1) % 3) *= i.toDouble / (Nodes - 1)
         half((largest + 2) % 3) *= j.toDouble / (Nodes - 1)
@@ -42,8 +42,8 @@ final class ColorResponse(detectors: Vector[Detector]):
 
   private def place(largest: Int, i: Int, j: Int): Int = ((largest * Nodes + i) * Nodes + j) * count
 
-  /** Sets `out` from `at` on to what the detectors make of linear sRGB. Light with negative
-    * components counts as the difference of two without.
+  /** Writes the response to linear sRGB to `out` from `at` on. Light with negative components is
+    * the difference of two non-negative lights.
     */
   def apply(r: Float, g: Float, b: Float, out: Array[Float], at: Int): Unit =
     loop(count)(d => out(at + d) = 0f)
@@ -83,5 +83,5 @@ final class ColorResponse(detectors: Vector[Detector]):
 object ColorResponse:
   private inline val Nodes = 25
 
-  /** As near to black as the fit stays smooth. */
+  /** Darkest value for which the fit is smooth. */
   private inline val Darkest = 1e-3

@@ -2,41 +2,39 @@ package candela.color
 
 import scala.io.{Codec, Source}
 
-/** From spectra to linear sRGB, with the CIE 1931 observer, and the spectra that scenes can
-  * name.
-  */
+/** Converts spectra to linear sRGB with the CIE 1931 observer, and provides named spectra. */
 object Colorimetry:
 
-  /** Which light a spectrum is seen under. */
+  /** Illuminant under which a spectrum is converted. */
   enum White:
-    /** Equal energy: pbrt-v2's and v3's habit. A constant 1 becomes a slightly reddish colour. */
+    /** Equal energy, as in pbrt-v2 and v3. A constant 1 becomes a slightly reddish colour. */
     case EqualEnergy
 
-    /** The white of sRGB: a constant 1 becomes (1, 1, 1). pbrt-v4's habit for reflectances. */
+    /** The white of sRGB: a constant 1 becomes (1, 1, 1). pbrt-v4's convention for reflectances.
+      */
     case D65
 
   /** Wavelengths at which integrals are sampled: 360–830 nm in steps of 5. */
   private lazy val observer: Array[Array[Float]] = table("cie1931")
   lazy val D65: Spectrum = named("D65").get
 
-  /** The observer's responses, for x, y and z. */
+  /** The observer's colour matching functions x, y and z. */
   private[color] lazy val observers: Vector[Spectrum] =
     Vector.tabulate(3)(i => Spectrum(observer.map(_(0)), observer.map(_(i + 1))))
 
-  /** Spectral radiance at a wavelength, of light with the spectrum of D65 and of luminance 1, where
-    * an even spectrum of 1 would have luminance 1: so in pbrt-v4.
+  /** Spectral radiance at a wavelength of light with the spectrum of D65 and luminance 1, in units
+    * in which a constant spectrum of 1 has luminance 1: as in pbrt-v4.
     */
   def radianceOfD65(nm: Float): Float = (D65(nm) * EvenLuminance / luminanceOfD65).toFloat
 
-  /** The integral of the observer's y over the wavelength in nm (CIE 018:2019). */
+  /** Integral of the observer's y over the wavelength in nm (CIE 018:2019). */
   private val EvenLuminance = 106.856895
 
-  /** What the observer sees of D65, over wavelength in nm: to what pbrt-v4 scales lights' spectra.
-    */
+  /** Luminance of D65, over wavelength in nm: pbrt-v4's normalisation of light spectra. */
   private[color] lazy val luminanceOfD65: Double =
     observer.map(row => 5.0 * row(2) * D65(row(0))).sum
 
-  /** The colour of a reflectance (or refractive index, …) that depends on wavelength. */
+  /** Colour of a reflectance (or index of refraction, …) that depends on wavelength. */
   def rgb(spectrum: Float => Float, white: White): Rgb =
     var x, y, z, sum = 0.0
     for Array(nm, cx, cy, cz) <- observer do
@@ -48,18 +46,18 @@ object Colorimetry:
       sum += light * cy
     fromXyz(x / sum, y / sum, z / sum)
 
-  /** Wavelengths in nm, 5 apart, and the colour that each adds to white under D65. */
+  /** Wavelengths in nm, 5 apart, and the contribution of each to white under D65. */
   lazy val responses: Array[(Float, Rgb)] =
     for Array(nm, x, y, z) <- observer yield
       val light = D65(nm).toDouble
       (nm, fromXyz(light * x, light * y, light * z))
 
-  /** The colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's habit for emission. */
+  /** Colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's convention for emission. */
   def unitLuminance(spectrum: Float => Float): Rgb =
     val c = rgb(spectrum, White.EqualEnergy)
     c * (1f / c.luminance)
 
-  /** X, Y and Z of linear sRGB: the primaries of IEC 61966-2-1, row by row. */
+  /** X, Y and Z of linear sRGB: the primaries of IEC 61966-2-1, in row order. */
   val XyzOfRgb: Array[Float] = Array(
     0.412453f, 0.357580f, 0.180423f, //
     0.212671f, 0.715160f, 0.072169f, //
@@ -81,7 +79,7 @@ object Colorimetry:
     val c = rgbOfXyz * Vector(x, y, z)
     Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
 
-  /** The names of the spectra that come with Candela, as pbrt-v4 calls them. */
+  /** Names of the built-in spectra, as in pbrt-v4. */
   val names: Vector[String] =
     val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
     metals.flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k")) ++
@@ -95,7 +93,7 @@ object Colorimetry:
       val rows = table(file)
       Spectrum(rows.map(_(0)), rows.map(_(1)))
 
-  /** Rows of numbers; lines that begin with # are remarks. */
+  /** Rows of numbers; lines that begin with # are comments. */
   private[color] def table(name: String): Array[Array[Float]] =
     val stream = getClass.getResourceAsStream(s"/candela/spectra/$name.txt")
     val source = Source.fromInputStream(stream)(using Codec.UTF8)

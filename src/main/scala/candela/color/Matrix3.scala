@@ -1,6 +1,6 @@
 package candela.color
 
-/** Three rows of three numbers, for maps between colours at build. Immutable. */
+/** A 3×3 matrix in row order, for colour transforms at scene construction. Immutable. */
 final class Matrix3(rows: Vector[Double]):
   require(rows.size == 9, s"${rows.size} numbers")
 
@@ -14,7 +14,7 @@ final class Matrix3(rows: Vector[Double]):
 
   def transposed: Matrix3 = Matrix3.tabulate((r, c) => this(c, r))
 
-  /** By Cramer's rule, for matrices that are far from singular. */
+  /** Cramer's rule, for well-conditioned matrices. */
   def inverse: Matrix3 =
     def minor(r: Int, c: Int): Double =
       val (r1, r2) = ((r + 1) % 3, (r + 2) % 3)
@@ -23,7 +23,7 @@ final class Matrix3(rows: Vector[Double]):
     val determinant = (0 until 3).map(c => this(0, c) * minor(0, c)).sum
     Matrix3.tabulate((r, c) => minor(c, r) / determinant)
 
-  /** Row by row. */
+  /** In row order. */
   def toFloats: Array[Float] = rows.map(_.toFloat).toArray
 
 object Matrix3:

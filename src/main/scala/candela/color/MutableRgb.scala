@@ -1,6 +1,6 @@
 package candela.color
 
-/** An accumulator of linear light, or a weight that grows factor by factor. One per worker. */
+/** Accumulator of linear light, or of a product of weights. One per worker. */
 final class MutableRgb:
   var r, g, b = 0f
 
@@ -32,8 +32,8 @@ final class MutableRgb:
 
   def isBlack: Boolean = r == 0f && g == 0f && b == 0f
 
-  /** The largest magnitude, as [[Rgb.largest]]. */
+  /** Largest magnitude, as [[Rgb.largest]]. */
   def largest: Float = toRgb.largest
 
-  /** The present value. */
+  /** A copy of the current value. */
   def toRgb: Rgb = Rgb(r, g, b)

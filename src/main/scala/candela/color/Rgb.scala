@@ -16,7 +16,7 @@ final class Rgb(val r: Float, val g: Float, val b: Float):
     java.lang.Float.isFinite(r) && java.lang.Float.isFinite(g) && java.lang.Float.isFinite(b)
   def max: Float = if r > g then (if r > b then r else b) else if g > b then g else b
 
-  /** The largest magnitude: the colour of a single wavelength may be negative. */
+  /** Largest magnitude: the colour of a single wavelength may be negative. */
   def largest: Float =
     val x = Math.abs(r)
     val y = Math.abs(g)

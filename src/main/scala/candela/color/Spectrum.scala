@@ -2,10 +2,10 @@ package candela.color
 
 import candela.math.*
 
-/** A function of wavelength, given at points and linear between them.
+/** Piecewise-linear function of wavelength.
   *
   * @param lambda wavelengths in nm, ascending
-  * @param outside what it is beyond the first and last wavelength: their values, or 0
+  * @param outside extrapolation past the first and last wavelength: their values, or 0
   */
 final class Spectrum(
     val lambda: Array[Float],
@@ -34,7 +34,7 @@ object Spectrum:
     */
   def blackbody(kelvin: Float): Spectrum = blackbody(kelvin, 2.8977721e6f / kelvin)
 
-  /** The same, scaled to 1 at the wavelength `unitAt`, in nm. */
+  /** As above, scaled to 1 at the wavelength `unitAt`, in nm. */
   def blackbody(kelvin: Float, unitAt: Float): Spectrum =
     val unit = planck(unitAt * 1e-9, kelvin)
     val lambda = Array.tabulate(95)(i => 360f + 5f * i)
@@ -47,15 +47,15 @@ object Spectrum:
     val kb = 1.380649e-23
     2 * h * c * c / (Math.pow(meters, 5) * Math.expm1(h * c / (meters * kb * kelvin)))
 
-/** The light of the sun and the sky together, by its colour temperature. */
+/** Daylight (sun and sky), by correlated colour temperature. */
 object Daylight:
 
-  /** The temperature that pbrt-v4 takes for daylight that is named by `kelvin`: such names are by
-    * Planck's constant of before 1968.
+  /** Temperature that pbrt-v4 uses for daylight of nominally `kelvin`: nominal values predate the
+    * 1968 revision of Planck's constant.
     */
   private[color] def correlated(kelvin: Float): Double = kelvin * 1.4388 / 1.4380
 
-  /** Relative spectral power; below 4000 K, where there is no daylight, of a black body.
+  /** Relative spectral power; below 4000 K, where daylight is undefined, of a black body.
     *
     * Source: CIE 15:2004, §3.1.
     */

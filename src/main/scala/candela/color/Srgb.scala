@@ -1,9 +1,9 @@
 package candela.color
 
-/** The transfer curve of sRGB, both ways: what 8-bit pictures are stored with and screens expect.
+/** The sRGB transfer function and its inverse, as used by 8-bit images and displays.
   *
   * Source: IEC 61966-2-1:1999, §5.2, with the published break points 0.0031308 and 0.04045. Inputs
-  * may leave [0, 1]: below 0 the linear piece goes on, above 1 the power.
+  * may be outside [0, 1]: the linear segment continues below 0, the power above 1.
   */
 object Srgb:
 
@@ -17,13 +17,13 @@ object Srgb:
     if linear <= 0.0031308f then linear * 12.92f
     else (1.055 * Math.pow(linear.toDouble, 1.0 / 2.4) - 0.055).toFloat
 
-  /** The nearest 8-bit code; clamps, and NaN is 0. */
+  /** The nearest 8-bit code; clamps, and maps NaN to 0. */
   def encode8(linear: Float): Int =
     if !(linear > 0f) then 0
     else if linear >= 1f then 255
     else (encode(linear) * 255f + 0.5f).toInt
 
-/** How the numbers of a picture stand for linear light. */
+/** Transfer function of an image's stored values. */
 enum Encoding:
   case Linear
   case Srgb

@@ -2,15 +2,16 @@ package candela.color
 
 import candela.math.clamp
 
-/** The smooth spectrum, between 0 and 1, that looks like a given reflectance under D65: the
-  * logistic function of a parabola over wavelength, as pbrt-v4 gives every RGB colour.
+/** Spectral upsampling: a smooth spectrum between 0 and 1 with the colour of a given reflectance
+  * under D65, namely a logistic function of a parabola over wavelength, as pbrt-v4 assigns to every
+  * RGB colour.
   *
   * Source: Jakob and Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling",
-  * Eurographics 2019. Fitted here by Newton's method along the way from grey to the colour.
+  * Eurographics 2019. Fitted here by Newton's method, stepping from grey to the colour.
   */
 object Upsampling:
 
-  /** @param reflectance linear sRGB; held to [0.001, 0.999], where the fit stays smooth */
+  /** @param reflectance linear sRGB; clamped to [0.001, 0.999], where the fit is smooth */
   def spectrum(reflectance: Rgb): Float => Float =
     val target = reflectance.map(clamp(_, 1e-3f, 0.999f))
     val grey = (target.r == target.g) && (target.g == target.b)
@@ -20,7 +21,9 @@ object Upsampling:
       walk.go(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
       walk(_)
 
-  /** A spectrum of any size (an index of refraction, say): scaled down to fit, then up again. */
+  /** Spectrum of an unbounded quantity (such as an index of refraction): scaled down to fit, then
+    * up again.
+    */
   def unbounded(value: Rgb): Float => Float =
     val scale = 2f * value.max
     if scale <= 0f then _ => 0f
@@ -28,7 +31,7 @@ object Upsampling:
       val unit = spectrum(value * (1f / scale))
       nm => scale * unit(nm)
 
-  /** Goes from colour to colour, the first of which is grey, and has the spectrum of where it is.
+  /** Moves from colour to colour, starting at grey, and holds the spectrum of the current one.
     * Mutable.
     */
   private[color] final class Walk:
@@ -37,7 +40,7 @@ object Upsampling:
 
     def apply(nm: Float): Float = logistic(c, nm)
 
-    /** To a reflectance with components from 0.001 to 0.999. */
+    /** Moves to a reflectance with components in [0.001, 0.999]. */
     def go(target: Array[Double]): Unit =
       val way = target.lazyZip(here).map((a, b) => Math.abs(a - b)).max
       val steps = Math.ceil(way * Steps / 0.5).toInt
@@ -46,7 +49,7 @@ object Upsampling:
         near(target.lazyZip(here).map((to, from) => from + (to - from) * share))
       here = target
 
-    /** Newton's method, which finds what is not far. */
+    /** Newton's method, which converges for nearby colours. */
     private def near(aim: Array[Double]): Unit =
       var left = Iterations
       while left > 0 do
@@ -61,7 +64,7 @@ object Upsampling:
     val t = (c(0) * x + c(1)) * x + c(2)
     (0.5 + t / (2 * Math.sqrt(1 + t * t))).toFloat
 
-  /** What each wavelength adds to X, Y and Z under D65, over what all add to Y of white. */
+  /** Contribution of each wavelength to X, Y and Z under D65, over the Y of white. */
   private lazy val seen: Array[Array[Double]] =
     Colorimetry.responses.map: (nm, _) =>
       val share = 5 * Colorimetry.D65(nm) / Colorimetry.luminanceOfD65
@@ -76,11 +79,11 @@ object Upsampling:
       z += s * row(3)
     (Colorimetry.rgbOfXyz * Vector(x, y, z)).toArray
 
-  /** From grey to black or white. */
+  /** Number of steps from grey to black or white. */
   private val Steps = 20
   private val Iterations = 12
 
-  /** One step; its size is held to 50 units, beyond which the parabola is no guide. */
+  /** One step, of at most 50 units, beyond which the linearisation is useless. */
   private def newton(c: Array[Double], off: Array[Double]): Unit =
     val h = 1e-3
     val columns = Array.tabulate(3): k =>

@@ -2,7 +2,7 @@ package candela.geometry
 
 import candela.math.*
 
-/** An axis-aligned box; `Bounds3.Empty` holds no point. */
+/** An axis-aligned bounding box; `Bounds3.Empty` contains no point. */
 final case class Bounds3(min: Vec3, max: Vec3):
   def union(b: Bounds3): Bounds3 = Bounds3(
     Vec3(Math.min(min.x, b.min.x), Math.min(min.y, b.min.y), Math.min(min.z, b.min.z)),
@@ -28,9 +28,9 @@ object Bounds3:
     Bounds3(Vec3(inf, inf, inf), Vec3(-inf, -inf, -inf))
   def of(points: Iterable[Vec3]): Bounds3 = points.foldLeft(Empty)((b, p) => b.union(p))
 
-/** All points within `radius` of a point: what light from infinitely far away is aimed at. */
+/** A bounding sphere: the target of light from infinity. */
 final case class Ball(center: Vec3, radius: Float):
-  /** Of the disc that it is seen as from any direction. */
+  /** Area of its projection, a disk. */
   val area: Float = Pi * radius * radius
 
 object Ball:

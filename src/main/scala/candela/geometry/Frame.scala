@@ -12,7 +12,7 @@ final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
   )
 
 object Frame:
-  /** Any basis around the unit vector `n`, continuous but for n.z = 0.
+  /** Some basis around the unit vector `n`, continuous except at n.z = 0.
     *
     * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     */
@@ -26,19 +26,19 @@ object Frame:
       n
     )
 
-  /** The basis around the unit vector `n` whose `s` follows `along` (made perpendicular to `n`). */
+  /** Basis around the unit vector `n` whose `s` follows `along`, orthogonalised to `n`. */
   def along(n: Vec3, along: Vec3): Frame =
     val s = along - n * (along dot n)
     val length2 = s.lengthSquared
     if length2 > 1e-12f * along.lengthSquared && length2 > 0f then
-      // Once more: of a vector nearly along n, the difference above is mostly rounding (Parlett,
-      // "The Symmetric Eigenvalue Problem", §6.9: twice is enough)
+      // Orthogonalised twice: if the vector is almost parallel to n, the first difference is mostly
+      // rounding (Parlett, "The Symmetric Eigenvalue Problem", §6.9: twice is enough)
       val once = s.normalized
       val unit = (once - n * (once dot n)).normalized
       Frame(unit, n cross unit, n)
     else around(n)
 
-/** Storage for a [[Frame]] in a record that a worker reuses; at first the axes. */
+/** Storage for a [[Frame]] in a record that a worker reuses; initially the axes. */
 final class MutableFrame:
   private val ownS = MutableVec3(1f, 0f, 0f)
   private val ownT = MutableVec3(0f, 1f, 0f)
@@ -48,7 +48,7 @@ final class MutableFrame:
   def t: MutableVec3 = ownT
   def n: MutableVec3 = ownN
 
-  /** The present value. */
+  /** A copy of the current value. */
   def toFrame: Frame = Frame(ownS.toVec3, ownT.toVec3, ownN.toVec3)
 
   def set(f: Frame): Unit =
@@ -56,7 +56,7 @@ final class MutableFrame:
     ownT.set(f.t)
     ownN.set(f.n)
 
-  /** Becomes [[Frame.around]] its present normal. */
+  /** Sets the basis to [[Frame.around]] its current normal. */
   def alignToNormal(): Unit =
     val around = Frame.around(ownN)
     ownS.set(around.s)

@@ -2,21 +2,21 @@ package candela.geometry
 
 import candela.math.*
 
-/** A half-line with an end, and what every intersection test wants to know of its direction.
+/** A ray with a maximum distance, and precomputed values for intersection tests.
   *
-  * Mutable, one per worker and purpose: the kernels read its fields, so that tracing a ray
-  * allocates nothing. `tMax` shrinks to the closest hit found so far.
+  * Mutable, one per worker and purpose: kernels read its fields, so tracing a ray allocates
+  * nothing. `tMax` shrinks to the closest hit found so far.
   */
 final class Ray:
   var ox, oy, oz = 0f
   var dx, dy, dz = 0f
   var tMax = 0f
 
-  /** 1/direction; an infinity where a component is zero. */
+  /** 1/direction; infinite where a component is zero. */
   var invX, invY, invZ = 0f
 
-  /** The axis along which the direction is longest, and the other two in an order that keeps the
-    * handedness; with the shear that turns the ray into +z. Source: Woop, Benthin, Wald,
+  /** The axis of the largest direction component, and the other two in an order that preserves
+    * handedness; with the shear that aligns the ray with +z. Source: Woop, Benthin, Wald,
     * "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
     */
   var kx, ky, kz = 0
@@ -25,46 +25,44 @@ final class Ray:
   /** The origin along kx, ky and kz. */
   var oAlongX, oAlongY, oAlongZ = 0f
 
-  /** Work space of an accelerator's walk: what is still to be visited. Deep enough for any tree
-    * that the builder makes, of two children a node or of sixteen.
+  /** Traversal stack. Deep enough for any BVH that the builder makes, binary or with branching
+    * factor sixteen.
     */
   val stack: Array[Long] = new Array[Long](Ray.StackSize)
 
-  /** Work space too: what a walk finds out about the children of a node, all at once. */
+  /** Scratch memory of a traversal: results for the children of a node. */
   val lanes: Array[Int] = new Array[Int](16)
 
-  /** How often an accelerator has walked with it, as far as it counts. */
+  /** Number of traversals with this ray, as far as the accelerator counts them. */
   var walks = 0
 
-  /** Filled in only where textures ask for it. */
+  /** Set only if textures need it. */
   val differential: RayDifferential = RayDifferential()
 
-  /** Of the origin, by the number of the axis. */
+  /** Origin along an axis. */
   inline def along(axis: Int): Float = if axis == 0 then ox else if axis == 1 then oy else oz
 
   def origin: Vec3 = Vec3(ox, oy, oz)
   def direction: Vec3 = Vec3(dx, dy, dz)
   def at(t: Float): Vec3 = Vec3(ox + t * dx, oy + t * dy, oz + t * dz)
 
-  /** When the ray is under way, in the scene's unit of time; [[set]] leaves it as it is. Only plans
-    * with motion look at it.
+  /** Time of the ray, in the scene's unit of time; [[set]] leaves it unchanged. Used only with
+    * motion.
     */
   var time = 0f
 
-  /** Of the light along a camera ray; only cameras that weigh their rays set it. */
+  /** Weight of a camera ray; set only by cameras that weight their rays. */
   var weight = 1f
 
   private var within: Option[Ray] = None
   private var matrices: Array[Double] = Array.empty
 
-  /** A ray of its own for the way through something inside, in that thing's space; made when it is
-    * first asked for.
-    */
+  /** A ray for traversing an instance, in its object space; created on first use. */
   def nested: Ray =
     if within.isEmpty then within = Some(Ray())
     within.get
 
-  /** Work space for a map that holds at the ray's time; made when it is first asked for. */
+  /** Scratch memory for a transform at the ray's time; created on first use. */
   def space: Array[Double] =
     if matrices.length == 0 then matrices = new Array[Double](Motion.Work)
     matrices
@@ -104,5 +102,5 @@ final class Ray:
   private def component(axis: Int): Float = if axis == 0 then dx else if axis == 1 then dy else dz
 
 object Ray:
-  /** 91 levels at most, each with 15 children that wait. */
+  /** At most 91 levels, each with 15 pending children. */
   inline val StackSize = 1400

@@ -2,13 +2,13 @@ package candela.geometry
 
 import candela.math.*
 
-/** Two rays beside a ray: those of the next place on the film to the right (x) and below (y). How
-  * far they are apart where they meet a surface says which detail of a texture can be seen.
+/** Ray differential: the offset rays of the next raster position to the right (x) and below (y).
+  * Their distance at a surface determines the filter footprint of textures.
   *
   * Source: Igehy, "Tracing Ray Differentials", SIGGRAPH 1999.
   */
 final class RayDifferential:
-  /** Are there such rays? Not after a scattering that sends neighbours to all sides. */
+  /** Whether the offset rays are valid; false after non-specular scattering. */
   var isKnown = false
 
   private val ownXOrigin, ownXDirection, ownYOrigin, ownYDirection = MutableVec3()
@@ -29,9 +29,9 @@ final class RayDifferential:
     yOrigin = from.yOrigin
     yDirection = from.yDirection
 
-  /** Sets `at.dpdx` and `at.dpdy`: where the two rays meet the tangent plane.
+  /** Sets `at.dpdx` and `at.dpdy` from the intersections of the offset rays with the tangent plane.
     *
-    * @return false, and nothing is set, if they don't
+    * @return false, leaving both unset, if the offset rays miss the plane
     */
   def meet(at: ShadingPoint): Boolean =
     val n = at.geometricNormal
@@ -43,10 +43,10 @@ final class RayDifferential:
       at.dpdy = yOrigin + yDirection * ty - at.p
     meets
 
-  /** Follows the rays, which met the plane at `at`, through the mirror there.
+  /** Reflects the offset rays, which hit the plane at `at`.
     *
-    * @param wo where the ray came from, as a unit vector
-    * @param wi its new direction
+    * @param wo unit vector towards the ray's origin
+    * @param wi reflected direction
     */
   def reflect(at: ShadingPoint, wo: Vec3, wi: Vec3): Unit =
     val n = at.frame.n
@@ -59,7 +59,7 @@ final class RayDifferential:
     yDirection = direction(yDirection, dndy(at))
     leave(at)
 
-  /** Follows the rays through a smooth refracting surface.
+  /** Refracts the offset rays at a smooth interface.
     *
     * @param eta index of refraction on the side of `wi` over that of `wo`
     */
@@ -91,5 +91,5 @@ final class RayDifferential:
   private def dndy(at: ShadingPoint): Vec3 = at.dndu * at.dudy + at.dndv * at.dvdy
 
 object RayDifferential:
-  /** Squared; beyond, rounding and grazing angles have made nonsense of a difference. */
+  /** Squared limit; larger differences are dominated by rounding and grazing incidence. */
   private val Largest = 1e16f

@@ -2,13 +2,14 @@ package candela.geometry
 
 import candela.math.*
 
-/** Where a ray met a surface, with all that textures, materials and lights ask about it.
+/** A surface interaction: the hit point, with the geometry that textures, materials and lights
+  * need.
   *
-  * Mutable, one per worker; filled once for the closest hit, by the shape that was hit. Its vectors
+  * Mutable, one per worker; the shape that was hit fills it once, for the closest hit. Its vectors
   * are stored in place, so a hit allocates nothing; the next hit overwrites them.
   *
-  * @param wantsPartials are the partial derivatives asked for? Decided once for a scene: a shape
-  *                      fills them in only then, by `setPartials`
+  * @param wantsPartials whether shapes compute the partial derivatives, by `setPartials`; the same
+  *   for the whole scene
   */
 final class ShadingPoint(val wantsPartials: Boolean = false):
   private val ownP, ownPError = MutableVec3()
@@ -16,10 +17,10 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
   private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = MutableVec3()
 
-  /** Work space of triangles. */
+  /** Scratch memory of triangles. */
   private[candela] val firstEdge, secondEdge = MutableVec3()
 
-  /** World space. */
+  /** In world space. */
   def p: MutableVec3 = ownP
   def p_=(v: Vec3): Unit = ownP.set(v)
 
@@ -27,7 +28,7 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   def pError: MutableVec3 = ownPError
   def pError_=(v: Vec3): Unit = ownPError.set(v)
 
-  /** Unit normal of the true surface, on the side that the shape calls its outside. */
+  /** Geometric unit normal, on the shape's outside. */
   def geometricNormal: MutableVec3 = ownGeometricNormal
   def geometricNormal_=(v: Vec3): Unit = ownGeometricNormal.set(v)
 
@@ -39,8 +40,8 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** Surface parameters, for textures. */
   var u, v: Float = 0f
 
-  /** How the point moves with `u` and `v`, and how the normal `frame.n` turns; of meshes
-    * with normals, how these change that are interpolated, whatever their length.
+  /** Partial derivatives of the point and of the normal `frame.n` by `u` and `v`; for meshes with
+    * normals, those of the interpolated normal before normalisation.
     */
   def dpdu: MutableVec3 = ownDpdu
   def dpdu_=(v: Vec3): Unit = ownDpdu.set(v)
@@ -51,20 +52,20 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   def dndv: MutableVec3 = ownDndv
   def dndv_=(v: Vec3): Unit = ownDndv.set(v)
 
-  /** What displacements are added to: `dpdu` and `dpdv`, but tangent to `frame.n` on meshes with
-    * interpolated normals.
+  /** Tangents to which displacements are added: `dpdu` and `dpdv`, but tangent to `frame.n` on
+    * meshes with interpolated normals.
     */
   def tangentU: MutableVec3 = ownTangentU
   def tangentU_=(v: Vec3): Unit = ownTangentU.set(v)
   def tangentV: MutableVec3 = ownTangentV
   def tangentV_=(v: Vec3): Unit = ownTangentV.set(v)
 
-  /** 1 if displacements rise along `frame.n`, −1 if they sink. */
+  /** 1 if displacements rise along `frame.n`, −1 against it. */
   var bumpSide: Float = 1f
 
-  /** How far the point moves, and its parameters, from one place on the film to the next to the
-    * right (x) and below (y), after the camera's scaling by the density of samples. Zero if that is
-    * unknown, or not wanted: textures then show their finest detail.
+  /** Footprint: change of the point and its parameters from one raster position to the next to the
+    * right (x) and below (y), scaled by the camera for the sample density. Zero if unknown or
+    * unused: textures are then not filtered.
     */
   def dpdx: MutableVec3 = ownDpdx
   def dpdx_=(v: Vec3): Unit = ownDpdx.set(v)
@@ -79,19 +80,19 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     this.dndv = dndv
     takeTangents()
 
-  /** Displacements follow the partial derivatives, once these are set. */
+  /** Makes displacements follow the partial derivatives, once these are set. */
   private[candela] def takeTangents(): Unit =
     tangentU = dpdu
     tangentV = dpdv
     bumpSide = 1f
 
-  /** Calls the other side the outside. The tangents stay, and what normals do along them. */
+  /** Flips the outside. The tangents and the normal's derivatives keep their meaning. */
   def invert(): Unit =
     geometricNormal = -geometricNormal
     frame.set(Frame(frame.s, -frame.t, -frame.n))
 
-  /** Works out the footprint's `dudx` … `dvdy` from `dpdx` and `dpdy`: the least-squares solution
-    * of dp = dpdu·du + dpdv·dv.
+  /** Computes the footprint's `dudx` … `dvdy` from `dpdx` and `dpdy`: the least-squares solution of
+    * dp = dpdu·du + dpdv·dv.
     */
   def footprintInUv(): Unit =
     val uu = dpdu dot dpdu
@@ -108,7 +109,7 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
     dudy = ShadingPoint.bounded(differenceOfProducts(vv, uy, uv, vy) * inverse)
     dvdy = ShadingPoint.bounded(differenceOfProducts(uu, vy, uv, uy) * inverse)
 
-  /** Nothing is known of the neighbours. */
+  /** Marks the footprint as unknown. */
   def clearFootprint(): Unit =
     dpdx = Vec3.Zero
     dpdy = Vec3.Zero
@@ -123,8 +124,8 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   /** Index into the scene's lights if this surface emits, else −1. */
   var areaLight: Int = -1
 
-  /** Where a ray in `direction` starts, so that it can't meet the surface it leaves: moved along
-    * the geometric normal out of the box that `pError` spans, then rounded outwards.
+  /** Origin of a ray spawned in `direction`, free of self-intersection: offset along the geometric
+    * normal out of the box that `pError` spans, then rounded outwards.
     *
     * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed., §3.9.5.
     */
@@ -133,9 +134,7 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
 
 object ShadingPoint:
 
-  /** The derivative of n/|n| of a normal `n` that may have any length, along with whose own
-    * derivative `dn`.
-    */
+  /** Derivative of n/|n| for a normal `n` of any length with derivative `dn`. */
   def turn(n: Vec3, dn: Vec3): Vec3 =
     val inverse = 1f / n.length
     val unit = n * inverse
@@ -150,7 +149,7 @@ object ShadingPoint:
       away(p.z, n.z * side)
     )
 
-  /** Near the horizon a footprint may be anything, and even no number. */
+  /** At grazing incidence a footprint may be arbitrarily large, and even NaN. */
   private def bounded(x: Float): Float =
     if java.lang.Float.isFinite(x) then clamp(x, -1e8f, 1e8f) else 0f
 

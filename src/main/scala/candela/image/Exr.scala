@@ -1,16 +1,16 @@
 package candela.image
 
-/** OpenEXR pictures, through tinyexr.
+/** OpenEXR images, through tinyexr.
   *
-  * Reads half, float and integer channels of any names; scanlines and tiles (the finest level); of
-  * several parts the first that has colour. The pixels are those of the data window, whatever the
-  * display window is, as in pbrt. Refused, because the decoder can't or does it wrong: DWA, HTJ2K,
-  * B44 of float channels, subsampled channels, deep pixels.
+  * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
+  * of a multi-part file, the first part with colour. The pixels are those of the data window,
+  * whatever the display window is, as in pbrt. Rejects what the decoder does not support or decodes
+  * wrongly: DWA, HTJ2K, B44 with float channels, subsampled channels, deep pixels.
   */
 private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
-  /** Channels come in the order R, G, B, A, then the others as in the file. Integers above 2^24
-    * lose their last bits.
+  /** Channels are returned in the order R, G, B, A, then the others as in the file. Integers above
+    * 2^24 lose their lowest bits.
     */
   def read(file: Array[Byte]): Image =
     val parts = ExrHeader.parts(file)
@@ -25,7 +25,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
     Image(part.width, part.height, order.map(inFile), data)
 
-  /** ZIP; every channel under its own name. Encoded pictures are decoded first. */
+  /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], isHalf: Boolean): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")

@@ -11,7 +11,7 @@ import org.lwjgl.util.tinyexr.TinyEXR.*
 
 import java.nio.{ByteBuffer, IntBuffer}
 
-/** Calls of the native decoder, for files whose header [[ExrHeader]] has passed. */
+/** Calls the native decoder, for files whose header [[ExrHeader]] has accepted. */
 private[image] object ExrDecoder:
 
   /** Decodes part `chosen` into `target`, interleaved: channel i of the target is channel
@@ -90,7 +90,7 @@ private[image] object ExrDecoder:
         LibCStdlib.nfree(pointers.get(i))
       LibCStdlib.nfree(list.get(0))
 
-  /** Halves become floats in the decoder; it knows no conversion of integers. */
+  /** The decoder converts half to float; it does not convert integers. */
   private def requestFloats(header: EXRHeader): Unit =
     val found: IntBuffer = header.pixel_types
     val requested: IntBuffer = header.requested_pixel_types
@@ -127,7 +127,7 @@ private[image] object ExrDecoder:
             val plane = Plane(tile.images(order.length).get(from), tw, isInteger)
             plane.copy(target, part.width, order.length, to, x, y, tile.width, tile.height)
 
-  /** One channel of the image or of a tile in native memory. */
+  /** A channel of the image or of a tile in native memory. */
   private final class Plane(address: Long, stride: Int, isInteger: Boolean):
 
     def copy(
@@ -154,7 +154,7 @@ private[image] object ExrDecoder:
   private def check(code: Int, error: PointerBuffer): Unit =
     if code != TINYEXR_SUCCESS then throw ImageError(s"can't be decoded: ${message(code, error)}")
 
-  /** Takes the text that the library left behind, and frees it. */
+  /** Reads and frees the library's error message. */
   private[image] def message(code: Int, error: PointerBuffer): String =
     if error.get(0) == 0 then s"EXR error $code"
     else

@@ -12,13 +12,13 @@ import org.lwjgl.util.tinyexr.TinyEXR.*
 import java.nio.FloatBuffer
 import java.nio.charset.StandardCharsets.UTF_8
 
-/** Calls of the native encoder. */
+/** Calls the native encoder. */
 private[image] object ExrEncoder:
 
-  /** Of the finite numbers of 16 bits. */
+  /** Largest finite half. */
   private val LargestHalf = 65504f
 
-  /** @param isHalf stores 16 bits of each value; the encoder rounds */
+  /** @param isHalf whether to store 16 bits per value; the encoder rounds */
   def encode(
       image: Image,
       metadata: Vector[(String, String)],
@@ -27,7 +27,7 @@ private[image] object ExrEncoder:
     // Readers look channels up by binary search: the file must have them sorted by name.
     val order = image.channelNames.indices.sortBy(image.channelNames)
     val planes = order.map(plane(image, _, if isHalf then LargestHalf else Float.MaxValue))
-    // Named one by one: MemoryStack is too small for many channels.
+    // Allocated individually: MemoryStack is too small for many channels.
     val channels = EXRChannelInfo.calloc(order.size)
     val types = MemoryUtil.memCallocInt(order.size)
     val stored = MemoryUtil.memCallocInt(order.size)
@@ -91,7 +91,7 @@ private[image] object ExrEncoder:
       finally LibCStdlib.nfree(memory.get(0))
     finally MemoryUtil.memFree(pointers)
 
-  /** @param most to which larger finite values are cut */
+  /** @param most limit to which larger finite values are clamped */
   private def plane(image: Image, channel: Int, most: Float): FloatBuffer =
     val values = MemoryUtil.memAllocFloat(image.width * image.height)
     loop(values.capacity): i =>
@@ -100,6 +100,6 @@ private[image] object ExrEncoder:
       val _ = values.put(i, if isBeyond then Math.copySign(most, value) else value)
     values
 
-  /** Into a zeroed array of 256 bytes. */
+  /** Writes into a zeroed array of 256 bytes. */
   private def put(field: java.nio.ByteBuffer, text: String): Unit =
     val _ = field.put(text.getBytes(UTF_8))

@@ -4,7 +4,7 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.{ByteBuffer, ByteOrder}
 import scala.collection.mutable
 
-/** A channel of an EXR part; `pixelType` 0: unsigned integer, 1: half, 2: float. */
+/** A channel of an EXR part; `pixelType` is 0 for unsigned integer, 1 for half, 2 for float. */
 private[image] final case class ExrChannel(
     name: String,
     pixelType: Int,
@@ -12,10 +12,10 @@ private[image] final case class ExrChannel(
     ySampling: Int
 )
 
-/** What one part of an EXR file says about itself, as far as it matters for reading it.
+/** Header of an EXR part, as far as needed to read it.
   *
   * @param width  of the data window, as `height`
-  * @param tiling if it is tiled
+  * @param tiling present if the part is tiled
   */
 private[image] final case class ExrPart(
     channels: Vector[ExrChannel],
@@ -24,12 +24,12 @@ private[image] final case class ExrPart(
     height: Int,
     tiling: Option[ExrTiling]
 ):
-  /** Of the finest level, uncompressed. */
+  /** Uncompressed size of the finest level. */
   def storedBytes: Long =
     width.toLong * height * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
 
-/** How a part is cut into tiles of `width` × `height`, and into levels of halved resolution:
-  * `levelMode` 0: one, 1: halved in both directions together, 2: in each on its own.
+/** Tiling of a part: tiles of `width` × `height`; `levelMode` is 0 for one level, 1 for a MIP map,
+  * 2 for a RIP map (levels halved in each direction separately).
   */
 private[image] final case class ExrTiling(
     width: Int,
@@ -37,7 +37,7 @@ private[image] final case class ExrTiling(
     levelMode: Int,
     roundsUp: Boolean
 ):
-  /** Tiles of all levels of a part of `w` × `h` pixels. */
+  /** Number of tiles in all levels of a part of `w` × `h` pixels. */
   def tiles(w: Int, h: Int): Long =
     def levels(size: Int) =
       val floor = 31 - Integer.numberOfLeadingZeros(size)
@@ -53,7 +53,7 @@ private[image] final case class ExrTiling(
         val across = (0 until levels(w)).map(count(w, _, width)).sum
         across * (0 until levels(h)).map(count(h, _, height)).sum
 
-/** Reads and checks EXR headers, so that only what decodes right reaches the native decoder.
+/** Reads and validates EXR headers: only files that decode correctly reach the native decoder.
   *
   * Source: "OpenEXR File Layout", openexr.com.
   */
@@ -64,20 +64,20 @@ private[image] object ExrHeader:
     "HTJ2K32"
   )
 
-  /** Rows in a chunk, by compression. */
+  /** Scanlines per chunk, by compression. */
   private val ChunkRows = Vector(1, 1, 1, 16, 32, 16, 32, 32)
 
   val Half = 1
 
-  /** No compression of the format does better: deflate reaches 1032, over the 3 of 4 bytes that
-    * PXR24 keeps. Bounds the memory that a damaged size can ask for.
+  /** Upper bound of the format's compression ratios: deflate reaches 1032, over the 3 of 4 bytes
+    * that PXR24 keeps. Limits the memory that a damaged size can request.
     */
   private val MaxRatio = 1400
   private val MaxAttributes = 128
   private val MaxChannels = 256
   private val MaxTile = 1 << 16
 
-  /** The parts of a file, each checked; at least one. */
+  /** The parts of a file, validated; at least one. */
   def parts(file: Array[Byte]): Vector[ExrPart] =
     val in = Reader(file)
     val _ = in.int()
@@ -105,7 +105,9 @@ private[image] object ExrHeader:
       val rows = ChunkRows(part.compression)
       (part.height.toLong + rows - 1) / rows
 
-  /** @param flags that say the kind of the only part; parts of several say it themselves */
+  /** @param flags version flags, which define the type of a single part; multi-part files define it
+    *   per part
+    */
   private def part(attributes: Map[String, (String, ByteBuffer)], flags: Option[Int]): ExrPart =
     def value(name: String, kind: String, size: Int): Option[ByteBuffer] =
       attributes.get(name).map: (found, data) =>
@@ -131,7 +133,7 @@ private[image] object ExrHeader:
     checkSize(width, height, channels.size, tiling)
     checkCoding(compression, channels)
     val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling)
-    // The decoder believes this number, and a wrong one ends the process.
+    // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
       throw ImageError("attribute `chunkCount` is damaged")
     part
@@ -146,7 +148,7 @@ private[image] object ExrHeader:
     if !fits then
       throw ImageError(s"$w×$h pixels of $channels channels are more than fit into memory")
     for t <- tiling do
-      // A tile may exceed the image; the decoder allocates each in full.
+      // Tiles may extend past the image; the decoder allocates each in full.
       def padded(size: Long, tile: Long) = (size + tile - 1) / tile * tile
       val sane = t.width > 0 && t.height > 0 && t.width <= MaxTile && t.height <= MaxTile &&
         padded(w, t.width) * padded(h, t.height) <= (Int.MaxValue - 8) / channels
@@ -178,7 +180,7 @@ private[image] object ExrHeader:
     if names.distinct.size != names.size then throw ImageError("two channels have the same name")
     found.toVector
 
-  /** Little-endian bytes, read within their bounds. */
+  /** Little-endian reader with bounds checks. */
   private final class Reader(bytes: ByteBuffer):
     def this(file: Array[Byte]) = this(ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN))
 
@@ -191,7 +193,7 @@ private[image] object ExrHeader:
       need(4)
       bytes.getInt()
 
-    /** Up to the zero byte that ends it; empty: the end of a list. */
+    /** Reads a zero-terminated string; empty at the end of a list. */
     def name(): String =
       val start = bytes.position
       need(1)
@@ -212,7 +214,7 @@ private[image] object ExrHeader:
         need(size)
         val value = bytes.slice(bytes.position, size).order(ByteOrder.LITTLE_ENDIAN)
         bytes.position(bytes.position + size)
-        if found.contains(key) then throw ImageError(s"attribute `$key` is there twice")
+        if found.contains(key) then throw ImageError(s"duplicate attribute `$key`")
         found(key) = (kind, value)
         if found.size > MaxAttributes then throw ImageError(s"more than $MaxAttributes attributes")
         key = name()

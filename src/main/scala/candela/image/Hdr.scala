@@ -4,10 +4,10 @@ import candela.base.loop
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
 
-/** Radiance RGBE pictures (.hdr), run-length encoded or flat, to R, G and B.
+/** Reads Radiance RGBE images (.hdr), run-length encoded or flat, as R, G and B.
   *
   * A mantissa byte m with exponent byte e stands for m·2^(e − 136), 0 if e is 0. `EXPOSURE` lines
-  * are not undone, as in pbrt: the values are those of the file.
+  * are ignored, as in pbrt: the values are those of the file.
   *
   * Source: Ward, "Real Pixels", Graphics Gems II, 1991; Radiance's file format reference, "Picture
   * File Format (.hdr)".
@@ -16,8 +16,8 @@ private[image] object Hdr:
 
   def read(file: Array[Byte]): Image = Reader(file).image()
 
-  /** No coding packs more pixels into a byte: the old runs, 255 pixels in 4 bytes. Bounds the
-    * memory that a damaged size can ask for.
+  /** Upper bound of all encodings: old-style runs hold 255 pixels in 4 bytes. Limits the memory
+    * that a damaged size can request.
     */
   private val MaxPixelsPerByte = 64
 
@@ -49,7 +49,7 @@ private[image] object Hdr:
           case _ => ()
         next = line()
 
-    /** Width, height, rows from the bottom?, columns from the right? */
+    /** Width, height, whether rows run from the bottom, whether columns run from the right. */
     private def resolution(): (Int, Int, Boolean, Boolean) =
       val text = line()
       val form = raw"([+-])Y +(\d{1,9}) +([+-])X +(\d{1,9})".r
@@ -80,7 +80,9 @@ private[image] object Hdr:
         loop(4)(component => runs(row, component, width))
       else flat(row, width)
 
-    /** One component of a row: counts above 128 repeat the byte that follows, others copy. */
+    /** Decodes one component of a scanline: counts above 128 repeat the byte that follows, others
+      * copy.
+      */
     private def runs(row: Array[Byte], component: Int, width: Int): Unit =
       var x = 0
       while x < width do
@@ -93,8 +95,8 @@ private[image] object Hdr:
         else loop(count)(i => row(4 * (x + i) + component) = byte().toByte)
         x += count
 
-    /** Whole pixels; one with mantissas 1, 1, 1 instead repeats the last, e times, and in a
-      * sequence of such pixels each next count weighs 256 times more.
+    /** Decodes whole pixels; a pixel with mantissas 1, 1, 1 repeats the previous one e times, and
+      * in a sequence of such pixels each further count has 256 times the weight.
       */
     private def flat(row: Array[Byte], width: Int): Unit =
       var x = 0

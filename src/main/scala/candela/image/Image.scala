@@ -3,31 +3,30 @@ package candela.image
 import candela.base.loop
 import candela.color.Encoding
 
-/** A picture that can't be read or written: whose fault it is and what would do, on one line. It is
-  * no bug, so it has no stack trace.
+/** An image can't be read or written: cause and cure on one line. Not a bug, so without a stack
+  * trace.
   */
 final class ImageError(message: String) extends RuntimeException(message, null, false, false)
 
-/** A picture as its file stores it: for each pixel `channels` numbers, interleaved; rows from the
-  * top.
+/** An image as stored in its file: `channels` numbers per pixel, interleaved; rows from the top.
   */
 sealed abstract class StoredImage:
   def width: Int
   def height: Int
   def channelNames: Vector[String]
 
-  /** What the stored numbers mean. */
+  /** Transfer function of the stored numbers. */
   def encoding: Encoding
   def toImage: Image
 
   final def channels: Int = channelNames.size
 
-  /** Where the named channels are, if all of them are there. */
+  /** Indices of the named channels, if all are present. */
   final def indicesOf(names: Vector[String]): Option[Vector[Int]] =
     val found = names.map(channelNames.indexOf)
     Option.when(found.forall(_ >= 0))(found)
 
-  /** The channels that make its colour: R, G and B, or Y three times.
+  /** The colour channels: R, G and B, or Y three times.
     *
     * @throws ImageError if there are neither
     */
@@ -36,7 +35,7 @@ sealed abstract class StoredImage:
       .orElse(indicesOf(Vector("Y")).map(y => Vector(y.head, y.head, y.head)))
       .getOrElse(throw ImageError(s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"))
 
-/** A picture of Floats, as [[StoredImage]] lays it out; linear unless said. */
+/** An image of Floats, in the layout of [[StoredImage]]; linear by default. */
 final class Image(
     val width: Int,
     val height: Int,
@@ -50,7 +49,7 @@ final class Image(
 
   def toImage: Image = this
 
-  /** The same picture with its numbers decoded; alpha is never encoded. */
+  /** The same image, decoded to linear values; alpha is never encoded. */
   def linear: Image =
     if encoding == Encoding.Linear then this
     else
@@ -60,7 +59,7 @@ final class Image(
         decoded(i) = if isColor(i % channels) then encoding.decode(data(i)) else data(i)
       Image(width, height, channelNames, decoded)
 
-  /** Linear R, G and B; gray pictures become three equal channels, others are dropped.
+  /** Linear R, G and B; grey images become three equal channels, all other channels are dropped.
     *
     * @throws ImageError if it has neither R, G, B nor Y
     */
@@ -79,7 +78,7 @@ object Image:
   def rgb(width: Int, height: Int): Image =
     Image(width, height, RgbNames, new Array[Float](width * height * 3))
 
-/** An 8-bit picture, kept so: value 255 stands for 1. */
+/** An 8-bit image; value 255 stands for 1. */
 final class ByteImage(
     val width: Int,
     val height: Int,

@@ -5,21 +5,21 @@ import candela.base.{FileName, WholeFile}
 import java.io.IOException
 import java.nio.file.{Files, NoSuchFileException, Path}
 
-/** Pictures in files, whatever the format. Everything that goes wrong is an [[ImageError]]. */
+/** Reads and writes image files of all supported formats. Every failure is an [[ImageError]]. */
 object ImageFiles:
 
-  /** Suffixes of files that can be read, the most exact first. */
+  /** Extensions of readable files, most accurate first. */
   val readable: Vector[String] = Vector("exr", "hdr", "pic", "png", "tga", "jpg", "jpeg")
 
   private val Readable = "EXR, HDR (Radiance), PNG, JPEG and TGA files can be read"
   private val Writable = s"images are written as ${OutputFormat.listed()}"
 
-  /** The picture as Floats. Pictures of 8 and 16 bits hold [0, 1] and say that they are
-    * sRGB-encoded; `linear` decodes them.
+  /** The image as Floats. Images of 8 and 16 bits are in [0, 1] and marked as sRGB-encoded;
+    * `linear` decodes them.
     */
   def read(path: Path): Image = load(path).toImage
 
-  /** The picture as compact as its file has it: 8 bits stay 8 bits. */
+  /** The image as compact as in its file: 8 bits stay 8 bits. */
   def load(path: Path): StoredImage =
     val bytes =
       try Files.readAllBytes(path)
@@ -32,8 +32,8 @@ object ImageFiles:
       case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
       case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
 
-  /** What the file begins with outranks its name, which people change: the four marks can't begin a
-    * valid TGA file, the one format that has none.
+  /** The file's signature overrides its extension, which may be wrong: none of the four signatures
+    * can begin a valid TGA file, the only format without one.
     */
   private def decode(bytes: Array[Byte], extension: String): StoredImage =
     def begins(mark: Int*) =
@@ -47,12 +47,12 @@ object ImageFiles:
       throw ImageError(s"not a valid .$extension file: it begins with other bytes")
     else throw ImageError(s"unknown format; $Readable")
 
-  /** Writes in the format of the file's suffix.
+  /** Writes in the format of the file's extension.
     *
-    * The picture appears under its name whole or not at all: it is written beside it and renamed.
+    * Atomic: writes to a temporary file beside the target and renames it.
     *
-    * @param metadata names and texts that the file carries along
-    * @param isHalf   floats of 16 bits, not 32, if the format has both
+    * @param metadata names and texts to store in the file
+    * @param isHalf   whether to store 16-bit instead of 32-bit floats, if the format supports both
     */
   def write(
       path: Path,
@@ -72,7 +72,7 @@ object ImageFiles:
       case _: NoSuchFileException => throw ImageError(s"$path: there is no such folder")
       case e: IOException => throw ImageError(s"$path: can't be written: ${reason(e)}")
 
-  /** What `write` puts into an `.exr` file. */
+  /** The bytes that `write` stores in an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
 
   private def reason(e: IOException): String =

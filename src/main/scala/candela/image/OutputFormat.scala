@@ -4,27 +4,27 @@ import candela.base.FileName
 
 import java.nio.file.Path
 
-/** What a file can store. */
+/** Pixel data that a format can store. */
 enum Contents:
-  /** Colours to be displayed: 8 bits, sRGB, clamped to [0, 1]. */
+  /** Display-referred colours: 8 bits, sRGB, clamped to [0, 1]. */
   case Display
 
   /** Linear red, green and blue as floats. */
   case Radiance
 
-  /** Floats in channels of any names. */
+  /** Floats in arbitrarily named channels. */
   case Channels
 
-/** A file format that images are written in: its object, and its place in [[OutputFormat.all]].
+/** An output file format; all are listed in [[OutputFormat.all]].
   *
-  * @param suffix of file names, in lower case
+  * @param suffix file extension, in lower case
   */
 abstract class OutputFormat(val suffix: String, val contents: Contents):
 
-  /** The bytes of a file.
+  /** Encodes an image file.
     *
-    * @param metadata names and texts that the file carries along, if the format has them
-    * @param isHalf   floats of 16 bits, not 32, if the format has both
+    * @param metadata names and texts to store, if the format supports them
+    * @param isHalf   whether to store 16-bit instead of 32-bit floats, if the format supports both
     */
   private[image] def write(
       image: Image,
@@ -35,15 +35,15 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
 object OutputFormat:
   val all: Vector[OutputFormat] = Vector(Exr, Png)
 
-  /** Written instead of formats that can't be. */
+  /** Replaces formats that are not supported. */
   val default: OutputFormat = Exr
 
-  /** Written beside what can't be displayed as it is. */
+  /** Preview format for images that can't be displayed directly. */
   val preview: OutputFormat = Png
 
   def of(path: Path): Option[OutputFormat] = all.find(_.suffix == FileName.suffix(path))
 
-  /** The suffixes of those with such contents, or of all: `.exr or .png`. */
+  /** Extensions of the formats with such contents, or of all: `.exr or .png`. */
   def listed(contents: Contents*): String =
     inWords(all.filter(f => contents.isEmpty || contents.contains(f.contents)))
 

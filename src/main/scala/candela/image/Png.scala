@@ -12,7 +12,7 @@ import javax.imageio.{IIOImage, ImageIO, ImageTypeSpecifier}
 /** Writes PNG: 8 bits, sRGB-encoded, values clamped to [0, 1], NaN black. */
 private[image] object Png extends OutputFormat("png", Contents.Display):
 
-  // Before the first class of AWT loads: a renderer needs no display, and must not open one.
+  // Before the first class of AWT loads: a renderer must not open a display.
   if System.getProperty("java.awt.headless") == null then
     val _ = System.setProperty("java.awt.headless", "true")
 
@@ -46,7 +46,7 @@ private[image] object Png extends OutputFormat("png", Contents.Display):
     case Encoding.Srgb => if value > 0f then (Math.min(value, 1f) * 255f + 0.5f).toInt else 0
     case _ => Srgb.encode8(encoding.decode(value))
 
-  /** Adds the texts as iTXt chunks, and the mark that the values are sRGB. */
+  /** Adds the texts as iTXt chunks, and an sRGB chunk. */
   private def describe(chunks: IIOMetadata, texts: Vector[(String, String)]): Unit =
     val root = IIOMetadataNode(NativeFormat)
     if texts.nonEmpty then

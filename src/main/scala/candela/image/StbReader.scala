@@ -8,7 +8,7 @@ import org.lwjgl.system.{MemoryStack, MemoryUtil}
 
 import java.nio.{ByteBuffer, IntBuffer}
 
-/** PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes become colours. */
+/** Reads PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes are expanded. */
 private[image] object StbReader:
 
   private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
@@ -44,22 +44,22 @@ private[image] object StbReader:
       if pixels == null then failed()
       try
         val bytes = new Array[Byte](pixels.remaining)
-        // Absolute: a moved position would be freed instead of the buffer's start.
+        // Absolute: a relative get would move the position, and the wrong address would be freed.
         val _ = pixels.get(0, bytes)
         ByteImage(w.get(0), h.get(0), Names(c.get(0) - 1), bytes, Encoding.Srgb)
       finally STBImage.stbi_image_free(pixels)
 
-  /** The bytes of the pixels before their compression: a PNG may have 1, 2 or 4 bits to each. */
+  /** Uncompressed size of the pixels: a PNG may have 1, 2 or 4 bits per value. */
   private def stored(file: ByteBuffer, width: Int, height: Int, values: Long): Long =
     val isPng = file.remaining > 25 && file.get(1) == 'P' && file.get(2) == 'N'
     val channels = if isPng then PngChannels.getOrElse(file.get(25).toInt, 1) else 0
     if isPng then height * ((width.toLong * channels * file.get(24) + 7) / 8) else values
 
-  /** Of PNG's colour types: gray, colours, palette, and the first two with alpha. */
+  /** Channels by PNG colour type: grey, colour, palette, and the first two with alpha. */
   private val PngChannels = Map(0 -> 1, 2 -> 3, 3 -> 1, 4 -> 2, 6 -> 4)
 
-  /** No coding does better: deflate reaches 1032, JPEG with one bit a block 1365. Bounds the memory
-    * that a damaged size can ask for; the decoder would fill it up.
+  /** Upper bound of compression ratios: deflate reaches 1032, JPEG with one bit per block 1365.
+    * Limits the memory that a damaged size can request; the decoder would fill it.
     */
   private val MostPacked = 1400
 

@@ -1,16 +1,16 @@
 package candela.math
 
-/** Cubic splines through values at rising nodes: the slope at an inner node is that of the line
-  * through its neighbours, at the first and last that of the outermost piece's chord.
+/** Catmull–Rom splines over increasing nodes: the slope at an inner node is that of the line
+  * through its neighbours, at the first and last node that of the outermost segment's chord.
   *
-  * Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974; as a density: PBRT 3rd
-  * ed., §8.6 and §14.1.5.
+  * Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974; as a pdf: PBRT 3rd ed.,
+  * §8.6 and §14.1.5.
   */
 object CatmullRom:
-  /** What [[weights]] returns for a place beyond the nodes. */
+  /** Result of [[weights]] outside the range of the nodes. */
   inline val Outside = -2
 
-  /** The piece that holds `x`, if the nodes do; else the nearest. */
+  /** Index of the segment that contains `x`; the nearest if `x` is outside the nodes. */
   def piece(nodes: Array[Float], x: Float): Int =
     var low = 0
     var high = nodes.length - 1
@@ -19,8 +19,7 @@ object CatmullRom:
       if nodes(middle) <= x then low = middle else high = middle
     low
 
-  /** The spline at `x` is Σ to(k)·value(first + k), k from 0 to 3; weights are 0 where there is no
-    * such node.
+  /** The spline at `x` is Σ to(k)·value(first + k), k from 0 to 3; weights of missing nodes are 0.
     *
     * @return first, which may be −1; or [[Outside]]
     */
@@ -55,7 +54,7 @@ object CatmullRom:
         to(3) = 0f
       i - 1
 
-  /** The value at `x`; 0 beyond the nodes. */
+  /** The value at `x`; 0 outside the nodes. */
   def value(nodes: Array[Float], values: Array[Float], x: Float): Float =
     if !(x >= nodes(0) && x <= nodes(nodes.length - 1)) then 0f
     else
@@ -63,7 +62,7 @@ object CatmullRom:
       val t = (x - nodes(i)) / (nodes(i + 1) - nodes(i))
       cubic(nodes, values, i)(t.toDouble).toFloat
 
-  /** The integral from the first node to each. */
+  /** The integral from the first node to each node. */
   def integrals(nodes: Array[Float], values: Array[Float]): Array[Float] =
     val sums = new Array[Float](nodes.length)
     var sum = 0.0
@@ -72,7 +71,7 @@ object CatmullRom:
       sums(i + 1) = sum.toFloat
     sums
 
-  /** Where the integral is `u` of the whole one: a sample of the spline as a density.
+  /** Samples the spline as a pdf: the position at which the integral is `u` of its total.
     *
     * @param integrals of the same values, by [[integrals]]
     */
@@ -88,7 +87,7 @@ object CatmullRom:
     val within = (target - integrals(i)).toDouble / width
     nodes(i) + width * cubic(nodes, values, i).whereAreaIs(within).toFloat
 
-  /** Where rising values are `y`; the first or last node if they are nowhere. */
+  /** Inverts increasing values: the position of `y`; clamped to the first or last node. */
   def invert(nodes: Array[Float], values: Array[Float], y: Float): Float =
     val last = nodes.length - 1
     if !(y > values(0)) then nodes(0)
@@ -98,9 +97,7 @@ object CatmullRom:
       val width = nodes(i + 1) - nodes(i)
       nodes(i) + width * cubic(nodes, values, i).whereValueIs(y.toDouble).toFloat
 
-  /** Of a table of rows that lie one after the other, the row that belongs to `x` between the
-    * nodes; all 0 beyond.
-    */
+  /** Interpolates the rows of a table at `x`; all 0 outside the nodes. */
   def row(nodes: Array[Float], table: Array[Float], x: Float): Array[Float] =
     val width = table.length / nodes.length
     val blended = new Array[Float](width)
@@ -130,10 +127,10 @@ object CatmullRom:
       else chord
     CubicPiece(values(i), values(i + 1), d0, d1)
 
-/** One piece of a cubic spline, over t from 0 to 1.
+/** A segment of a cubic spline, over t from 0 to 1.
   *
   * @param f0, f1 values at the ends
-  * @param d0, d1 slopes there, by t
+  * @param d0, d1 slopes at the ends, by t
   */
 final class CubicPiece(f0: Double, f1: Double, d0: Double, d1: Double):
   private val second = 3 * (f1 - f0) - 2 * d0 - d1
@@ -146,17 +143,17 @@ final class CubicPiece(f0: Double, f1: Double, d0: Double, d1: Double):
   /** ∫ from 0 to t. */
   def area(t: Double): Double = t * (f0 + t * (d0 / 2 + t * (second / 3 + t * third / 4)))
 
-  /** Where the area from 0 on is `target`, if the piece is positive. */
+  /** Position at which the integral from 0 is `target`, for a positive segment. */
   def whereAreaIs(target: Double): Double =
-    // The first guess is right for a straight line
+    // The initial guess is exact for a straight line
     val root = Math.sqrt(Math.max(0.0, f0 * f0 + 2 * target * (f1 - f0)))
     val first = if f0 != f1 then (f0 - root) / (f0 - f1) else target / f0
     solve(first, area(_) - target, apply(_))
 
-  /** Where the value is `target`, if the piece rises. */
+  /** Position at which the value is `target`, for an increasing segment. */
   def whereValueIs(target: Double): Double = solve(0.5, apply(_) - target, slope(_))
 
-  /** The zero of a rising function, by Newton's method; by bisection where that leads astray. */
+  /** Root of an increasing function, by Newton's method safeguarded by bisection. */
   private inline def solve(
       first: Double,
       inline f: Double => Double,
@@ -174,6 +171,6 @@ final class CubicPiece(f0: Double, f1: Double, d0: Double, d1: Double):
     if t >= low && t <= high then t else 0.5 * (low + high)
 
 object CubicPiece:
-  // Far below what a Float can tell apart
+  // Far below the resolution of Float
   private inline val Exact = 1e-12
   private inline val Near = 1e-9

@@ -1,6 +1,6 @@
 package candela.math
 
-/** Even Fourier series: Σ a(k)·cos(kφ). The coefficients lie in an array from some place on. */
+/** Even Fourier series: Σ a(k)·cos(kφ). The coefficients are in an array from an offset on. */
 object FourierSeries:
 
   /** The sum of `count` terms. Source of the recurrence: PBRT 3rd ed., §8.6.1. */
@@ -18,12 +18,12 @@ object FourierSeries:
       k += 1
     sum.toFloat
 
-  /** Draws φ in [0, 2π] with a density proportional to the series, if it is nowhere negative.
+  /** Samples φ in [0, 2π] with a pdf proportional to the series, if it is nowhere negative.
     *
-    * @param a its first coefficient is positive
+    * @param a coefficients, the first of them positive
     */
   def sample(a: Array[Float], count: Int, u: Float): Float =
-    // The series is the same on either side of π
+    // The series is symmetric about π
     val half = if u < 0.5f then 2.0 * u else 2.0 - 2.0 * u
     val target = half * a(0) * Math.PI
     var low = 0.0
@@ -32,7 +32,7 @@ object FourierSeries:
     var residual = Double.PositiveInfinity
     while Math.abs(residual) > Exact && high - low > Exact do
       if !(phi >= low && phi <= high) then phi = 0.5 * (low + high)
-      // The integral from 0 on, and the value
+      // The integral from 0, and the value
       val twice = 2 * Math.cos(phi)
       var sinBefore = 0.0
       var sin = Math.sin(phi)
@@ -56,5 +56,5 @@ object FourierSeries:
       if Math.abs(residual) > Exact then phi -= residual * a(0) / density
     (if u < 0.5f then phi else 2 * Math.PI - phi).toFloat
 
-  /** An angle that no Float can tell from 0, beside others. */
+  /** Tolerance of angles, below the resolution of Float. */
   private inline val Exact = 1e-9

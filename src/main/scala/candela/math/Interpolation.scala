@@ -1,18 +1,17 @@
 package candela.math
 
-/** The motion from one affine map to another: translation, rotation and stretch are interpolated
-  * each for itself, the rotation at constant speed. Before `startTime` and after `endTime` nothing
-  * moves.
+/** Interpolates between two affine maps: translation, rotation and stretch separately, the rotation
+  * at constant speed. Constant before `startTime` and after `endTime`.
   *
-  * Maps that mirror are taken as a rotation of a stretch with three negative factors, so that
-  * nothing turns inside out on the way.
+  * Maps that swap handedness are treated as a rotation and a stretch with three negative factors,
+  * so that nothing turns inside out in between.
   *
   * Source: Shoemake and Duff, "Matrix Animation and Polar Decomposition", Graphics Interface 1992;
   * Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985.
   *
-  * @param origin   what the maps' rotations turn about: translations are taken relative to it
-  * @param shortest turn by the smaller of the two angles; else (pbrt-v2) as the quaternions happen
-  *                 to lie
+  * @param origin   centre of rotation: translations are relative to it
+  * @param shortest whether to rotate by the smaller of the two angles; if false (pbrt-v2), by the
+  *   signs of the quaternions
   */
 final class Interpolation(
     start: Transform,
@@ -25,7 +24,7 @@ final class Interpolation(
   private val a = PolarDecomposition(start)
   private val b0 = PolarDecomposition(end)
   private val cos0 = a.dot(b0)
-  // Of nearly opposite quaternions, which are the same rotation, there is no way between
+  // Nearly opposite quaternions are the same rotation, and can't be interpolated
   private val b =
     if cos0 < -Interpolation.Near || (shortest && cos0 < 0) then b0.reversed else b0
   private val cosAngle = a.dot(b)
@@ -76,10 +75,10 @@ final class Interpolation(
     Interpolation.invert(to, at, at + 12)
 
 object Interpolation:
-  /** Cosine of half an angle so small that sines divide badly; pbrt's. */
+  /** Cosine of half the angle below which the sines are too small to divide by; pbrt's value. */
   private val Near = 0.9995
 
-  /** Where the map takes a point. */
+  /** The image of a point. */
   private def of(t: Transform, p: Vec3): Array[Double] =
     Array.tabulate(3): r =>
       t.m(4 * r) * p.x + t.m(4 * r + 1) * p.y + t.m(4 * r + 2) * p.z + t.m(4 * r + 3)

@@ -1,20 +1,20 @@
 package candela.math
 
-/** An affine map that changes with time.
+/** A time-dependent affine map.
   *
-  * It comes as [[Motion.Doubles]] numbers: the first three rows of the map, then the first three of
-  * its inverse; so a ray can be moved without allocation.
+  * Stored as [[Motion.Doubles]] numbers: the first three rows of the map, then the first three of
+  * its inverse, so that transforming a ray does not allocate.
   */
 abstract class Motion:
 
-  /** Writes the map that holds at `time` to `to`, from `at` on. What moves may use the rest of
-    * [[Motion.Work]] numbers as well.
+  /** Writes the map at `time` to `to`, from `at` on. Animated maps may use the rest of the
+    * [[Motion.Work]] numbers as scratch memory.
     */
   def write(time: Float, to: Array[Double], at: Int): Unit
 
   def moves: Boolean = true
 
-  /** The map at `time` as an object, for whoever asks rarely. */
+  /** The map at `time` as an object, for infrequent use. */
   final def transform(time: Float): Transform =
     val rows = new Array[Double](Motion.Work)
     write(time, rows, 0)
@@ -31,12 +31,12 @@ object Motion:
       to(at + 12 + k) = t.inverseM(k)
       k += 1
 
-/** No motion: the same map always. */
+/** A static map. */
 final class Still(map: Transform) extends Motion:
   def write(time: Float, to: Array[Double], at: Int): Unit = Motion.put(map, to, at)
   override def moves: Boolean = false
 
-/** The inverse of another motion, which may differ from the motion between the inverses. */
+/** The inverse of another motion, which may differ from interpolating the inverses. */
 final class InverseMotion(of: Motion) extends Motion:
   override def moves: Boolean = of.moves
   def write(time: Float, to: Array[Double], at: Int): Unit =
@@ -48,7 +48,7 @@ final class InverseMotion(of: Motion) extends Motion:
       to(k + 12) = swap
       k += 1
 
-/** First `inner`, then `outer`; neither is a product itself. */
+/** Applies `inner`, then `outer`; neither is a product itself. */
 final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
   override def moves: Boolean = outer.moves || inner.moves
   def write(time: Float, to: Array[Double], at: Int): Unit =
@@ -59,7 +59,7 @@ final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
     product(to, a, b, at)
     product(to, b + 12, a + 12, at + 12)
 
-  /** Three rows each. */
+  /** Product of three rows each. */
   private def product(m: Array[Double], a: Int, b: Int, at: Int): Unit =
     var r = 0
     while r < 12 do

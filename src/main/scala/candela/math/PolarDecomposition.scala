@@ -1,7 +1,7 @@
 package candela.math
 
 /** The linear part of an affine map as a rotation, given by the unit quaternion (x, y, z; w), after
-  * a stretch: nine numbers, row by row.
+  * a stretch: nine numbers in row order.
   */
 private[math] final class PolarDecomposition private (
     val x: Double,
@@ -17,7 +17,7 @@ private[math] final class PolarDecomposition private (
 
 private[math] object PolarDecomposition:
 
-  /** By averaging with the transposed inverse until nothing changes.
+  /** Averages with the inverse transpose until it converges.
     *
     * Source: Higham, "Computing the Polar Decomposition – with Applications", SIAM J. Sci. Stat.
     * Comput. 7(4), 1986.
@@ -63,8 +63,8 @@ private[math] object PolarDecomposition:
 
   /** Divides by the largest of the four components, whose sign becomes positive.
     *
-    * Source: Shepperd, "Quaternion from Rotation Matrix", J. Guidance and Control 1, 1978; the real
-    * part is preferred as soon as the trace is positive, as pbrt does.
+    * Source: Shepperd, "Quaternion from Rotation Matrix", J. Guidance and Control 1, 1978; as in
+    * pbrt, the real part is preferred if the trace is positive.
     */
   private def quaternion(r: Array[Double], stretch: Array[Double]): PolarDecomposition =
     val trace = r(0) + r(4) + r(8)

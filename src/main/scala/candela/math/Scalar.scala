@@ -1,19 +1,19 @@
 package candela.math
 
-/** Float constants and the few scalar functions that the standard library lacks. */
+/** Float constants, and scalar functions missing from the standard library. */
 
 inline val Pi = 3.14159265358979323846f
 inline val TwoPi = 6.28318530717958647693f
 inline val InvPi = 0.31830988618379067154f
 inline val InvTwoPi = 0.15915494309189533577f
 
-/** The largest Float below 1: what a uniform sample in [0, 1) may reach. */
+/** The largest Float below 1: the upper bound of uniform samples in [0, 1). */
 inline val OneMinusEpsilon = 0.99999994f
 
 /** Half the distance from 1 to the next Float: the unit round-off of Float arithmetic. */
 inline val MachineEpsilon = 5.9604645e-8f
 
-/** Bound of the relative error of `n` rounded operations in a row.
+/** Bound of the relative error of `n` consecutive rounded operations.
   *
   * Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., lemma 3.1.
   */
@@ -22,7 +22,7 @@ inline def gamma(inline n: Int): Float = (n * MachineEpsilon) / (1f - n * Machin
 inline def square(x: Float): Float = x * x
 inline def sqrt(x: Float): Float = Math.sqrt(x.toDouble).toFloat
 
-/** The square root, where rounding may have left its argument a little below zero. */
+/** Square root of an argument that rounding may have made slightly negative. */
 inline def safeSqrt(x: Float): Float = if x > 0f then sqrt(x) else 0f
 
 inline def lerp(t: Float, a: Float, b: Float): Float = (1f - t) * a + t * b
@@ -41,11 +41,11 @@ inline def pow(x: Float, y: Float): Float = Math.pow(x.toDouble, y.toDouble).toF
 inline def log2(x: Float): Float = (Math.log(x.toDouble) * 1.4426950408889634).toFloat
 inline def abs(x: Float): Float = Math.abs(x)
 
-/** `a·b − c·d` without the cancellation that the plain expression suffers: off by at most 1.5 ulp.
+/** `a·b − c·d` without cancellation: the error is at most 1.5 ulp.
   *
   * Source: Kahan's fused-multiply-add scheme; Jeannerod et al., "Further analysis of Kahan's
-  * algorithm for the accurate computation of 2×2 determinants", Math. Comp. 82, 2013.
-  * Done here by exact Double products, which is the same on every JVM and needs no FMA unit.
+  * algorithm for the accurate computation of 2×2 determinants", Math. Comp. 82, 2013. Uses exact
+  * Double products, which are the same on every JVM and need no FMA unit.
   */
 inline def differenceOfProducts(a: Float, b: Float, c: Float, d: Float): Float =
   (a.toDouble * b.toDouble - c.toDouble * d.toDouble).toFloat

@@ -1,16 +1,16 @@
 package candela.math
 
-/** An affine or projective map of space with its inverse.
+/** An affine or projective map with its inverse.
   *
-  * @param m       16 numbers, row by row, to be applied to column vectors; Double, so that long
-  *                chains of scene statements lose nothing that Float coordinates could show
+  * @param m       16 numbers in row order, applied to column vectors; Double, so that long chains
+  *   of scene statements lose no precision visible in Float coordinates
   * @param inverse the same for the inverse map
   */
 final class Transform private (val m: IArray[Double], val inverseM: IArray[Double]):
 
   def inverse: Transform = Transform(inverseM, m)
 
-  /** First `b`, then this: `(this * b).point(p) == this.point(b.point(p))`. */
+  /** Applies `b`, then this: `(this * b).point(p) == this.point(b.point(p))`. */
   def *(b: Transform): Transform =
     Transform(Transform.product(m, b.m), Transform.product(b.inverseM, inverseM))
 
@@ -35,7 +35,7 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
       (m(8) * x + m(9) * y + m(10) * z).toFloat
     )
 
-  /** Surface normals go by the transposed inverse; the result has no particular length. */
+  /** Transforms a surface normal by the inverse transpose; not normalised. */
   def normal(n: Vec3): Vec3 =
     val x = n.x.toDouble
     val y = n.y.toDouble
@@ -46,29 +46,30 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
       (inverseM(2) * x + inverseM(6) * y + inverseM(10) * z).toFloat
     )
 
-  /** Does the map turn left hands into right hands? (Negative determinant of the linear part.) */
+  /** Whether the map swaps handedness (negative determinant of the linear part). */
   def swapsHandedness: Boolean = determinant < 0
 
-  /** The factor by which the map scales, if it scales all directions alike. */
+  /** Scale factor, if the linear part is a uniform scale and a rotation. */
   def uniformScale: Option[Double] =
     val columns = (0 until 3).map(c => (0 until 3).map(r => m(4 * r + c)))
     def dot(a: Seq[Double], b: Seq[Double]) = a.lazyZip(b).map(_ * _).sum
     val s2 = dot(columns(0), columns(0))
-    // Of rotations that were written in Float
+    // Tolerance for rotations given in Float
     val alike = columns.forall(c => Math.abs(dot(c, c) - s2) <= 1e-5 * s2)
     val square = Seq((0, 1), (0, 2), (1, 2)).forall: (i, j) =>
       Math.abs(dot(columns(i), columns(j))) <= 1e-5 * s2
     Option.when(alike && square)(Math.sqrt(s2))
 
-  /** Of the linear part: by how much the map scales volumes, negative if it mirrors. */
+  /** Determinant of the linear part: the scale of volumes, negative if the map swaps handedness.
+    */
   def determinant: Double =
     m(0) * (m(5) * m(10) - m(6) * m(9)) - m(1) * (m(4) * m(10) - m(6) * m(8)) +
       m(2) * (m(4) * m(9) - m(5) * m(8))
 
-  /** Does it keep parallels parallel? (The last row is 0 0 0 1.) */
+  /** Whether the map is affine (last row 0 0 0 1). */
   def isAffine: Boolean = m(12) == 0 && m(13) == 0 && m(14) == 0 && m(15) == 1
 
-  /** Is there no inverse, because space is flattened? Then the inverse holds no numbers. */
+  /** Whether the map is singular. The numbers of the inverse are then NaN. */
   def isFlat: Boolean = inverseM(0).isNaN
 
   def isIdentity: Boolean = this == Transform.Identity
@@ -88,18 +89,16 @@ object Transform:
   private def apply(m: IArray[Double], inverse: IArray[Double]): Transform =
     new Transform(m, inverse)
 
-  /** The map with the given 16 numbers, row by row; None if it can't be inverted. */
+  /** The map with the given 16 numbers, in row order; None if it is singular. */
   def fromRows(rows: IndexedSeq[Double]): Option[Transform] =
     val m = IArray.from(rows)
     invert(m).map(inverse => Transform(m, inverse))
 
-  /** The same from columns: the order in which scene files write `Transform` and
-    * `ConcatTransform`.
-    */
+  /** As above, in column order, as in the statements `Transform` and `ConcatTransform`. */
   def fromColumns(columns: IndexedSeq[Double]): Option[Transform] =
     fromRows(Vector.tabulate(16)(i => columns(i % 4 * 4 + i / 4)))
 
-  /** The map with the given 16 numbers, row by row, that has no inverse; see [[isFlat]]. */
+  /** The singular map with the given 16 numbers, in row order; see [[isFlat]]. */
   def flat(rows: IndexedSeq[Double]): Transform =
     Transform(IArray.from(rows), IArray.fill(16)(Double.NaN))
 
@@ -109,7 +108,7 @@ object Transform:
       IArray[Double](1, 0, 0, -x, 0, 1, 0, -y, 0, 0, 1, -z, 0, 0, 0, 1)
     )
 
-  /** None if a factor is zero, or so small or large that there is no inverse. */
+  /** None if a factor is zero, or so small or large that the inverse overflows. */
   def scale(x: Double, y: Double, z: Double): Option[Transform] =
     def isUsable(s: Double) = java.lang.Double.isFinite(1 / s) && java.lang.Double.isFinite(s)
     Option.when(isUsable(x) && isUsable(y) && isUsable(z))(
@@ -119,7 +118,7 @@ object Transform:
       )
     )
 
-  /** Counter-clockwise rotation about an axis of any length but zero (Rodrigues' formula). */
+  /** Counter-clockwise rotation about a non-zero axis (Rodrigues' formula). */
   def rotate(degrees: Double, x: Double, y: Double, z: Double): Option[Transform] =
     val length = Math.sqrt(x * x + y * y + z * z)
     Option.when(length > 0):
@@ -163,7 +162,7 @@ object Transform:
       z <- unit(sub(look, eye))
       u <- unit(up)
       across = cross(u, z)
-      // Of parallel unit vectors rounding leaves some 1e-16
+      // Rounding of parallel unit vectors leaves some 1e-16
       if across.exists(Math.abs(_) > 1e-13)
       x <- unit(across)
       y = cross(z, x)
@@ -181,8 +180,9 @@ object Transform:
       val c = i % 4
       a(r) * b(c) + a(r + 1) * b(c + 4) + a(r + 2) * b(c + 8) + a(r + 3) * b(c + 12)
 
-  /** Gauss–Jordan with row pivoting. Beside each number runs a bound of its rounding error, that of
-    * the input included: a pivot within it may as well be zero, so the rows depend on each other.
+  /** Gauss–Jordan elimination with row pivoting. Tracks a bound of each number's rounding error,
+    * including the input's: a pivot within its bound may as well be zero, and the matrix is then
+    * singular.
     *
     * Source: Higham, "Accuracy and Stability of Numerical Algorithms", 2nd ed., §3.3 (running error
     * analysis).

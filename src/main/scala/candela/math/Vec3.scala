@@ -1,11 +1,12 @@
 package candela.math
 
-/** A point, direction or offset in space, or a normal: three Floats. What it stands for is said by
-  * the name that holds it; [[Transform]] has one method for each meaning.
+/** A point, vector or normal: three Floats. The name of a value tells which; [[Transform]] has one
+  * method for each.
   *
   * Read-only, and immutable unless created as a [[MutableVec3]]: reused records such as
   * [[candela.geometry.ShadingPoint]] hold those, and the types of their members say so. A method
-  * may read any `Vec3`; whoever stores one that may be mutable stores [[MutableVec3.toVec3]].
+  * may read any `Vec3`; code that stores a possibly mutable one must store its
+  * [[MutableVec3.toVec3]].
   */
 sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   private[math] var ownX = startX
@@ -24,7 +25,7 @@ sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   infix def dot(b: Vec3): Float = x * b.x + y * b.y + z * b.z
   infix def absDot(b: Vec3): Float = Math.abs(dot(b))
 
-  /** The cross product, exact to 1.5 ulp per component also for nearly parallel vectors. */
+  /** Cross product, exact to 1.5 ulp per component also for nearly parallel vectors. */
   infix def cross(b: Vec3): Vec3 = Vec3(
     differenceOfProducts(y, b.z, z, b.y),
     differenceOfProducts(z, b.x, x, b.z),
@@ -34,7 +35,7 @@ sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   def lengthSquared: Float = x * x + y * y + z * z
   def length: Float = sqrt(lengthSquared)
 
-  /** Unit length; NaN for the zero vector. Doubles inside, so lengths of 1e±30 neither over- nor
+  /** Unit vector; NaN for the zero vector. Computed in Double: lengths of 1e±30 neither over- nor
     * underflow.
     */
   def normalized: Vec3 =
@@ -48,7 +49,7 @@ sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   def isFinite: Boolean =
     java.lang.Float.isFinite(x) && java.lang.Float.isFinite(y) && java.lang.Float.isFinite(z)
 
-  /** This vector, turned around if needed, so that it lies on the side of `n`. */
+  /** This vector, negated if necessary to be in the hemisphere of `n`. */
   def facing(n: Vec3): Vec3 = if dot(n) < 0f then -this else this
 
   def apply(axis: Int): Float = if axis == 0 then x else if axis == 1 then y else z
@@ -59,7 +60,7 @@ sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   override def hashCode: Int = (x, y, z).hashCode
   override def toString: String = s"($x, $y, $z)"
 
-/** A vector in a record that a worker reuses: overwriting it allocates nothing. */
+/** A vector in a record that a worker reuses: overwriting it does not allocate. */
 final class MutableVec3(x0: Float, y0: Float, z0: Float) extends Vec3(x0, y0, z0):
   def this() = this(0f, 0f, 0f)
 
@@ -68,7 +69,7 @@ final class MutableVec3(x0: Float, y0: Float, z0: Float) extends Vec3(x0, y0, z0
     ownY = v.y
     ownZ = v.z
 
-  /** An immutable copy of the present value. */
+  /** An immutable copy of the current value. */
   def toVec3: Vec3 = Vec3(x, y, z)
 
 object Vec3:

@@ -2,17 +2,17 @@ package candela.sampling
 
 import candela.math.*
 
-/** The Halton sequence: dimension `d` is the radical inverse in the `d`-th prime, each pixel
-  * scrambled by itself. Any number of samples will do; those past the number asked for are not
-  * stratified together with the others. A prefix of bᵏ samples puts one point into each of bᵏ
-  * intervals of a dimension with base b, and bᵏ·cˡ samples one into each cell of a pair.
+/** The Halton sequence: dimension `d` is the radical inverse in the `d`-th prime, scrambled per
+  * pixel. The number of samples is arbitrary; those past the requested number are not stratified
+  * together with the others. A prefix of bᵏ samples puts one point into each of bᵏ intervals of a
+  * dimension with base b, and bᵏ·cˡ samples one into each cell of a pair.
   *
   * The scrambling is nested as Owen's, but each digit goes through d → (a·d + c) mod b with random
-  * a ≠ 0 and c instead of one of all b! orders. These maps take any two different digits to any
-  * other two with equal probability, and the variance of the estimate depends on pairs of points
-  * only: it is that of Owen's.
+  * a ≠ 0 and c instead of one of all b! permutations. These maps take any two different digits to
+  * any other two with equal probability, and the variance of the estimator depends on pairs of
+  * points only: it is that of Owen's scrambling.
   *
-  * From dimension [[HaltonSampler.Dimensions]] on, the numbers are independent random ones.
+  * From dimension [[HaltonSampler.Dimensions]] on, the numbers are independent.
   *
   * In pbrt: `halton` (v2, v3, v4). There one sequence covers the image, here each pixel.
   *
@@ -44,8 +44,8 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
 
   def copy(): HaltonSampler = HaltonSampler(samplesPerPixel, seed)
 
-  /** As many digits as tell the pixel's samples apart. The digits after those are zeros before the
-    * scrambling, and independent random ones after it: they come from one hash.
+  /** Computes as many digits as distinguish the pixel's samples. All further digits are zero before
+    * scrambling and independent random digits after it: a single hash supplies them.
     */
   private def radicalInverse(base: Int, bits: Long): Float =
     var rest = index
@@ -68,7 +68,7 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
 
 object HaltonSampler:
 
-  /** How many dimensions have a base of their own: the primes from 2 to 7919. */
+  /** Number of dimensions with a prime base of their own: 2 to 7919. */
   inline val Dimensions = 1000
 
   private val primes: Array[Int] =

@@ -3,11 +3,10 @@ package candela.sampling
 import candela.geometry.Frame
 import candela.math.*
 
-/** How a medium spreads what it scatters: by the angle alone, mostly ahead (`g` > 0) or back
-  * (`g` < 0). Directions are unit vectors that point away from the place of scattering, `wo` to the
-  * camera.
+/** Henyey–Greenstein phase function: forward scattering for `g` > 0, backward for `g` < 0.
+  * Directions are unit vectors that point away from the scattering point, `wo` towards the camera.
   *
-  * @param g mean cosine of the angle by which light is turned, in (−1, 1)
+  * @param g mean cosine of the scattering angle, in (−1, 1)
   *
   * Source: Henyey and Greenstein, "Diffuse radiation in the Galaxy", ApJ 93, 1941; sampling as in
   * PBRT 3rd ed., §15.2.3.
@@ -15,10 +14,10 @@ import candela.math.*
 final class HenyeyGreenstein(val g: Float):
   private val isIsotropic = Math.abs(g) < HenyeyGreenstein.Isotropic
 
-  /** In sr⁻¹: the value of the function, and the density of [[sample]], too. */
+  /** In sr⁻¹: the value of the phase function, which is also the pdf of [[sample]]. */
   def value(wo: Vec3, wi: Vec3): Float = HenyeyGreenstein.value(wo dot wi, g)
 
-  /** Draws `wi` for `wo`. */
+  /** Samples `wi` given `wo`. */
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val cosTheta =
       if isIsotropic then 1f - 2f * u1
@@ -30,10 +29,10 @@ final class HenyeyGreenstein(val g: Float):
     Frame.around(wo).toWorld(Vec3(sinTheta * cos(phi), sinTheta * sin(phi), cosTheta))
 
 object HenyeyGreenstein:
-  /** Below this |g| the inversion divides rounding by next to nothing. */
+  /** Below this |g| the inversion divides rounding errors by almost zero. */
   private val Isotropic = 1e-3f
 
-  /** @param cosTheta of the angle between `wo` and `wi` */
+  /** @param cosTheta cosine of the angle between `wo` and `wi` */
   def value(cosTheta: Float, g: Float): Float =
     val d = 1f + g * g + 2f * g * cosTheta
     (1f - g * g) / (4f * Pi * d * safeSqrt(d))

@@ -1,14 +1,15 @@
 package candela.sampling
 
-/** The (0,2)-sequence, shuffled and Owen-scrambled afresh for every request and pixel ("padded").
+/** The Sobol' (0,2)-sequence, independently shuffled and Owen-scrambled for every request and pixel
+  * ("padded").
   *
   * Every power-of-two prefix of a pixel's samples puts exactly one point into each elementary
-  * interval, for single dimensions and for the pairs of `next2D`. Counts that are no power of two
-  * work too, with the error of a prefix. Different requests are independent of each other.
+  * interval, for single dimensions and for the pairs of `next2D`. Other sample counts work too,
+  * with the error of a prefix. Different requests are independent of each other.
   *
   * In pbrt: `sobol` and `paddedsobol` (v4), `sobol`, `02sequence`, `lowdiscrepancy` and
-  * `maxmindist` (v3), `lowdiscrepancy` (v2); it also serves for `pmj02bn` (v4), `bestcandidate` and
-  * `adaptive` (v2), whose point sets have no counterpart here.
+  * `maxmindist` (v3), `lowdiscrepancy` (v2); also replaces `pmj02bn` (v4), `bestcandidate` and
+  * `adaptive` (v2), whose point sets are not implemented.
   *
   * Source: Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */
@@ -35,7 +36,7 @@ final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Sample
 
   def copy(): OwenSobolSampler = OwenSobolSampler(samplesPerPixel, seed)
 
-  /** Another order of the points, in which each aligned power-of-two block remains one. */
+  /** Shuffles the points; aligned power-of-two blocks stay together. */
   private def shuffled(orderSeed: Int): Int =
     Integer.reverse(Sobol.scramble(reversedIndex, orderSeed))
 

@@ -1,13 +1,14 @@
 package candela.sampling
 
-/** Pseudorandom orders of 0 until `n`, computed element by element: nothing is stored. */
+/** Pseudorandom permutations of 0 until `n`, computed element by element: nothing is stored. */
 object Permutation:
 
-  /** Where `index` goes in the order chosen by `seed`; 0 ≤ `index` < `n`.
+  /** Image of `index` under the permutation selected by `seed`; 0 ≤ `index` < `n`.
     *
-    * A bijection of the next power of two is walked until it leads back below `n`: less than half
-    * of its elements lie outside, so a walk has fewer than two steps on average. Each round adds,
-    * multiplies by an odd number and folds the upper half onto the lower one; all can be undone.
+    * Cycle-walks a bijection of the next power of two until the result is below `n`: less than half
+    * of its elements are outside, so this takes fewer than two steps on average. Each round adds,
+    * multiplies by an odd number and folds the upper half onto the lower one, all of which are
+    * invertible.
     *
     * Source of the idea: Kensler, "Correlated multi-jittered sampling", Pixar TM 13-01, 2013, §3.
     */
@@ -31,5 +32,5 @@ object Permutation:
       do ()
       at
 
-  /** Enough that pairs of elements land uniformly; `PermutationSuite` refuses 5. */
+  /** Enough to distribute pairs of elements uniformly; `PermutationSuite` rejects 5. */
   private inline val Rounds = 10

@@ -1,10 +1,11 @@
 package candela.sampling
 
-/** Bit mixing for samplers: from (pixel, sample, dimension, seed) to numbers that look independent.
+/** Hash functions for samplers: map (pixel, sample, dimension, seed) to numbers that look
+  * independent.
   *
   * A dimension's random bits are `mix64` of a counter that starts at [[pixel]] and grows by
   * [[Step]] with each request, as in Steele, Lea, Flood, "Fast splittable pseudorandom number
-  * generators", OOPSLA 2014. Nothing else is kept, so any sample can be had on its own.
+  * generators", OOPSLA 2014. There is no other state, so any sample can be computed on its own.
   */
 object SampleHash:
 
@@ -22,7 +23,7 @@ object SampleHash:
     h = (h ^ (h >>> 27)) * 0x94d049bb133111ebL
     h ^ (h >>> 31)
 
-  /** The same for 32 bits; 0 stays 0. Source: Appleby, MurmurHash3's finaliser, 2011. */
+  /** The 32-bit counterpart; maps 0 to 0. Source: Appleby, MurmurHash3's finaliser, 2011. */
   def mix(key: Int): Int =
     var h = key
     h = (h ^ (h >>> 16)) * 0x85ebca6b
@@ -33,17 +34,17 @@ object SampleHash:
   def pixel(x: Int, y: Int, seed: Int): Long =
     mix64((x.toLong << 32 | (y & 0xffffffffL)) ^ mix64(seed + Step))
 
-  /** The upper 24 bits as a fraction: in [0, 1), never 1, and each a multiple of 2⁻²⁴. */
+  /** The upper 24 bits as a fraction: in [0, 1), and a multiple of 2⁻²⁴. */
   def toUnit(bits: Int): Float = (bits >>> 8) * 5.9604645e-8f
 
-/** Independent random numbers where nobody knows how many it will take: the collisions of a ray on
-  * its way through a medium. A path seeds it with numbers of its [[Sampler]], so the image still
-  * depends on neither threads nor the order of pixels. Mutable, one per worker.
+/** Independent random numbers where their count is not known in advance: the collisions of a ray in
+  * a medium. A path seeds it with numbers of its [[Sampler]], so the image still depends on neither
+  * threads nor pixel order. Mutable, one per worker.
   */
 final class RandomStream:
   private var counter = 0L
 
-  /** Starts anew; other seeds make other streams. */
+  /** Restarts the stream; different seeds give different streams. */
   def seed(a: Float, b: Float): Unit =
     def bits(x: Float) = java.lang.Float.floatToRawIntBits(x) & 0xffffffffL
     counter = SampleHash.mix64(bits(a) << 32 | bits(b))

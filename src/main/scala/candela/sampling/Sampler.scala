@@ -1,22 +1,22 @@
 package candela.sampling
 
-/** A stream of points in [0, 1), one for each choice along a path: indexed by pixel, sample number
-  * and dimension, so that an image depends on neither threads nor the order of pixels.
+/** Sample points in [0, 1), indexed by pixel, sample number and dimension, so that an image depends
+  * on neither threads nor pixel order.
   *
   * Not thread-safe: each worker has a `copy`.
   */
 abstract class Sampler:
 
-  /** Samples for each pixel; some methods round the request up, e.g. to a power of two. */
+  /** Samples per pixel; some samplers round the request up, e.g. to a power of two. */
   def samplesPerPixel: Int
 
-  /** Goes to dimension 0 of sample `sample` of the pixel. */
+  /** Starts at dimension 0 of sample `sample` of the pixel. */
   def start(x: Int, y: Int, sample: Int): Unit
 
   /** The next dimension, in [0, 1). */
   def next1D(): Float
 
-  /** The next two dimensions, well distributed together; read them from `x` and `y`. */
+  /** Advances to the next two dimensions, jointly well distributed; read them from `x` and `y`. */
   def next2D(): Unit
 
   /** The last point of `next2D`, each in [0, 1). */
@@ -24,7 +24,7 @@ abstract class Sampler:
 
   def copy(): Sampler
 
-/** Every number independent of every other: the yardstick for the better samplers.
+/** Independent random numbers: the baseline for the other samplers.
   *
   * In pbrt: `independent` (v4), `random` (v2, v3).
   */

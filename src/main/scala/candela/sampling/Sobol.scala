@@ -1,20 +1,20 @@
 package candela.sampling
 
-/** The Sobol' (0,2)-sequence and its Owen scrambling, on numbers whose bits are reversed: bit 0 is
-  * worth ½, bit 1 is worth ¼, and so on. In this order the first dimension of point `i` is `i`
+/** The Sobol' (0,2)-sequence and its Owen scrambling, on bit-reversed numbers: bit 0 has weight
+  * 1/2, bit 1 has weight 1/4, and so on. In this order the first dimension of point `i` is `i`
   * itself, and carries of integer arithmetic run from coarse to fine digits as Owen's nested
-  * scrambling wants it. `Integer.reverse` makes a fixed-point fraction of the result.
+  * scrambling requires. `Integer.reverse` turns the result into a fixed-point fraction.
   *
   * Sources: Sobol', "On the distribution of points in a cube and the approximate evaluation of
   * integrals", 1967; Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */
 object Sobol:
 
-  /** The second dimension of point `index`, bits reversed.
+  /** The second dimension of point `index`, bit-reversed.
     *
-    * Its generator matrix is Pascal's triangle modulo 2. C(k, j) is odd just when the bits of j are
-    * among those of k (Lucas), so bit j of the product is the parity of all bits k ⊇ j: a subset
-    * sum, done by one step for each of the five bits of a bit's number.
+    * Its generator matrix is Pascal's triangle modulo 2. C(k, j) is odd exactly if the bits of j
+    * are among those of k (Lucas), so bit j of the product is the parity of all bits k ⊇ j: a
+    * subset sum, computed in one step for each of the five bits of a bit's number.
     */
   def second(index: Int): Int =
     var v = index
@@ -34,8 +34,8 @@ object Sobol:
     v ^= (v >>> 16) & 0x0000ffff0000ffffL
     v ^ (v >>> 32)
 
-  /** Owen's nested uniform scramble by hashing: bit k of the result is bit k of `reversed`, flipped
-    * or not depending on the bits below k and on `seed`.
+  /** Hash-based nested uniform (Owen) scrambling: bit k of the result is bit k of `reversed`,
+    * flipped or not depending on the bits below k and on `seed`.
     *
     * Source: Laine & Karras, "Stratified sampling for stochastic transparency", EGSR 2011; the
     * constants, which avalanche better, of Vegdahl, "Building a better LK hash", psychopath.io,

@@ -2,10 +2,10 @@ package candela.sampling
 
 import candela.math.*
 
-/** A triangle as seen from a point: directions uniform over its solid angle.
+/** Spherical triangle: samples directions uniformly over the solid angle of a triangle.
   *
-  * Mutable, one per worker: `set` makes it another triangle. Plain Doubles inside: the areas are
-  * small differences of large angles, and nothing is allocated.
+  * Mutable, one per worker: `set` replaces the triangle. Computed in Double, without allocation:
+  * the areas are small differences of large angles.
   *
   * Sources: Arvo, "Stratified sampling of spherical triangles", SIGGRAPH 1995; the area by Van
   * Oosterom & Strackee, "The solid angle of a plane triangle", IEEE Trans. Biomed. Eng. 30(2),
@@ -19,8 +19,8 @@ final class SphericalTriangle:
   private var sinAlpha, cosAlpha = 0.0 // of the angle at a
   private var area = 0.0
 
-  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`; answers its solid angle in sr, 0 to 2π;
-    * NaN where the eye is at a corner.
+  /** Sets the triangle `p0`, `p1`, `p2`, seen from `from`; returns its solid angle in sr, 0 to 2π;
+    * NaN if `from` is at a corner.
     */
   def set(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
     ax = p0.x.toDouble - from.x
@@ -64,9 +64,9 @@ final class SphericalTriangle:
 
   private val direction = MutableVec3()
 
-  /** The unit direction for a point of the square; only if the triangle has a solid angle. */
+  /** Samples a unit direction; requires a positive solid angle. */
   def sample(u1: Float, u2: Float): MutableVec3 =
-    // The corner c moves along its arc until the part that is left has the share u1 of the area.
+    // Moves the corner c along its arc until the remaining part has the fraction u1 of the area.
     val part = u1 * area
     val s = Math.sin(part) * cosAlpha - Math.cos(part) * sinAlpha
     val t = Math.cos(part) * cosAlpha + Math.sin(part) * sinAlpha
@@ -81,7 +81,7 @@ final class SphericalTriangle:
     val mx = ax * q + ex * up
     val my = ay * q + ey * up
     val mz = az * q + ez * up
-    // Then from b along the arc to the moved corner, uniformly in the height over b.
+    // Then samples the arc from b to the moved corner, uniformly in the height over b.
     val cosBM = bx * mx + by * my + bz * mz
     val w = 1 - u2 * (1 - cosBM)
     val fx = mx - bx * cosBM
@@ -100,7 +100,7 @@ final class SphericalTriangle:
 
 object SphericalTriangle:
 
-  /** The solid angle in sr that `set` answers, without the means to sample the triangle. */
+  /** The solid angle in sr that `set` returns, without preparing to sample the triangle. */
   def solidAngle(from: Vec3, p0: Vec3, p1: Vec3, p2: Vec3): Double =
     val ax = p0.x.toDouble - from.x
     val ay = p0.y.toDouble - from.y

@@ -2,16 +2,16 @@ package candela.sampling
 
 import candela.math.*
 
-/** Jittered strata: the samples of a pixel fill each cell of an `xSamples` × `ySamples` grid once
-  * in every pair of dimensions, and each of `xSamples · ySamples` intervals once in every single
-  * one. Cells are dealt out in an order of its own for each pixel and dimension. Sample numbers
-  * past the last cell begin another pass over all cells, with new jitter.
+/** Stratified (jittered) sampling: the samples of a pixel fill each cell of an `xSamples` ×
+  * `ySamples` grid once in every pair of dimensions, and each of `xSamples · ySamples` intervals
+  * once in every single dimension. Each pixel and dimension has its own random permutation of the
+  * cells. Sample numbers past the last cell begin another pass over all cells, with new jitter.
   *
   * In pbrt: `stratified` (v2, v3, v4), with its `xsamples`, `ysamples` and `jitter`.
   *
   * Source: Cook, "Stochastic sampling in computer graphics", ACM TOG 5(1), 1986.
   *
-  * @param jitter a random place in each cell; without it the centre
+  * @param jitter whether to sample a random point in each cell; if false, its centre
   */
 final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, seed: Int)
     extends Sampler:

@@ -2,12 +2,12 @@ package candela.sampling
 
 import candela.math.*
 
-/** Maps from the unit square to the shapes that rendering samples, with their densities.
+/** Sampling functions that map the unit square to common shapes, with their pdfs.
   *
-  * `u1` and `u2` are in [0, 1). Directions are unit vectors around +z, their densities in sr⁻¹. All
-  * results are [[Vec3]] values, which the compiler keeps off the heap: on the disk z is 0,
-  * a point of a triangle is its three barycentric weights. Neighbours stay neighbours, so the
-  * stratification of the square survives.
+  * `u1` and `u2` are in [0, 1). Directions are unit vectors around +z, their pdfs in sr⁻¹. All
+  * results are [[Vec3]] values, which the compiler keeps off the heap: on the disk z is 0, a point
+  * of a triangle is its three barycentric weights. The maps are continuous, which preserves the
+  * stratification of the square.
   */
 object Warp:
 
@@ -18,7 +18,7 @@ object Warp:
   def concentricDisk(u1: Float, u2: Float): Vec3 =
     val a = 2f * u1 - 1f
     val b = 2f * u2 - 1f
-    // One Vec3 at the end, whatever the branch: the compiler keeps only such off the heap
+    // A single Vec3 for both branches: the compiler keeps only that off the heap
     val isWide = abs(a) > abs(b)
     val r = if isWide then a else b
     val phi =
@@ -27,7 +27,7 @@ object Warp:
       else Pi / 2f - (Pi / 4f) * (a / b)
     Vec3(r * cos(phi), r * sin(phi), 0f)
 
-  /** Directions with z ≥ 0, as dense as the cosine of their angle to +z.
+  /** Cosine-weighted directions with z ≥ 0.
     *
     * Source: Malley's method: PBRT 3rd ed., §13.6.3.
     */
@@ -37,30 +37,30 @@ object Warp:
 
   def cosineHemispherePdf(cosTheta: Float): Float = if cosTheta > 0f then cosTheta * InvPi else 0f
 
-  /** Directions with z ≥ 0, all equally likely. Source: PBRT 3rd ed., §13.6.1. */
+  /** Uniform directions with z ≥ 0. Source: PBRT 3rd ed., §13.6.1. */
   def uniformHemisphere(u1: Float, u2: Float): Vec3 = around(1f - u1, safeSqrt(u1 * (2f - u1)), u2)
 
-  /** Source: PBRT 3rd ed., §13.6.1. */
+  /** Uniform directions. Source: PBRT 3rd ed., §13.6.1. */
   def uniformSphere(u1: Float, u2: Float): Vec3 =
     around(1f - 2f * u1, 2f * safeSqrt(u1 * (1f - u1)), u2)
 
   inline val UniformSpherePdf = 0.07957747154594766788f
 
-  /** Directions within an angle of +z, all equally likely.
+  /** Uniform directions within an angle of +z.
     *
-    * Source: PBRT 3rd ed., §13.6.4, in 1 − cos θ, so that narrow cones lose no digits.
+    * Source: PBRT 3rd ed., §13.6.4, in 1 − cos θ, which keeps precision for narrow cones.
     *
     * @param oneMinusCosMax 1 − cos of the half-angle, in (0, 2]. From its sine s, for angles up to
-    *                       90°, it is best had as s² / (1 + √(1 − s²)).
+    *   90°, best computed as s² / (1 + √(1 − s²)).
     */
   def uniformCone(u1: Float, u2: Float, oneMinusCosMax: Float): Vec3 =
     val h = u1 * oneMinusCosMax
     around(1f - h, safeSqrt(h * (2f - h)), u2)
 
-  /** Inside the cone; it is 0 outside. */
+  /** Pdf inside the cone; it is 0 outside. */
   def uniformConePdf(oneMinusCosMax: Float): Float = InvTwoPi / oneMinusCosMax
 
-  /** Uniform on a triangle: the weights of its three corners, which sum to 1.
+  /** Uniform on a triangle: the barycentric weights of its corners, which sum to 1.
     *
     * Source: Heitz, "A low-distortion map between triangle and square", 2019.
     */

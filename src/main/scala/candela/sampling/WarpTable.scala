@@ -2,18 +2,19 @@ package candela.sampling
 
 import candela.math.*
 
-/** Functions on the unit square, bilinear between the points of a grid, one for each pair of two
-  * parameters and linear between those; and, by way of their integrals, the map that spreads even
-  * points like them, with its inverse.
+/** Tabulated functions on the unit square that depend on two parameters, interpolated bilinearly in
+  * position and linearly in each parameter; with the map that importance-samples them, and its
+  * inverse.
   *
-  * Where it stands for densities, each function is scaled to integrate to 1 before any are blended.
+  * If the table holds densities, each function is normalised to integrate to 1 before
+  * interpolation.
   *
   * @param data     values, x fastest, then y, the second parameter and the first
-  * @param first    values of the first parameter, ascending; those beyond are held to the ends
-  * @param second   likewise
-  * @param channels how many functions share the grid, stored one after the other at each pair of
-  *                 parameters
-  * @param isDensity whether it is to be drawn from; then there is one channel
+  * @param first    values of the first parameter, ascending; parameters outside are clamped
+  * @param second   values of the second parameter, as above
+  * @param channels number of functions on the same grid, stored consecutively at each pair of
+  *   parameters
+  * @param isDensity whether the table is to be sampled; requires a single channel
   *
   * Source: Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
   * Rendering", SIGGRAPH Asia 2018, §4.
@@ -32,7 +33,7 @@ final class WarpTable(
   require(width > 1 && height > 1 && data.length == size * slices * channels)
   require(channels == 1 || !isDensity)
 
-  // The values; sums along each row up to a column, and of rows up to a row
+  // The values; prefix sums along each row, and of rows
   private val values = data.clone
   private val along = if isDensity then new Array[Float](size * slices) else Array.emptyFloatArray
   private val down =
@@ -59,11 +60,11 @@ final class WarpTable(
       along(i) = (along(i) * scale).toFloat
     for i <- slice * height until (slice + 1) * height do down(i) = (down(i) * scale).toFloat
 
-  /** A place for answers, and which functions are blended; one for each question. */
+  /** Interpolation weights for a pair of parameters, with room for results; one per query. */
   final class Blend(a: Float, b: Float):
     var x, y = 0f
 
-    // The four functions around the parameters, and how much each counts
+    // The four tables around the parameters, and their weights
     private val i = WarpTable.cell(first, a)
     private val j = WarpTable.cell(second, b)
     private val s = WarpTable.part(first, i, a)
@@ -86,7 +87,7 @@ final class WarpTable(
     private def value(channel: Int, index: Int): Float =
       blended(values, size * channels, channel * size + index)
 
-    /** The function, or density, at a point of the square. */
+    /** The function, or pdf, at a point of the square. */
     def apply(px: Float, py: Float, channel: Int = 0): Float =
       val gx = px * (width - 1).toFloat
       val gy = py * (height - 1).toFloat
@@ -103,7 +104,7 @@ final class WarpTable(
 
     private def rowSum(row: Int): Float = blended(along, size, row * width + width - 1)
 
-    /** `fy` rows below `row`: the sum of what is left of a column, and the value there. */
+    /** Sum left of a column, `fy` rows below `row`, and the value there. */
     private def sum(column: Int, row: Int, fy: Float): Float =
       lerp(
         fy,
@@ -115,7 +116,7 @@ final class WarpTable(
       val scale = 1f / ((width - 1).toFloat * (height - 1).toFloat)
       scale * lerp(fy, value(0, row * width + column), value(0, (row + 1) * width + column))
 
-    /** Sets x and y to where an even point goes. */
+    /** Sets x and y to the image of a uniform point. */
     def sample(u1: Float, u2: Float): Unit =
       val row = WarpTable.find(height)(r => blended(down, height, r) < u2)
       val r0 = rowSum(row)
@@ -131,7 +132,7 @@ final class WarpTable(
       x = (column.toFloat + fx) / (width - 1).toFloat
       y = (row.toFloat + fy) / (height - 1).toFloat
 
-    /** Sets x and y to the even point that goes to this one. */
+    /** Sets x and y to the uniform point whose image is this point. */
     def invert(px: Float, py: Float): Unit =
       val gx = px * (width - 1).toFloat
       val gy = py * (height - 1).toFloat
@@ -150,7 +151,7 @@ final class WarpTable(
 
 object WarpTable:
 
-  /** The last index below `count` − 1 for which `isBelow` holds; 0 if for none. */
+  /** The last index below `count` − 1 for which `isBelow` holds; 0 if there is none. */
   private inline def find(count: Int)(inline isBelow: Int => Boolean): Int =
     var low = 0
     var high = count - 1
@@ -165,7 +166,8 @@ object WarpTable:
   private def part(of: Array[Float], i: Int, v: Float): Float =
     if of.length < 2 then 0f else clamp((v - of(i)) / (of(i + 1) - of(i)), 0f, 1f)
 
-  /** Where the integral of a line from `a` at 0 to `b` at 1 reaches `area`, in [0, 1]. */
+  /** Position in [0, 1] at which the integral of a line from `a` at 0 to `b` at 1 reaches `area`.
+    */
   private def invert(a: Float, b: Float, area: Float): Float =
     val found =
       if Math.abs(a - b) < 1e-4f * (a + b) then 2f * area / (a + b)

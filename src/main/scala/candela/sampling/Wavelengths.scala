@@ -3,14 +3,14 @@ package candela.sampling
 import candela.color.{ColorBasis, Colorimetry, Rgb}
 import candela.math.*
 
-/** Draws a wavelength for a path that can go on with one only, and says what of the path's colour
-  * that wavelength is.
+/** Samples a single wavelength for a path after dispersion, and returns that wavelength's
+  * contribution to the path's colour.
   *
-  * The responses sum to white: a path whose wavelength doesn't matter keeps its colour on average.
-  * They are those of the CIE 1931 observer under D65, which sees a colour's three numbers as scaled
-  * white; in bins of 5 nm, within which the wavelength is anywhere. Single ones may be negative.
+  * The responses sum to white: a path that does not depend on wavelength keeps its colour on
+  * average. They are those of the CIE 1931 observer under D65, for which the components of a colour
+  * scale white; in bins of 5 nm, uniformly sampled within. Single responses may be negative.
   *
-  * @param basis in which light is multiplied
+  * @param basis colour basis in which light is multiplied
   */
 final class Wavelengths(basis: ColorBasis):
   private val bins = Colorimetry.responses
@@ -27,7 +27,7 @@ final class Wavelengths(basis: ColorBasis):
     val middle = bins(bin)._1
     clamp(middle + 5f * (pick.remapped(u, bin) - 0.5f), bins.head._1, bins.last._1)
 
-  /** By which colour to multiply for `u`: the response over the probability of its bin. */
+  /** Colour weight for `u`: the response over the probability of its bin. */
   def weight(u: Float): Rgb =
     val bin = pick.sample(u)
     responses(bin) * (1f / pick.probability(bin))

@@ -3,14 +3,14 @@ package candela.sampling
 import candela.base.loop
 import candela.math.*
 
-/** A density over any window of the unit square, in proportion to a function that is constant on a
-  * grid of equal cells. Immutable.
+/** Samples any window of the unit square in proportion to a piecewise-constant function on a
+  * regular grid. Immutable.
   *
-  * Sums over rectangles come from a summed-area table, between whose entries they are bilinear.
+  * Sums over rectangles come from a summed-area table, bilinearly interpolated.
   *
   * Sources: Crow, "Summed-Area Tables for Texture Mapping", SIGGRAPH 1984; PBRT 4th ed., §A.5.6.
   *
-  * @param values of the function, row by row; x runs along a row, y from row to row
+  * @param values values of the function in row order, x along rows
   */
 final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int):
   require(values.length == Math.multiplyExact(columns, rows))
@@ -46,8 +46,8 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
   private def over(x0: Double, y0: Double, x1: Double, y1: Double): Double =
     upTo(x1, y1) - upTo(x0, y1) - upTo(x1, y0) + upTo(x0, y0)
 
-  /** (x, y, density): the place in the window for (`u1`, `u2`) of the unit square; the density is 0
-    * if there is nothing in the window.
+  /** (x, y, pdf): the position in the window sampled by (`u1`, `u2`) of the unit square; the pdf is
+    * 0 if the function is zero in the window.
     */
   def sample(u1: Float, u2: Float, x0: Float, y0: Float, x1: Float, y1: Float): Vec3 =
     val all = integral(x0, y0, x1, y1)
@@ -65,13 +65,12 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
         val y = place(u2 * within, top, bottom, rows)(over(left, top, right, _))
         Vec3(x.toFloat, y.toFloat, density(x.toFloat, y.toFloat, all))
 
-  /** Where the sum that grows with the place reaches `target`: the cell by bisection, then
-    * linearly.
+  /** Position at which the increasing `sum` reaches `target`: the cell by bisection, then linearly.
     */
   private inline def place(target: Double, low: Double, high: Double, cells: Int)(
       inline sum: Double => Double
   ): Double =
-    // Cell borders within the window, by their numbers: sum(first) ≤ target < sum(last)
+    // Indices of cell borders within the window: sum(first) ≤ target < sum(last)
     var first = Math.floor(low * cells).toInt
     var last = Math.ceil(high * cells).toInt
     while last - first > 1 do
@@ -84,7 +83,7 @@ final class WindowedDistribution2D(values: Array[Float], columns: Int, rows: Int
     val t = if sumB > sumA then (target - sumA) / (sumB - sumA) else 0.5
     Math.max(a, Math.min(b, a + t * (b - a)))
 
-  /** The density of `sample` for the window at the place within it. */
+  /** Pdf of `sample` for the window at a position within it. */
   def pdf(x: Float, y: Float, x0: Float, y0: Float, x1: Float, y1: Float): Float =
     if x < x0 || x > x1 || y < y0 || y > y1 then 0f
     else

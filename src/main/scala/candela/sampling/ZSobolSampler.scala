@@ -1,11 +1,11 @@
 package candela.sampling
 
-/** One Owen-scrambled (0,2)-sequence for the whole image, dealt out along a Morton curve whose
-  * quadrants are shuffled at every level. Neighbours share out one well-distributed set, so that
-  * the error of an image is high-frequency ("blue") noise, which the eye and filters forgive.
+/** One Owen-scrambled (0,2)-sequence for the whole image, distributed along a Morton curve whose
+  * quadrants are shuffled at every level. Neighbouring pixels share one well-distributed point set,
+  * so the error of an image is high-frequency ("blue") noise, which the eye and filters suppress.
   *
   * For every request, the joint samples of each aligned 2ᵏ × 2ᵏ block of pixels put one point into
-  * each elementary interval. Prefixes of a pixel's samples have no such promise.
+  * each elementary interval. Prefixes of a pixel's samples have no such guarantee.
   *
   * In pbrt: `zsobol` (v4's default).
   *
@@ -13,8 +13,8 @@ package candela.sampling
   * hierarchical ordering of pixels", ACM TOG 39(6), 2020.
   *
   * @param requested samples per pixel, rounded up to a power of two
-  * @param width     of the full image in pixels; with `height` it bounds the pixels that `start`
-  *                  takes
+  * @param width     of the full image in pixels; with `height` it bounds the pixels passed to
+  *   `start`
   */
 final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends Sampler:
   require(requested > 0 && requested <= (1 << 24), s"$requested samples per pixel")
@@ -22,7 +22,7 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
   private val logSamples = ZSobolSampler.ceilLog2(requested)
   val samplesPerPixel: Int = 1 << logSamples
 
-  /** The topmost base-4 digit of a place on the curve begins at this bit. */
+  /** Lowest bit of the most significant base-4 digit of a curve position. */
   private val topShift =
     2 * ZSobolSampler.ceilLog2(Math.max(width, height)) + logSamples - 2
 
@@ -46,8 +46,8 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
 
   def copy(): ZSobolSampler = ZSobolSampler(requested, width, height, seed)
 
-  /** The point for this place: each base-4 digit goes through a permutation that depends on the
-    * digits above it. If the count of samples is no power of four, the last digit is binary.
+  /** The point for this position: each base-4 digit goes through a permutation that depends on the
+    * digits above it. If the sample count is no power of four, the last digit is binary.
     */
   private def shuffled(bits: Long): Long =
     val key = SampleHash.mix((bits >>> 16).toInt)
@@ -59,7 +59,7 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
       shift -= 2
     if shift == -1 then index | ((place ^ random(key, place >>> 1)) & 1) else index
 
-  /** For the digit that follows `prefix`. */
+  /** Random bits for the digit that follows `prefix`. */
   private def random(key: Int, prefix: Long): Int =
     SampleHash.mix(key ^ (prefix ^ (prefix >>> 32)).toInt)
 
@@ -71,7 +71,9 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
 
 object ZSobolSampler:
 
-  /** The 24 orders of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d + 1. */
+  /** The 24 permutations of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d +
+    * 1.
+    */
   private val orders: Array[Int] =
     Vector(0, 1, 2, 3).permutations.map(_.zipWithIndex.map((to, d) => to << 2 * d).sum).toArray
 
@@ -81,7 +83,7 @@ object ZSobolSampler:
 
   private def ceilLog2(n: Int): Int = if n <= 1 then 0 else 32 - Integer.numberOfLeadingZeros(n - 1)
 
-  /** A zero between all bits of `v`, for 0 ≤ `v` < 2³¹. */
+  /** Inserts a zero between all bits of `v`, for 0 ≤ `v` < 2³¹. */
   private def spread(v: Int): Long =
     var s = v & 0x7fffffffL
     s = (s | s << 16) & 0x0000ffff0000ffffL

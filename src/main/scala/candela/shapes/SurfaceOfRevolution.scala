@@ -3,22 +3,21 @@ package candela.shapes
 import candela.geometry.{Bounds3, Ray, ShadingPoint}
 import candela.math.*
 
-/** A surface of revolution about the z-axis of object space, perhaps swept over less than a full
-  * turn, anywhere in the world and of any affine shape. What its kinds do alike: rays come to
-  * object space in Double, and points go back.
+/** A surface of revolution about the z-axis of object space, optionally partial, under any affine
+  * transform. Common base: transforms rays to object space in Double, and points to world space.
   *
-  * @param radius it is no wider than this, in object space
-  * @param reach  |z| is no larger than this
+  * @param radius upper bound of its radius, in object space
+  * @param reach  upper bound of |z|, in object space
   */
 abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, reach: Double)
     extends Shape:
   private val toWorld = objectToWorld.m
   private val toObject = objectToWorld.inverseM
 
-  /** The largest error, per component, that Double arithmetic makes of a point in a box of this
-    * half extent around the origin of object space, on its way to the world and back: some 2⁶
-    * round-offs of the largest number on the way. It counts where such a point is close to the
-    * world's origin, as on a ground that is a sphere of radius 1e6.
+  /** Largest error, per component, of a point in a box of this half extent around the origin of
+    * object space, caused by Double arithmetic on the way to world space and back: some 2⁶ rounding
+    * errors of the largest number involved. It matters for points close to the world's origin, as
+    * on a ground that is a sphere of radius 1e6.
     */
   protected final val doubleError: Vec3 =
     def row(r: Int) =
@@ -26,7 +25,7 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
         Math.abs(toWorld(r + 2)) * reach + Math.abs(toWorld(r + 3)))).toFloat
     Vec3(row(0), row(4), row(8))
 
-  // A point of the world in object space
+  // A world-space point in object space
 
   protected final def objectX(x: Double, y: Double, z: Double): Double = point(0, x, y, z)
   protected final def objectY(x: Double, y: Double, z: Double): Double = point(4, x, y, z)
@@ -46,7 +45,7 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
     val m = toObject
     m(row) * ray.dx + m(row + 1) * ray.dy + m(row + 2) * ray.dz
 
-  /** Is a hit at `t` one? Then the ray ends there. */
+  /** Shortens the ray if `t` is a hit; returns whether it is. */
   protected final def shortens(ray: Ray, t: Double): Boolean =
     val isOne = isWithin(ray, t)
     if isOne then ray.tMax = t.toFloat
@@ -54,13 +53,13 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
 
   protected final def isWithin(ray: Ray, t: Double): Boolean = t > 0.0 && t < ray.tMax
 
-  /** The distance of a hit that shortened a ray to `t`, as found again in Double; `t` itself if
-    * what was found is another one, as behind a hole.
+  /** Distance of the hit that shortened a ray to `t`, recomputed in Double; `t` itself if `found`
+    * is another hit, as behind an alpha cutout.
     */
   protected final def refined(found: Double, t: Float): Double =
     if Math.abs(found - t) <= 1e-6 * t then found else t.toDouble
 
-  /** Sets the point of object space, and how far it may be off in the world. */
+  /** Sets the point from object space, with its error bound in world space. */
   protected final def put(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
     at.p = SurfaceOfRevolution.place(toWorld, x, y, z)
     at.pError = TriangleSoup.roundingError(at.p) + doubleError
@@ -69,12 +68,12 @@ abstract class SurfaceOfRevolution(objectToWorld: Transform, radius: Double, rea
     out.p = SurfaceOfRevolution.place(toWorld, x, y, z)
     out.pError = TriangleSoup.roundingError(out.p) + doubleError
 
-  /** The angle around the z-axis, from 0 to 2π. */
+  /** Angle around the z-axis, from 0 to 2π. */
   protected final def phi(x: Double, y: Double): Double =
     val a = Math.atan2(y, x)
     if a < 0 then a + 2 * Math.PI else a
 
-  /** The box around the placed cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
+  /** World bounds of the cylinder |x|, |y| ≤ radius, zMin ≤ z ≤ zMax. */
   protected final def worldBounds(radius: Float, zMin: Float, zMax: Float): Bounds3 =
     val box = Bounds3(Vec3(-radius, -radius, zMin), Vec3(radius, radius, zMax))
     val world = Bounds3.of((0 until 8).map(i => objectToWorld.point(box.corner(i))))

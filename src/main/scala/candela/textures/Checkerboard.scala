@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** Squares or cubes of `even` and `odd` in turn. */
+/** Checkerboard of `even` and `odd` squares or cubes. */
 final class CheckerboardFloat(checks: Checks, even: FloatTexture, odd: FloatTexture)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
@@ -13,7 +13,7 @@ final class CheckerboardFloat(checks: Checks, even: FloatTexture, odd: FloatText
     else if share >= 1f then odd(at)
     else lerp(share, even(at), odd(at))
 
-/** Squares or cubes of `even` and `odd` in turn. */
+/** Checkerboard of `even` and `odd` squares or cubes. */
 final class CheckerboardRgb(checks: Checks, even: RgbTexture, odd: RgbTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val share = checks.oddShare(at)
@@ -21,13 +21,13 @@ final class CheckerboardRgb(checks: Checks, even: RgbTexture, odd: RgbTexture) e
     else if share >= 1f then odd(at)
     else even(at) * (1f - share) + odd(at) * share
 
-/** Where the checks of a pattern are; the one from the origin to (1, 1, …) is even. */
+/** Layout of a checkerboard; the check from the origin to (1, 1, …) is even. */
 abstract class Checks:
 
-  /** The part of the footprint of `at` that is odd, between 0 and 1.
+  /** Fraction of the footprint of `at` covered by odd checks, in [0, 1].
     *
-    * Checks are a product: with c = 1 where the whole part of x is even and −1 where it is odd, the
-    * sign at (s, t) is c(s)·c(t); so of filtered signs, if the filter is a product too.
+    * Checks are separable: with c = 1 where the integer part of x is even and −1 where it is odd,
+    * the sign at (s, t) is c(s)·c(t). The same holds for filtered signs if the filter is separable.
     */
   def oddShare(at: ShadingPoint): Float
 
@@ -45,19 +45,19 @@ final class Cubes(mapping: Mapping3D, filter: CheckFilter) extends Checks:
     val r = mapping.extent(at)
     (0.5 - 0.5 * filter.sign(p.x, r.x) * filter.sign(p.y, r.y) * filter.sign(p.z, r.z)).toFloat
 
-/** Averages the sign c of [[Checks]] around a place. */
+/** Filters the sign c of [[Checks]]. */
 enum CheckFilter:
 
-  /** The sign at the place itself: edges are smoothed by the pixel's samples alone. */
+  /** Point sampling: only the pixel's samples antialias edges. */
   case Point
 
-  /** The mean from x − r to x + r; of more than two checks none is seen (pbrt-v2 and v3). */
+  /** Box filter from x − r to x + r; 0 if it spans more than two checks (pbrt-v2 and v3). */
   case Box
 
-  /** Weighted by a triangle from x − 1.5 r to x + 1.5 r (pbrt-v4). */
+  /** Triangle filter from x − 1.5 r to x + 1.5 r (pbrt-v4). */
   case Triangle
 
-  /** @param r the largest step to a neighbour on the film, in checks; 0 if it is not known */
+  /** @param r largest step to a neighbouring raster position, in checks; 0 if unknown */
   def sign(x: Float, r: Float): Double = this match
     case Point => CheckFilter.sign(x)
     case Box =>
@@ -76,13 +76,13 @@ object CheckFilter:
 
   private def sign(x: Double): Double = if (Math.floor(x).toLong & 1) == 0 then 1.0 else -1.0
 
-  /** From 0 to x of the sign: a wave between 0 and 1, of period 2. */
+  /** Integral of the sign from 0 to x: a triangle wave between 0 and 1, of period 2. */
   private def integral(x: Double): Double =
     val y = x - 2.0 * Math.floor(0.5 * x)
     1.0 - Math.abs(1.0 - y)
 
-  /** From 0 to x of that wave, less its mean ½: of period 2 too, so that nothing cancels far from
-    * the origin. The mean has no second difference.
+  /** Integral of that wave less its mean 1/2, from 0 to x: also of period 2, so that nothing
+    * cancels far from the origin. The mean has no second difference.
     */
   private def integral2(x: Double): Double =
     val part = x - Math.floor(x)

@@ -4,8 +4,8 @@ import candela.color.{ColorBasis, Rgb}
 import candela.geometry.ShadingPoint
 import candela.math.lerp
 
-/** Textures made of textures. The `of` methods give the plainest texture that is right: what
-  * follows from constants alone becomes a constant.
+/** Product of two numbers. The `of` methods of combined textures return the simplest exact
+  * specialisation: combinations of constants become constants.
   */
 final class ScaledFloat private (a: FloatTexture, b: FloatTexture) extends FloatTexture:
   def apply(at: ShadingPoint): Float = a(at) * b(at)
@@ -17,7 +17,7 @@ object ScaledFloat:
     case (_, Some(1f)) => a
     case _ => ScaledFloat(a, b)
 
-/** The product of two colours (pbrt-v2, v3). */
+/** Product of two colours (pbrt-v2, v3). */
 final class ProductRgb private (a: RgbTexture, b: RgbTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = a(at) * b(at)
 
@@ -28,7 +28,7 @@ object ProductRgb:
     case (_, Some(Rgb.White)) => a
     case _ => ProductRgb(a, b)
 
-/** A colour times a number (pbrt-v4). */
+/** A colour scaled by a number (pbrt-v4). */
 final class ScaledRgb private (a: RgbTexture, scale: FloatTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = a(at) * scale(at)
 
@@ -65,6 +65,6 @@ object MixRgb:
 
   private def mix(t: Float, a: Rgb, b: Rgb): Rgb = a * (1f - t) + b * t
 
-/** A texture of linear sRGB colours, in the components of another basis. */
+/** A texture of linear sRGB colours, converted to another basis. */
 final class RebasedTexture(texture: RgbTexture, basis: ColorBasis) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = basis.fromSrgb(texture(at))

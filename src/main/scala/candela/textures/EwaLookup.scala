@@ -3,12 +3,13 @@ package candela.textures
 import candela.color.Rgb
 import candela.math.*
 
-/** Weighs texels by a Gaussian whose ellipse is the footprint's.
+/** Elliptically weighted average (EWA): filters texels with a Gaussian over the footprint's
+  * ellipse.
   *
   * Source: Heckbert, "Fundamentals of Texture Mapping and Image Warping", 1989, §3.5: elliptical
   * weighted average.
   *
-  * @param maxAnisotropy the longest an ellipse may be, in widths; a longer one is widened
+  * @param maxAnisotropy maximum ratio of the ellipse's axes; longer ellipses are widened
   */
 final class EwaLookup(
     pyramid: Array[MipLevel],
@@ -46,13 +47,13 @@ final class EwaLookup(
 
 object EwaLookup:
 
-  /** Of the Gaussian exp(−2r²) − exp(−2), by squared radius; pbrt's steps. */
+  /** Table of the Gaussian exp(−2r²) − exp(−2) by squared radius, at pbrt's resolution. */
   private val Steps = 128
   private val weights = Array.tabulate(Steps): i =>
     (Math.exp(-2.0 * i / (Steps - 1)) - Math.exp(-2.0)).toFloat
 
-  /** The average over the ellipse spanned by (`ax`, `ay`) and (`bx`, `by`), widened by one texel so
-    * that it holds some.
+  /** Average over the ellipse spanned by (`ax`, `ay`) and (`bx`, `by`), widened by one texel so
+    * that it is never empty.
     */
   private[textures] def average(
       level: MipLevel,
@@ -75,7 +76,7 @@ object EwaLookup:
     val a = a0 * f
     val b = b0 * f
     val c = c0 * f
-    // Half its extent along each axis: the roots of the inverse matrix's diagonal
+    // Half extent along each axis: square roots of the inverse matrix's diagonal
     val reachX = sqrt(c0)
     val reachY = sqrt(a0)
     val x1 = MipLevel.floor(x + reachX)

@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** A number from a picture: scale·v, or 1 − scale·v (not below 0) if `invert`. */
+/** Float image texture: scale·v, or 1 − scale·v (clamped to at least 0) if `invert`. */
 final class FloatImageTexture(
     mapping: Mapping2D,
     lookup: ImageLookup,
@@ -14,7 +14,7 @@ final class FloatImageTexture(
   def apply(at: ShadingPoint): Float =
     ImageTexture.finish(lookup.value(mapping, at), scale, invert)
 
-/** A colour from a picture, with `scale` and `invert` as for [[FloatImageTexture]]. */
+/** Colour image texture, with `scale` and `invert` as for [[FloatImageTexture]]. */
 final class RgbImageTexture(
     mapping: Mapping2D,
     lookup: ImageLookup,
@@ -31,23 +31,22 @@ private object ImageTexture:
     val scaled = value * scale
     if invert then Math.max(0f, 1f - scaled) else scaled
 
-/** Looks up texels at places of the unit square: s to the right, and t up from the picture's last
-  * row if `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2,
-  * EXR).
+/** Texel lookup in the unit square: s to the right, and t up from the image's last row if
+  * `bottomUp`, as in pbrt-v3 and v4 (and v2 for TGA files), else down from its first (v2, EXR).
   */
 abstract class ImageLookup(bottomUp: Boolean):
   def color(mapping: Mapping2D, at: ShadingPoint): Rgb
 
-  /** Of a picture with one channel. */
+  /** Value of a single-channel image. */
   final def value(mapping: Mapping2D, at: ShadingPoint): Float = color(mapping, at).r
 
-  /** Distance from the picture's upper edge, as a part of its height. */
+  /** Distance from the image's upper edge, as a fraction of its height. */
   protected final def row(t: Float): Float = if bottomUp then 1f - t else t
 
-/** Reads what the footprint of a sample covers of the picture, from a pyramid.
+/** Lookup filtered over the footprint of a sample, with a MIP map.
   *
-  * @param turned does a step along t count upwards in the picture, as t itself does? pbrt-v4
-  *               forgets that it turns t around
+  * @param turned whether the t derivatives point up in the image, as t does; pbrt-v4 omits to flip
+  *   them with t
   */
 abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turned: Boolean)
     extends ImageLookup(bottomUp):
@@ -59,7 +58,7 @@ abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turne
     val f = mapping.footprint(at)
     filtered(c.s, row(c.t), f.dsdx, f.dtdx * down, f.dsdy, f.dtdy * down)
 
-  /** Around a place, over the parallelogram between two steps (`dsdx`, `dydx`) and (`dsdy`,
+  /** Filters around a point, over the parallelogram of the two steps (`dsdx`, `dydx`) and (`dsdy`,
     * `dydy`).
     */
   def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb
@@ -71,10 +70,10 @@ abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turne
     val part = level - whole
     pyramid(whole).bilinear(s, y) * (1f - part) + pyramid(whole + 1).bilinear(s, y) * part
 
-  /** The level whose texels are as large as the larger extent of the footprint. */
+  /** MIP level whose texels match the footprint's larger extent. */
   protected final def levelOf(width: Float): Float = last + log2(Math.max(width, 1e-8f))
 
-/** The largest extent of the footprint, along either axis, chooses one level (pbrt-v4's "point" and
+/** Selects one MIP level by the footprint's largest extent along either axis (pbrt-v4's "point" and
   * "bilinear").
   */
 final class LevelLookup(
@@ -90,10 +89,10 @@ final class LevelLookup(
       val chosen = pyramid(if level > 0f then level.toInt else 0)
       if interpolates then chosen.bilinear(s, y) else chosen.nearest(s, y)
 
-/** Blends the two levels nearest to the footprint's largest extent.
+/** Trilinear filtering: interpolates the two MIP levels nearest to the footprint's largest extent.
   *
-  * @param factor     of the extent: 2 in pbrt-v2 and v4, 1 in v3
-  * @param fromSecond do levels begin to blend only beyond the second, as in pbrt-v4?
+  * @param factor     scale of the extent: 2 in pbrt-v2 and v4, 1 in v3
+  * @param fromSecond whether interpolation starts only past the second level, as in pbrt-v4
   */
 final class TrilinearLookup(
     pyramid: Array[MipLevel],

@@ -3,27 +3,27 @@ package candela.textures
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** A place in a texture; the unit square holds one copy of an image. */
+/** Texture coordinates; the unit square holds one copy of an image. */
 final class TexCoord(val s: Float, val t: Float)
 
-/** How far a place in a texture moves from one place on the film to its neighbours. */
+/** Derivatives of texture coordinates by raster position. */
 final class TexFootprint(val dsdx: Float, val dtdx: Float, val dsdy: Float, val dtdy: Float)
 
-/** Takes a surface point to its place in a two-dimensional texture. */
+/** Maps surface points to two-dimensional texture coordinates. */
 abstract class Mapping2D:
   def apply(at: ShadingPoint): TexCoord
 
-  /** The derivative of `apply` along the footprint of `at`. */
+  /** Derivatives of `apply` over the footprint of `at`. */
   def footprint(at: ShadingPoint): TexFootprint
 
-/** The surface's own parameters, scaled and moved: s = su·u + du, t = sv·v + dv. */
+/** Affine map of the surface's parameters: s = su·u + du, t = sv·v + dv. */
 final class UvMapping(su: Float, sv: Float, du: Float, dv: Float) extends Mapping2D:
   def apply(at: ShadingPoint): TexCoord = TexCoord(su * at.u + du, sv * at.v + dv)
 
   def footprint(at: ShadingPoint): TexFootprint =
     TexFootprint(su * at.dudx, sv * at.dvdx, su * at.dudy, sv * at.dvdy)
 
-/** Polar coordinates around the texture space's origin: s is the angle from +z over π, t the angle
+/** Spherical mapping about the texture space's origin: s is the angle from +z over π, t the angle
   * around z, counter-clockwise from +x, over 2π, in [0, 1).
   */
 final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
@@ -40,16 +40,17 @@ final class SphericalMapping(textureToWorld: Transform) extends Mapping2D:
     val p = worldToTexture.point(at.p)
     val r2 = square(p.x) + square(p.y)
     val r = sqrt(r2)
-    // ∂θ/∂p over π, and ∂φ/∂p over 2π; at the poles, where they are infinite, nothing is known
+    // ∂θ/∂p over π, and ∂φ/∂p over 2π; 0 at the poles, where they are infinite
     val d = if r > 0f then 1f / (Pi * (r2 + square(p.z))) else 0f
     val ds = Vec3(p.x * p.z * d / r, p.y * p.z * d / r, -r * d)
     val dt = Mapping2D.around(p)
     if r > 0f then Mapping2D.along(worldToTexture, ds, dt, at) else Mapping2D.Unknown
 
-/** Around the texture space's z axis: s is the angle from −x over 2π, t the height.
+/** Cylindrical mapping about the texture space's z axis: s is the angle from −x over 2π, t the
+  * height.
   *
-  * @param onUnitSphere measure the height after moving the point to the unit sphere, as pbrt-v2 and
-  *                     v3 do and v4 does not
+  * @param onUnitSphere whether to project the point onto the unit sphere before measuring its
+  *   height, as pbrt-v2 and v3 do and v4 does not
   */
 final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean) extends Mapping2D:
   private val worldToTexture = textureToWorld.inverse
@@ -68,9 +69,9 @@ final class CylindricalMapping(textureToWorld: Transform, onUnitSphere: Boolean)
     if p.x == 0f && p.y == 0f then Mapping2D.Unknown
     else Mapping2D.along(worldToTexture, Mapping2D.around(p), dt, at)
 
-/** Along two axes: s = p·axisS + ds, t = p·axisT + dt.
+/** Planar mapping: s = p·axisS + ds, t = p·axisT + dt.
   *
-  * @param textureToWorld the identity for pbrt-v2 and v3, which take p in world space
+  * @param textureToWorld the identity for pbrt-v2 and v3, which use p in world space
   */
 final class PlanarMapping(
     textureToWorld: Transform,
@@ -91,33 +92,32 @@ final class PlanarMapping(
 private object Mapping2D:
   val Unknown: TexFootprint = TexFootprint(0f, 0f, 0f, 0f)
 
-  /** The gradient of the angle around z, over 2π. */
+  /** Gradient of the angle around z, over 2π. */
   def around(p: Vec3): Vec3 =
     val d = 1f / (2f * Pi * (square(p.x) + square(p.y)))
     Vec3(-p.y * d, p.x * d, 0f)
 
-  /** The footprint of coordinates that have these gradients in texture space. */
+  /** Footprint of coordinates with these gradients in texture space. */
   def along(worldToTexture: Transform, ds: Vec3, dt: Vec3, at: ShadingPoint): TexFootprint =
     val px = worldToTexture.vector(at.dpdx)
     val py = worldToTexture.vector(at.dpdy)
     TexFootprint(ds dot px, dt dot px, ds dot py, dt dot py)
 
-/** Takes a point to its place in a solid texture.
+/** Maps points to three-dimensional texture coordinates.
   *
-  * @param worldToTexture in pbrt-v2 and v3 it is the statement's transform itself, in v4 its
-  *                       inverse
+  * @param worldToTexture in pbrt-v2 and v3 the statement's transform itself, in v4 its inverse
   */
 final class Mapping3D(worldToTexture: Transform):
   def apply(at: ShadingPoint): Vec3 = worldToTexture.point(at.p)
 
-  /** Squared, the longer of the two steps to neighbouring places on the film. */
+  /** Squared length of the longer step to a neighbouring raster position. */
   def footprintSquared(at: ShadingPoint): Float =
     Math.max(
       worldToTexture.vector(at.dpdx).lengthSquared,
       worldToTexture.vector(at.dpdy).lengthSquared
     )
 
-  /** For each axis, how far the place moves at most to its neighbours on the film. */
+  /** Largest step to a neighbouring raster position, per axis. */
   def extent(at: ShadingPoint): Vec3 =
     val x = worldToTexture.vector(at.dpdx)
     val y = worldToTexture.vector(at.dpdy)

@@ -2,16 +2,17 @@ package candela.textures
 
 import candela.math.*
 
-/** Sums of noise at several scales, each about twice as fine as the one before and `omega` as
-  * strong. Octaves finer than the footprint of a sample are left out, the last one gradually.
+/** Sums of noise octaves, each with about twice the frequency of the previous one and `omega` times
+  * its amplitude. Octaves beyond the Nyquist limit of the footprint are omitted, the last one
+  * gradually.
   *
   * Source: Perlin and Musgrave in Ebert et al., "Texturing & Modeling", 1994; PBRT 3rd ed., §10.6.
   */
 object Octaves:
-  /** Not 2, so that the zeros of the octaves don't fall together. */
+  /** Not 2, to keep the octaves' zeros from coinciding. */
   private val Lacunarity = 1.99f
 
-  /** The mean of the noise's magnitude, about. */
+  /** Approximate mean magnitude of the noise. */
   private val MeanMagnitude = 0.2f
 
   /** Fractional Brownian motion.
@@ -32,9 +33,11 @@ object Octaves:
       i += 1
     sum + strength * fade(count - whole) * PerlinNoise(p * scale)
 
-  /** The sum of the noises' magnitudes, with the mean in place of those too fine to see.
+  /** Turbulence: the sum of the noises' magnitudes, with their mean in place of octaves beyond the
+    * Nyquist limit.
     *
-    * @param evenMean are these means all alike, as in pbrt-v2, or as strong as their octave?
+    * @param evenMean whether these means are equal, as in pbrt-v2, or scaled by their octave's
+    *   amplitude
     */
   def turbulence(p: Vec3, footprint: Float, omega: Float, most: Int, evenMean: Boolean): Float =
     val count = visible(footprint, most)
@@ -59,7 +62,7 @@ object Octaves:
         i += 1
       sum
 
-  /** How many octaves are coarser than twice the footprint. */
+  /** Number of octaves coarser than twice the footprint. */
   private def visible(footprint: Float, most: Int): Float =
     if footprint > 0f then clamp(-1f - 0.5f * log2(footprint), 0f, most.toFloat) else most.toFloat
 

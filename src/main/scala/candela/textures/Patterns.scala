@@ -4,21 +4,22 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** Bilinear between four corners, `v10` being that at s = 1, t = 0; goes on linearly outside. */
+/** Bilinear interpolation between four corners, with `v10` at s = 1, t = 0; extrapolates linearly.
+  */
 final class BilerpFloat(mapping: Mapping2D, v00: Float, v01: Float, v10: Float, v11: Float)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     val c = mapping(at)
     lerp(c.t, lerp(c.s, v00, v10), lerp(c.s, v01, v11))
 
-/** Bilinear between four corners, as [[BilerpFloat]]. */
+/** Bilinear interpolation between four corners, as [[BilerpFloat]]. */
 final class BilerpRgb(mapping: Mapping2D, v00: Rgb, v01: Rgb, v10: Rgb, v11: Rgb)
     extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val c = mapping(at)
     (v00 * (1f - c.s) + v10 * c.s) * (1f - c.t) + (v01 * (1f - c.s) + v11 * c.s) * c.t
 
-/** Round dots in some of the unit squares around the integer points, moved and left out at random.
+/** Polka dots in randomly selected unit squares around the integer points, at random offsets.
   *
   * Source: PBRT 3rd ed., §10.5.2.
   */
@@ -26,7 +27,7 @@ final class DotsFloat(mapping: Mapping2D, dot: FloatTexture, ground: FloatTextur
     extends FloatTexture:
   def apply(at: ShadingPoint): Float = if Dots.isInside(mapping(at)) then dot(at) else ground(at)
 
-/** Round dots, as [[DotsFloat]]. */
+/** Polka dots, as [[DotsFloat]]. */
 final class DotsRgb(mapping: Mapping2D, dot: RgbTexture, ground: RgbTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = if Dots.isInside(mapping(at)) then dot(at) else ground(at)
 
@@ -43,26 +44,26 @@ private object Dots:
       ds * ds + dt * dt < Radius * Radius
     }
 
-/** The coordinates themselves as red and green, to look at a parameterisation. */
+/** Texture coordinates as red and green, to visualise a parameterisation. */
 final class UvColor(mapping: Mapping2D) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val c = mapping(at)
     Rgb(c.s - Math.floor(c.s.toDouble).toFloat, c.t - Math.floor(c.t.toDouble).toFloat, 0f)
 
-/** |n·direction| of `along`, the rest of `across`, for the geometric normal n. */
+/** Interpolates from `across` to `along` by |n·direction|, for the geometric normal n. */
 final class DirectionMixFloat(along: FloatTexture, across: FloatTexture, direction: Vec3)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     lerp(at.geometricNormal absDot direction, across(at), along(at))
 
-/** |n·direction| of `along`, the rest of `across`, for the geometric normal n. */
+/** Interpolates from `across` to `along` by |n·direction|, for the geometric normal n. */
 final class DirectionMixRgb(along: RgbTexture, across: RgbTexture, direction: Vec3)
     extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val amount = at.geometricNormal absDot direction
     along(at) * amount + across(at) * (1f - amount)
 
-/** A number as a colour. */
+/** A number as a grey colour. */
 final class GrayTexture(value: FloatTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb = Rgb.gray(value(at))
   override def constant: Option[Rgb] = value.constant.map(Rgb.gray)

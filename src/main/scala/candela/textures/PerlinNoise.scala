@@ -2,11 +2,10 @@ package candela.textures
 
 import candela.math.*
 
-/** Gradient noise: 0 at all integer points, smooth between them, about within [−1, 1].
+/** Gradient noise: 0 at all integer points, smooth between them, approximately in [−1, 1].
   *
   * Source: Perlin, "Improving Noise", SIGGRAPH 2002, with the permutation of his reference
-  * implementation. Of its 16 gradients, 12 of which are different, pbrt takes the last four in
-  * another order, and so does this.
+  * implementation. Of its 16 gradients, 12 of them distinct, the last four are in pbrt's order.
   */
 object PerlinNoise:
 
@@ -48,14 +47,14 @@ object PerlinNoise:
 
   def apply(p: Vec3): Float = apply(p.x, p.y, p.z)
 
-  /** In a plane halfway between lattice points. */
+  /** Evaluates the plane halfway between lattice points. */
   def apply(x: Float, y: Float): Float = apply(x, y, 0.5f)
 
   private def floor(x: Float): Float = Math.floor(x.toDouble).toFloat
 
   private def fade(t: Float): Float = t * t * t * (t * (t * 6f - 15f) + 10f)
 
-  /** The lattice point's gradient, times the way from it. */
+  /** Dot product of the lattice point's gradient and the offset from it. */
   private def slope(x: Int, y: Int, z: Int, dx: Float, dy: Float, dz: Float): Float =
     val hash = permutation(permutation(permutation(x) + y) + z) & 15
     val isFlat = hash == 12 || hash == 13
@@ -79,5 +78,5 @@ object PerlinNoise:
     93, 222, 114, 67, 29, 24, 72, 243, 141, 128, 195, 78, 66, 215, 61, 156, 180
   )
 
-  /** Twice, so that the sum of two bytes can be looked up. */
+  /** Doubled, for lookups with the sum of two bytes. */
   private val permutation: Array[Int] = once ++ once ++ Array(once(0))

@@ -6,16 +6,16 @@ import candela.base.{loop, Parallel}
 import candela.color.Rgb
 import candela.math.*
 
-/** A picture and its halves, each the mean of four texels of the one before, down to one texel.
+/** Builds MIP maps: an image and its reductions, each averaging four texels of the previous one,
+  * down to one texel.
   *
   * Source: Williams, "Pyramidal Parametrics", SIGGRAPH 1983.
   */
 object Pyramid:
 
-  /** @param most     what texels between those of the picture are limited to: a picture whose
-    *                 width or height is no power of two is first enlarged until they are, as in
-    *                 pbrt
-    * @param parallel does rows of texels
+  /** @param most     upper limit of resampled texels: an image whose width or height is no power of
+    *   two is first enlarged to one, as in pbrt
+    * @param parallel executes rows of texels
     */
   def of(
       texels: Texels,
@@ -27,7 +27,7 @@ object Pyramid:
     while levels.last.width > 1 || levels.last.height > 1 do levels += halved(levels.last, parallel)
     levels.map(MipLevel(_, wrap)).toArray
 
-  /** Of an edge of one texel, that texel counts twice. */
+  /** If an edge is one texel long, that texel counts twice. */
   private def halved(from: Texels, parallel: Parallel): Texels =
     val width = Math.max(1, from.width / 2)
     val height = Math.max(1, from.height / 2)
@@ -61,7 +61,7 @@ object Pyramid:
           values(start + k) = clamp(values(start + k), 0f, most)
       FloatTexels(width, height, from.channels, values)
 
-  /** As many rows as before, of `width` texels each. */
+  /** Resamples rows to `width` texels each. */
   private def widened(from: Texels, wrap: Wrap, width: Int, parallel: Parallel): Array[Float] =
     val channels = from.channels
     val wide = new Array[Float](width * from.height * channels)
@@ -80,7 +80,8 @@ object Pyramid:
               wide((y * width + x) * channels + c) += weight * from(i, c)
     wide
 
-  /** As many columns as in `wide`, of `height` texels each: row by row, which lie together. */
+  /** Resamples the columns of `wide` to `height` texels each: row by row, for contiguous access.
+    */
   private def heightened(
       wide: Array[Float],
       from: Texels,
@@ -118,7 +119,7 @@ object Pyramid:
       to(at + i) += weight * from(start + i)
       i += 1
 
-  /** Does rows of a picture; those of a small one alone. */
+  /** Executes rows of an image, in parallel unless it is small. */
   private def rows(parallel: Parallel, width: Int, height: Int)(row: Int => Unit): Unit =
     if width.toLong * height < SmallPicture then loop(height)(row(_))
     else
@@ -130,7 +131,7 @@ object Pyramid:
           row(y)
           y += 1
 
-  /** Texels, below which threads don't pay. */
+  /** Number of texels below which threads do not pay. */
   private val SmallPicture = 1L << 14
 
   private def powerOfTwo(n: Int): Int =
@@ -141,7 +142,7 @@ object Pyramid:
 
   private val Taps = 4
 
-  /** Lanczos's windowed sinc over two old texels to each side (Lanczos, "Applied Analysis", 1956).
+  /** Lanczos-windowed sinc over two old texels to each side (Lanczos, "Applied Analysis", 1956).
     */
   private def weights(from: Int, to: Int): Weights =
     val first = new Array[Int](to)
@@ -159,26 +160,25 @@ object Pyramid:
   private def sinc(x: Double): Double =
     if Math.abs(x) < 1e-5 then 1 else Math.sin(Math.PI * x) / (Math.PI * x)
 
-/** One picture of a pyramid, read between its texels. Places are given in the unit square, the
-  * second coordinate down from the picture's upper edge; texel centres lie at half-integer
-  * multiples of the texel size.
+/** One level of a MIP map. Positions are in the unit square, the second coordinate down from the
+  * image's upper edge; texel centres are at half-integer multiples of the texel size.
   */
 final class MipLevel(private[textures] val texels: Texels, wrap: Wrap):
   val width: Int = texels.width
   val height: Int = texels.height
   val isGray: Boolean = texels.channels == 1
 
-  /** Where the texel (`x`, `y`) is for `apply`, counted over the wrapped plane; −1: black. */
+  /** Index of the texel (`x`, `y`) for `apply`, after wrapping; −1 for black. */
   def index(x: Int, y: Int): Int = wrap.index(x, y, width, height)
 
   def apply(index: Int, channel: Int): Float = if index < 0 then 0f else texels(index, channel)
 
-  /** The texel that the point lies in. */
+  /** The texel that contains the point. */
   def nearest(s: Float, row: Float): Rgb =
     val i = index(MipLevel.floor(s * width), MipLevel.floor(row * height))
     if isGray then Rgb.gray(apply(i, 0)) else Rgb(apply(i, 0), apply(i, 1), apply(i, 2))
 
-  /** The four nearest, linearly. */
+  /** Bilinear interpolation of the four nearest texels. */
   def bilinear(s: Float, row: Float): Rgb =
     val x = s * width - 0.5f
     val y = row * height - 0.5f

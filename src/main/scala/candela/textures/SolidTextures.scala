@@ -4,18 +4,18 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 
-/** Fractional Brownian motion through space: clouds. */
+/** Fractional Brownian motion: clouds. */
 final class FbmTexture(mapping: Mapping3D, octaves: Int, omega: Float) extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     Octaves.fbm(mapping(at), mapping.footprintSquared(at), omega, octaves)
 
-/** Magnitudes of noise: creases, as in wrinkled skin. `evenMean` as for [[Octaves.turbulence]]. */
+/** Turbulence: creases, as in wrinkled skin. `evenMean` as for [[Octaves.turbulence]]. */
 final class WrinkledTexture(mapping: Mapping3D, octaves: Int, omega: Float, evenMean: Boolean)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     Octaves.turbulence(mapping(at), mapping.footprintSquared(at), omega, octaves, evenMean)
 
-/** Waves whose height is itself a coarser noise: water under gusts of wind. */
+/** Waves with an amplitude of coarser noise: water under gusts of wind. */
 final class WindyTexture(mapping: Mapping3D) extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     val p = mapping(at)
@@ -23,11 +23,11 @@ final class WindyTexture(mapping: Mapping3D) extends FloatTexture:
     val wind = Octaves.fbm(p * 0.1f, footprint * 0.01f, 0.5f, 3)
     abs(wind) * Octaves.fbm(p, footprint, 0.5f, 6)
 
-/** Layers along y, shaken by noise, in the colours of grey marble (linear sRGB).
+/** Layers along y, perturbed by noise, in the colours of grey marble (linear sRGB).
   *
-  * @param variation  how far noise moves the layers
-  * @param lastCurve  the last of the six curves between the colours that is used: 1 in pbrt-v3,
-  *                   which goes on along it, 5 in the others
+  * @param variation  amplitude of the perturbation
+  * @param lastCurve  last of the six colour spline segments in use: 1 in pbrt-v3, which
+  *   extrapolates it, 5 in the others
   *
   * Source: PBRT 3rd ed., §10.6.6.
   */
@@ -63,7 +63,7 @@ private object MarbleColors:
   )
   val Curves: Int = colors.length - 3
 
-  /** Brighter than the colours themselves, as pbrt has it, and never negative. */
+  /** Brightens the colours, following pbrt; the result is never negative. */
   private val Brightness = 1.5f
 
   def bezier(first: Int, t: Float): Rgb =

@@ -3,14 +3,14 @@ package candela.textures
 import candela.base.loop
 import candela.image.{ByteImage, Image, StoredImage}
 
-/** The pixels of an image texture as linear numbers, in as little memory as they came: one channel,
-  * or red, green and blue. Rows from the top.
+/** Pixels of an image texture as linear numbers, in the compact form of their file: one channel, or
+  * red, green and blue. Rows from the top.
   */
 abstract class Texels(val width: Int, val height: Int, val channels: Int):
-  /** @param texel counted row by row */
+  /** @param texel index in row order */
   def apply(texel: Int, channel: Int): Float
 
-/** Bytes with the meaning of their 256 values. */
+/** Bytes, decoded by a table of 256 values. */
 final class ByteTexels(w: Int, h: Int, channels: Int, bytes: Array[Byte], meaning: Array[Float])
     extends Texels(w, h, channels):
   def apply(texel: Int, channel: Int): Float = meaning(bytes(texel * channels + channel) & 0xff)
@@ -19,13 +19,13 @@ final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
     extends Texels(w, h, channels):
   def apply(texel: Int, channel: Int): Float = values(texel * channels + channel)
 
-/** Texels from pictures. `decode` takes a stored number (0 to 1 for 8 bits) to a linear one; it
-  * holds whatever the scene says of encoding, e.g. `image.encoding.decode`, or for pbrt-v2
-  * x ↦ (scale·x)^gamma.
+/** Reads texels from images. `decode` maps a stored number (0 to 1 for 8 bits) to a linear one; it
+  * includes the scene's choice of encoding, e.g. `image.encoding.decode`, or for pbrt-v2 x ↦
+  * (scale·x)^gamma.
   */
 object Texels:
 
-  /** For a colour texture; alpha is dropped, and one channel kept of a gray picture. */
+  /** Texels of a colour texture; drops alpha, and keeps one channel of a grey image. */
   def color(image: StoredImage, decode: Float => Float): Texels =
     val channels = image.colorChannels.toArray
     if isGray(image, channels) then single(image, channels(0), decode)
@@ -42,8 +42,8 @@ object Texels:
             loop(3)(c => values(3 * i + c) = decode(floats.data(i * floats.channels + channels(c))))
           FloatTexels(floats.width, floats.height, 3, values)
 
-  /** A number for each pixel, as pbrt-v2 and v3 make it: the luminance of the stored colours,
-    * decoded. The weights are those of pbrt's RGB colours.
+  /** A number per pixel, as in pbrt-v2 and v3: the luminance of the stored colours, decoded. The
+    * weights are those of pbrt's RGB colours.
     */
   def luminance(image: StoredImage, decode: Float => Float): Texels =
     val channels = image.colorChannels.toArray
@@ -52,8 +52,8 @@ object Texels:
       combined(image, channels): (r, g, b) =>
         decode(0.212671f * r + 0.715160f * g + 0.072169f * b)
 
-  /** A number for each pixel, as pbrt-v4 makes it: of a picture with alpha other than 1 the alpha
-    * (decoded like a colour), else the mean of the decoded colours.
+  /** A number per pixel, as in pbrt-v4: alpha (decoded like a colour) if the image has alpha other
+    * than 1, else the mean of the decoded colours.
     */
   def meanOrAlpha(image: StoredImage, decode: Float => Float): Texels =
     val channels = image.colorChannels.toArray

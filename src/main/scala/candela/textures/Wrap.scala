@@ -2,14 +2,16 @@ package candela.textures
 
 import candela.math.clamp
 
-/** What an image texture is outside the unit square. */
+/** Wrap mode of an image texture outside the unit square. */
 enum Wrap:
   case Repeat, Black, Clamp
 
-  /** The square is an octahedral map of the sphere: leaving it leads to where its edge is glued. */
+  /** The square is an octahedral map of the sphere: crossing an edge leads to the edge adjacent on
+    * the sphere.
+    */
   case OctahedralSphere
 
-  /** The index of texel (`x`, `y`), counted row by row, for any integers; −1: black. */
+  /** Index of texel (`x`, `y`) in row order, for any integers; −1 for black. */
   def index(x: Int, y: Int, width: Int, height: Int): Int =
     if x >= 0 && y >= 0 && x < width && y < height then y * width + x
     else
@@ -21,7 +23,7 @@ enum Wrap:
 
 object Wrap:
 
-  /** Each crossing of an edge mirrors about it and about the other axis' middle.
+  /** Each crossing of an edge reflects about it and about the midpoint of the other axis.
     *
     * Source: Clarberg, "Fast equal-area mapping of the (hemi)sphere using SIMD", JGT 13(3), 2008.
     */
@@ -30,6 +32,6 @@ object Wrap:
     val acrossY = (Math.floorDiv(y, height) & 1) != 0
     val inX = Math.floorMod(x, width)
     val inY = Math.floorMod(y, height)
-    // Both mirror both axes, so crossing two edges mirrors twice: back where it was.
+    // Either crossing reflects both axes, so two crossings cancel.
     if acrossX != acrossY then (height - 1 - inY) * width + (width - 1 - inX)
     else inY * width + inX
