@@ -53,7 +53,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
               scatter(w, point)
               t = walk.end
             else
-              meetNothing(w, point, mr, mg, mb, unit, 1f - chance)
+              collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
               if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
               if w.isDead then t = walk.end
     w.balance()
@@ -82,7 +82,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
             w.pass(mr * step, mg * step, mb * step)
             t += step
             at(walk, t, point)
-            meetNothing(w, point, mr, mg, mb, unit, 1f)
+            collideUnscattered(w, point, mr, mg, mb, unit, 1f)
             if w.brightest < VaryingMedium.Faint * w.lightDensity then
               w.gamble(work.random.next(), 0.5f)
             if w.isDead then t = walk.end
@@ -108,7 +108,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     * @param mr, mg, mb pdf of collisions, per unit of the ray's parameter
     * @param chance     the hero's probability of continuing; light sampling always continues
     */
-  private def meetNothing(
+  private def collideUnscattered(
       w: PathWeights,
       p: MediumPoint,
       mr: Float,

@@ -41,7 +41,7 @@ final class Scene(
     footprints: Option[Footprints] = None,
     report: Option[PathReport] = None
 ):
-  private val told: PathReport | Null = report.orNull
+  private val pathReport: PathReport | Null = report.orNull
 
   private val firstInstance = surfaces.count
   private val footprintRule: Footprints | Null = footprints.orNull
@@ -113,18 +113,18 @@ final class Scene(
 
   def bsdf(at: ShadingPoint): Bsdf =
     val made = materials(at.material).bsdf(at)
-    val report = told
+    val report = pathReport
     if report == null then made else report.scatters(at, made)
 
   /** Returns the same scene, reporting one path. */
   def reported(report: PathReport): Scene =
-    val telling = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))
+    val reportedLights = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))
     Scene(
       surfaces,
       instanced,
       accelerator,
       materials,
-      telling,
+      reportedLights,
       selection,
       sidesByGeometry,
       footprints,

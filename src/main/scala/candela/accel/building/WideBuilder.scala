@@ -201,10 +201,10 @@ private[building] final class WideWriter(
 
   /** Appends the children of `binary`, with `left` of `k` in its left subtree. */
   private def gather(binary: Int, left: Int, k: Int, boxes: Array[Int], count: Int): Int =
-    val some = hang(binary, 0, left, boxes, count)
-    hang(binary, 1, k - left, boxes, some)
+    val attached = collapseChild(binary, 0, left, boxes, count)
+    collapseChild(binary, 1, k - left, boxes, attached)
 
-  private def hang(parent: Int, side: Int, most: Int, boxes: Array[Int], count: Int): Int =
+  private def collapseChild(parent: Int, side: Int, most: Int, boxes: Array[Int], count: Int): Int =
     val child = tree.child(parent, side)
     var k = most
     if child >= 0 then while k > 1 && plan.choice(child, k) == 0 do k -= 1

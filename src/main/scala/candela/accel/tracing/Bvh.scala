@@ -31,13 +31,13 @@ final class Bvh(
 
   def closest(ray: Ray, hit: Hit): Boolean =
     hit.primitive = -1
-    walk(ray, hit, anyHit = false)
+    traverse(ray, hit, anyHit = false)
 
-  def isOccluded(ray: Ray, hit: Hit): Boolean = walk(ray, hit, anyHit = true)
+  def isOccluded(ray: Ray, hit: Hit): Boolean = traverse(ray, hit, anyHit = true)
 
   private inline def bits(at: Int): Int = java.lang.Float.floatToRawIntBits(nodes(at))
 
-  private inline def walk(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+  private inline def traverse(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = nodes
     val stack = ray.stack
     val ox = ray.ox

@@ -7,12 +7,12 @@ import candela.geometry.{Hit, Ray}
   * or small that Floats overflow. Slow, and rarely used.
   */
 private[tracing] object CarefulKernel extends WideKernel:
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = traverse(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = traverse(tree, ray, hit, true)
   def name: String = "careful"
 
-  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
-    isFinite(ray) && WideWalk.walk(
+  private inline def traverse(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+    isFinite(ray) && WideWalk.traverse(
       tree,
       tree.width,
       tree.lanes,

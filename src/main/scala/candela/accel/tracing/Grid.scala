@@ -84,11 +84,11 @@ final class Grid(primitives: Primitives) extends Accelerator:
 
   def closest(ray: Ray, hit: Hit): Boolean =
     hit.primitive = -1
-    walk(ray, hit, anyHit = false)
+    traverse(ray, hit, anyHit = false)
 
-  def isOccluded(ray: Ray, hit: Hit): Boolean = walk(ray, hit, anyHit = true)
+  def isOccluded(ray: Ray, hit: Hit): Boolean = traverse(ray, hit, anyHit = true)
 
-  private inline def walk(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+  private inline def traverse(ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     var found = false
     val entry = enter(ray)
     if entry >= 0.0 then

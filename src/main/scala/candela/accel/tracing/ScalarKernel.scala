@@ -11,19 +11,19 @@ import candela.geometry.{Hit, Ray}
   */
 private[tracing] object ScalarKernel extends WideKernel:
   def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, false)
-    else walk(tree, tree.width, tree.lanes, ray, hit, false)
+    if isNarrow(tree) then traverse(tree, 4, 4, ray, hit, false)
+    else traverse(tree, tree.width, tree.lanes, ray, hit, false)
 
   def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean =
-    if isNarrow(tree) then walk(tree, 4, 4, ray, hit, true)
-    else walk(tree, tree.width, tree.lanes, ray, hit, true)
+    if isNarrow(tree) then traverse(tree, 4, 4, ray, hit, true)
+    else traverse(tree, tree.width, tree.lanes, ray, hit, true)
 
   def name: String = "scalar"
 
   /** Constant sizes let the JVM unroll the loops. */
   private def isNarrow(tree: WideTree): Boolean = tree.width == 4 && tree.lanes == 4
 
-  private inline def walk(
+  private inline def traverse(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
@@ -31,21 +31,21 @@ private[tracing] object ScalarKernel extends WideKernel:
       hit: Hit,
       inline anyHit: Boolean
   ): Boolean =
-    WideWalk.walk(
+    WideWalk.traverse(
       tree,
       width,
       lanes,
       ray,
       hit,
       anyHit,
-      (node, limit) => met(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
-      corners => through(tree.blocks, corners, lanes, ray)
+      (node, limit) => childrenHit(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
+      corners => trianglesHit(tree.blocks, corners, lanes, ray)
     )
 
   /** Bit mask of the children that the ray hits. Of a slab's two distances the lesser one, as an
     * Int, is the near one, unless both are negative, and the slab is behind the origin.
     */
-  private inline def met(
+  private inline def childrenHit(
       b: Array[Float],
       node: Int,
       inline width: Int,
@@ -84,7 +84,7 @@ private[tracing] object ScalarKernel extends WideKernel:
   /** Bit mask of the block's lanes whose triangles may be hit: the Float part of
     * [[candela.shapes.TriangleTest]], operation by operation.
     */
-  private inline def through(v: Array[Float], corners: Int, inline lanes: Int, ray: Ray): Int =
+  private inline def trianglesHit(v: Array[Float], corners: Int, inline lanes: Int, ray: Ray): Int =
     val x = corners + ray.kx * lanes
     val y = corners + ray.ky * lanes
     val z = corners + ray.kz * lanes

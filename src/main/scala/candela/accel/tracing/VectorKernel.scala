@@ -33,13 +33,13 @@ private[tracing] object VectorKernel extends WideKernel:
   def isWorthIt: Boolean = W >= 4
   def name: String = s"vectors of $W"
 
-  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, false)
-  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = walk(tree, ray, hit, true)
+  def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = traverse(tree, ray, hit, false)
+  def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = traverse(tree, ray, hit, true)
 
-  private inline def walk(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
+  private inline def traverse(tree: WideTree, ray: Ray, hit: Hit, inline anyHit: Boolean): Boolean =
     val b = tree.nodes
     val t = tree.blocks
-    WideWalk.walk(
+    WideWalk.traverse(
       tree,
       N,
       W,
@@ -47,10 +47,10 @@ private[tracing] object VectorKernel extends WideKernel:
       hit,
       anyHit,
       (node, limit) =>
-        val low = met(b, node, limit, ray, 0, anyHit)
-        if N == W then low else low | (met(b, node + W, limit, ray, W, anyHit) << W)
+        val low = childrenHit(b, node, limit, ray, 0, anyHit)
+        if N == W then low else low | (childrenHit(b, node + W, limit, ray, W, anyHit) << W)
       ,
-      corners => through(t, corners, ray)
+      corners => trianglesHit(t, corners, ray)
     )
 
   /** One bit for each set lane. */
@@ -65,7 +65,7 @@ private[tracing] object VectorKernel extends WideKernel:
     * slab's two distances the lesser one, as an Int, is the near one, unless both are negative, and
     * the slab is behind the origin.
     */
-  private inline def met(
+  private inline def childrenHit(
       b: Array[Float],
       node: Int,
       limit: Int,
@@ -91,7 +91,7 @@ private[tracing] object VectorKernel extends WideKernel:
 
   // No vector lives longer than a node or a block: the JVM would store it to memory repeatedly, in
   // case it has to leave compiled code
-  private inline def through(t: Array[Float], corners: Int, ray: Ray): Int =
+  private inline def trianglesHit(t: Array[Float], corners: Int, ray: Ray): Int =
     // The Float part of TriangleTest, operation by operation
     val x = corners + ray.kx * W
     val y = corners + ray.ky * W

@@ -27,15 +27,15 @@ private[tracing] final class WarmUp:
     */
   private var pause = 0
 
-  /** Whether it is the caller's turn to run a trial; it must then call [[tell]]. */
-  def turn(): Boolean =
+  /** Whether it is the caller's turn to run a trial; it must then call [[record]]. */
+  def claimsTrial(): Boolean =
     if pause > 0 then
       pause -= 1
       false
     else isTrying.compareAndSet(false, true)
 
   /** Records the time that both kernels took for one ray. */
-  def tell(scalar: Long, fast: Long): Unit =
+  def record(scalar: Long, fast: Long): Unit =
     scalarNanos += scalar
     fastNanos += fast
     tries += 1

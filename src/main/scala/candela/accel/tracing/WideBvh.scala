@@ -26,12 +26,12 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience
 
   def closest(ray: Ray, hit: Hit): Boolean =
     hit.primitive = -1
-    walk(ray, WarmUp.closest, _.closest(tree, ray, hit), tryClosest(ray, hit))
+    traverse(ray, WarmUp.closest, _.closest(tree, ray, hit), tryClosest(ray, hit))
 
   def isOccluded(ray: Ray, hit: Hit): Boolean =
-    walk(ray, WarmUp.occluded, _.isOccluded(tree, ray, hit), tryOccluded(ray, hit))
+    traverse(ray, WarmUp.occluded, _.isOccluded(tree, ray, hit), tryOccluded(ray, hit))
 
-  private inline def walk(
+  private inline def traverse(
       ray: Ray,
       warmUp: WarmUp,
       inline by: WideKernel => Boolean,
@@ -42,7 +42,7 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience
     else if ray.walks < patience then
       ray.walks += 1
       by(ScalarKernel)
-    else if warmUp.turn() then attempt
+    else if warmUp.claimsTrial() then attempt
     else by(ScalarKernel)
 
   private def tryClosest(ray: Ray, hit: Hit): Boolean =
@@ -65,7 +65,7 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, patience
     ray.tMax = end
     hit.primitive = -1
     val found = by(fast)
-    warmUp.tell(middle - begin, System.nanoTime - middle)
+    warmUp.record(middle - begin, System.nanoTime - middle)
     found
 
 /** Traversal kernel for a [[WideTree]]. All kernels find bit-identical hits; rays and tree must be

@@ -18,7 +18,7 @@ import candela.shapes.TriangleTest
 private[tracing] object WideWalk:
 
   /** Any-hit or closest-hit traversal: see [[occluded]] and [[closest]]. */
-  inline def walk(
+  inline def traverse(
       tree: WideTree,
       inline width: Int,
       inline lanes: Int,
