@@ -29,7 +29,7 @@ private[build] final class BuildContext(
     * @param what subject of the warning
     */
   def stillSite(d: Declaration, toWorld: AnimatedTransform, what: String): Site =
-    if toWorld.isAnimated then problems.warn(d.at, Motions.stands(what))
+    if toWorld.isAnimated then problems.warn(d.at, Motions.notAnimated(what))
     site(d, toWorld.start)
 
   /** Builds the statement, or `default` if the statement is missing or invalid. */

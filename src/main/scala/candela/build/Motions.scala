@@ -42,4 +42,5 @@ private[build] object Motions:
   /** Whether the motion can be rendered. Others have no polar decomposition. */
   def moves(t: AnimatedTransform): Boolean = t.isAnimated && isAffine(t)
 
-  def stands(what: String): String = s"$what can't be animated; using the transform at the start"
+  def notAnimated(what: String): String =
+    s"$what can't be animated; using the transform at the start"

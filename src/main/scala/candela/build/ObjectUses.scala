@@ -31,7 +31,7 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
       objects += PlacedObject(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
     else
       if s.objectToWorld.isAnimated then
-        problems.warn(s.shape.at, Motions.stands("a shape under a perspective transform"))
+        problems.warn(s.shape.at, Motions.notAnimated("a shape under a perspective transform"))
       own += s
 
   for (name, uses) <- description.instances.groupBy(_.name).toVector.sortBy(_._1) do
@@ -59,7 +59,7 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
     val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
-        problems.warn(u.at, Motions.stands("a shape under a perspective transform"))
+        problems.warn(u.at, Motions.notAnimated("a shape under a perspective transform"))
       own ++= shapes.map(copied(_, u))
     val (moving, still) = shapes.partition(s => Motions.moves(s.objectToWorld))
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated

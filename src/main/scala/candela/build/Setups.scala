@@ -131,7 +131,7 @@ private[build] object CameraSetup:
       if fromWorld.start.isFlat then
         context.problems.error(c.at, "the camera's transform is singular")
       else if fromWorld.isAnimated && !Motions.moves(fromWorld) then
-        context.problems.warn(c.at, Motions.stands("this camera"))
+        context.problems.warn(c.at, Motions.notAnimated("this camera"))
     val plan = context.made(description.camera, Cameras.all, "perspective")
     val toWorld = fromWorld.start.inverse
     val motion = Motions(description).camera

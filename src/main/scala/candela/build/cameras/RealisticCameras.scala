@@ -126,7 +126,7 @@ private[build] object LensFile:
   /** Returns the surfaces, in metres, or an error message. */
   def read(path: Path): Either[String, Vector[LensSurface]] =
     try surfaces(Files.readString(path, ISO_8859_1))
-    catch case e: IOException => Left(s"cannot be read: ${e.getMessage}")
+    catch case e: IOException => Left(s"I/O error: ${e.getMessage}")
 
   private[build] def surfaces(text: String): Either[String, Vector[LensSurface]] =
     val lines = text.linesIterator.map(_.takeWhile(_ != '#').trim).zipWithIndex

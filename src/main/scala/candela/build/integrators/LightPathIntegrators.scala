@@ -103,14 +103,16 @@ object FunctionRecipe
 private[build] object BidirectionalPlans:
 
   /** @param name name of the integrator in the scene */
-  def plan(name: String, depth: Int, widens: Boolean = false)(using site: Site): IntegratorPlan =
+  def plan(name: String, depth: Int, regularizes: Boolean = false)(using
+      site: Site
+  ): IntegratorPlan =
     val most = Math.max(0, depth)
     val dialect = site.dialect
     val shown = if name == "bdpt" then name else s"bdpt for $name"
     IntegratorPlan(
-      (scene, _) => RenderMethod.SplattedTiles(v => tracer(scene, v, most, widens)(v.splats)),
+      (scene, _) => RenderMethod.SplattedTiles(v => tracer(scene, v, most, regularizes)(v.splats)),
       samplesBsdf = false,
-      s"$shown, up to $most scattering events" + (if widens then ", regularized" else ""),
+      s"$shown, up to $most scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         site.warn(
@@ -120,7 +122,7 @@ private[build] object BidirectionalPlans:
           scene,
           media,
           PathLimits(most, seesThrough = dialect == Dialect.V3),
-          WalkOptions(widens, subsurface = scene.hasSubsurface)
+          WalkOptions(regularizes, subsurface = scene.hasSubsurface)
         )
       ,
       throughVolumes = Some: (scene, _, march) =>
@@ -128,12 +130,12 @@ private[build] object BidirectionalPlans:
         PathTracer(scene, PathLimits(most), volumes = march)
     )
 
-  private def tracer(scene: Scene, view: View, depth: Int, widens: Boolean)(splats: Splats)(
+  private def tracer(scene: Scene, view: View, depth: Int, regularizes: Boolean)(splats: Splats)(
       using site: Site
   ): BidirectionalPathTracer =
     val compresses = site.dialect != Dialect.V2
     BidirectionalPathTracer(
-      scene, view.camera, splats, depth, RouletteAfter, compresses, widens
+      scene, view.camera, splats, depth, RouletteAfter, compresses, regularizes
     )
 
   /** Plan of [[MarkovChains]]. Media and volumes use the fallbacks above.
@@ -145,7 +147,7 @@ private[build] object BidirectionalPlans:
       depth: Int,
       mutations: Int,
       settings: MetropolisSettings,
-      widens: Boolean = false
+      regularizes: Boolean = false
   )(using site: Site): IntegratorPlan =
     val isV2 = site.dialect == Dialect.V2
     for
@@ -160,11 +162,11 @@ private[build] object BidirectionalPlans:
       site.error(s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}")
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
-    plan(name, depth, widens).copy(
+    plan(name, depth, regularizes).copy(
       method = (scene, _) =>
         RenderMethod.Chains(
-          v => MarkovChains(tracer(scene, v, most, widens), seeded, v),
-          v => tracer(scene, v, most, widens)(v.splats)
+          v => MarkovChains(tracer(scene, v, most, regularizes), seeded, v),
+          v => tracer(scene, v, most, regularizes)(v.splats)
         ),
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))

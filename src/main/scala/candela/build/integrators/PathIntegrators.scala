@@ -18,18 +18,18 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
-    val widens = regularize()
+    val regularizes = regularize()
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
         val wavelengths = Dispersions.wavelengths(scene)
         val subsurface = goesBeneath && scene.hasSubsurface
         RenderMethod.Tiles(
-          PathTracer(scene, limits, WalkOptions(widens, wavelengths, subsurface))
+          PathTracer(scene, limits, WalkOptions(regularizes, wavelengths, subsurface))
         )
       ,
       samplesBsdf = true,
-      s"$name, up to $depth scattering events" + (if widens then ", regularised" else ""),
+      s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = site.dialect == Dialect.V4,
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
@@ -38,7 +38,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           scene,
           media,
           limits,
-          WalkOptions(widens, subsurface = scene.hasSubsurface)
+          WalkOptions(regularizes, subsurface = scene.hasSubsurface)
         )
       ),
       throughVolumes = Some((scene, _, march) =>

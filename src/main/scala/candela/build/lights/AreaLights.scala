@@ -117,5 +117,5 @@ private[build] final case class MeshLights(
     val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
     val flat = samplers.count(s => !(s.area > 0f))
     if flat > 0 then
-      site.warn(s"$flat of $count triangles of this area light have no area; they are ignored")
+      site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
     samplers.map(s => holes.light(plan.ofTriangle(s), s))

@@ -126,7 +126,7 @@ private[build] object TensorFile:
   def read(path: Path): Either[String, Map[String, Tensor]] =
     try Right(fields(ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)))
     catch
-      case e: java.io.IOException => Left(s"cannot be read: ${e.getMessage}")
+      case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
       case _: java.nio.BufferUnderflowException => Left("unexpected end of file")
       case e: Malformed => Left(e.getMessage)
 

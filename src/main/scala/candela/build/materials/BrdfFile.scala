@@ -21,7 +21,7 @@ private[build] object BrdfFile:
   def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
     try if isText then scattered(path, toRgb) else table(path)
-    catch case e: java.io.IOException => Left(s"cannot be read: ${e.getMessage}")
+    catch case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
 
   private def scattered(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
     val words = Files

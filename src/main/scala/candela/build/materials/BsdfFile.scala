@@ -27,7 +27,7 @@ private[build] object BsdfFile:
       val size = Files.size(path)
       if size > Int.MaxValue then Left(s"size must be below 2 GiB, found $size bytes")
       else parse(Files.readAllBytes(path))
-    catch case e: java.io.IOException => Left(s"cannot be read: ${e.getMessage}")
+    catch case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
 
   def parse(bytes: Array[Byte]): Either[String, FourierTable] =
     val in = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)
