@@ -35,7 +35,7 @@ final class SingleLight extends LightSelection:
     out.probability = 1f
   def describe: String = "one light"
 
-/** Importance sampling over a binary tree of [[LightBounds]]: descends by the importance of the two
+/** Importance sampling over a light BVH of [[LightBounds]]: descends by the importance of the two
   * children; each light at infinity is as likely as the whole tree.
   *
   * Source: Conty Estevez and Kulla 2018, see [[LightBounds]].
@@ -59,7 +59,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
 
   if finite.nonEmpty then build(finite, 0L, 0): Unit
 
-  def describe: String = s"${lights.length} lights, by a tree of importance"
+  def describe: String = s"${lights.length} lights, sampled by importance (light BVH)"
 
   private val infiniteShare: Float =
     1f / Math.max(1, infinite.length + (if finite.isEmpty then 0 else 1))
@@ -162,7 +162,7 @@ object LightSelection:
 
 /** Light sampling strategy.
   *
-  * The choice affects noise only. `Importance` depends on position and normal (a light tree),
+  * The choice affects noise only. `Importance` depends on position and normal (a light BVH),
   * `Power` on the emitted power; `Uniform` samples all lights with equal probability.
   */
 enum LightStrategy:
@@ -199,10 +199,10 @@ object FixedSelection:
     // The power that a portal admits is unknown
     val weights = lights.zip(powers).map: (light, power) =>
       if power == 0f && light.isSampled && light.bounds.isEmpty then mean else power
-    FixedSelection(weights, s"${lights.length} lights, by power")
+    FixedSelection(weights, s"${lights.length} lights, sampled by power")
 
   def uniform(lights: Array[Light]): FixedSelection =
     FixedSelection(
       lights.map(l => if l.isSampled then 1f else 0f),
-      s"${lights.length} lights, all alike"
+      s"${lights.length} lights, sampled uniformly"
     )
