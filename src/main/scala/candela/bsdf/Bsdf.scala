@@ -3,57 +3,57 @@ package candela.bsdf
 import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
-/** How a point of a surface scatters light. Directions are unit vectors that point away from the
-  * surface, in a local frame whose +z is the shading normal. `wo` is where the radiance goes (to
-  * the camera), `wi` where it comes from. Immutable.
+/** The BSDF at a surface point. Directions are unit vectors that point away from the surface, in a
+  * local frame whose +z is the shading normal. `wo` is the direction towards the camera, `wi` the
+  * direction towards the light. Immutable.
   */
 abstract class Bsdf:
 
-  /** The value in sr⁻¹, without the cosine; black for perfectly specular scattering. */
+  /** The BSDF value in sr⁻¹, without the cosine; black for perfectly specular scattering. */
   def f(wo: Vec3, wi: Vec3): Rgb
 
-  /** The density, per solid angle, with which `sample` returns `wi`; 0 for specular scattering. */
+  /** The pdf of `sample` with respect to solid angle; 0 for specular scattering. */
   def pdf(wo: Vec3, wi: Vec3): Float
 
-  /** Draws `wi` for `wo`.
+  /** Samples `wi` given `wo`.
     *
-    * @param choice picks between lobes, in [0, 1)
-    * @return [[BsdfSample.Absorbed]] if nothing is scattered
+    * @param choice selects the lobe, in [0, 1)
+    * @return       [[BsdfSample.Absorbed]] if nothing is scattered
     */
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
 
-  /** The same, written to `out`. */
+  /** As [[sample]], written to `out`. */
   def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     out.take(sample(wo, choice, u1, u2))
 
-  /** Draws among the perfectly specular directions only: what Whitted's recursion follows. */
+  /** Samples perfectly specular directions only, for Whitted's recursion. */
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed
 
-  /** Only perfectly specular scattering: light sampling can't help. */
+  /** Whether all scattering is perfectly specular, so that light sampling can't contribute. */
   def isSpecular: Boolean
 
-  /** Does it scatter to the other side of the surface? */
+  /** Whether light is scattered to the other side of the surface. */
   def isTransmissive: Boolean
 
-  /** The same with its sharp lobes widened, so that light sampling finds what only chance would:
-    * for vertices behind a non-specular bounce of a path that is regularized.
+  /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
+    * them. Used at vertices after a non-specular bounce of a regularised path.
     *
     * Source: Kaplanyan and Dachsbacher, "Path Space Regularization for Holistic and Robust Light
     * Transport", Eurographics 2013; PBRT 4th ed., §13.4.1.
     */
   def regularized: Bsdf = this
 
-  /** Does it scatter wavelengths differently? */
+  /** Whether scattering depends on the wavelength (dispersion). */
   def isDispersive: Boolean = false
 
-  /** How it scatters one wavelength, in nm. Without asking for one, a dispersive BSDF has the index
-    * of refraction of some typical wavelength.
+  /** The BSDF at a single wavelength, in nm. A dispersive BSDF otherwise uses the index of
+    * refraction at a representative wavelength.
     */
   def atWavelength(nm: Float): Bsdf = this
 
-/** Scatters as `inner` does but for what a subclass overrides; one that changes what is scattered
-  * must change it in the regularized BSDF and at each wavelength, too.
+/** Delegates to `inner`. A subclass that changes the value must also override `regularized` and
+  * `atWavelength`.
   */
 abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi)
@@ -66,10 +66,11 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   override def isDispersive: Boolean = inner.isDispersive
   override def atWavelength(nm: Float): Bsdf
 
-/** @param weight     f·|cos θi|/pdf
-  * @param pdf        per solid angle; for a specular direction the probability of its choice
-  * @param eta        for transmission the index of refraction on the side of `wi` over that of
-  *                   `wo`, else 1
+/** @param weight f·|cos θi|/pdf
+  * @param pdf    with respect to solid angle; for a specular direction the probability of its
+  *               choice
+  * @param eta    relative index of refraction for transmission: on the side of `wi` over that of
+  *               `wo`; else 1
   */
 final class BsdfSample(
     val wi: Vec3,
@@ -80,12 +81,10 @@ final class BsdfSample(
 )
 
 object BsdfSample:
-  /** No direction: the path ends here. */
+  /** No direction: the path ends. */
   val Absorbed: BsdfSample = BsdfSample(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
 
-/** A [[BsdfSample]] in storage that is overwritten by the next one, so that a path allocates
-  * nothing. One per worker.
-  */
+/** A reusable, mutable [[BsdfSample]], so that paths allocate nothing. One per worker. */
 final class Bounce:
   private val ownWi = MutableVec3(0f, 0f, 1f)
   private val ownWeight = MutableRgb()
@@ -95,14 +94,15 @@ final class Bounce:
 
   def wi: MutableVec3 = ownWi
 
-  /** f·|cos θi|/pdf; black: the path ends here. */
+  /** f·|cos θi|/pdf; black ends the path. */
   def weight: Rgb = ownWeight.toRgb
 
-  /** Per solid angle; for a specular direction the probability of its choice. */
+  /** With respect to solid angle; for a specular direction the probability of its choice. */
   def pdf: Float = ownPdf
   def isSpecular: Boolean = ownIsSpecular
 
-  /** For transmission the index of refraction on the side of `wi` over that of `wo`, else 1. */
+  /** Relative index of refraction for transmission: on the side of `wi` over that of `wo`; else 1.
+    */
   def eta: Float = ownEta
 
   def set(wi: Vec3, weight: Rgb, pdf: Float, isSpecular: Boolean, eta: Float = 1f): Unit =
@@ -112,14 +112,14 @@ final class Bounce:
     ownIsSpecular = isSpecular
     ownEta = eta
 
-  /** Nothing is scattered. */
+  /** Sets the absorbed sample. */
   def absorb(): Unit = set(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
 
   def take(s: BsdfSample): Unit = set(s.wi, s.weight, s.pdf, s.isSpecular, s.eta)
 
   def toSample: BsdfSample = BsdfSample(wi.toVec3, weight, pdf, isSpecular, eta)
 
-/** A BSDF that draws its directions without garbage: what most surfaces are made of. */
+/** Base of BSDFs that sample without allocation; covers most surfaces. */
 abstract class LeanBsdf extends Bsdf:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit
 

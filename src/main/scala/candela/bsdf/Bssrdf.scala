@@ -2,28 +2,27 @@ package candela.bsdf
 
 import candela.color.Rgb
 
-/** How light that enters a surface at one place leaves it at another: it depends on their distance,
-  * and on the direction at either. Immutable.
+/** A separable BSSRDF: light enters at one point and exits at another, with a factor for their
+  * distance and one for the direction at each. Immutable.
   */
 abstract class Bssrdf:
 
-  /** The factor of light that went this far, for each unit of area; without what the surface does
-    * at either end.
+  /** The radial profile at `distance`, per unit area, without the surface terms at entry and exit.
     */
   def apply(distance: Float): Rgb
 
-  /** Draws the distance from an axis: of a channel that is drawn at random, a place in the plane
-    * around the axis has the density [[density]].
+  /** Samples the distance from the probe axis. With a uniformly chosen channel, points in the plane
+    * around the axis have the pdf [[density]].
     *
-    * @return below 0 if no light of this channel comes out
+    * @return below 0 if no light of this channel exits
     */
   def sample(channel: Int, u: Float): Float
 
-  /** For each unit of area. */
+  /** The pdf of [[sample]] with respect to area, averaged over the channels. */
   def density(radius: Float): Float
 
-  /** What [[sample]] returns is taken no farther than this: almost all is within. */
+  /** Truncation radius of [[sample]]; contains almost all of the profile. */
   def reach(channel: Int): Float
 
-  /** How the light gets in, seen from the medium: from all directions to straight up. */
+  /** BSDF of the entering light, seen from inside the medium. */
   def entry: Bsdf

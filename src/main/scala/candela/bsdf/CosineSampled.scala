@@ -3,12 +3,10 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.math.*
 
-/** Reflection whose directions are drawn by the cosine, because no better density is known; the
-  * same on both sides.
-  */
+/** Reflection with cosine-weighted sampling, for lack of a better pdf; the same on both sides. */
 abstract class CosineSampled extends LeanBsdf:
 
-  /** The value in sr⁻¹, for directions on one side. */
+  /** The BSDF value in sr⁻¹, for directions in the same hemisphere. */
   protected def value(wo: Vec3, wi: Vec3): Rgb
 
   final def f(wo: Vec3, wi: Vec3): Rgb =

@@ -5,12 +5,12 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
-/** Ideal diffuse scattering to both sides of a thin sheet, such as paper or a leaf.
+/** Ideal diffuse reflection and transmission by a thin sheet, such as paper or a leaf.
   *
-  * The side is drawn with probabilities proportional to the largest components.
+  * The side is sampled in proportion to the largest components.
   *
-  * @param reflectance   the fraction of the power that stays on the side it came from, in [0, 1]
-  * @param transmittance the fraction that passes; both together should not exceed 1
+  * @param reflectance   reflected fraction of the power, in [0, 1]
+  * @param transmittance transmitted fraction of the power; the sum of both should not exceed 1
   */
 final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends LeanBsdf:
   private val total = reflectance.max + transmittance.max
@@ -42,7 +42,7 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Le
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack
 
-/** [[DiffuseTransmission]]; textures times `scale` are held to [0, 1]. */
+/** [[DiffuseTransmission]]; textures times `scale` are clamped to [0, 1]. */
 final class DiffuseTransmissionMaterial(
     reflectance: RgbTexture,
     transmittance: RgbTexture,

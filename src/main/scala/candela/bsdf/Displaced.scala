@@ -4,18 +4,17 @@ import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
 import candela.textures.{FloatTexture, MipLevel}
 
-/** A material whose shading frame is turned at each point. */
+/** Base of materials that perturb the shading frame at each point. */
 abstract class DisplacedMaterial(inner: Material) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
   override def isDispersive: Boolean = inner.isDispersive
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
-/** A material on a surface that looks as if it were displaced along its normal: only the shading
-  * frame is turned.
+/** Bump mapping: perturbs the shading frame as if the surface were displaced along its normal.
   *
-  * @param height   of the displacement, in world units
-  * @param smallest step in u and v where the footprint is not known
+  * @param height   displacement, in world units
+  * @param smallest step in u and v where the ray footprint is unknown
   *
   * Source: Blinn, "Simulation of Wrinkled Surfaces", SIGGRAPH 1978.
   */
@@ -26,7 +25,7 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     val u = at.u
     val v = at.v
     val here = height(at)
-    // Half a step to the neighbouring samples, so that no detail is met that they would miss
+    // Half a sample spacing: finer detail would alias.
     val du = step(at.dudx, at.dudy)
     at.p = p + at.tangentU * du
     at.u = u + du
@@ -50,13 +49,13 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     val d = 0.5f * (Math.abs(dx) + Math.abs(dy))
     if d == 0f then smallest else d
 
-/** A material on a surface whose normals a picture says, as red, green and blue between 0 and 1 for
-  * coordinates along u, v and the normal between −1 and 1 (pbrt-v4).
+/** Normal mapping (pbrt-v4): red, green and blue in [0, 1] encode the components along u, v and the
+  * normal in [−1, 1].
   */
-final class NormalMapMaterial(inner: Material, picture: MipLevel)
+final class NormalMapMaterial(inner: Material, map: MipLevel)
     extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
-    val c = picture.bilinear(at.u, 1f - at.v)
+    val c = map.bilinear(at.u, 1f - at.v)
     val frame = Frame.along(at.frame.n, at.tangentU)
     val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
     if n.lengthSquared > 0f then

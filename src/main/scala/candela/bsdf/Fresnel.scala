@@ -3,9 +3,9 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.math.*
 
-/** Reflection and refraction of unpolarised light at an ideally flat interface.
+/** Fresnel reflection and refraction of unpolarised light at a smooth interface.
   *
-  * Worked in Double: near the critical angle and for metals of small `eta` the differences below
+  * Computed in Double: near the critical angle and for metals of small `eta` the differences below
   * lose up to half the digits of a Float (`FresnelSuite` compares with another form of the
   * equations).
   *
@@ -13,10 +13,10 @@ import candela.math.*
   */
 object Fresnel:
 
-  /** The fraction of the power that an interface of two transparent media reflects.
+  /** Fresnel reflectance of a dielectric interface.
     *
-    * @param cosThetaI cosine of the angle to the normal on the side light arrives from; negative if
-    *                  that is the inside: then `eta` is inverted
+    * @param cosThetaI cosine of the angle to the normal on the incident side; negative inside,
+    *                  which inverts `eta`
     * @param eta       index of refraction inside over that outside; greater than 0
     * @return          in [0, 1]; exactly 1 past the critical angle
     */
@@ -31,7 +31,7 @@ object Fresnel:
       val perpendicular = (cosI - n * cosT) / (cosI + n * cosT)
       (0.5 * (parallel * parallel + perpendicular * perpendicular)).toFloat
 
-  /** The cosine of the angle of refraction, at least 0; −1 if all light is reflected.
+  /** The cosine of the angle of refraction, at least 0; −1 for total internal reflection.
     *
     * @param cosThetaI cosine of the angle to the normal, in [0, 1]
     * @param eta       index beyond the interface over that before it
@@ -41,7 +41,7 @@ object Fresnel:
     val cos2T = 1.0 - Math.max(0.0, 1.0 - cosI * cosI) / (eta.toDouble * eta)
     if cos2T <= 0.0 then -1f else Math.sqrt(cos2T).toFloat
 
-  /** The direction in which light goes on, or came from, beyond the interface (Snell's law).
+  /** The refracted direction, by Snell's law.
     *
     * @param w    unit vector that points away from the interface, on the side of `m`
     * @param m    unit normal
@@ -52,22 +52,22 @@ object Fresnel:
   def refracted(w: Vec3, m: Vec3, cosI: Float, cosT: Float, eta: Float): Vec3 =
     val along = cosI / eta - cosT
     val across = -1f / eta
-    // Where the index falls by a factor, the rounding of both cosines grows by it
+    // Normalised, as a small `eta` amplifies the rounding of both cosines
     Vec3(w.x * across + m.x * along, w.y * across + m.y * along, w.z * across + m.z * along)
       .normalized
 
-  /** The fraction of the power that a metal reflects.
+  /** Fresnel reflectance of a conductor.
     *
-    * @param cosThetaI cosine of the angle to the normal; the sign doesn't matter
-    * @param eta       real part of the index of refraction, over that of the medium outside
-    * @param k         imaginary part (absorption), likewise
+    * @param cosThetaI cosine of the angle to the normal; its sign is ignored
+    * @param eta       real part of the index of refraction, relative to the medium outside
+    * @param k         imaginary part (absorption), relative to the medium outside
     */
   def conductor(cosThetaI: Float, eta: Float, k: Float): Float =
     val c = Math.min(Math.abs(cosThetaI.toDouble), 1.0)
     val n = eta.toDouble
     val kk = k.toDouble
     val s2 = 1.0 - c * c
-    // (a + ib)² = (n + ik)² − sin²θ. Of a² and b², the one that no difference spoils comes first.
+    // (a + ib)² = (n + ik)² − sin²θ. Computes first whichever of a² and b² avoids cancellation.
     val real = n * n - kk * kk - s2
     val modulus = Math.sqrt(real * real + 4.0 * n * n * kk * kk)
     val larger = Math.sqrt(0.5 * (modulus + Math.abs(real)))
@@ -88,14 +88,14 @@ object Fresnel:
       // At an index of 1 rounding leaves −1e-16
       Math.max(0.0, 0.5 * (perpendicular + parallel)).toFloat
 
-  /** `conductor` for each channel. */
+  /** [[conductor]] per channel. */
   def conductor(cosThetaI: Float, eta: Rgb, k: Rgb): Rgb = Rgb(
     conductor(cosThetaI, eta.r, k.r),
     conductor(cosThetaI, eta.g, k.g),
     conductor(cosThetaI, eta.b, k.b)
   )
 
-  /** `conductor`, approximately, for metals that absorb well: drops sin²θ beside `eta² + k²`.
+  /** Approximation of [[conductor]] for strongly absorbing metals: drops sin²θ beside `eta² + k²`.
     *
     * Source: PBRT 2nd ed., §8.2.1.
     */
@@ -108,35 +108,35 @@ object Fresnel:
     val perpendicular = if sum + twice == 0.0 then 1.0 else (sum - twice) / (sum + twice)
     (0.5 * (parallel + perpendicular)).toFloat
 
-/** How much a mirror, large or a microfacet, reflects at each angle. */
+/** Reflectance of a mirror or microfacet by the angle of incidence. */
 abstract class ReflectanceCurve:
 
   /** @param cosTheta cosine of the angle between light and mirror normal; negative if the light
-    *                 arrives from the inside of the surface
+    *                 arrives from inside
     */
   def apply(cosTheta: Float): Rgb
 
-/** Reflects all at every angle. */
+/** Reflectance 1 at every angle. */
 object FullReflectance extends ReflectanceCurve:
   def apply(cosTheta: Float): Rgb = Rgb.White
 
-/** The interface of two transparent media: [[Fresnel.dielectric]].
+/** A dielectric interface: [[Fresnel.dielectric]].
   *
   * @param eta      index of refraction inside over that outside
-  * @param oriented false if the inside looks like the outside
+  * @param oriented if false, both sides reflect as the outside
   */
 final class DielectricReflectance(eta: Float, oriented: Boolean = true) extends ReflectanceCurve:
   def apply(cosTheta: Float): Rgb =
     Rgb.gray(Fresnel.dielectric(if oriented then cosTheta else Math.abs(cosTheta), eta))
 
-/** A metal of the given complex index in each channel: [[Fresnel.conductor]]. */
+/** A conductor with a complex index of refraction per channel: [[Fresnel.conductor]]. */
 final class ConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurve:
   def apply(cosTheta: Float): Rgb = Fresnel.conductor(cosTheta, eta, k)
 
 object ConductorReflectance:
 
-  /** The metal with `eta` 1 that reflects `reflectance` (below 0.9999) at normal incidence, seen
-    * from a medium of index `outside`.
+  /** The conductor with `eta` 1 and the given reflectance (below 0.9999) at normal incidence, in a
+    * medium of index `outside`.
     */
   def ofReflectance(reflectance: Rgb, outside: Float = 1f): ConductorReflectance =
     ConductorReflectance(
@@ -146,7 +146,7 @@ object ConductorReflectance:
         2f * sqrt(bounded) / (sqrt(1f - bounded) * outside)
     )
 
-/** [[Fresnel.strongConductor]] in each channel. */
+/** [[Fresnel.strongConductor]] per channel. */
 final class StrongConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurve:
   def apply(cosTheta: Float): Rgb = Rgb(
     Fresnel.strongConductor(cosTheta, eta.r, k.r),
@@ -154,13 +154,16 @@ final class StrongConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurv
     Fresnel.strongConductor(cosTheta, eta.b, k.b)
   )
 
-/** A curve given by its values at equally spaced cosines, linear between them.
+/** Piecewise linear table over equally spaced cosines.
   *
   * @param values r, g, b at cosine 0 (grazing), then at the next, up to cosine 1; two or more
   *               triples
   */
 final class TabulatedReflectance(values: IArray[Float]) extends ReflectanceCurve:
-  require(values.length >= 6 && values.length % 3 == 0, s"${values.length} values are no curve")
+  require(
+    values.length >= 6 && values.length % 3 == 0,
+    s"`values` must be two or more triples, found ${values.length} numbers"
+  )
   private val last = values.length / 3 - 1
 
   def apply(cosTheta: Float): Rgb =
@@ -174,7 +177,7 @@ final class TabulatedReflectance(values: IArray[Float]) extends ReflectanceCurve
 
 object TabulatedReflectance:
 
-  /** The table of `curve` at `count` cosines; its error falls with the square of `count`. */
+  /** Tabulates `curve` at `count` cosines; its error falls with the square of `count`. */
   def of(count: Int)(curve: Float => Rgb): TabulatedReflectance =
     val triples = Vector.tabulate(count)(i => curve(i.toFloat / (count - 1).toFloat))
     TabulatedReflectance(IArray.from(triples.flatMap(c => Vector(c.r, c.g, c.b))))

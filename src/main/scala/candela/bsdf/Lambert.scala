@@ -5,9 +5,9 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
-/** Ideal diffuse reflection: the same radiance in every direction on the side the light came from.
+/** Ideal diffuse reflection: constant radiance in the hemisphere of the light.
   *
-  * @param albedo the fraction of the power that is reflected, in [0, 1]
+  * @param albedo reflected fraction of the power, in [0, 1]
   */
 final class Lambert(albedo: Rgb) extends LeanBsdf:
   private val value = albedo * InvPi
@@ -30,6 +30,6 @@ object Lambert:
   /** Scatters nothing. */
   val Black: Lambert = new Lambert(Rgb.Black)
 
-/** [[Lambert]]; `reflectance` is held to [0, 1]. */
+/** [[Lambert]]; `reflectance` is clamped to [0, 1]. */
 final class DiffuseMaterial(reflectance: RgbTexture) extends Material, Textured(reflectance):
   def bsdf(at: ShadingPoint): Bsdf = Lambert(reflectance.albedo(at))

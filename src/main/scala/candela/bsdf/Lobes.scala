@@ -3,17 +3,17 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.math.*
 
-/** The sum of several ways to scatter, at one place.
+/** A sum of BSDFs.
   *
-  * `sample` draws from one of them and weighs the direction with the density of all, unless it is
-  * specular: then no other lobe can have produced it.
+  * `sample` samples one lobe and combines the pdfs of all by MIS (one-sample balance heuristic),
+  * unless the direction is specular: no other lobe can have produced it.
   *
   * @param lobes         at least one
-  * @param probabilities with which each is drawn from; positive where the lobe is not black; sum 1
+  * @param probabilities of sampling each lobe; positive where the lobe is not black; sum 1
   */
 final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
-  /** The lobes and with which probability each is drawn from. */
+  /** The lobes and their sampling probabilities. */
   def parts: Seq[(Bsdf, Float)] = lobes.toSeq.zip(probabilities)
 
   def f(wo: Vec3, wi: Vec3): Rgb =
@@ -33,7 +33,7 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
     sum
 
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    // The last lobe also takes what rounding leaves of the interval.
+    // The last lobe also covers the rounding error of the sum.
     var i = 0
     var rest = choice
     while i < lobes.length - 1 && rest >= probabilities(i) do
@@ -57,7 +57,7 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if specular <= 0f then BsdfSample.Absorbed
     else
-      // As `sample`, but only the specular lobes share the interval
+      // As `sample`, restricted to the specular lobes
       var rest = choice * specular
       var chosen = -1
       var i = 0
@@ -80,23 +80,23 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
 object Lobes:
 
-  /** Collects lobes with a guess of their albedo, and makes the plainest [[Bsdf]] of them.
+  /** Collects lobes with estimated albedos and builds the simplest exact [[Bsdf]].
     *
-    * Half of the samples follow the guesses; the other half are shared equally, because at grazing
-    * angles gloss can be many times brighter than on average.
+    * Half of the samples follow the estimates. The other half are distributed equally, because
+    * glossy lobes can be many times brighter at grazing angles than on average.
     */
   final class Builder:
     private var lobes = Array.empty[Bsdf]
     private var albedos = Array.empty[Float]
 
-    /** Leaves out what scatters nothing. */
+    /** Skips black lobes. */
     def add(lobe: => Bsdf, albedo: Float): Builder =
       if albedo > 0f then
         lobes = lobes :+ lobe
         albedos = albedos :+ albedo
       this
 
-    /** Adds all that `bsdf` is made of, times `scale`. */
+    /** Adds the lobes of `bsdf`, times `scale`. */
     def addScaled(bsdf: Bsdf, scale: Rgb): Builder = bsdf match
       case several: Lobes =>
         for (lobe, share) <- several.parts do add(scaled(lobe, scale), share * scale.max)
@@ -113,7 +113,7 @@ object Lobes:
         val total = albedos.sum
         Lobes(lobes, albedos.map(a => 0.5f * a / total + 0.5f / lobes.length.toFloat))
 
-/** Scatters `scale` times what another does, in the same directions. */
+/** `inner` multiplied by `scale`. */
 final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
   override def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi) * scale
 
@@ -124,7 +124,7 @@ final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
   override def regularized: Bsdf = Scaled(inner.regularized, scale)
   override def atWavelength(nm: Float): Bsdf = Scaled(inner.atWavelength(nm), scale)
 
-/** Sends to the other side of the surface what `reflection` would send to this one.
+/** Transmits what `reflection` would reflect.
   *
   * Source: PBRT 2nd ed., §8.1 ("BRDFToBTDF").
   */

@@ -5,10 +5,10 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Textured}
 
-/** Diffuse reflection from a surface of V-shaped grooves, as of clay or the moon.
+/** Diffuse reflection by V-shaped grooves, as of clay or the moon.
   *
-  * @param albedo reflectance of the facets, in [0, 1]
-  * @param sigma  standard deviation of the angle of the facets, in degrees, in [0, 90]; 0 is
+  * @param albedo reflectance of the microfacets, in [0, 1]
+  * @param sigma  standard deviation of the microfacet angle, in degrees, in [0, 90]; 0 is
   *               [[Lambert]]
   *
   * Source: Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994: the
@@ -22,11 +22,11 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
   def f(wo: Vec3, wi: Vec3): Rgb =
     if Hemisphere.same(wo, wi) then albedo * (InvPi * shape(wo, wi)) else Rgb.Black
 
-  /** The value relative to that of a Lambertian surface. */
+  /** The value relative to a Lambertian surface. */
   private def shape(wo: Vec3, wi: Vec3): Float =
     val cosO = Hemisphere.absCos(wo)
     val cosI = Hemisphere.absCos(wi)
-    // sin α · tan β · cos Δφ: the sines cancel those of the azimuths but for one cosine.
+    // sin α · tan β · cos Δφ: the sines cancel those of the azimuths, leaving one cosine.
     val projected = wo.x * wi.x + wo.y * wi.y
     if projected <= 0f then a else a + b * projected / (if cosI > cosO then cosI else cosO)
 
@@ -41,7 +41,7 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
 
-/** Diffuse reflection; Oren and Nayar's where `sigma` (degrees, held to [0, 90]) isn't 0. */
+/** Diffuse reflection; [[OrenNayar]] where `sigma` (degrees, clamped to [0, 90]) is not 0. */
 final class MatteMaterial(kd: RgbTexture, sigma: FloatTexture)
     extends Material,
       Textured(kd, sigma):

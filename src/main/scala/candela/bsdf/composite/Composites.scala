@@ -11,18 +11,18 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{FloatTexture, RgbTexture, Textured}
 
-/** Which edition of PBRT's layered materials is meant. */
+/** Edition of PBRT that a composite material follows. */
 enum Edition:
 
-  /** The interface of plastic and uber is the inside of glass, seen from either side: all light is
-    * reflected beyond 42 degrees. Refraction doesn't change radiance.
+  /** Plastic and uber use the Fresnel term of the inside of glass on either side: total internal
+    * reflection beyond 42 degrees. Refraction doesn't scale radiance.
     */
   case Second
 
-  /** Plastic has the inside of glass outside (and the outside inside); uber is right. */
+  /** Plastic swaps the inside and outside of the interface; uber is right. */
   case Third
 
-/** Gloss on a diffuse base that doesn't know of it. */
+/** Sum of a diffuse and a glossy lobe, without energy exchange. */
 final class PlasticMaterial(
     kd: RgbTexture,
     ks: RgbTexture,
@@ -40,9 +40,7 @@ final class PlasticMaterial(
       .add(MicrofacetReflection(roughness(at), curve, gloss), gloss.max)
       .result
 
-/** Everything at once: diffuse base, gloss, mirror, refraction, and `opacity` to see through it
-  * all.
-  */
+/** Diffuse, glossy, specular reflection and transmission lobes under an `opacity`. */
 final class UberMaterial(
     kd: RgbTexture,
     ks: RgbTexture,
@@ -75,11 +73,11 @@ final class UberMaterial(
       .add(SmoothDielectric(index, mirror, clear, compresses = third), interface)
       .result
 
-/** A sheet that scatters to both sides, diffuse (`kd`) and glossy (`ks`); `reflect` and `transmit`
-  * say how much of each stays on its side and how much passes. All are held to be ≥ 0.
+/** A thin sheet with diffuse (`kd`) and glossy (`ks`) lobes. `reflect` and `transmit` scale their
+  * reflection and transmission. All are clamped to ≥ 0.
   *
-  * The gloss is a rough interface of index 1.5 (in PBRT 3), or a rough mirror of the same seen in
-  * both directions (in PBRT 2).
+  * The glossy lobe is a rough dielectric of index 1.5 (PBRT 3), or a rough mirror with the same
+  * Fresnel term, both reflected and transmitted (PBRT 2).
   */
 final class TranslucentMaterial(
     kd: RgbTexture,
@@ -117,9 +115,10 @@ final class TranslucentMaterial(
 object TranslucentMaterial:
   private inline val Index = 1.5f
 
-/** Two materials in one: `amount` (held to [0, 1], by colour) of the first, the rest of the second.
+/** Blend of two materials: `amount` (clamped to [0, 1], per channel) of the first, the rest of the
+  * second.
   *
-  * The normal that bumps give the first holds for both, as in PBRT 2 and 3.
+  * The shading normal of the first material is used for both, as in PBRT 2 and 3.
   */
 final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
     extends Material,
@@ -140,6 +139,6 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)
 
-  /** In a mixture, no surface is one that lets all light go straight on. */
+  /** Within a blend, an interface is a transparent lobe, not the absence of a surface. */
   private def scatter(material: Material, at: ShadingPoint): Bsdf =
     if material eq InterfaceMaterial then clear else material.bsdf(at)

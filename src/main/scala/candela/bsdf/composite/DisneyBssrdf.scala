@@ -7,16 +7,16 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.Textured
 
-/** Light below skin and the like as Disney's material has it: a profile fitted to what was traced,
-  * two exponentials whose integral is the colour.
+/** Disney's BSSRDF: a profile fitted to Monte Carlo references, two exponentials that integrate to
+  * the colour.
   *
   * Source: Burley, "Extending the Disney BRDF to a BSDF with Integrated Subsurface Scattering",
   * SIGGRAPH 2015 course, eq. 5; Christensen and Burley, "Approximate Reflectance Profiles for
-  * Efficient Subsurface Scattering", Pixar Technical Memo 15-04, 2015, whose way of sampling this
-  * is. What the surface does at either end is that of [[TabulatedBssrdf]], so in PBRT 3.
+  * Efficient Subsurface Scattering", Pixar Technical Memo 15-04, 2015, for the sampling. The
+  * surface terms at entry and exit are those of [[TabulatedBssrdf]], as in PBRT 3.
   *
-  * @param color    the part of light that comes out again
-  * @param distance the shape's parameter d, in scene units; a channel with 0 is black
+  * @param color    albedo of the profile
+  * @param distance shape parameter d, in scene units; a channel with 0 is black
   * @param eta      index of refraction inside over that outside
   */
 final class DisneyBssrdf(color: Rgb, distance: Rgb, eta: Float) extends Bssrdf:
@@ -41,27 +41,27 @@ final class DisneyBssrdf(color: Rgb, distance: Rgb, eta: Float) extends Bssrdf:
   def reach(channel: Int): Float = DisneyBssrdf.radius(lengths(channel), Reached)
 
 private object DisneyBssrdf:
-  /** The profile grows like 1/r. */
+  /** Lower clamp of the radius: the profile grows like 1/r. */
   private inline val Nearest = 1e-6f
 
-  /** As [[TabulatedBssrdf]]: of the slower exponential, more than a thousandth is left out. */
+  /** As in [[TabulatedBssrdf]]. Truncates more than a thousandth of the slower exponential. */
   private inline val Reached = 0.999f
 
-  /** For each unit of area, of colour 1. */
+  /** The normalised profile, per unit area. */
   private def profile(d: Float, r: Float): Float =
     if d > 0f then (exp(-r / d) + exp(-r / (3f * d))) / (8f * Pi * d * r) else 0f
 
-  /** A quarter of the light is in the steeper exponential. */
+  /** Samples the radius. The steeper exponential holds a quarter of the energy. */
   private def radius(d: Float, u: Float): Float =
     if !(d > 0f) then -1f
     else if u < 0.25f then -d * log1m(4f * u)
     else -3f * d * log1m((u - 0.25f) * (1f / 0.75f))
 
-  /** log(1 − x), for x held below 1. */
+  /** log(1 − x), for x clamped below 1. */
   private def log1m(x: Float): Float =
     Math.log1p(-Math.min(x, OneMinusEpsilon).toDouble).toFloat
 
-/** What is below the surface of [[DisneyMaterial]]. */
+/** The interior of [[DisneyMaterial]]. */
 final class DisneyInterior(p: DisneyParameters) extends Interior, Textured(p):
   def bssrdf(at: ShadingPoint): Bssrdf | Null =
     val distance = p.distance(at)
@@ -72,5 +72,5 @@ final class DisneyInterior(p: DisneyParameters) extends Interior, Textured(p):
       DisneyBssrdf(color, distance * DisneyInterior.Shape, p.eta(at))
 
 private object DisneyInterior:
-  /** The shape's d for a mean free path of 1, in PBRT 3. */
+  /** Shape parameter d for a mean free path of 1, as in PBRT 3. */
   private inline val Shape = 0.2f

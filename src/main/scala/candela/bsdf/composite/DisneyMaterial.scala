@@ -11,23 +11,23 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{ConstantRgb, FloatTexture, RgbTexture, Textured}
 
-/** What [[DisneyMaterial]] is made of, each from 0 to 1 unless said otherwise.
+/** Parameters of [[DisneyMaterial]], in [0, 1] unless stated otherwise.
   *
-  * @param color           of the surface; held to [0, 1]
+  * @param color           base colour; clamped to [0, 1]
   * @param metallic        0: dielectric, 1: metal
   * @param eta             index of refraction
-  * @param specularTint    how far a dielectric's highlights have the hue of the colour
-  * @param anisotropic     how much highlights are stretched
-  * @param sheen           of cloth, at grazing angles
-  * @param sheenTint       how far the sheen has the hue of the colour
-  * @param clearcoat       strength of a second, thin gloss
-  * @param clearcoatGloss  how sharp that is
-  * @param transmission    how much of the diffuse part is refracted instead
-  * @param isThin          is it a sheet of no thickness?
-  * @param flatness        of a sheet: how far the diffuse part looks flat
-  * @param diffTrans       of a sheet: how much of the diffuse part passes, 0 to 2
-  * @param scatterDistance mean free path below the surface, in scene units; 0: light leaves where
-  *                        it enters, as of a sheet
+  * @param specularTint    tint of dielectric highlights towards the hue of the base colour
+  * @param anisotropic     anisotropy of highlights
+  * @param sheen           grazing retro-reflection of cloth
+  * @param sheenTint       tint of the sheen towards the hue of the base colour
+  * @param clearcoat       strength of the clear coat lobe
+  * @param clearcoatGloss  glossiness of the clear coat
+  * @param transmission    fraction of the diffuse lobe replaced by refraction
+  * @param isThin          whether the surface is a thin sheet
+  * @param flatness        of a thin sheet: blend towards the flat diffuse lobe
+  * @param diffTrans       of a thin sheet: diffusely transmitted fraction, 0 to 2
+  * @param scatterDistance mean free path beneath the surface, in scene units; 0: no subsurface
+  *                        scattering, as for a thin sheet
   */
 final class DisneyParameters(
     val color: RgbTexture,
@@ -51,14 +51,14 @@ final class DisneyParameters(
     ):
   val distance: RgbTexture = if isThin then ConstantRgb(Rgb.Black) else scatterDistance
 
-  /** Does light anywhere leave elsewhere than it enters? */
+  /** Whether there is subsurface scattering anywhere. */
   val isSubsurface: Boolean = distance.constant.forall(!_.isBlack)
 
-  /** Highlights are stretched along the tangents. */
+  /** Anisotropic highlights need tangents. */
   override def isAnisotropic: Boolean = anisotropic.constant.forall(_ != 0f)
 
-/** The material that Disney's artists know, as PBRT 3 has it: a broad part, gloss between plastic
-  * and metal, a clear coat, and refraction.
+/** Disney's principled material, as in PBRT 3: diffuse lobes, a glossy lobe between plastic and
+  * metal, a clear coat, and refraction.
   *
   * Sources: Burley 2012 and 2015 (see [[DisneyDiffuse]]); PBRT 3, "disney".
   */
@@ -82,7 +82,7 @@ final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
     if broad > 0f then
       val base = if scatters then Rgb.Black else color * (broad * (1f - passing))
       addBroad(lobes, at, base, color * broad, broad, hue, roughness)
-    // Its colour is that of what comes out
+    // Uncoloured: the BSSRDF holds the colour
     val entering = if scatters then color.max * broad else 0f
     lobes.add(SmoothDielectric(eta, reflectance = Rgb.Black), entering)
 
@@ -102,8 +102,8 @@ final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
     lobes.add(DiffuseTransmission(Rgb.Black, through), through.max)
     lobes.result
 
-  /** @param base     colour of what leaves where it entered
-    * @param weighted colour, by the share of the broad part
+  /** @param base     colour of the light that exits where it entered
+    * @param weighted colour times the weight of the diffuse lobes
     */
   private def addBroad(
       lobes: Lobes.Builder,
@@ -123,11 +123,11 @@ final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
       else Rgb.Black
     lobes.add(
       DisneyDiffuse(base * (1f - flat), base * flat, weighted, cloth, roughness),
-      // What rough surfaces send back is little beside the rest
+      // Retro-reflection is small beside the rest
       Math.max(base.max, 0.1f * weighted.max) + 0.2f * cloth.max
     ): Unit
 
-  /** Of a sheet, the roughness depends on the index (Burley 2015, figure 15). */
+  /** For thin sheets the roughness depends on the index (Burley 2015, figure 15). */
   private def refraction(
       passed: Rgb,
       eta: Float,
@@ -141,13 +141,13 @@ final class DisneyMaterial(p: DisneyParameters) extends Material, Textured(p):
         val scaled = (0.65f * eta - 0.35f) * roughness
         TrowbridgeReitz(alpha(scaled, 1f / aspect), alpha(scaled, aspect))
       else facets
-    // Without a change of index, refraction bends nothing
+    // With matched indices, refraction bends nothing
     if eta == 1f then Passthrough(passed)
     else RoughDielectric(spread, eta, Rgb.Black, passed)
 
 object DisneyMaterial:
 
-  /** With what is beneath it, if light gets there. */
+  /** The material, with subsurface scattering if enabled. */
   def apply(p: DisneyParameters): Material =
     val surface = new DisneyMaterial(p)
     if p.isSubsurface then SubsurfaceMaterial(surface, DisneyInterior(p), alongTangents = true)

@@ -6,16 +6,16 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Varying}
 
-/** A hair as light meets it at one place across its width: reflected off the outside (R), passed
-  * through (TT), reflected once inside (TRT), and all that is reflected more often.
+/** The BSDF of a hair fibre at one offset across its width. Its lobes: surface reflection (R),
+  * transmission (TT), transmission with one internal reflection (TRT), and all higher orders.
   *
-  * The local x is the hair's own direction. Each part is a product of a lobe along the hair (Mp),
-  * one around it (Np), and the share of light that takes it (Ap).
+  * The local x axis is the direction of the fibre. Each lobe is a product of a longitudinal term
+  * (Mp), an azimuthal term (Np), and an attenuation (Ap).
   *
-  * @param h       where across the width the ray meets the hair, −1 to 1
-  * @param eta     index of refraction of the hair
-  * @param sigmaA  absorption coefficient inside, per unit of the hair's radius; ≥ 0
-  * @param shape   roughnesses and tilt
+  * @param h      offset of the intersection across the width, −1 to 1
+  * @param eta    index of refraction of the hair
+  * @param sigmaA absorption coefficient inside, per unit of the hair's radius; ≥ 0
+  * @param shape  roughnesses and scale tilt
   *
   * Sources: Marschner et al., "Light Scattering from Human Hair Fibers", SIGGRAPH 2003; d'Eon et
   * al., "An Energy-Conserving Hair Reflectance Model", EGSR 2011; Chiang et al., "A Practical and
@@ -25,9 +25,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
   import Hair.*
   private val gammaO = Math.asin(clamp(h, -1f, 1f).toDouble).toFloat
 
-  /** Sine and cosine of the angle to the plane across the hair, once the scales have tilted it for
-    * part `p`.
-    */
+  /** Sine and cosine of the longitudinal angle, rotated by the scale tilt for lobe `p`. */
   private def tiltedSin(sinO: Float, cosO: Float, p: Int): Float = p match
     case 0 => sinO * shape.cosTilt(1) - cosO * shape.sinTilt(1)
     case 1 => sinO * shape.cosTilt(0) + cosO * shape.sinTilt(0)
@@ -40,20 +38,20 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     case 2 => cosO * shape.cosTilt(2) - sinO * shape.sinTilt(2)
     case _ => cosO)
 
-  /** The angle around the axis at which the refracted ray goes on. */
+  /** Azimuthal angle of the refracted ray. */
   private def gammaT(sinO: Float, cosO: Float): Float =
     val etaP = safeSqrt(eta * eta - sinO * sinO) / Math.max(cosO, 1e-7f)
-    // Along a hair of index 1 nothing is bent, and both may be 0
+    // A ray along a fibre of index 1 is not refracted, and both may be 0
     val sine = if Math.abs(h) < etaP then h / etaP else Math.signum(h)
     Math.asin(sine.toDouble).toFloat
 
-  /** What a way once through the hair leaves of the light. */
+  /** Transmittance of one passage through the fibre. */
   private def transmitted(sinO: Float, gammaT: Float): Rgb =
     val cosT = safeSqrt(1f - square(sinO / eta))
     val way = 2f * Math.max(0f, cos(gammaT)) / Math.max(cosT, 1e-7f)
     sigmaA.map(s => exp(-s * way))
 
-  /** The share of the light that takes part `p`; `fresnel` is reflected at the outside. */
+  /** The attenuation Ap of lobe `p`; `fresnel` is the reflectance of the outside. */
   private def share(p: Int, fresnel: Float, t: Rgb): Rgb = p match
     case 0 => Rgb.gray(fresnel)
     case 1 => t * square(1f - fresnel)
@@ -122,7 +120,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
     while p < Parts do
       total += share(p, r, t).average
       p += 1
-    // Choose a part by its share, and use what is left of the number again
+    // Select a lobe by its attenuation, and remap the sample
     p = 0
     var rest = choice * total
     var own = share(0, r, t).average
@@ -162,28 +160,27 @@ object Hair:
 
   private def azimuth(w: Vec3): Float = Math.atan2(w.z.toDouble, w.y.toDouble).toFloat
 
-  /** By how much part `p` leaves turned around the hair. */
+  /** Azimuthal deflection of lobe `p`. */
   private def exit(p: Int, gammaO: Float, gammaT: Float): Float =
     2f * p.toFloat * gammaT - 2f * gammaO + p.toFloat * Pi
 
   private def wrapped(angle: Float): Float =
     angle - TwoPi * Math.round(angle / TwoPi).toFloat
 
-  /** The lobe along the hair, for the variance `v` (d'Eon et al. 2011, eq. 7), in Double: the
+  /** The longitudinal term for the variance `v` (d'Eon et al. 2011, eq. 7). Computed in Double: the
     * exponentials of a narrow lobe overflow Floats.
     */
   private def longitudinal(cosI: Float, cosO: Float, sinI: Float, sinO: Float, v: Float): Float =
     val a = cosI.toDouble * cosO / v
     val b = sinI.toDouble * sinO / v
-    // I0(a) e^{−b} / (2v sinh(1/v)), with e^{1/v} taken out of both
+    // I0(a) e^{−b} / (2v sinh(1/v)), with e^{1/v} factored out of both
     val scale = 1.0 / (v * -Math.expm1(-2.0 / v))
     (Bessel.scaledI0(a) * Math.exp(a - b - 1.0 / v) * scale).toFloat
 
-/** How rough a hair is and how its scales are tilted; the same all along a hair mostly, and so made
-  * once.
+/** Roughness and scale tilt of a hair. Precomputed where they are constant.
   *
-  * @param betaM roughness along the hair, 0 to 1
-  * @param betaN roughness around it, 0 to 1
+  * @param betaM longitudinal roughness, 0 to 1
+  * @param betaN azimuthal roughness, 0 to 1
   * @param alpha tilt of the scales, degrees
   *
   * Source of the fits: Chiang et al. 2016.
@@ -194,22 +191,22 @@ final class HairShape(betaM: Float, betaN: Float, alpha: Float):
     val first = square((0.726 * m + 0.812 * m * m + 3.7 * Math.pow(m, 20)).toFloat)
     Array(first, 0.25f * first, 4f * first, 4f * first)
 
-  /** Variance along the hair of part `p`. */
+  /** Longitudinal variance of lobe `p`. */
   def v(p: Int): Float = variances(p)
 
-  /** Scale of the logistic distribution around the hair. */
+  /** Scale of the azimuthal logistic distribution. */
   val azimuthal: Float =
     val n = clamp(betaN, 1e-2f, 1f).toDouble
     (Math.sqrt(Math.PI / 8) * (0.265 * n + 1.194 * n * n + 5.372 * Math.pow(n, 22))).toFloat
 
-  // Of 2^k times the tilt
+  // For 2^k times the tilt
   private val tilts = Array.tabulate(3)(k => Math.toRadians(alpha.toDouble) * (1 << k))
   private val sines = tilts.map(a => Math.sin(a).toFloat)
   private val cosines = tilts.map(a => Math.cos(a).toFloat)
   def sinTilt(k: Int): Float = sines(k)
   def cosTilt(k: Int): Float = cosines(k)
 
-/** The logistic distribution cut to [−π, π]. */
+/** The logistic distribution truncated to [−π, π]. */
 private[bsdf] object Logistic:
   private def cdf(x: Double, s: Float): Double = 1 / (1 + Math.exp(-x / s))
 
@@ -240,15 +237,15 @@ private[bsdf] object Bessel:
         (0.00916281 + t * (-0.02057706 + t * (0.02635537 + t * (-0.01647633 + t * 0.00392377)))))))
       p / Math.sqrt(x)
 
-/** What colours a hair. */
+/** Source of a hair's absorption. */
 enum Pigment extends Varying:
-  /** The absorption coefficient itself, per unit of the hair's radius. */
+  /** Absorption coefficient, per unit of the hair's radius. */
   case Absorption(sigmaA: RgbTexture)
 
-  /** The colour that a head of such hair has. */
+  /** Multiple-scattering colour of a volume of such hair. */
   case Color(reflectance: RgbTexture)
 
-  /** Concentrations of the pigments that colour it black and brown, and red. */
+  /** Concentrations of the pigments eumelanin (black and brown) and pheomelanin (red). */
   case Melanin(eumelanin: FloatTexture, pheomelanin: FloatTexture, basis: ColorBasis)
 
   def absorption(at: ShadingPoint, betaN: Float): Rgb = this match
@@ -269,14 +266,14 @@ object Pigment:
   private val Eumelanin = Rgb(0.419f, 0.697f, 1.37f)
   private val Pheomelanin = Rgb(0.187f, 0.4f, 1.05f)
 
-  /** The absorption of hair that looks like `color`, roughness `n` around (Chiang et al. 2016,
+  /** Absorption of hair with the apparent `color` and azimuthal roughness `n` (Chiang et al. 2016,
     * §4.2).
     */
   private[bsdf] def ofColor(color: Rgb, n: Float): Rgb =
     val fit = 5.969f + n * (-0.215f + n * (2.532f + n * (-10.73f + n * (5.574f + n * 0.245f))))
     color.map(c => square(log(clamp(c, 1e-4f, 1f)) / fit))
 
-/** [[Hair]] on a curve, whose v says where across the width the ray meets it. */
+/** [[Hair]] on a curve, whose v is the offset across its width. */
 final class HairMaterial(
     pigment: Pigment,
     eta: FloatTexture,

@@ -7,38 +7,38 @@ import candela.bsdf.{Fresnel, Hemisphere}
 import candela.bsdf.microfacet.TrowbridgeReitz
 import candela.math.*
 
-/** What gets through a clear coat and what it throws back inside, above a diffuse base.
+/** Transmittance and internal reflectance of a clear coat over a diffuse base.
   *
-  * Immutable, and independent of the colour of the base: materials share it ([[Coats]]).
+  * Immutable, and independent of the base colour, so that materials share instances ([[Coats]]).
   */
 abstract class Coat:
 
   /** Index of refraction of the coat over that outside. */
   def eta: Float
 
-  /** The fraction of the power from direction `w`, outside, that arrives at the base: refracted,
-    * and not absorbed on the way. Which side of the surface `w` lies on doesn't matter.
+  /** Fraction of the power from the outside direction `w` that reaches the base after refraction
+    * and absorption. The same for both hemispheres of `w`.
     */
   def transmittance(w: Vec3): Float
 
-  /** The average of `transmittance` over directions, weighted by the cosine. */
+  /** Cosine-weighted average of [[transmittance]]. */
   def meanTransmittance: Float
 
-  /** The fraction of the power that comes back to the base, which sends it evenly everywhere. */
+  /** Fraction of the power emitted diffusely by the base that returns to it. */
   def internalReflectance: Float
 
-  /** The coat of a surface that is regularized; see [[Bsdf.regularized]]. */
+  /** The coat of the regularised surface; see [[Bsdf.regularized]]. */
   def regularized: Coat
 
 object Coat:
 
-  /** What is left of light that crosses the coat once, at this cosine to the normal. */
+  /** Transmittance of one crossing of the coat at this cosine to the normal (Beer's law). */
   private[bsdf] def attenuation(thickness: Float, cosine: Float): Double =
     if thickness <= 0f then 1.0
     else if cosine <= 0f then 0.0
     else Math.exp(-thickness.toDouble / cosine)
 
-/** The coat with smooth sides: Fresnel's equations and Beer's law.
+/** A coat with smooth interfaces: Fresnel's equations and Beer's law.
   *
   * @param thickness in mean free paths of its absorption, at least 0
   */
@@ -70,11 +70,11 @@ private object SmoothCoat:
       sum += 2.0 * c * g(c.toFloat)
     (sum / n).toFloat
 
-/** The coat whose outer side is rough; what is scattered twice within the roughness is lost.
+/** A coat with a rough outer interface; multiple scattering within the roughness is lost.
   *
   * `transmittance` is a table over the square root of the cosine, because it changes fastest at
-  * grazing angles, and over the square of the azimuth's cosine if the roughness is anisotropic; off
-  * by at most 0.001 (`CoatSuite`).
+  * grazing angles, and over the square of the azimuth's cosine if the roughness is anisotropic. Its
+  * error is at most 0.001 (`CoatSuite`).
   */
 final class RoughCoat(top: TrowbridgeReitz, val eta: Float, thickness: Float) extends Coat:
   import RoughCoat.{Azimuths, Cosines}
@@ -147,10 +147,10 @@ private object RoughCoat:
         sum += kept * Coat.attenuation(thickness, up.z) * Coat.attenuation(thickness, down.z)
     (sum / n).toFloat
 
-/** Points that fill a cube of up to four dimensions evenly, for integrals at build time.
+/** Quasi-random points in up to four dimensions, for integrals precomputed at scene construction.
   *
-  * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: the additive
-  * recurrence of the powers of the real root of x⁵ = x + 1.
+  * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: the
+  * R-sequence, an additive recurrence of the powers of the real root of x⁵ = x + 1.
   */
 private object LowDiscrepancy:
   private val steps = Array.tabulate(5)(d => Math.pow(1.16730397826141868426, -d.toDouble))
@@ -160,23 +160,23 @@ private object LowDiscrepancy:
     val x = 0.5 + (index + 1) * steps(dimension)
     Math.min((x - Math.floor(x)).toFloat, OneMinusEpsilon)
 
-/** Makes [[Coat]]s for a scene and hands the same one to all who ask for the same; thread-safe. */
+/** Creates and caches the [[Coat]]s of a scene. Thread-safe. */
 final class Coats:
-  private val made = ConcurrentHashMap[(TrowbridgeReitzKey, Float, Float), Coat]
+  private val coats = ConcurrentHashMap[(TrowbridgeReitzKey, Float, Float), Coat]
   private val families = ConcurrentHashMap[(Float, Float), IArray[Coat]]
 
   private type TrowbridgeReitzKey = (Float, Float)
 
-  /** The coat with this outer side, and this absorption in mean free paths. */
+  /** The cached coat with the outer roughness `top` and a thickness in mean free paths. */
   def of(top: TrowbridgeReitz, eta: Float, thickness: Float): Coat =
-    made.computeIfAbsent(
+    coats.computeIfAbsent(
       ((top.alphaX, top.alphaY), eta, thickness),
       _ =>
         if top.isSmooth || eta == 1f then SmoothCoat(eta, thickness)
         else RoughCoat(top, eta, thickness)
     )
 
-  /** Coats of isotropic roughnesses from 0 to 1, denser towards 0: for [[Coats.between]]. */
+  /** Cached coats of isotropic roughnesses from 0 to 1, denser towards 0: for [[Coats.between]]. */
   def family(eta: Float, thickness: Float): IArray[Coat] =
     families.computeIfAbsent(
       (eta, thickness),
@@ -188,11 +188,11 @@ final class Coats:
 
 object Coats:
 
-  /** How finely `family` divides the square root of the roughness. */
+  /** Number of nodes of `family` over the square root of the roughness. */
   inline val Levels = 33
 
-  /** The coat of any roughness from 0 to 1, off by at most 0.003 (`CoatSuite`); for an anisotropic
-    * one, that of the geometric mean.
+  /** Interpolates the coat of any roughness from 0 to 1, with an error of at most 0.003
+    * (`CoatSuite`). Anisotropic roughnesses use their geometric mean.
     */
   def between(family: IArray[Coat], top: TrowbridgeReitz): Coat =
     val isotropic = top.alphaX == top.alphaY
@@ -201,7 +201,7 @@ object Coats:
     val i = Math.min(level.toInt, Levels - 2)
     BlendedCoat(family, top, i, level - i.toFloat)
 
-/** A coat between two others of its family: `t` of the way from the `i`th to the next. */
+/** Linear interpolation at `t` between the `i`th coat of a family and the next. */
 private final class BlendedCoat(family: IArray[Coat], top: TrowbridgeReitz, i: Int, t: Float)
     extends Coat:
   private val a = family(i)

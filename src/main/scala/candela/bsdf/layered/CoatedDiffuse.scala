@@ -7,19 +7,20 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
-/** A Lambertian base under a clear coat, with all the light that goes back and forth between them.
+/** A Lambertian base under a clear coat, with all interreflection between them.
   *
-  * The base forgets where light came from, so the sum over all paths separates: what enters from
-  * `wo`, times a geometric series of trips between base and coat, times what leaves to `wi`,
+  * The base scatters uniformly, so the sum over all paths separates: transmission along `wo`, a
+  * geometric series of reflections between base and coat, and transmission along `wi`,
   *
   *   f = f_top + T(wo) T(wi) / (π eta²) · albedo · Σ (albedo · R)^k,
   *
-  * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every lookup;
-  * `CoatedDiffuseSuite` checks against such a walk.
+  * with T and R of the [[Coat]]. PBRT 4 estimates the same sum by random walks inside every
+  * evaluation; `CoatedDiffuseSuite` checks against such a walk.
   *
-  * @param series   albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
-  * @param top      roughness of the outer side of the coat
-  * @param coat     what gets through; may stand for a roughness slightly different from `top`
+  * @param series albedo · Σ (albedo · R)^k, by colour, under any coat: see the companion
+  * @param top    roughness of the outer interface
+  * @param coat   transmittance and internal reflectance; its roughness may differ slightly from
+  *               `top`
   *
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
@@ -44,7 +45,7 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
         if cosM <= 0f then under
         else under + Rgb.gray(Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
 
-  /** The probability of sampling the outer side: its share of the reflected power. */
+  /** Probability of sampling the outer interface: its fraction of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =
     val under = meanBase * coat.transmittance(wo)
     if reflected + under > 0f then reflected / (reflected + under) else 0f
@@ -84,13 +85,13 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
 
-  // Kept: the series of a spectrum takes long
+  // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf = new CoatedDiffuse(series, top.regularized, coat.regularized)
 
 object CoatedDiffuse:
 
   /** @param albedo   of the base, in [0, 1]
-    * @param baseHits how often light may meet the base
+    * @param baseHits maximum number of reflections at the base
     */
   def apply(albedo: Rgb, top: TrowbridgeReitz, coat: Coat, baseHits: Int): CoatedDiffuse =
     new CoatedDiffuse(under => albedo.map(series(_, under, baseHits)), top, coat)
@@ -104,13 +105,13 @@ object CoatedDiffuse:
       k += 1
     sum
 
-/** [[CoatedDiffuse]]; `reflectance` is held to [0, 1].
+/** [[CoatedDiffuse]]; `reflectance` is clamped to [0, 1].
   *
   * @param thickness  in mean free paths of the coat's absorption
-  * @param baseHits   how often light may meet the base
-  * @param bySpectrum applies a function to the reflectance, wavelength by wavelength, if that is
-  *                   known: what goes back and forth under the coat grows faster than its colour.
-  *                   For surfaces that are the same everywhere, as it takes its time
+  * @param baseHits   maximum number of reflections at the base
+  * @param bySpectrum applies a function to the reflectance spectrum, wavelength by wavelength, if
+  *                   the spectrum is known: interreflection under the coat is not linear in colour.
+  *                   Expensive; used for constant surfaces only
   */
 final class CoatedDiffuseMaterial(
     reflectance: RgbTexture,
@@ -142,8 +143,8 @@ final class CoatedDiffuseMaterial(
 
 object CoatedDiffuseMaterial:
 
-  /** The material for what is between coat and base: layers are walked only if the medium scatters
-    * or its thickness varies.
+  /** The material for the given medium between coat and base. Random walks are used only if the
+    * medium scatters or its thickness varies.
     */
   def apply(
       reflectance: RgbTexture,
@@ -158,7 +159,7 @@ object CoatedDiffuseMaterial:
         thickness <- medium.thickness.constant
         _ <- medium.albedo.constant.filter(_.max <= 0f)
       yield
-        // Light meets the base first, then coat and base in turn
+        // Events alternate, starting at the base
         val hits = (medium.maxDepth + 1) / 2
         new CoatedDiffuseMaterial(
           reflectance, roughness, eta, thickness, hits, coats, bySpectrum

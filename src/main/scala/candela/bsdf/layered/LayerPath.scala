@@ -6,28 +6,27 @@ import candela.color.Rgb
 import candela.math.*
 import candela.sampling.SampleHash
 
-/** A walk at random between the base of a layered surface and its outer side. Mutable; local to
-  * one question about the surface.
+/** A random walk between the base and the outer interface of a layered surface. Mutable; local to
+  * one evaluation.
   *
-  * @param seed of all its random numbers
+  * @param seed seed of all its random numbers
   */
 private[bsdf] final class LayerPath(layers: Layers, seed: Long):
   private val top = layers.top
   private var counter = SampleHash.mix64(seed)
 
-  /** What is left of the power. */
   var throughput: Rgb = Rgb.White
 
-  /** Where it travels: upwards if z > 0. Zero: it has ended. */
+  /** Direction of propagation: upwards if z > 0; zero once the walk has ended. */
   var w: Vec3 = Vec3.Zero
 
-  /** Above the base, in mean free paths. */
+  /** Height above the base, in mean free paths. */
   var height: Float = layers.thickness
 
-  /** With which density `scatterAtBase` found `w`. */
+  /** The pdf with which `scatterAtBase` sampled `w`. */
   var basePdf: Float = 0f
 
-  /** Have all its turns so far been specular? */
+  /** Whether all scattering events so far were specular. */
   var isSpecular: Boolean = top.isSmooth
 
   def next(): Float =
@@ -36,15 +35,13 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
 
   def isOver: Boolean = w.z == 0f || throughput.isBlack
 
-  /** Goes down through the outer side. */
+  /** Enters through the outer interface. */
   def start(below: Vec3, weight: Float): Unit =
     w = below
     throughput = Rgb.gray(weight)
     height = layers.thickness
 
-  /** Goes on until something happens: a [[LayerPath.Base]], [[LayerPath.Top]] or
-    * [[LayerPath.Medium]].
-    */
+  /** Advances to the next event: [[LayerPath.Base]], [[LayerPath.Top]] or [[LayerPath.Medium]]. */
   def advance(): Int =
     val up = w.z > 0f
     val met = if up then LayerPath.Top else LayerPath.Base
@@ -75,16 +72,16 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
     isSpecular = false
     w = layers.phase.sample(-w, next(), next()).normalized
 
-  /** The outer side sends some of it back. */
+  /** Continues with the reflection at the outer interface, weighted by its reflectance. */
   def reflectAtTop(): Unit =
     val o = inside
     val m = top.facet(o, next(), next())
     reflect(o, m, Fresnel.dielectric(Math.max(o dot m, 0f), 1f / top.eta))
 
-  /** The outer side sends it back, or lets it go to the direction that is returned; zero: it
-    * doesn't.
+  /** Reflects at the outer interface, or transmits and returns the outgoing direction; zero if
+    * reflected.
     */
-  def meetTop(): Vec3 =
+  def scatterAtTop(): Vec3 =
     val o = inside
     val m = top.facet(o, next(), next())
     if next() < Fresnel.dielectric(Math.max(o dot m, 0f), 1f / top.eta) then
@@ -98,7 +95,7 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
         throughput = throughput * top.weight(o, i, m)
         Hemisphere.flipped(i)
 
-  /** Where it comes from, in a frame whose upper side is the inside. */
+  /** Reverse direction of propagation, in a frame whose upper hemisphere is the inside. */
   private def inside: Vec3 = Vec3(-w.x, -w.y, w.z)
 
   private def reflect(o: Vec3, m: Vec3, part: Float): Unit =
@@ -106,7 +103,7 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
     w = Hemisphere.flipped(i)
     if !i.isZero then throughput = throughput * (part * top.weight(o, i, m))
 
-  /** Ends it at random if little is left, after some events. */
+  /** Russian roulette, after more than 3 events and below a throughput of 0.25. */
   def roulette(events: Int): Unit =
     val left = throughput.max
     if events > 3 && left < 0.25f then
@@ -117,28 +114,28 @@ private[bsdf] object LayerPath:
   inline val Top = 1
   inline val Medium = 2
 
-/** The interface between the outside and the inside of a layered surface, seen from either.
+/** The interface of a layered surface, seen from either side.
   *
   * Directions are in a frame in which the side of `o` is above: `o.z` ≥ 0. `relative` is the index
-  * beyond the interface over that on the side of `o`. Powers are counted, not radiances: those
-  * differ by the square of the index, which a path that comes out again has gained and lost.
+  * beyond the interface over that on the side of `o`. Quantities are powers, not radiances: those
+  * differ by the square of the index, which cancels for a path that exits again.
   *
   * @param eta index of refraction inside over that outside; greater than 0
   */
 private[bsdf] final class Boundary(val distribution: TrowbridgeReitz, val eta: Float):
 
-  /** Without a change of index nothing is bent, however rough the interface. */
+  /** Without a change of index, light passes unrefracted at any roughness. */
   val isSmooth: Boolean = distribution.isSmooth || eta == 1f
 
-  /** A facet that `o` meets. */
+  /** Samples a microfacet visible from `o`. */
   def facet(o: Vec3, u1: Float, u2: Float): Vec3 =
     if isSmooth then Vec3.Z else distribution.sample(o, u1, u2)
 
-  /** What the roughness leaves of power that a drawn facet sends from `o` to `i`. */
+  /** Masking-shadowing weight of a sampled microfacet that scatters `o` to `i`. */
   def weight(o: Vec3, i: Vec3, m: Vec3): Float =
     if isSmooth then 1f else distribution.sampleWeight(o, i, m)
 
-  /** Where the facet sends `o` on the other side, with z < 0; zero if nowhere. */
+  /** Refracts `o` at the microfacet, to z < 0; zero if impossible. */
   def refracted(o: Vec3, m: Vec3, relative: Float): Vec3 =
     val cosM = o dot m
     val cosT = if cosM > 0f then Fresnel.cosRefracted(cosM, relative) else -1f
@@ -147,7 +144,7 @@ private[bsdf] final class Boundary(val distribution: TrowbridgeReitz, val eta: F
       val i = Fresnel.refracted(o, m, cosM, cosT, relative)
       if i.z < 0f then i else Vec3.Zero
 
-  /** Where the facet sends `o` on the same side; zero if nowhere. */
+  /** Reflects `o` at the microfacet; zero if impossible. */
   def reflected(o: Vec3, m: Vec3): Vec3 =
     val cosM = o dot m
     if cosM <= 0f then Vec3.Zero
@@ -155,8 +152,8 @@ private[bsdf] final class Boundary(val distribution: TrowbridgeReitz, val eta: F
       val i = Hemisphere.reflected(o, m, cosM)
       if i.z > 0f then i else Vec3.Zero
 
-  /** The part of the power that a facet of a rough interface sends from `o` to `i` beyond, per
-    * solid angle of `i` and cosine: the transmitted value times the square of the index.
+  /** The BTDF of the rough interface for power, without the cosine: the transmitted value times the
+    * square of the index.
     */
   def crossing(o: Vec3, i: Vec3): Float =
     val m = RoughDielectric.facet(o, i, eta)
@@ -166,9 +163,7 @@ private[bsdf] final class Boundary(val distribution: TrowbridgeReitz, val eta: F
       val spread = 4f * (o dot m) * RoughDielectric.jacobian(o, i, m, eta)
       passed * distribution.d(m) * distribution.visibility(o, i, m) * spread
 
-  /** The density, per solid angle of `i`, with which facets drawn for `o` send it there, of those
-    * that refract.
-    */
+  /** The pdf of `i`, per solid angle, for microfacets sampled for `o` that refract. */
   def crossingPdf(o: Vec3, i: Vec3): Float =
     val m = RoughDielectric.facet(o, i, eta)
     if m.isZero then 0f

@@ -6,16 +6,17 @@ import candela.color.Rgb
 import candela.math.*
 import candela.sampling.{HenyeyGreenstein, SampleHash}
 
-/** What a layered surface consists of: a base under an interface, and what is between them.
+/** The layers of a surface: a base, a medium, and an interface above.
   *
-  * @param base      reflects only, all wavelengths alike; in the medium between the layers
+  * @param base      BSDF of the base: reflective only and not dispersive
   * @param thickness of the medium, in mean free paths, at least 0
-  * @param albedo    of the medium: 0 only absorbs
-  * @param maxDepth  most events below the interface: at the base, in the medium, and back from the
-  *                  interface
-  * @param walks     that a value is the mean of, at least 1
-  * @param gloss     how rough a glossy base is: directions are looked for in a lobe like its own
-  * @param share     of the directions from below that are, in [0, 1); the rest goes by the cosine
+  * @param albedo    single-scattering albedo of the medium; 0 only absorbs
+  * @param maxDepth  maximum number of events below the interface: at the base, in the medium, and
+  *                  internal reflections
+  * @param walks     random walks averaged per evaluation, at least 1
+  * @param gloss     roughness of a glossy base, for the pdf of its lobe
+  * @param share     fraction of the pdf below the interface that is the lobe's, in [0, 1); the rest
+  *                  is cosine-weighted
   */
 final class Layers(
     topDistribution: TrowbridgeReitz,
@@ -33,9 +34,9 @@ final class Layers(
   private[bsdf] val phase = HenyeyGreenstein(clamp(asymmetry, -0.99f, 0.99f))
   val isClear: Boolean = albedo.isBlack || thickness <= 0f
 
-  /** The lobe of the base as it looks from outside. Refraction makes it wider by `eta`. Two
-    * passages through a rough interface bend light by (eta − 1) times the slope of the facets each,
-    * which looks like mirrors of half that slope.
+  /** Approximate lobe of the base seen from outside. Refraction widens it by `eta`. Each of the two
+    * passages through a rough interface deflects light by (eta − 1) times the microfacet slope,
+    * equivalent to reflection by microfacets of half that slope.
     */
   private[bsdf] val lobe: TrowbridgeReitz =
     def along(base: Float, interface: Float) =
@@ -52,21 +53,20 @@ final class Layers(
     walks, gloss.regularized, share
   )
 
-  /** What is left of light after this distance across, in mean free paths. */
+  /** Transmittance over this vertical distance, in mean free paths. */
   private[bsdf] def attenuation(distance: Float, w: Vec3): Float =
     Coat.attenuation(distance, Math.abs(w.z)).toFloat
 
-/** Any base under a rough or smooth interface, with a medium in between that absorbs and scatters:
-  * the mean of random walks.
+/** Any base under a rough or smooth interface, with an absorbing and scattering medium in between:
+  * an average of random walks.
   *
-  * Values are such means themselves, so each is a random number; which one, the directions and
-  * `seed` decide. Directions are drawn by walks, too: their weights are right on average, while
-  * `pdf` is only a guide to which of several ways to find a direction is best. Any such guide
-  * leaves the mean as it is.
+  * Values are Monte Carlo estimates, deterministic in the directions and `seed`. Directions are
+  * sampled by random walks, too. Their weights are unbiased; `pdf` is approximate and only steers
+  * MIS, which any such approximation leaves unbiased.
   *
   * Source: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary Layered BSDFs",
-  * SIGGRAPH Asia 2018; PBRT 4th ed., §14.3. Unlike there, the two ways to cross the interface are
-  * weighted by densities of the same variable, so that their weights sum to one.
+  * SIGGRAPH Asia 2018; PBRT 4th ed., §14.3. Unlike there, the two strategies for crossing the
+  * interface use densities in the same variable, so that their MIS weights sum to one.
   */
 final class Layered(layers: Layers, seed: Long) extends Bsdf:
   import Layered.*
@@ -89,7 +89,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
         val facets = top.distribution.d(m) * top.distribution.visibility(o, i, m)
         under + Rgb.gray(Fresnel.dielectric(o dot m, top.eta) * facets)
 
-  /** One walk from `o` that at each event looks for the way out to `i`. */
+  /** One random walk from `o` with a next-event connection to `i` at each event. */
   private def connected(o: Vec3, i: Vec3, seed: Long): Rgb =
     val path = LayerPath(layers, seed)
     val outer = top.facet(i, path.next(), path.next())
@@ -122,9 +122,9 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
               pdf = path.basePdf
             else
               path.throughput = path.throughput * layers.albedo
-              val turned = layers.phase.value(-path.w, exit)
-              val w = heuristic(exitPdf, turned)
-              val kept = w * turned * passed * layers.attenuation(distance, exit) / exit.z
+              val scattered = layers.phase.value(-path.w, exit)
+              val w = heuristic(exitPdf, scattered)
+              val kept = w * scattered * passed * layers.attenuation(distance, exit) / exit.z
               sum += path.throughput * kept
               if top.isSmooth && layers.base.isSpecular then
                 sum += path.throughput * mirrored(path, exit) * (passed / exit.z)
@@ -138,8 +138,8 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
                 sum += path.throughput * (w * crossing * layers.attenuation(distance, path.w))
       sum
 
-  /** What the medium at `path` sends to `exit` by way of a base that is a mirror, and on between
-    * it and a smooth interface: no walk finds these ways, as only one direction is right.
+  /** Light scattered in the medium at `path` towards `exit` via a specular base, including all
+    * further trips to a smooth interface. Random walks can't sample these specular paths.
     */
   private def mirrored(path: LayerPath, exit: Vec3): Rgb =
     val across = layers.attenuation(layers.thickness, exit)
@@ -151,7 +151,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     val reflected = Fresnel.dielectric(exit.z, 1f / top.eta)
     val trip = base * (reflected * across * across)
     val first = base * (down * across) + trip * up
-    // All further trips
+    // Geometric series of further trips
     first / trip.map(c => 1f - Math.min(c, 0.999f))
 
   private def transmitted(o: Vec3, m: Vec3): Float =
@@ -162,7 +162,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     else
       val o = Hemisphere.above(wo)
       val m = (o + Hemisphere.above(wi)).normalized
-      // Never all of it: at grazing angles, facets that turn to the light let it pass
+      // Below 1, since at grazing angles microfacets that face the light transmit it
       val reflected = Math.min(Fresnel.dielectric(o.z, top.eta), 0.95f)
       val share = layers.share
       val gloss = if share > 0f then share * MicrofacetReflection.pdf(layers.lobe, o, m) else 0f
@@ -198,9 +198,9 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       if !path.isOver then
         val met = path.advance()
         if met == LayerPath.Top then
-          val wi = path.meetTop()
+          val wi = path.scatterAtTop()
           if !wi.isZero then result = leave(wo, wi, path.throughput, path.isSpecular, chance)
-        // A smooth interface has not used the well-spread numbers
+        // A smooth interface leaves the stratified samples unused
         else if met == LayerPath.Base then
           if events == 0 && top.isSmooth then path.scatterAtBase(u1, u2)
           else path.scatterAtBase(path.next(), path.next())
@@ -211,8 +211,8 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
         if events > layers.maxDepth then path.w = Vec3.Zero
     result
 
-  /** @param i      above
-    * @param chance with which it was found, if specular
+  /** @param i      sampled direction in the upper hemisphere
+    * @param chance probability of the sample, if specular
     */
   private def leave(
       wo: Vec3,
@@ -232,15 +232,15 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
 
 private object Layered:
 
-  /** Mixes a direction, or any three numbers, into a seed. */
+  /** Hashes a direction, or any three numbers, into a seed. */
   def hash(seed: Long, v: Vec3): Long =
     val xy = bits(v.x).toLong << 32 | (bits(v.y) & 0xffffffffL)
     SampleHash.mix64(SampleHash.mix64(seed ^ xy) + bits(v.z))
 
   private def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
 
-  /** Weight of a direction found with density `a` that could have been found with `b`, or that
-    * nothing else can find (infinite `a`). Source: Veach 1997, §9.2.4, β = 2.
+  /** MIS weight (power heuristic) of a direction sampled with pdf `a` against pdf `b`; infinite `a`
+    * means that no other strategy can sample it. Source: Veach 1997, §9.2.4, β = 2.
     */
   def heuristic(a: Float, b: Float): Float =
     if a == Float.PositiveInfinity then 1f

@@ -6,13 +6,13 @@ import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
 
-/** What is between the base of a [[Layered]] surface and its interface.
+/** The medium between base and interface of a [[Layered]] surface.
   *
-  * @param thickness  in mean free paths; held to be ≥ 0
-  * @param albedo     held to [0, 1]
-  * @param asymmetry  of scattering
-  * @param maxDepth   see [[Layers]]
-  * @param walks      see [[Layers]]
+  * @param thickness in mean free paths; clamped to ≥ 0
+  * @param albedo    single-scattering albedo, clamped to [0, 1]
+  * @param asymmetry of the phase function
+  * @param maxDepth  see [[Layers]]
+  * @param walks     see [[Layers]]
   */
 final class LayerMedium(
     val thickness: FloatTexture,
@@ -22,7 +22,7 @@ final class LayerMedium(
     val walks: Int
 ) extends Textured(thickness, albedo, asymmetry):
 
-  /** Over a diffuse base. */
+  /** The layers over `base`; by default without a glossy lobe. */
   private[bsdf] def layers(
       top: TrowbridgeReitz,
       eta: Float,
@@ -46,11 +46,11 @@ final class LayerMedium(
 object LayerMedium:
   private[bsdf] val NoGloss = TrowbridgeReitz(1f, 1f)
 
-/** The layers of a surface, at each of its points. */
+/** The layers at each surface point. */
 abstract class LayersTexture extends Varying:
   def apply(at: ShadingPoint): Layers
 
-/** A diffuse base whose `reflectance` is held to [0, 1]. */
+/** Layers with a diffuse base; `reflectance` is clamped to [0, 1]. */
 final class DiffuseLayers(
     reflectance: RgbTexture,
     top: Roughness,
@@ -61,9 +61,9 @@ final class DiffuseLayers(
   def apply(at: ShadingPoint): Layers =
     medium.layers(top.trowbridgeReitz(at), eta, Lambert(reflectance.albedo(at)), at)
 
-/** A metal as base.
+/** Layers with a metal base.
   *
-  * @param metal how it reflects from within the coat
+  * @param metal reflectance from within the coat
   */
 final class ConductorLayers(
     metal: MetalTexture,
@@ -80,8 +80,8 @@ final class ConductorLayers(
     val base = Conductor(gloss, metal(at))
     medium.layers(top.trowbridgeReitz(at), eta, base, at, gloss, share)
 
-/** A surface whose layers are walked: at each point with random numbers of its own, so that it is
-  * never constant.
+/** A layered surface evaluated by random walks. Seeds vary by position, so the material is never
+  * constant.
   */
 final class LayeredMaterial(layers: LayersTexture) extends Material:
   private val fixed: Layers | Null = if layers.isConstant then layers(ShadingPoint()) else null
@@ -92,9 +92,10 @@ final class LayeredMaterial(layers: LayersTexture) extends Material:
 
   override def isAnisotropic: Boolean = layers.isAnisotropic
 
-/** A smooth metal under a smooth coat, which together are a mirror; regularized, they are walked.
+/** A smooth metal under a smooth coat, a perfect mirror in sum; if regularised, it is evaluated by
+  * random walks.
   *
-  * @param mirror all that goes back and forth between the two, summed
+  * @param mirror closed form of all interreflection
   * @param walked the same layers
   */
 final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Material:
@@ -106,11 +107,11 @@ private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBs
 
 object CoatedConductorMaterial:
 
-  /** A metal under a coat: smooth on smooth if that can be summed, else by walks between the two.
+  /** A coated conductor: closed form if both interfaces are smooth and it is known, else random
+    * walks.
     *
-    * @param metal    as seen from within the coat
-    * @param mirrored what a smooth metal and a smooth coat reflect together at the cosine, if that
-    *                 is known
+    * @param metal    reflectance from within the coat
+    * @param mirrored reflectance of a smooth metal under a smooth coat by cosine, if known
     */
   def apply(
       metal: MetalTexture,

@@ -5,19 +5,18 @@ import candela.color.Rgb
 import candela.math.*
 import candela.sampling.WarpTable
 
-/** Measured reflection in a parameterisation that follows the material: a table of facets' normals
-  * tells where to look, and the rest is measured there. Not reciprocal, as no measurement is.
+/** A measured BRDF in an adaptive parameterisation: the microfacet distribution warps the domain in
+  * which the rest is tabulated. Not reciprocal, as no measurement is.
   *
   * Tables are over the unit square: x is √(2θ/π) of a direction's angle to the normal, y its
-  * azimuth
-  * (from −π, over 2π). Those with parameters depend on the azimuth and angle of `wo`.
+  * azimuth (from −π, over 2π). Parameterised tables depend on the azimuth and angle of `wo`.
   *
-  * @param ndf         the density of normals
-  * @param sigma       the area of facets that a direction sees
-  * @param visible     the density of normals that `wo` sees
-  * @param luminance   a density over even points of `visible`, for sampling
-  * @param spectra     what is measured there, in three channels
-  * @param isIsotropic are azimuths those relative to that of `wo`?
+  * @param ndf         microfacet normal distribution
+  * @param sigma       projected microfacet area by direction
+  * @param visible     distribution of visible normals for `wo`
+  * @param luminance   sampling density over uniform points of `visible`
+  * @param spectra     measured values there, in three channels
+  * @param isIsotropic whether azimuths are relative to that of `wo`
   *
   * Source: Dupuy and Jakob, "An Adaptive Parameterization for Efficient Material Acquisition and
   * Rendering", SIGGRAPH Asia 2018.
@@ -49,10 +48,10 @@ final class AdaptiveReflection(
         Rgb(measured(x, y, 0), measured(x, y, 1), measured(x, y, 2))
           .map(c => Math.max(c * scale, 0f))
 
-  /** Where the tables have a facet.
+  /** Table coordinates of a microfacet.
     *
-    * @param o upper direction that sees it
-    * @param m its normal
+    * @param o direction in the upper hemisphere
+    * @param m microfacet normal
     */
   private final class Facet(o: Vec3, m: Vec3):
     val theta: Float = angle(o)
@@ -74,7 +73,7 @@ final class AdaptiveReflection(
       val place = facet.place
       val bright = luminance.Blend(facet.phi, facet.theta)
       val onSquare = place(facet.x, facet.y) * bright(place.x, place.y)
-      // From the square to solid angles of directions
+      // Jacobian from the unit square to solid angle
       val sine = sqrt(m.x * m.x + m.y * m.y)
       onSquare / (4f * (o dot m) * Math.max(2f * Pi * Pi * facet.x * sine, 1e-6f))
 
@@ -104,10 +103,10 @@ final class AdaptiveReflection(
 
 object AdaptiveReflection:
 
-  /** What is measured above holds below, turned about by both axes. */
+  /** Below the surface, the measurement applies rotated by 180 degrees about both axes. */
   private def upper(wo: Vec3, w: Vec3): Vec3 = if wo.z < 0f then -w else w
 
-  /** The angle to the normal, without the loss of digits of an arc cosine. */
+  /** The angle to the normal, without the cancellation of an arc cosine. */
   private def angle(w: Vec3): Float =
     Math.atan2(Math.sqrt(w.x.toDouble * w.x + w.y.toDouble * w.y), w.z.toDouble).toFloat
   private def azimuth(w: Vec3): Float = Math.atan2(w.y.toDouble, w.x.toDouble).toFloat

@@ -4,13 +4,14 @@ import candela.bsdf.{Bsdf, BsdfSample, Hemisphere}
 import candela.color.Rgb
 import candela.math.*
 
-/** How a surface scatters from each elevation to each other, as a Fourier series of the azimuth
-  * between them: f·|cos θi|.
+/** Tabulated scattering: for each pair of elevations a Fourier series f·|cos θi| in the azimuth
+  * difference.
   *
-  * @param cosines      rising from −1 to 1: of the direction in which the light moves, and of `wo`
-  * @param offsets      where the coefficients begin, for each cosine of `wo` and in it of the light
-  * @param counts       how many there are, for each channel
-  * @param coefficients of luminance; of three channels red and blue follow
+  * @param cosines      ascending from −1 to 1: of the light's propagation direction, and of `wo`
+  * @param offsets      index of the first coefficient, by cosine of `wo`, then by cosine of the
+  *                     light
+  * @param counts       number of coefficients of each series, per channel
+  * @param coefficients luminance; with three channels, red and blue follow
   * @param eta          index of refraction below the surface over that above
   */
 final class FourierTable(
@@ -23,20 +24,20 @@ final class FourierTable(
 ):
   private val size = cosines.length
 
-  /** Most coefficients of a channel. */
+  /** Maximum number of coefficients per channel. */
   val order: Int = counts.max
 
-  /** Of each series the mean over azimuths. */
+  /** Azimuthal average of each series. */
   val means: Array[Float] =
     Array.tabulate(size * size)(i => if counts(i) > 0 then coefficients(offsets(i)) else 0f)
 
-  /** For each cosine of `wo`, the mean over azimuths of all that it is scattered to. */
+  /** Integral of the averages over the light's cosine, by cosine of `wo`. */
   val sums: Array[Float] =
     means.grouped(size).map(CatmullRom.integrals(cosines, _).last).toArray
 
-  /** Sets `to` to the coefficients between the cosines, channels [[order]] apart.
+  /** Interpolates the coefficients between the cosines into `to`, channels [[order]] apart.
     *
-    * @return how many coefficients count; 0 if there is nothing
+    * @return number of coefficients; 0 if the cosines are outside the table
     */
   def series(light: Float, eye: Float, to: Array[Float]): Int =
     val lightWeights = new Array[Float](4)
@@ -71,7 +72,7 @@ final class FourierTable(
         k += 1
       c += 1
 
-/** Scattering by a [[FourierTable]].
+/** BSDF of a [[FourierTable]].
   *
   * Source: Jakob, d'Eon, Jakob, Marschner, "A Comprehensive Framework for Rendering Layered
   * Materials", SIGGRAPH 2014; PBRT 3rd ed., §8.6 and §14.1.4.
@@ -85,12 +86,12 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
     if count == 0 || Hemisphere.isLevel(wo, wi) then Rgb.Black
     else color(series, count, FourierBsdf.cosPhi(wi, wo)) * (1f / scale(wo, wi))
 
-  /** What turns f·|cos| as the table has it into f: refraction changes the solid angle. */
+  /** Divisor from the tabulated f·|cos| to f; includes the change of solid angle on refraction. */
   private def scale(wo: Vec3, wi: Vec3): Float =
     val cosine = Hemisphere.absCos(wi)
     if wo.z * wi.z >= 0f then cosine else cosine * square(relativeEta(wo))
 
-  /** The index on the other side over that on the side of `wo`. */
+  /** Index of refraction on the other side over that on the side of `wo`. */
   private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / table.eta else table.eta
 
   private def color(series: Array[Float], count: Int, cosPhi: Float): Rgb =
@@ -151,11 +152,11 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
   def isTransmissive: Boolean = true
 
 object FourierBsdf:
-  /** The cosine of the azimuth between where the light moves and `wo`. */
+  /** Cosine of the azimuth between the light's propagation direction and `wo`. */
   private def cosPhi(wi: Vec3, wo: Vec3): Float =
     val lengths = (wi.x * wi.x + wi.y * wi.y) * (wo.x * wo.x + wo.y * wo.y)
     if lengths == 0f then 1f
     else clamp(-(wi.x * wo.x + wi.y * wo.y) / sqrt(lengths), -1f, 1f)
 
-  /** Of luminance, red and blue, as the primaries of sRGB have it. */
+  /** Green from luminance, red and blue, for the sRGB primaries. */
   def green(y: Float, r: Float, b: Float): Float = 1.39829f * y - 0.100913f * b - 0.297375f * r

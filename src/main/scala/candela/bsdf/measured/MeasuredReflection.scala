@@ -5,12 +5,12 @@ import candela.bsdf.CosineSampled
 import candela.color.Rgb
 import candela.math.*
 
-/** Reflection measured for pairs of directions that lie anywhere: a mean of what was measured
-  * nearby.
+/** A BRDF from scattered measurements: a weighted average of nearby samples.
   *
-  * Pairs are points of the unit cube: (sin θi sin θo, the angle between the azimuths over π, cos θi
-  * cos θo), so that swapping the directions, or turning both, changes nothing. Each measurement
-  * weighs exp(−100 d²); those within a radius count, which grows until there are three.
+  * Direction pairs map to points of the unit cube: (sin θi sin θo, the angle between the azimuths
+  * over π, cos θi cos θo), which is invariant under exchange and rotation of the pair. Each
+  * measurement has weight exp(−100 d²). The search radius grows until it contains three
+  * measurements.
   *
   * @param points three coordinates of each measurement
   * @param values r, g, b of each, in sr⁻¹
@@ -23,7 +23,7 @@ final class ScatteredReflection(points: Array[Float], values: Array[Float])
   import ScatteredReflection.*
   private val count = points.length / 3
 
-  // A grid of cells; those of a cell are members(starts(cell)) until members(starts(cell + 1))
+  // Uniform grid; cell c holds members(starts(c)) until members(starts(c + 1))
   private val starts = new Array[Int](Cells * Cells * Cells + 1)
   private val members = new Array[Int](count)
 
@@ -82,7 +82,7 @@ object ScatteredReflection:
 
   private def cell(x: Float): Int = clamp(x * Cells, 0f, (Cells - 1).toFloat).toInt
 
-  /** The point of the cube that stands for a pair of directions. */
+  /** Maps a pair of directions to the unit cube. */
   def pair(wo: Vec3, wi: Vec3): Vec3 =
     val sinO = safeSqrt(1f - wo.z * wo.z)
     val sinI = safeSqrt(1f - wi.z * wi.z)
@@ -90,7 +90,7 @@ object ScatteredReflection:
     val angle = if turn > Pi then TwoPi - turn else turn
     Vec3(sinI * sinO, angle / Pi, wi.z * wo.z)
 
-/** Reflection in a table over the half vector's angle to the normal (90 rows, denser towards the
+/** A BRDF tabulated over the half vector's angle to the normal (90 rows, denser towards the
   * highlight) and the light's direction around the half vector (90 polar, 180 azimuthal angles).
   *
   * @param values r, g, b of each entry in sr⁻¹, the azimuth fastest

@@ -8,7 +8,7 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured, Varying}
 
-/** A metal or other opaque mirror, as rough as `distribution` says. */
+/** A rough or smooth conductor, or another opaque mirror. */
 object Conductor:
   def apply(
       distribution: MicrofacetDistribution,
@@ -18,25 +18,25 @@ object Conductor:
     if distribution.isSmooth then Mirror(scale, curve)
     else MicrofacetReflection(distribution, curve, scale)
 
-/** A metal. */
+/** A metal surface. */
 final class ConductorMaterial(metal: MetalTexture, roughness: Roughness)
     extends Material,
       Textured(metal, roughness):
   def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at))
 
-/** How a metal reflects, at each point of a surface. */
+/** Reflectance curve of a metal at each surface point. */
 abstract class MetalTexture extends Varying:
   def apply(at: ShadingPoint): ReflectanceCurve
 
-/** The same curve everywhere. */
+/** A constant reflectance curve. */
 final class UniformMetal(curve: ReflectanceCurve) extends MetalTexture:
   def apply(at: ShadingPoint): ReflectanceCurve = curve
   def isConstant: Boolean = true
 
-/** A metal of varying complex index of refraction.
+/** A metal of textured complex index of refraction.
   *
-  * @param outside index of the medium that it is in
-  * @param strong  by the approximation for metals that absorb well
+  * @param outside index of the surrounding medium
+  * @param strong  if true, uses the approximation for strongly absorbing metals
   */
 final class IndexedMetal(
     eta: RgbTexture,
@@ -50,9 +50,9 @@ final class IndexedMetal(
     val a = k(at) * (1f / outside)
     if strong then StrongConductorReflectance(n, a) else ConductorReflectance(n, a)
 
-/** A metal given by what it would reflect at normal incidence, were it outside.
+/** A metal given by its reflectance at normal incidence in air.
   *
-  * @param outside index of the medium that it is in
+  * @param outside index of the surrounding medium
   */
 final class TintedMetal(reflectance: RgbTexture, outside: Float = 1f)
     extends MetalTexture,
@@ -60,8 +60,8 @@ final class TintedMetal(reflectance: RgbTexture, outside: Float = 1f)
   def apply(at: ShadingPoint): ReflectanceCurve =
     ConductorReflectance.ofReflectance(reflectance(at), outside)
 
-/** A rough and a smooth metal on top of each other, by their reflectances at normal incidence (PBRT
-  * 2's "shinymetal"): each gets the index of refraction of the dielectric that reflects as much.
+/** Sum of a rough and a smooth metal, given by their reflectances at normal incidence (PBRT 2's
+  * "shinymetal"). Each has the index of refraction of the dielectric of equal reflectance.
   */
 final class ShinyMetalMaterial(ks: RgbTexture, kr: RgbTexture, roughness: Roughness)
     extends Material,

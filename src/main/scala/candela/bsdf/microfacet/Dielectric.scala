@@ -6,14 +6,14 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture, Textured}
 
-/** The rough interface of two transparent media: every facet reflects and refracts.
+/** A rough dielectric interface: each microfacet reflects and refracts.
   *
-  * What is scattered twice within the roughness is lost. Refraction scales radiance by the square
-  * of the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
+  * Multiple scattering within the roughness is lost. Refraction scales radiance by the square of
+  * the relative index, so that `f(wo, wi) · eta² = f(wi, wo)` for `wo` above and `wi` below.
   *
   * @param eta           index of refraction inside (below the surface) over that outside; not 1
-  * @param reflectance   multiplies the reflected light
-  * @param transmittance multiplies the refracted light
+  * @param reflectance   scale of the reflected light
+  * @param transmittance scale of the refracted light
   *
   * Source: Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
   */
@@ -28,10 +28,10 @@ final class RoughDielectric(
   private val maxReflectance = reflectance.max
   private val maxTransmittance = transmittance.max
 
-  /** The index on the other side over that on the side of `wo`. */
+  /** Index of refraction on the other side over that on the side of `wo`. */
   private def relativeEta(wo: Vec3): Float = if wo.z < 0f then 1f / eta else eta
 
-  /** The probability that a facet of this Fresnel term is chosen to reflect; NaN: it is black. */
+  /** Probability of sampling reflection given the Fresnel term; NaN if the surface is black. */
   private def reflects(fresnel: Float): Float =
     val r = fresnel * maxReflectance
     r / (r + (1f - fresnel) * maxTransmittance)
@@ -113,7 +113,7 @@ final class RoughDielectric(
 
 object RoughDielectric:
 
-  /** The facet that scatters `o` (above) to `i`; zero if none faces both.
+  /** The microfacet normal that scatters `o` (above) to `i`; zero if none is visible to both.
     *
     * @param relative index beyond the interface over that above it
     */
@@ -125,12 +125,12 @@ object RoughDielectric:
       val m = if unit.z < 0f then -unit else unit
       if (o dot m) > 0f && (i dot m) * i.z > 0f then m else Vec3.Zero
 
-  /** Solid angle of facet normals for that of refracted directions. */
+  /** Jacobian from refracted directions to microfacet normals. */
   private[bsdf] def jacobian(o: Vec3, i: Vec3, m: Vec3, relative: Float): Float =
     val cosI = i dot m
     Math.abs(cosI) / square(cosI + (o dot m) / relative)
 
-/** The interface of two transparent media, as rough as `distribution` says. */
+/** A rough or smooth dielectric interface. */
 object Dielectric:
   def apply(
       distribution: MicrofacetDistribution,
@@ -138,21 +138,21 @@ object Dielectric:
       reflectance: Rgb = Rgb.White,
       transmittance: Rgb = Rgb.White
   ): Bsdf =
-    // With next to no change of index nothing is bent, however rough the interface: by 1e-4 at
-    // most, and Float directions could not tell which facet did it.
+    // Nearly matched indices refract by at most 1e-4 at any roughness; Float directions can't
+    // resolve which microfacet did it.
     val isMatched = Math.abs(eta - 1f) < Matched
     if distribution.isSmooth || isMatched then SmoothDielectric(eta, reflectance, transmittance)
     else RoughDielectric(distribution, eta, reflectance, transmittance)
 
-  /** Of the index: media that differ by less are as good as the same. */
+  /** Difference of the relative index from 1 below which media count as matched. */
   private inline val Matched = 1e-4f
 
-/** Glass, water: reflects and refracts.
+/** Dielectrics such as glass and water.
   *
-  * @param kr        multiplies the reflected light
-  * @param kt        multiplies the refracted light
-  * @param eta       index of refraction inside over that outside; 0 is taken for 1
-  * @param roughness where it is not smooth, `compresses` must hold
+  * @param kr         scale of the reflected light
+  * @param kt         scale of the refracted light
+  * @param eta        index of refraction inside over that outside; 0 means 1
+  * @param roughness  must be smooth unless `compresses`
   * @param compresses see [[SmoothDielectric]]
   */
 final class DielectricMaterial(
@@ -174,30 +174,30 @@ final class DielectricMaterial(
 
 object DielectricMaterial:
 
-  /** That of PBRT 4. */
+  /** PBRT 4's dielectric. */
   def apply(eta: Float, roughness: Roughness): DielectricMaterial =
     new DielectricMaterial(White, White, ConstantFloat(eta), roughness)
 
-  /** That of PBRT 2: always smooth, and refraction doesn't change radiance. */
+  /** PBRT 2's glass: always smooth, and refraction doesn't scale radiance. */
   def old(kr: RgbTexture, kt: RgbTexture, eta: FloatTexture): DielectricMaterial =
     new DielectricMaterial(kr, kt, eta, Roughness.Smooth, compresses = false)
 
   private val White = ConstantRgb(Rgb.White)
 
-/** A surface that scatters each wavelength in a way of its own.
+/** A dispersive BSDF.
   *
-  * @param usual  what those see who don't ask for a wavelength
-  * @param single what one wavelength, in nm, does
+  * @param usual  BSDF of paths that carry all wavelengths
+  * @param single BSDF at one wavelength, in nm
   */
 final class Dispersive(usual: Bsdf, single: Float => Bsdf) extends WrappedBsdf(usual):
   override def isDispersive: Boolean = true
   override def atWavelength(nm: Float): Bsdf = single(nm)
   override def regularized: Bsdf = Dispersive(usual.regularized, nm => single(nm).regularized)
 
-/** Glass that splits light into its colours.
+/** Dispersive glass.
   *
   * @param eta   index of refraction inside over that outside, by wavelength in nm
-  * @param usual the one index for those who don't ask for a wavelength
+  * @param usual index for paths that carry all wavelengths
   */
 final class DispersiveMaterial(eta: Float => Float, usual: Float, roughness: Roughness)
     extends Material,

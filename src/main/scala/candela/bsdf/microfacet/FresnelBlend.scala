@@ -6,12 +6,12 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{RgbTexture, Textured}
 
-/** A diffuse base under a glossy coat, as of varnish: what the coat reflects, the base lacks.
+/** A diffuse base under a glossy coat; the base receives what the coat doesn't reflect.
   *
-  * Reciprocal. Each of the two is sampled half the time.
+  * Reciprocal. Each lobe is sampled with probability 1/2.
   *
   * @param diffuse  reflectance of the base, in [0, 1]
-  * @param specular reflectance of the coat at normal incidence, in [0, 1]; at grazing ones it is 1
+  * @param specular reflectance of the coat at normal incidence, in [0, 1]; 1 at grazing incidence
   *
   * Source: Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools
   * 5(2), 2000; with Schlick's approximation for the coat.
@@ -34,7 +34,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
         val schlick = specular + absent * fifthPower(1f - Math.min(cosM, 1f))
         under + schlick * (distribution.d(m) / (4f * cosM * Math.max(o.z, i.z)))
 
-  /** Roughly how much of the light at this cosine gets to the base, relative to the normal. */
+  /** Approximate transmittance to the base at this cosine, relative to normal incidence. */
   private def penetration(cosine: Float): Float = 1f - fifthPower(1f - 0.5f * cosine)
 
   private def fifthPower(x: Float): Float = square(x * x) * x
@@ -46,9 +46,9 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
       val m = (o + Hemisphere.above(wi)).normalized
       0.5f * (Hemisphere.cosinePdf(wi) + coatPdf(o, m))
 
-  /** Facets are drawn as they are seen from straight above: nothing in [[f]] shadows them, so that
-    * those which one sees from `wo` would rarely be the ones that matter near the horizon, and have
-    * weights of any size then.
+  /** Samples normals as seen along the surface normal: [[f]] has no masking or shadowing, so
+    * visible normals of `wo` would rarely match it near the horizon, and their weights would be
+    * unbounded.
     */
   private def coatPdf(o: Vec3, m: Vec3): Float =
     val cosM = o dot m
@@ -73,7 +73,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
   def isTransmissive: Boolean = false
   override def regularized: Bsdf = FresnelBlend(diffuse, specular, distribution.regularized)
 
-/** [[FresnelBlend]]; colours are held to be ≥ 0. */
+/** [[FresnelBlend]]; colours are clamped to ≥ 0. */
 final class SubstrateMaterial(kd: RgbTexture, ks: RgbTexture, roughness: Roughness)
     extends Material,
       Textured(kd, ks, roughness):

@@ -2,51 +2,51 @@ package candela.bsdf.microfacet
 
 import candela.math.*
 
-/** How the normals of the tiny mirrors of a rough surface are spread, and how these hide one
-  * another.
+/** A microfacet normal distribution with its masking-shadowing function.
   *
-  * `m` is a unit microfacet normal with `m.z` > 0. Of `wo` and `wi` only the sizes of the cosines
-  * count: the distribution looks the same from below.
+  * `m` is a unit microfacet normal with `m.z` > 0. Only the absolute cosines of `wo` and `wi`
+  * matter: the distribution is the same from below.
   *
   * Source of the names: Walter et al., "Microfacet Models for Refraction through Rough Surfaces",
   * EGSR 2007.
   */
 abstract class MicrofacetDistribution:
 
-  /** Area of facets with normal `m`, per unit of surface and solid angle of normals. */
+  /** The normal distribution function: area of microfacets with normal `m`, per unit of surface
+    * area and solid angle of normals.
+    */
   def d(m: Vec3): Float
 
-  /** G / (4 |cos θo cos θi|): the share of the facets of normal `m` that both directions see, in
-    * the form that stays finite at grazing angles wherever the model does.
+  /** G / (4 |cos θo cos θi|), where G is masking-shadowing, in a form that stays finite at grazing
+    * angles wherever the model does.
     */
   def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float
 
-  /** The density, per solid angle of normals, with which `sample` returns `m`. */
+  /** The pdf with which `sample` returns `m`, per solid angle of normals. */
   def pdf(wo: Vec3, m: Vec3): Float
 
-  /** Draws a normal for a `wo` with `wo.z` ≥ 0; not all models see to it that it faces `wo`. */
+  /** Samples a normal for a `wo` with `wo.z` ≥ 0; not all models guarantee that it faces `wo`. */
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3
 
-  /** d · G · (wo·m) / (|cos θo| · pdf): what is left of f·cos/pdf when a sampled facet reflects or
+  /** d · G · (wo·m) / (|cos θo| · pdf): f·cos/pdf for a sampled microfacet that reflects or
     * refracts `wo` to `wi` without loss.
     */
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float
 
-  /** So smooth that it should be treated as a perfect mirror. */
+  /** Whether to treat the surface as perfectly specular. */
   def isSmooth: Boolean
 
-  /** That of [[Bsdf.regularized]]. Those which only older versions of PBRT have stay as they are:
-    * no integrator of theirs asks.
+  /** The distribution of [[Bsdf.regularized]]. Distributions that exist only in older versions of
+    * PBRT are unchanged: their integrators don't regularise.
     */
   def regularized: MicrofacetDistribution = this
 
-/** The normals of an ellipsoid (also called GGX): a narrow peak with long tails.
+/** The Trowbridge–Reitz (GGX) distribution, of an ellipsoid: a narrow peak with long tails.
   *
-  * Shadowing and masking after Smith, correlated in height. Normals are sampled in proportion to
-  * the area that `wo` sees.
+  * Height-correlated Smith masking-shadowing. Samples visible normals.
   *
   * @param alphaX roughness along x (∂p/∂u): the root mean square slope of the core, unitless
-  * @param alphaY the same along y
+  * @param alphaY roughness along y
   *
   * Sources: Trowbridge and Reitz, "Average irregularity representation of a rough surface for ray
   * reflection", JOSA 65, 1975; Heitz, "Understanding the Masking-Shadowing Function in
@@ -57,12 +57,13 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
 
   val isSmooth: Boolean = Math.max(alphaX, alphaY) < TrowbridgeReitz.SmoothBelow
 
-  /** Twice as rough, but at least 0.1; from 0.3 on as it is (PBRT 4th ed., §13.4.1). */
+  /** Doubles the roughness, clamped to [0.1, 0.3]; unchanged from 0.3 on (PBRT 4th ed., §13.4.1).
+    */
   override def regularized: TrowbridgeReitz =
     if alphaX >= TrowbridgeReitz.Regular && alphaY >= TrowbridgeReitz.Regular then this
     else TrowbridgeReitz(TrowbridgeReitz.widened(alphaX), TrowbridgeReitz.widened(alphaY))
 
-  // One rough direction is enough to need the other: keeps d finite.
+  // Roughness in one direction requires a minimum in the other, to keep d finite.
   private val ax = Math.max(alphaX, TrowbridgeReitz.LeastAlpha)
   private val ay = Math.max(alphaY, TrowbridgeReitz.LeastAlpha)
 
@@ -99,28 +100,28 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
 
 object TrowbridgeReitz:
 
-  /** That of a smooth surface which is regularized. */
+  /** The distribution of a regularised smooth surface. */
   val RegularizedMirror: TrowbridgeReitz = TrowbridgeReitz(0f, 0f).regularized
 
-  /** The least roughness that regularization leaves as it is. */
+  /** Minimum roughness that regularisation leaves unchanged. */
   private inline val Regular = 0.3f
 
   private def widened(alpha: Float): Float =
     if alpha < Regular then clamp(2f * alpha, 0.1f, Regular) else alpha
 
-  /** Where PBRT 4 begins to treat a surface as perfectly smooth. */
+  /** Roughness below which PBRT 4 treats a surface as perfectly smooth. */
   inline val SmoothBelow = 1e-3f
 
-  /** The least roughness along one axis of a surface that is rough along the other. */
+  /** Minimum roughness along one axis of a surface that is rough along the other. */
   inline val LeastAlpha = 1e-4f
 
-/** Normals spread like a power of their cosine: Blinn's distribution and its anisotropic form.
+/** Blinn microfacet distribution (cosine power) and its anisotropic form.
   *
-  * Shadowing and masking by V-shaped grooves (Torrance and Sparrow). Normals are sampled without
-  * regard to `wo`; those that face away from it are lost.
+  * V-groove masking-shadowing (Torrance and Sparrow). Normals are sampled independently of `wo`;
+  * those that face away from it are lost.
   *
-  * @param exponentX along x (∂p/∂u), at least 0; the surface is the smoother, the higher
-  * @param exponentY the same along y
+  * @param exponentX along x (∂p/∂u), at least 0; higher is smoother
+  * @param exponentY along y
   *
   * Sources: Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977;
   * Ashikhmin and Shirley, "An Anisotropic Phong BRDF Model", Journal of Graphics Tools 5(2), 2000;
@@ -128,7 +129,7 @@ object TrowbridgeReitz:
   */
 final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDistribution:
 
-  // Double: (1 − sin²θ)^(e/2) with an exponent of 10⁴ would keep 3 digits of a Float.
+  // Double: (1 − sin²θ)^(e/2) with an exponent of 10⁴ would lose all but 3 digits of a Float.
   private val ex = CosinePower.bounded(exponentX).toDouble
   private val ey = CosinePower.bounded(exponentY).toDouble
   private val area = Math.sqrt((ex + 2.0) * (ey + 2.0)) / (2.0 * Math.PI)
@@ -139,7 +140,7 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
 
   def d(m: Vec3): Float = (area * power(m)).toFloat
 
-  /** cosθ to the exponent of the azimuth of `m`. */
+  /** cosθ to the power of the exponent at the azimuth of `m`. */
   private def power(m: Vec3): Double =
     val x2 = m.x.toDouble * m.x
     val y2 = m.y.toDouble * m.y
@@ -165,7 +166,7 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
     val y = Math.sqrt(ex + 1.0) * Math.sin(angle)
     val length2 = x * x + y * y
     val exponent = (ex * x * x + ey * y * y) / length2
-    // 1 − u2 is never 0, so that the cosine isn't either.
+    // 1 − u2 is never 0, so neither is the cosine.
     val cos2 = Math.pow(1.0 - u2, 2.0 / (exponent + 1.0))
     val r = Math.sqrt(Math.max(0.0, 1.0 - cos2) / length2)
     Vec3((r * x).toFloat, (r * y).toFloat, Math.sqrt(cos2).toFloat)
@@ -175,11 +176,11 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
 
 object CosinePower:
 
-  /** The same in every azimuth: Blinn's distribution. */
+  /** The isotropic form: Blinn's distribution. */
   def apply(exponent: Float): CosinePower = new CosinePower(exponent, exponent)
 
-  /** The highest exponent in use, for surfaces that are said to have no roughness at all. */
+  /** Upper clamp of the exponent, used for a roughness of 0. */
   inline val Highest = 10000f
 
   private def bounded(exponent: Float): Float =
-    if exponent <= Highest then Math.max(exponent, 0f) else Highest // NaN, too, is the highest
+    if exponent <= Highest then Math.max(exponent, 0f) else Highest // NaN clamps to it, too

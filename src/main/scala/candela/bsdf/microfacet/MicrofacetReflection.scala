@@ -4,9 +4,9 @@ import candela.bsdf.{Bounce, Bsdf, Hemisphere, LeanBsdf, ReflectanceCurve}
 import candela.color.Rgb
 import candela.math.*
 
-/** Reflection by a rough surface of tiny mirrors, the same on both sides but for what `curve` says.
+/** Torrance–Sparrow microfacet reflection, the same on both sides except for `curve`.
   *
-  * @param scale multiplies what `curve` says the facets reflect
+  * @param scale scale of the microfacet reflectance `curve`
   *
   * Source: Torrance and Sparrow, "Theory for Off-Specular Reflection From Roughened Surfaces", JOSA
   * 57, 1967; PBRT 4th ed., §9.6.
@@ -24,8 +24,8 @@ final class MicrofacetReflection(
       val i = Hemisphere.above(wi)
       val m = (o + i).normalized
       val cosM = o dot m
-      // Both nearly level and opposite: rounding has put the facet's normal beside them, and no
-      // such direction is drawn either
+      // Both grazing and opposite: rounding has displaced the half vector. Such directions are
+      // never sampled.
       if cosM <= 0f then Rgb.Black
       else
         val value = distribution.d(m) * distribution.visibility(o, i, m)
@@ -58,7 +58,7 @@ final class MicrofacetReflection(
 
 object MicrofacetReflection:
 
-  /** The density of the direction that a facet `m`, drawn for `wo`, reflects it to; `wo.z` ≥ 0. */
+  /** The pdf of the direction reflected by a microfacet `m` sampled for `wo`; `wo.z` ≥ 0. */
   private[bsdf] def pdf(distribution: MicrofacetDistribution, wo: Vec3, m: Vec3): Float =
     val cosM = wo dot m
     if cosM > 0f then distribution.pdf(wo, m) / (4f * cosM) else 0f

@@ -4,7 +4,7 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{ConstantFloat, FloatTexture, Textured}
 
-/** What the number that a scene calls roughness means: it differs between the versions of PBRT. */
+/** Interpretation of a scene's roughness values; differs between the versions of PBRT. */
 enum RoughnessModel:
 
   /** Version 2: the exponent of Blinn's distribution is 1/u; v is not used. */
@@ -19,7 +19,7 @@ enum RoughnessModel:
   /** Version 3 without remapping: `alpha` itself, at least 0.001. */
   case BoundedAlpha
 
-  /** Version 4: `alpha` is the square root. */
+  /** Version 4: `alpha` is the square root of the roughness. */
   case SquareRootAlpha
 
   /** Version 4 without remapping: `alpha` itself. */
@@ -30,8 +30,8 @@ enum RoughnessModel:
     case AnisotropicExponents => new CosinePower(1f / u, 1f / v)
     case _ => trowbridgeReitz(u, v)
 
-  /** The same for surfaces that only this distribution describes; exponents e become the `alpha` of
-    * a core as wide, √(2/(e + 2)) (Walter et al. 2007, §5.2).
+  /** The Trowbridge–Reitz distribution, for surfaces that support no other. An exponent e maps to
+    * the `alpha` of equal core width, √(2/(e + 2)) (Walter et al. 2007, §5.2).
     */
   def trowbridgeReitz(u: Float, v: Float): TrowbridgeReitz = TrowbridgeReitz(alpha(u), alpha(v))
 
@@ -42,12 +42,12 @@ enum RoughnessModel:
     case SquareRootAlpha => safeSqrt(roughness)
     case PlainAlpha => Math.max(roughness, 0f)
 
-/** The roughness of a surface at every point.
+/** Textured roughness.
   *
   * @param u            along ∂p/∂u, in the unit of the model
   * @param v            along ∂p/∂v
-  * @param smoothAtZero is a surface of roughness 0 in both directions a perfect mirror, even where
-  *                     the model would make it slightly rough? (the glass of PBRT 3)
+  * @param smoothAtZero if true, roughness 0 in both directions is a perfect mirror even if the
+  *                     model would make it slightly rough (the glass of PBRT 3)
   */
 final class Roughness(
     u: FloatTexture,
@@ -59,7 +59,7 @@ final class Roughness(
     case (Some(a), Some(b)) => a != b && model != RoughnessModel.BlinnExponent
     case _ => !(u eq v)
 
-  // Only a constant roughness is read from here.
+  // Valid only if the roughness is constant.
   private val fixedU = u.constant.getOrElse(1f)
   private val fixedV = v.constant.getOrElse(1f)
   private val fixed = evaluate(fixedU, fixedV)
@@ -68,11 +68,11 @@ final class Roughness(
   def apply(at: ShadingPoint): MicrofacetDistribution =
     if isConstant then fixed else evaluate(u(at), v(at))
 
-  /** The Trowbridge–Reitz distribution, for surfaces that only it describes. */
+  /** The Trowbridge–Reitz distribution, for surfaces that support no other. */
   def trowbridgeReitz(at: ShadingPoint): TrowbridgeReitz =
     if isConstant then fixedTrowbridgeReitz else model.trowbridgeReitz(u(at), v(at))
 
-  /** Is it smooth everywhere? */
+  /** Whether the surface is smooth everywhere. */
   def isSmooth: Boolean = isConstant && fixedTrowbridgeReitz.isSmooth
 
   private def evaluate(ru: Float, rv: Float): MicrofacetDistribution =
@@ -83,7 +83,7 @@ object Roughness:
   val Smooth: Roughness =
     Roughness(ConstantFloat(0f), ConstantFloat(0f), RoughnessModel.PlainAlpha)
 
-  /** The `alpha` that PBRT 3 gives a roughness in [0, 1]: a fit, to make the scale even to the eye.
+  /** PBRT 3's `alpha` for a roughness in [0, 1]: a fit to a perceptually uniform scale.
     *
     * Source: PBRT 3rd ed., §8.4.5; Jakob, "Mitsuba renderer".
     */

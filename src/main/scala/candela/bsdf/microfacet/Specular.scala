@@ -9,15 +9,15 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Textured}
 
-/** What perfectly specular scattering has in common: only `sample` can find its directions. */
+/** Base of perfectly specular BSDFs: only `sample` can generate their directions. */
 sealed abstract class Specular extends LeanBsdf:
   final def f(wo: Vec3, wi: Vec3): Rgb = Rgb.Black
   final def pdf(wo: Vec3, wi: Vec3): Float = 0f
   final def isSpecular: Boolean = true
 
-/** A smooth mirror on both sides.
+/** A perfect mirror on both sides.
   *
-  * @param scale multiplies what `curve` says is reflected
+  * @param scale scale of the reflectance `curve`
   */
 final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extends Specular:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
@@ -29,14 +29,14 @@ final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extend
   override def regularized: Bsdf =
     MicrofacetReflection(TrowbridgeReitz.RegularizedMirror, curve, scale)
 
-/** The smooth interface of two transparent media.
+/** A smooth dielectric interface.
   *
   * @param eta           index of refraction inside (below the surface) over that outside
-  * @param reflectance   multiplies the reflected light
-  * @param transmittance multiplies the refracted light
-  * @param compresses    does refraction change radiance by the square of the index, as it does in
-  *                      nature because the beam changes its solid angle? PBRT before version 3 left
-  *                      it out
+  * @param reflectance   scale of the reflected light
+  * @param transmittance scale of the refracted light
+  * @param compresses    whether refraction scales radiance by the square of the index, as is
+  *                      physically correct because the solid angle changes; PBRT before version 3
+  *                      omits this
   */
 final class SmoothDielectric(
     eta: Float,
@@ -59,10 +59,10 @@ final class SmoothDielectric(
   private def refract(wo: Vec3, weight: Float, probability: Float, out: Bounce): Unit =
     val relative = if wo.z < 0f then 1f / eta else eta
     val cosT = Fresnel.cosRefracted(Math.abs(wo.z), relative)
-    // Rounding in Double and Float may put the critical angle one ulp apart.
+    // Rounding in Double and Float may place the critical angle one ulp apart.
     if cosT <= 0f then out.absorb()
     else
-      // From a cosine near 1 the sine, and what becomes of it, has half the digits
+      // Near a cosine of 1, the sine computed from it keeps half its digits
       val x = -wo.x.toDouble / relative
       val y = -wo.y.toDouble / relative
       val sin2 = x * x + y * y
@@ -73,14 +73,14 @@ final class SmoothDielectric(
 
   def isTransmissive: Boolean = !transmittance.isBlack
 
-  /** [[RoughDielectric]] does compress. */
+  /** Unchanged unless `compresses`: [[RoughDielectric]] always scales radiance. */
   override def regularized: Bsdf =
     if compresses then
       Dielectric(TrowbridgeReitz.RegularizedMirror, eta, reflectance, transmittance)
     else this
 
-/** A pane with two parallel smooth sides: all that is reflected back and forth within it is
-  * counted, and what passes keeps its direction.
+/** A thin pane with two parallel smooth sides, including all internal reflections. Transmitted
+  * light keeps its direction.
   *
   * @param eta index of refraction of the pane over that outside
   *
@@ -97,7 +97,7 @@ final class ThinDielectric(eta: Float) extends Specular:
 
   def isTransmissive: Boolean = true
 
-/** Lets a part of the light go straight on, as if there were no surface. */
+/** Transmits a fraction of the light unscattered. */
 final class Passthrough(transmittance: Rgb) extends Specular:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     if transmittance.isBlack then out.absorb()
@@ -105,12 +105,12 @@ final class Passthrough(transmittance: Rgb) extends Specular:
 
   def isTransmissive: Boolean = true
 
-/** A smooth mirror of the same reflectance at every angle. */
+/** A perfect mirror of constant reflectance. */
 final class MirrorMaterial(kr: RgbTexture) extends Material, Textured(kr):
   def bsdf(at: ShadingPoint): Bsdf = Mirror(kr.positive(at))
 
-/** A smooth surface that reflects as an interface of index `eta` does, times `kr`, and lets nothing
-  * through that goes on straight: so where PBRT 2 has something beneath.
+/** Specular reflection with the Fresnel term of an interface of index `eta`, times `kr`, without
+  * transmission: the surface of PBRT 2's subsurface materials.
   */
 final class ReflectingInterfaceMaterial(kr: RgbTexture, eta: FloatTexture)
     extends Material,

@@ -4,14 +4,13 @@ import candela.bsdf.{Bsdf, Bssrdf, DiffuseTransmission, Fresnel}
 import candela.color.Rgb
 import candela.math.*
 
-/** The light of a point source beneath a surface and of its mirror image above, in one channel: the
-  * classical dipole.
+/** The classical dipole in one channel: a point source beneath the surface and its image above.
   *
   * Source: Jensen, Marschner, Levoy, Hanrahan, "A Practical Model for Subsurface Light Transport",
   * SIGGRAPH 2001, §2.1.
   *
-  * @param absorption coefficient
-  * @param scattering coefficient, reduced
+  * @param absorption absorption coefficient
+  * @param scattering reduced scattering coefficient
   * @param eta        index of refraction of the medium over that outside
   */
 final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
@@ -19,7 +18,7 @@ final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
   private val albedo = if extinction > 0f then scattering / extinction else 0f
   private val effective = sqrt(3f * absorption * extinction)
 
-  /** Depth of the source, and height of its image. */
+  /** Depth of the real source, and height of the virtual one. */
   private val (real, image) =
     val depth = 1f / extinction
     (depth, depth * (1f + DipoleProfile.imageShift(eta)))
@@ -27,11 +26,11 @@ final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
   private val ofReal = 0.5f * albedo * exp(-effective * real)
   private val ofImage = 0.5f * albedo * exp(-effective * image)
 
-  /** The part of light that comes out again, with an infinite plane. */
+  /** Diffuse reflectance of a semi-infinite medium. */
   val reflectance: Float =
     if extinction > 0f && extinction < Float.PositiveInfinity then ofReal + ofImage else 0f
 
-  /** Exitance at the distance `d`. */
+  /** Radiant exitance at the distance `d`. */
   def apply(d: Float): Float =
     if reflectance > 0f then albedo * InvPi * 0.25f * (term(real, d) + term(image, d)) else 0f
 
@@ -39,18 +38,18 @@ final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
     val way = sqrt(r * r + z * z)
     z * (1f + effective * way) * exp(-effective * way) / (way * way * way)
 
-  /** A radius that a part `u` of the light doesn't reach: of one of the two sources, each of which
-    * can be integrated. Only where `reflectance` > 0.
+  /** Inverts the cumulative energy of one of the two sources, each of which is integrable. Requires
+    * `reflectance` > 0.
     */
   def sample(u: Float): Float =
     val part = ofReal / reflectance
     if u < part then radius(real, u / part) else radius(image, (u - part) / (1f - part))
 
-  /** Beyond the way d to it, a source at `z` sends z/d·e^(−σ(d−z)) of its light. */
+  /** The fraction z/d·e^(−σ(d−z)) of the energy of a source at `z` exits farther than d from it. */
   private def radius(z: Float, u: Float): Float =
     val target = -Math.log1p(-Math.min(u, OneMinusEpsilon).toDouble)
     val steepness = effective.toDouble * z
-    // x = log(d/z); Newton's method for a convex function, begun beyond its zero
+    // x = log(d/z); Newton's method for a convex function, started past its root
     var x = if steepness > 0 then Math.min(target, Math.log1p(target / steepness)) else target
     var step = 1.0
     while step > 1e-7 do
@@ -60,12 +59,12 @@ final class DipoleProfile(absorption: Float, scattering: Float, eta: Float):
     (z * Math.sqrt(Math.max(0.0, Math.exp(2 * x) - 1))).toFloat
 
 object DipoleProfile:
-  /** How much farther than the source the image is from the surface, in depths of the source. */
+  /** Extra height of the virtual source, in depths of the real one. */
   private def imageShift(eta: Float): Float =
     val inner = FresnelMoments.diffuse(eta)
     4f / 3f * (1f + inner) / (1f - inner)
 
-  /** The reduced albedo of the medium of which an infinite plane reflects this part of light. */
+  /** Reduced albedo of the medium with this diffuse reflectance, by bisection. */
   def albedoOf(reflectance: Float, eta: Float): Float =
     val shift = imageShift(eta)
     var low = 0f
@@ -77,9 +76,9 @@ object DipoleProfile:
       if reflected < reflectance then low = middle else high = middle
     0.5f * (low + high)
 
-/** The dipole in three channels, with diffuse light at both ends.
+/** The dipole in three channels, with diffuse entry and exit.
   *
-  * @param counted the part of the surface that counts
+  * @param counted fraction of the surface that contributes
   */
 final class DipoleBssrdf(
     r: DipoleProfile,
@@ -105,17 +104,19 @@ final class DipoleBssrdf(
   def sample(channel: Int, u: Float): Float =
     if profiles(channel).reflectance > 0f then profiles(channel).sample(u) else -1f
 
-  /** The same for all: what one channel lights from afar is near the axis for others, too. */
+  /** The same for all channels, since one channel's distant sample may be near the axis for the
+    * others.
+    */
   def reach(channel: Int): Float = farthest
 
-  /** What gets out through the surface at this angle. */
+  /** Fresnel transmittance on exit at this angle. */
   def leaving(cosine: Float): Float = 1f - Fresnel.dielectric(Math.abs(cosine), eta)
 
-  /** From either side: of a closed body, no light reaches the inner one. PBRT 2 puts a point on
-    * the one or the other side by chance.
+  /** Accepts light from either side: in a closed body the inner side is dark. PBRT 2 selects the
+    * side of the point at random.
     */
   val entry: Bsdf = DiffuseTransmission(Rgb.White, Rgb.White)
 
 object DipoleBssrdf:
-  /** The dipole falls off slowly where little is absorbed. */
+  /** Fraction within [[reach]]: the dipole falls off slowly at low absorption. */
   private inline val Reached = 0.9999f

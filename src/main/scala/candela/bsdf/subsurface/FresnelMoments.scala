@@ -4,13 +4,12 @@ import candela.bsdf.{Bounce, Fresnel, Hemisphere, LeanBsdf}
 import candela.color.Rgb
 import candela.math.*
 
-/** Averages of Fresnel's reflectance over directions, as polynomials of the relative index. `eta`
-  * is the index on the side where light arrives over that beyond: above 1 inside of a denser
-  * medium.
+/** Moments of the Fresnel reflectance, as polynomials in the relative index `eta`: that on the
+  * incident side over that beyond, above 1 inside a denser medium.
   */
 object FresnelMoments:
 
-  /** ∫ of the reflectance times μ over the cosine μ from 0 to 1, to 0.0009.
+  /** ∫ of the reflectance times μ over the cosine μ from 0 to 1; error at most 0.0009.
     *
     * Source: d'Eon and Irving, "A Quantized-Diffusion Model for Rendering Translucent Materials",
     * SIGGRAPH 2011, appendix.
@@ -24,7 +23,7 @@ object FresnelMoments:
         -4.61686 + n * (11.1136 + n * (-10.4646 + n * (5.11455 + n * (-1.27198 + 0.12746 * n))))
     sum.toFloat
 
-  /** ∫ of the reflectance times μ², to 0.0015; source as above. */
+  /** ∫ of the reflectance times μ²; error at most 0.0015. Source: as for [[first]]. */
   def second(eta: Float): Float =
     val n = eta.toDouble
     val sum =
@@ -36,8 +35,8 @@ object FresnelMoments:
           n * (404.557 + n * (-189.519 + n * (54.9327 + n * (-9.00603 + 0.63942 * n))))
     sum.toFloat
 
-  /** The reflectance of diffuse light on the inner side of a surface of index `eta` over that
-    * outside: twice [[first]], by another fit.
+  /** Internal diffuse reflectance of a surface of index `eta` over that outside: twice [[first]],
+    * by another fit.
     *
     * Source: Egan and Hilgeman, "Optical Properties of Inhomogeneous Materials", 1979; Jensen et
     * al., "A Practical Model for Subsurface Light Transport", SIGGRAPH 2001, §2.
@@ -50,9 +49,8 @@ object FresnelMoments:
       else -0.4399 + r * (0.7099 + r * (-0.3319 + 0.0636 * r))
     fit.toFloat
 
-/** Light from all directions on its way into a surface, taken as if it were scattered: what the
-  * surface lets through, scaled so that in sum nothing is lost, since a profile already counts what
-  * comes out as a part of what gets in.
+/** Diffuse entry of light through a Fresnel interface: the transmittance, normalised to conserve
+  * energy, since the profile already accounts for the loss.
   *
   * @param eta index of refraction inside over that outside
   *

@@ -6,31 +6,30 @@ import candela.bsdf.{Bsdf, Bssrdf, Fresnel}
 import candela.color.Rgb
 import candela.math.*
 
-/** How light leaves a medium around the place where it entered, for media of all albedos; lengths
-  * are in mean free paths.
+/** Tabulated scattering profiles for all albedos; lengths are in mean free paths.
   *
-  * @param albedos rising from 0 to 1
-  * @param radii   rising from 0
-  * @param values  for each albedo the exitance at all radii r, times 2πr
+  * @param albedos ascending from 0 to 1
+  * @param radii   ascending from 0
+  * @param values  for each albedo the radiant exitance at all radii r, times 2πr
   */
 final class ProfileTable(albedos: Array[Float], radii: Array[Float], values: Array[Float]):
 
-  /** The part of light that comes out again, for each albedo. */
+  /** Effective albedo (reflectance) by single-scattering albedo. */
   private val reflectances: Array[Float] =
     values.grouped(radii.length).map(CatmullRom.integrals(radii, _).last).toArray
 
   def profile(albedo: Float): RadialProfile =
     RadialProfile(radii, CatmullRom.row(albedos, values, albedo))
 
-  /** Those of the three channels, each of its own albedo. */
+  /** Profiles of the three channels, each with its own albedo. */
   def profiles(albedos: Rgb): Array[RadialProfile] =
     Array(profile(albedos.r), profile(albedos.g), profile(albedos.b))
 
-  /** The albedo of the medium that reflects this part of the light that entered. */
+  /** Single-scattering albedo of the medium with this effective albedo. */
   def albedoOf(reflectance: Float): Float = CatmullRom.invert(albedos, reflectances, reflectance)
 
 object ProfileTable:
-  // How fine pbrt's tables are
+  // Resolution of pbrt's tables
   private inline val Albedos = 100
   private inline val Radii = 64
   private inline val SecondRadius = 0.0025f
@@ -39,8 +38,8 @@ object ProfileTable:
 
   /** The table of [[BeamDiffusion]].
     *
-    * Source of its nodes: PBRT 3rd ed., §15.5.4. They are dense where light spreads widely, which
-    * is where the albedo is nearly 1.
+    * Source of its nodes: PBRT 3rd ed., §15.5.4. They are dense where the profile is wide, at
+    * albedos near 1.
     */
   def beamDiffusion(g: Float, eta: Float): ProfileTable =
     val albedos = Array.tabulate(Albedos): i =>
@@ -57,34 +56,33 @@ object ProfileTable:
 
 /** One row of a [[ProfileTable]].
   *
-  * @param values exitance times 2πr, at each of `radii`
+  * @param values radiant exitance times 2πr, at each of `radii`
   */
 final class RadialProfile(radii: Array[Float], values: Array[Float]):
   private val sums = CatmullRom.integrals(radii, values)
 
-  /** The part of light that comes out again. */
+  /** Effective albedo. */
   val reflectance: Float = sums(sums.length - 1)
 
-  /** Exitance at `r`. */
+  /** Radiant exitance at `r`. */
   def apply(r: Float): Float =
     if r > 0f then Math.max(0f, CatmullRom.value(radii, values, r) / (TwoPi * r)) else 0f
 
-  /** The density of places, for each unit of area, that [[sample]] spreads around the centre. */
+  /** The pdf of [[sample]] with respect to area. */
   def density(r: Float): Float = if reflectance > 0f then apply(r) / reflectance else 0f
 
-  /** A radius that a part `u` of the light that leaves doesn't reach. */
+  /** Samples a radius by inverting the cumulative profile. */
   def sample(u: Float): Float =
     if reflectance > 0f then CatmullRom.sample(radii, values, sums, u) else 0f
 
-/** Makes tables for a scene and hands the same one to all who ask for the same; thread-safe. */
+/** Creates and caches the tables of a scene. Thread-safe. */
 final class ProfileTables:
-  private val made = ConcurrentHashMap[(Float, Float), ProfileTable]
+  private val tables = ConcurrentHashMap[(Float, Float), ProfileTable]
 
-  /** That of [[ProfileTable.beamDiffusion]]; `g` is held to where scattering still spreads
-    * light.
+  /** The cached [[ProfileTable.beamDiffusion]]; `g` is clamped to where the medium still diffuses.
     */
   def of(g: Float, eta: Float): ProfileTable =
-    made.computeIfAbsent(
+    tables.computeIfAbsent(
       (clamp(g, -ProfileTables.Narrowest, ProfileTables.Narrowest), eta),
       key => ProfileTable.beamDiffusion(key._1, key._2)
     )
@@ -92,16 +90,15 @@ final class ProfileTables:
 object ProfileTables:
   private inline val Narrowest = 0.999f
 
-/** How a beam that enters a half-space of scattering medium along the normal comes out again: the
-  * radiant exitance at distance `r`, for each unit of power. Photon beam diffusion.
+/** Photon beam diffusion: radiant exitance of a scattering half-space at distance `r` from a beam
+  * of unit power at normal incidence.
   *
   * Source: Habel, Christensen, Jarosz, "Photon Beam Diffusion: A Hybrid Monte Carlo Method for
   * Subsurface Scattering", EGSR 2013; PBRT 3rd ed., §15.5.
   *
-  * @param absorption coefficient
-  * @param scattering coefficient
-  * @param g          mean cosine of the angle of scattering, that of Henyey and Greenstein's phase
-  *                   function
+  * @param absorption absorption coefficient
+  * @param scattering scattering coefficient
+  * @param g          asymmetry of the Henyey–Greenstein phase function
   * @param eta        index of refraction of the medium over that outside
   */
 final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta: Float):
@@ -112,7 +109,7 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
   private val reducedExtinction = absorption + reducedScattering
   private val reducedAlbedo = reducedScattering / reducedExtinction
 
-  /** Grosjean's diffusion coefficient, good for low albedos, too. */
+  /** Grosjean's diffusion coefficient, accurate for low albedos, too. */
   private val diffusion =
     (2 * absorption + reducedScattering) / (3 * reducedExtinction * reducedExtinction)
   private val effective = Math.sqrt(absorption / diffusion)
@@ -120,12 +117,12 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
   private val moment1 = FresnelMoments.first(eta).toDouble
   private val moment2 = FresnelMoments.second(eta).toDouble
 
-  /** Where the fluence falls to 0, by linear extrapolation: above the surface. */
+  /** Height at which the linearly extrapolated fluence vanishes: above the surface. */
   private val zeroAt = -2 * diffusion * (1 + 3 * moment2) / (1 - 2 * moment1)
   private val fluencePart = 0.25 * (1 - 2 * moment1)
   private val fluxPart = 0.5 * (1 - 3 * moment2)
 
-  /** What was scattered more than once: dipoles all along the beam. */
+  /** Multiple scattering: dipoles along the beam. */
   def multiple(r: Double): Double =
     var sum = 0.0
     for i <- 0 until Steps do
@@ -140,14 +137,14 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
         real * (1 + effective * toReal) * near / cube(toReal) -
           mirrored * (1 + effective * toMirrored) * far / cube(toMirrored)
       )
-      // Close to the beam, where diffusion errs, light has rarely been scattered twice
+      // Near the beam diffusion overestimates: light has rarely scattered twice
       val correction = 1 - Math.exp(-2 * reducedExtinction * (toReal + real))
       sum += correction * (fluence * fluencePart + flux * fluxPart)
     reducedAlbedo * reducedAlbedo * sum / Steps
 
-  /** What was scattered once. */
+  /** Single scattering. */
   def single(r: Double): Double =
-    // From above this depth, light would be reflected back into the medium
+    // Above this depth, total internal reflection
     val least = r * Math.sqrt(Math.max(0.0, eta.toDouble * eta - 1))
     var sum = 0.0
     for i <- 0 until Steps do
@@ -165,21 +162,21 @@ final class BeamDiffusion(absorption: Double, scattering: Double, g: Float, eta:
 object BeamDiffusion:
   private val InvFourPi = 1 / (4 * Math.PI)
 
-  /** Points on the beam. */
+  /** Number of points on the beam. */
   private inline val Steps = 100
 
-  /** Spread like the free paths of a medium. */
+  /** Depth of point `i`, distributed like the free paths of a medium. */
   private def depth(i: Int, extinction: Double): Double =
     -Math.log(1 - (i + 0.5) / Steps) / extinction
 
   private def cube(x: Double) = x * x * x
 
-/** A [[Bssrdf]] by profiles.
+/** A [[Bssrdf]] of tabulated radial profiles.
   *
   * @param profiles   of each channel
-  * @param extinction coefficient, whose inverse is the unit of length of each profile
-  * @param eta        index of refraction of the medium over that outside; what leaves has been
-  *                   refracted by [[Dielectric]], which spreads radiance by its square
+  * @param extinction extinction coefficient, whose inverse is each profile's unit of length
+  * @param eta        index of refraction of the medium over that outside. Exiting light is
+  *                   refracted by [[Dielectric]], which divides radiance by its square
   */
 final class TabulatedBssrdf(
     profiles: Array[RadialProfile],
@@ -214,12 +211,12 @@ final class TabulatedBssrdf(
   private def length(channel: Int, freePaths: Float): Float =
     if isClear(perLength(channel)) then -1f else freePaths / perLength(channel)
 
-  /** Nothing comes back from a medium that doesn't scatter, or from one without depth. */
+  /** Whether the medium returns no light: no scattering, or no depth. */
   private def isClear(extinction: Float): Boolean =
     !(extinction > 0f) || extinction == Float.PositiveInfinity
 
 object TabulatedBssrdf:
-  /** A thousandth is left out, and more where other channels reach farther around a body: so in
-    * PBRT 3rd ed., §15.4.1, and in pbrt.
+  /** Truncates a thousandth of the energy, and more where other channels reach farther around a
+    * body: as in PBRT 3rd ed., §15.4.1, and in pbrt.
     */
   private inline val Reached = 0.999f

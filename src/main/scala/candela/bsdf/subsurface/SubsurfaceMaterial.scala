@@ -5,12 +5,12 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
 
-/** A surface that light enters, and leaves elsewhere.
+/** A surface with subsurface scattering.
   *
-  * @param surface       what the surface itself does
-  * @param alongTangents is light searched for along the tangents of u and v, as in pbrt-v3? Other
-  *                      programs take any. Which part of the light that went farthest is left out
-  *                      depends on it (see [[Bssrdf.reach]])
+  * @param surface       material of the boundary
+  * @param alongTangents if true, probe rays follow the tangents of u and v, as in pbrt-v3;
+  *                      otherwise any tangents. This affects which distant light is truncated (see
+  *                      [[Bssrdf.reach]])
   */
 final class SubsurfaceMaterial(
     surface: Material,
@@ -28,21 +28,21 @@ final class SubsurfaceMaterial(
   override def isDispersive: Boolean = boundary.isDispersive
   override def isAnisotropic: Boolean = alongTangents || boundary.isAnisotropic
 
-/** Gives every point the [[Bssrdf]] of what is beneath; null: nothing is there. */
+/** Evaluates the [[Bssrdf]] at surface points; null where there is none. */
 abstract class Interior extends Varying:
   def bssrdf(at: ShadingPoint): Bssrdf | Null
 
   /** As [[Material.folded]]. */
   def folded: Interior = if isConstant then ConstantInterior(bssrdf(ShadingPoint())) else this
 
-/** The same everywhere. */
+/** One [[Bssrdf]] everywhere. */
 private final class ConstantInterior(value: Bssrdf | Null) extends Interior:
   def isConstant: Boolean = true
   def bssrdf(at: ShadingPoint): Bssrdf | Null = value
 
-/** A medium by its coefficients; textures times `scale` are held to be at least 0, in 1/scene unit.
+/** A medium given by its coefficients in 1/scene unit; textures times `scale` are clamped to ≥ 0.
   *
-  * @param table of the medium's index of refraction, which is `eta`
+  * @param table for the medium's index of refraction, `eta`
   */
 final class CoefficientInterior(
     table: ProfileTable,
@@ -58,13 +58,13 @@ final class CoefficientInterior(
     val sigmaA = absorption(at).map(c => Math.max(scale * c, 0f))
     val sigmaS = scattering(at).map(c => Math.max(scale * c, 0f))
     val extinction = sigmaA + sigmaS
-    // Without extinction 0/0, which is not above 0
+    // NaN (0/0) without extinction, which is not above 0
     val albedos = (sigmaS / extinction).map(a => if a > 0f then a else 0f)
     TabulatedBssrdf(table.profiles(albedos), extinction, eta, entry)
 
-/** A medium by what it reflects; `meanFreePath` times `scale` in scene units.
+/** A medium given by its reflectance; `meanFreePath` times `scale` is in scene units.
   *
-  * @param table as above
+  * @param table for the medium's index of refraction, `eta`
   */
 final class ReflectanceInterior(
     table: ProfileTable,
@@ -81,9 +81,9 @@ final class ReflectanceInterior(
     val albedos = reflectance(at).map(table.albedoOf(_))
     TabulatedBssrdf(table.profiles(albedos), extinction, eta, entry)
 
-/** PBRT 2's medium by its coefficients, textures times `scale`, in 1/scene unit.
+/** PBRT 2's medium given by its coefficients: textures times `scale`, in 1/scene unit.
   *
-  * @param scattering reduced
+  * @param scattering reduced scattering coefficient
   * @param eta        index of refraction inside over that outside
   * @param counted    see [[DipoleBssrdf]]
   */
@@ -107,9 +107,9 @@ final class DipoleInterior(
       counted
     )
 
-/** PBRT 2's medium by what it reflects.
+/** PBRT 2's medium given by its reflectance.
   *
-  * @param meanFreePath the inverse of the effective transport coefficient, in scene units
+  * @param meanFreePath inverse of the effective transport coefficient, in scene units
   */
 final class DiffuseDipoleInterior(
     reflectance: RgbTexture,
