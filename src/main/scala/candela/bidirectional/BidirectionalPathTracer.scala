@@ -9,20 +9,19 @@ import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Bidirectional path tracing: each sample follows a path from the camera and one from a light, and
-  * joins every point of the one with every point of the other, with the camera, and with another
-  * point of a light. All ways to find the same path are combined by their densities.
+/** Bidirectional path tracing: each sample traces a camera and a light subpath, and connects every
+  * pair of camera and light vertices, light vertices to the camera (light tracing), and camera
+  * vertices to sampled lights. All strategies for the same path are combined by MIS.
   *
-  * It finds what paths from the camera can't: light of a point that comes by way of mirrors or
-  * glass.
+  * Unlike path tracing, it finds caustics from point lights.
   *
-  * @param takes         the picture; if it can't tell where it sees a point, light that comes to it
-  *                      from there is left out
-  * @param splats        receives what light paths bring to the camera
-  * @param maxDepth      most scattering events of a whole path
-  * @param rouletteAfter of these, before which neither part of a path ends by chance
+  * @param takes         the image's camera; if it can't project points to the film, light tracing
+  *                      is disabled and that light is missing
+  * @param splats        receives the splats of light tracing
+  * @param maxDepth      maximum number of scattering events of a full path
+  * @param rouletteAfter minimum depth before Russian roulette, for either subpath
   * @param compresses    as in [[Subpath]]
-  * @param regularizes   as in [[candela.integrators.PathTracer]], by each part of a path on its own
+  * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
@@ -49,7 +48,7 @@ final class BidirectionalPathTracer(
   private val shadowHit = Hit()
   private var rays = 0L
 
-  // Where the current direction of the camera path was sampled
+  // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
 
   private val camera: Camera | Null = if takes.isTraceable then takes else null
@@ -65,9 +64,9 @@ final class BidirectionalPathTracer(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
 
-  /** @param light  whose numbers make the path from a light, and show it to the camera
-    * @param joins  with which the path from the camera is joined to points of lights
-    * @param onward by which that path goes on
+  /** @param light  samples the light subpath and its connections to the camera
+    * @param joins  samples the connections of camera vertices to lights
+    * @param onward samples the continuation of the camera subpath
     */
   private[bidirectional] def radiance(
       ray: Ray,
@@ -79,20 +78,20 @@ final class BidirectionalPathTracer(
     connection.begin(ray.time)
     lightPaths.trace(ray.time, light)
     splats.begin()
-    showLight(light)
+    traceLight(light)
     fromCamera(ray, joins, onward)
 
-  /** Joins the points of the light's path with the camera. */
-  private def showLight(sampler: Sampler): Unit =
-    val seenBy = camera
-    if seenBy != null && lightPaths.count > 0 then
+  /** Light tracing: connects the light vertices to the camera. */
+  private def traceLight(sampler: Sampler): Unit =
+    val sensor = camera
+    if sensor != null && lightPaths.count > 0 then
       sampler.next2D()
       val lensU = sampler.x
       val lensV = sampler.y
       var i = 0
       while i < lightPaths.count do
         val lit = lightPaths(i)
-        if seenBy.see(lit.at.p, lensU, lensV, place) then
+        if sensor.see(lit.at.p, lensU, lensV, place) then
           val f = lit.sent(place.direction)
           if !f.isBlack then
             val toCamera = place.direction
@@ -134,7 +133,7 @@ final class BidirectionalPathTracer(
               val p = lastP
               val sampled = scene.selection.probability(p, lastN, i) * source.pdf(p, w)
               val emitted = source.emissionPdf(scene.ball, p, Vec3.Zero, -w)
-              metWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
+              hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
         )
         alive = false
       else
@@ -144,8 +143,8 @@ final class BidirectionalPathTracer(
         val distance = ray.tMax.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
         else
-          val seenBy = camera
-          val density = if seenBy == null then 0f else seenBy.density(eye, at.p)
+          val sensor = camera
+          val density = if sensor == null then 0f else sensor.density(eye, at.p)
           path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
         if at.areaLight >= 0 && cosine > 0f then
           found += path.throughput * emitted(edges, wo, distance)
@@ -154,20 +153,20 @@ final class BidirectionalPathTracer(
           vertex.edges = edges
           vertex.evaluate(regularizes && !path.isSpecularSoFar)
           if !vertex.bsdf.isSpecular then
-            found += path.throughput * (direct(joins) + joined())
+            found += path.throughput * (direct(joins) + connected())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
           lastP.set(at.p)
           lastN.set(at.frame.n)
     found
 
-  /** Weight of light that the path has met, for the densities with which it is sampled and with
-    * which light sets out from there.
+  /** MIS weight of emission hit by the camera subpath, given the pdfs of light sampling and of
+    * light emission for the same path.
     */
-  private def metWeight(sampled: Double, emitted: Double): Float =
+  private def hitWeight(sampled: Double, emitted: Double): Float =
     val w = path.weights
     (1 / (1 + mis(sampled) * w.near + mis(emitted) * w.far)).toFloat
 
-  /** Light of the surface that the path has met. */
+  /** Emission of the surface hit. */
   private def emitted(edges: Int, wo: Vec3, distance: Double): Rgb =
     val source = scene.surfaceLight(at)
     val radiance = source.radiance(at, wo)
@@ -179,9 +178,9 @@ final class BidirectionalPathTracer(
       val chosen = scene.selection.probability(p, lastN, index)
       val sampled = chosen.toDouble * source.pdf(p, at) * perArea
       val emitted = source.emissionPdf(scene.ball, at.p, at.geometricNormal, wo)
-      radiance * metWeight(sampled, lightPaths.chance(index).toDouble * emitted)
+      radiance * hitWeight(sampled, lightPaths.chance(index).toDouble * emitted)
 
-  /** Joins the path's end with a point of a light. */
+  /** Connects the camera vertex to a sampled light. */
   private def direct(sampler: Sampler): Rgb =
     val choice = sampler.next1D()
     sampler.next2D()
@@ -210,17 +209,17 @@ final class BidirectionalPathTracer(
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
         f * sample.radiance * weight.toFloat
 
-  /** Joins the path's end with all points of the light's path. */
-  private def joined(): Rgb =
+  /** Connects the camera vertex to all light vertices. */
+  private def connected(): Rgb =
     var sum = Rgb.Black
     var i = 0
     while i < lightPaths.count do
       val lit = lightPaths(i)
-      if lit.edges + vertex.edges <= maxDepth then sum += joined(lit)
+      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit)
       i += 1
     sum
 
-  private def joined(lit: PathVertex): Rgb =
+  private def connected(lit: PathVertex): Rgb =
     val d = lit.at.p - at.p
     val distance2 = d.lengthSquared
     val wi = d * (1f / sqrt(distance2))
@@ -242,7 +241,7 @@ final class BidirectionalPathTracer(
         val light = f * g * lit.throughput * weight
         if light.isBlack || isHidden(lit.at, wi, there) then Rgb.Black else light
 
-  /** Is something between the path's end and `other`, which lies towards `wi`? */
+  /** Whether `other`, in the direction `wi`, is occluded from the camera vertex. */
   private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =
     val origin = at.offsetOrigin(wi)
     val end = other.offsetOrigin(-wi)

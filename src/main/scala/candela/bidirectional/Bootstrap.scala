@@ -5,15 +5,16 @@ import candela.sampling.Discrete
 import java.util.concurrent.atomic.AtomicInteger
 import java.util.concurrent.locks.LockSupport
 
-/** Independent paths, from which the brightness of the image is known and at which chains start.
+/** Independent bootstrap paths, which determine the image brightness and the initial states of the
+  * chains.
   *
-  * They come in rounds. The first has as many as were asked for; each other one has as many as all
-  * before it, until the relative standard error of the mean is [[Bootstrap.Precision]], or until
-  * they are [[Bootstrap.Share]] of the mutations. Whoever needs the result helps to find it, and it
-  * does not depend on who did.
+  * Paths come in rounds. The first has the requested count; each later one doubles the total, until
+  * the relative standard error of the mean is [[Bootstrap.Precision]], or the total is
+  * [[Bootstrap.Share]] of the mutations. Workers that need the result help to compute it; it is
+  * bit-identical for any thread count.
   *
   * @param asked     paths of the first round
-  * @param mutations paths of all chains together
+  * @param mutations total mutations of all chains
   */
 private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
   import Bootstrap.*
@@ -23,12 +24,12 @@ private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
   @volatile private var result: Option[Start] = None
   @volatile private var failure: Option[Throwable] = None
 
-  /** None before [[help]] has returned. */
+  /** The result; none before [[help]] has returned. */
   def start: Option[Start] = result
 
-  /** Returns when the result is known, or when it is no longer wanted.
+  /** Helps until the result is known or the rendering is stopped.
     *
-    * @param strength of the path of some number
+    * @param strength brightness of a path by its number
     */
   def help(isStopped: () => Boolean)(strength: Int => Float): Unit =
     try
@@ -63,28 +64,28 @@ private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
 
 private[bidirectional] object Bootstrap:
 
-  /** Relative standard error of the brightness that is good enough. */
+  /** Target relative standard error of the brightness. */
   private[bidirectional] val Precision = 0.003
 
-  /** Of the number of mutations. */
+  /** Maximum number of paths, relative to the number of mutations. */
   private[bidirectional] val Share = 0.5
 
-  /** Fewer do not tell their own error. */
+  /** Minimum number of paths for a reliable error estimate. */
   private val Fewest = 1000
 
   private val MostPaths = 1L << 30
   private val LargestRound = 1 << 20
   private val PartSize = 256
 
-  /** Nanoseconds; short beside a round. */
+  /** In nanoseconds; short beside a round. */
   private val Pause = 50_000L
 
-  /** @param mean  brightness of a path; 0 if none has brought light
-    * @param first number of the path that is pick 0
-    * @param picks where to start, by brightness
+  /** @param mean  mean brightness of a path; 0 if no path carried light
+    * @param first number of the path at index 0 of `picks`
+    * @param picks distribution of initial states, by brightness
     */
   final class Start(val mean: Float, first: Int, picks: Discrete):
-    /** The number of the path that is chosen by `u`, in [0, 1). */
+    /** Number of the path sampled by `u`, in [0, 1). */
     def path(u: Float): Int = first + picks.sample(u)
 
   private final case class Sums(count: Int, total: Double, squares: Double):
@@ -94,8 +95,8 @@ private[bidirectional] object Bootstrap:
       if total > 0 then Math.sqrt(Math.max(0.0, variance) / count) / mean
       else Double.PositiveInfinity
 
-  /** @param before    sums of the earlier rounds
-    * @param earlier   starts of the first of them that has found light
+  /** @param before  sums of the earlier rounds
+    * @param earlier initial states of the first earlier round that found light
     */
   private final class Round(size: Int, before: Sums, earlier: Option[(Int, Discrete)]):
     val strengths = new Array[Float](size)
@@ -104,7 +105,7 @@ private[bidirectional] object Bootstrap:
     val next = AtomicInteger()
     val done = AtomicInteger()
 
-    /** Of all rounds until this, which is done. */
+    /** Sums of all rounds up to this one, which is done. */
     def sums: Sums =
       var total, squares = 0.0
       for s <- strengths do

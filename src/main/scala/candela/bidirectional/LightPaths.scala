@@ -5,12 +5,12 @@ import candela.lights.EmittedRay
 import candela.sampling.{Discrete, Sampler}
 import candela.scene.Scene
 
-/** Follows light from its sources, and keeps the points where a path from the camera can be joined
-  * to it. Mutable, one per worker.
+/** Traces light subpaths, and records the vertices that can be connected to a camera subpath.
+  * Mutable, one per worker.
   *
-  * @param maxEdges most edges of such a path
-  * @param weighsAll are paths weighted against those that meet lights by chance? Then none starts
-  *                  at a light whose light these see on another side
+  * @param maxEdges    maximum number of edges of a light subpath
+  * @param weighsAll   whether MIS includes camera subpaths that hit lights; if so, no path starts
+  *                    at a light whose emission those see on another side
   * @param regularizes as in [[candela.integrators.PathTracer]]
   */
 private[bidirectional] final class LightPaths(
@@ -33,18 +33,18 @@ private[bidirectional] final class LightPaths(
 
   var raysTraced: Long = 0L
 
-  /** How many points there are. */
+  /** Number of recorded vertices. */
   def count: Int = used
 
-  /** Point `i`. Its throughput is light, not yet divided over directions. */
+  /** Vertex `i`. Its throughput is power, not yet divided by solid angle. */
   def apply(i: Int): PathVertex = kept(i)
 
-  /** The probability with which a path starts at the light. */
+  /** Probability of starting a path at the light. */
   def chance(light: Int): Float =
     val picks = choice
     if picks == null then 0f else picks.probability(light)
 
-  /** Follows one more path, and forgets the last. */
+  /** Traces a new path, replacing the last. */
   def trace(time: Float, sampler: Sampler): Unit =
     used = 0
     val picks = choice
@@ -91,8 +91,8 @@ private[bidirectional] final class LightPaths(
               used += 1
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
 
-  /** The weights at the first surface: light sampling finds the light from there, too, with a
-    * density that depends on the place.
+  /** Initial MIS weights at the first surface: next-event estimation samples this light from there,
+    * too, with a position-dependent pdf.
     */
   private def begin(light: Int, vertex: PathVertex, cosine: Float): Unit =
     val source = scene.lights(light)
@@ -110,5 +110,5 @@ private[bidirectional] final class LightPaths(
     kept(used)
 
 private object LightPaths:
-  /** Points to begin with; there will be more if a path has more. */
+  /** Initial vertex capacity; grows on demand. */
   private val InitialSize = 8

@@ -4,12 +4,12 @@ import candela.film.{Splats, View}
 import candela.integrators.{ChainWalker, SharedChains}
 import candela.sampling.SampleHash
 
-/** How chains walk.
+/** Settings of Metropolis light transport.
   *
-  * @param bootstrap least number of paths of [[Bootstrap]]
-  * @param chains    that walk independently
-  * @param largeStep probability of a path that is all new
-  * @param sigma     standard deviation of each random number in the other steps
+  * @param bootstrap minimum number of paths of [[Bootstrap]]
+  * @param chains    number of independent chains
+  * @param largeStep probability of a large step (an independent path)
+  * @param sigma     standard deviation of each random number in small steps
   */
 final case class MetropolisSettings(
     bootstrap: Int,
@@ -19,18 +19,17 @@ final case class MetropolisSettings(
     seed: Int = 0
 )
 
-/** Metropolis light transport in the space of random numbers: chains of paths, each a small change
-  * of the last or all new, that come to each path as often as it is bright. The paths are those of
-  * [[BidirectionalPathTracer]], which makes one picture of one sequence of random numbers; so where
-  * light is hard to find, what has been found is explored.
+/** Primary sample space Metropolis light transport: Markov chains of small and large steps that
+  * visit paths in proportion to their brightness. The paths are those of
+  * [[BidirectionalPathTracer]], a deterministic function of its random numbers, so that chains
+  * explore the neighbourhood of light paths that are hard to find.
   *
-  * The chains start at paths of [[Bootstrap]], chosen by their brightness, so that no chain has to
-  * find its way to the light first.
+  * Chains start at [[Bootstrap]] paths, sampled by brightness, which avoids start-up bias.
   *
   * Sources: Veach and Guibas, "Metropolis Light Transport", SIGGRAPH 1997; Kelemen et al., see
   * [[PrimarySamples]]; PBRT 3rd ed., §16.4.
   *
-  * @param tracer finds paths, and hands what they bring to the given splats
+  * @param tracer creates the path tracer, given the receiver of its splats
   */
 final class MarkovChains(
     tracer: Splats => BidirectionalPathTracer,
@@ -46,7 +45,7 @@ final class MarkovChains(
 
   def walker(): ChainWalker = MarkovWalker(tracer, settings, view, this)
 
-  /** Helps to find where chains start, until that is known. */
+  /** Helps with the bootstrap until it is complete. */
   private[bidirectional] def begin(walker: MarkovWalker, isStopped: () => Boolean): Unit =
     if bootstrap.start.isEmpty then
       val samples = PrimarySamples(settings.largeStep, settings.sigma)
@@ -55,10 +54,10 @@ final class MarkovChains(
         walker.follow(samples)
         walker.proposed.strength
 
-  /** Where chains start; none before [[begin]] has found it. */
+  /** Initial states of the chains; none before [[begin]] has computed them. */
   private[bidirectional] def start: Option[Bootstrap.Start] = bootstrap.start
 
-  /** The chain of this number, begun if it was not. */
+  /** The chain `chain`, created on first use. */
   private[bidirectional] def apply(
       chain: Int,
       start: Bootstrap.Start,
@@ -69,7 +68,7 @@ final class MarkovChains(
       val jitter = SampleHash.toUnit(SampleHash.mix64(seed(chain, Starts)).toInt)
       state.samples.start(seed(start.path((chain + jitter) / count), Independent))
       walker.follow(state.samples)
-      state.current.exchange(walker.proposed)
+      state.current.swap(walker.proposed)
       state.samples.branch(seed(chain, Walks))
       states(chain) = state
     states(chain)
@@ -83,6 +82,6 @@ object MarkovChains:
   private inline val Starts = 1
   private inline val Walks = 2
 
-/** Where a chain is. */
+/** State of a chain. */
 private[bidirectional] final class MarkovChain(val samples: PrimarySamples, view: View):
   val current: Contribution = Contribution(view)

@@ -1,16 +1,17 @@
 package candela.bidirectional
 
 import candela.cameras.CameraRays
+import candela.color.Rgb
 import candela.film.{Splats, View}
 import candela.integrators.ChainWalker
 
-/** Takes chains on by the rule of Metropolis et al. ("Equation of State Calculations by Fast
-  * Computing Machines", 1953), and hands what they find to the film by its expected value: each
-  * step pays both where it may go and where it may stay, by the probability of each.
+/** Advances chains by the Metropolis rule (Metropolis et al., "Equation of State Calculations by
+  * Fast Computing Machines", 1953), with expected-value splatting: each step splats both the
+  * proposed and the current state, weighted by the acceptance probability.
   *
-  * Paths that were all new are independent samples, too, and are combined with the chain's by the
-  * balance heuristic (Kelemen et al. 2002, §4): so what is dark, where chains come seldom, has no
-  * more noise than without them.
+  * Large steps are also independent samples, combined with the chain's by the balance heuristic
+  * (Kelemen et al. 2002, §4), so that dark regions, which chains rarely visit, have no more noise
+  * than without chains.
   */
 private[bidirectional] final class MarkovWalker(
     tracer: Splats => BidirectionalPathTracer,
@@ -18,12 +19,12 @@ private[bidirectional] final class MarkovWalker(
     view: View,
     chains: MarkovChains
 ) extends ChainWalker:
-  /** What the last path has brought. */
+  /** Splats of the last path. */
   val proposed: Contribution = Contribution(view)
   private val paths = tracer(proposed)
   private val rays = CameraRays(view.camera, view.shutter, view.differentialScale)
 
-  /** Camera paths are chosen on a part of the film, or on more than the film. */
+  /** Area of the sampled film region relative to the image. */
   private val share =
     ((view.x1.toDouble - view.x0) * (view.y1.toDouble - view.y0) / view.pixels).toFloat
   private val largeStep = settings.largeStep
@@ -50,8 +51,8 @@ private[bidirectional] final class MarkovWalker(
 
   private def walk(chain: MarkovChain, mean: Float, count: Long): Unit =
     val samples = chain.samples
-    // What the current path is paid once the chain leaves it
-    var stay = 0f
+    // Accumulated weight of the current state, splatted when the chain leaves it
+    var currentWeight = 0f
     var i = 0L
     while i < count do
       view.splats.begin()
@@ -60,21 +61,22 @@ private[bidirectional] final class MarkovWalker(
       val here = chain.current.strength
       val there = proposed.strength
       val accept = if there >= here then 1f else there / here
-      stay += (1f - accept) / (here / mean + largeStep)
+      currentWeight += (1f - accept) / (here / mean + largeStep)
       val draw = samples.uniform()
-      val pay = (if samples.isLarge then accept + 1f else accept) / (there / mean + largeStep)
+      val proposedWeight =
+        (if samples.isLarge then accept + 1f else accept) / (there / mean + largeStep)
       if draw < accept then
-        chain.current.addTo(view.splats, stay)
+        chain.current.addTo(view.splats, currentWeight)
         samples.accept()
-        chain.current.exchange(proposed)
-        stay = pay
+        chain.current.swap(proposed)
+        currentWeight = proposedWeight
       else
-        if there > 0f then proposed.addTo(view.splats, pay)
+        if there > 0f then proposed.addTo(view.splats, proposedWeight)
         samples.reject()
       i += 1
-    chain.current.addTo(view.splats, stay)
+    chain.current.addTo(view.splats, currentWeight)
 
-  /** Finds all that the point stands for, and leaves it in `proposed`. */
+  /** Evaluates a point of primary sample space into `proposed`. */
   def follow(samples: PrimarySamples): Unit =
     val s = samples.camera
     proposed.clear()
@@ -86,3 +88,55 @@ private[bidirectional] final class MarkovWalker(
       val light = paths.radiance(rays.ray, samples.light, samples.joins, s)
       if light.isFinite then proposed.add(filmX, filmY, light * (weight * share))
       else refused += 1
+
+/** The splats of one point of [[PrimarySamples]]. Mutable. */
+private[bidirectional] final class Contribution(view: View) extends Splats:
+  import Contribution.*
+  private var data = new Array[Float](4 * Numbers)
+  private var count = 0
+
+  /** Total brightness: the target function of the chains. */
+  var strength = 0f
+
+  def clear(): Unit =
+    count = 0
+    strength = 0f
+
+  /** Paths are counted by the chains. */
+  def begin(): Unit = ()
+
+  def add(x: Float, y: Float, light: Rgb): Unit =
+    if x >= view.x0 && x < view.x1 && y >= view.y0 && y < view.y1 then
+      val weight = Math.abs(light.luminance)
+      if weight > 0f && weight < Float.PositiveInfinity then
+        if (count + 1) * Numbers > data.length then
+          data = java.util.Arrays.copyOf(data, 2 * data.length)
+        val at = count * Numbers
+        data(at) = x
+        data(at + 1) = y
+        data(at + 2) = light.r
+        data(at + 3) = light.g
+        data(at + 4) = light.b
+        count += 1
+        strength += weight
+
+  /** Swaps the contents with `other`. */
+  def swap(other: Contribution): Unit =
+    val (otherData, otherCount, otherStrength) = (other.data, other.count, other.strength)
+    other.data = data
+    other.count = count
+    other.strength = strength
+    data = otherData
+    count = otherCount
+    strength = otherStrength
+
+  /** Adds the splats, times `weight`, to `splats`. */
+  def addTo(splats: Splats, weight: Float): Unit =
+    var at = 0
+    while at < count * Numbers do
+      splats.add(data(at), data(at + 1), Rgb(data(at + 2), data(at + 3), data(at + 4)) * weight)
+      at += Numbers
+
+private object Contribution:
+  /** Floats per splat. */
+  inline val Numbers = 5

@@ -6,8 +6,8 @@ import candela.integrators.SurfaceVertex
 import candela.math.*
 import candela.sampling.SampleHash
 
-/** Photons in the order in which they were stored: for each its place, where it came from (a unit
-  * vector away from the surface) and its light.
+/** Photons in order of storage: position, incident direction (a unit vector away from the surface),
+  * and power.
   */
 private[bidirectional] final class Photons:
   import PhotonMap.Numbers
@@ -28,20 +28,20 @@ private[bidirectional] final class Photons:
     data(at + 8) = light.b
     count += 1
 
-/** The photons of one pass, to be found by their places. Immutable.
+/** The photon map of one pass. Immutable.
   *
-  * Space is divided into cubes of twice the radius, so that those around any place lie in eight of
-  * them; the cubes are hashed, and the photons sorted by that.
+  * A hash grid with cells of twice the radius, so that a query touches eight cells. Photons are
+  * sorted by hash.
   *
-  * @param parts  in the order in which their sums are made
-  * @param paths  light paths that were followed for them
-  * @param radius within which photons count for a place
+  * @param parts  photons in accumulation order
+  * @param paths  number of light paths traced for them
+  * @param radius query radius
   */
 private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, radius: Float):
   import PhotonMap.*
 
   val count: Int = parts.foldLeft(0)((n, p) => Math.addExact(n, p.count))
-  private val perCube = 1f / (2f * radius)
+  private val perCell = 1f / (2f * radius)
   private val radius2 = radius * radius
   private val mask = Math.max(1, Integer.highestOneBit(Math.max(1, count)) * 2) - 1
   private val starts = new Array[Int](mask + 2)
@@ -54,7 +54,7 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
         loop(part.count): i =>
           val at = i * Numbers
           val d = part.data
-          use(d, at, bucket(cube(d(at)), cube(d(at + 1)), cube(d(at + 2))))
+          use(d, at, bucket(cell(d(at)), cell(d(at + 1)), cell(d(at + 2))))
     each((_, _, b) => starts(b + 1) += 1)
     loop(mask + 1)(b => starts(b + 1) += starts(b))
     val next = starts.clone()
@@ -62,21 +62,20 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
       System.arraycopy(d, at, data, next(b) * Numbers, Numbers)
       next(b) += 1
 
-  private def cube(x: Float): Int = Math.floor(x.toDouble * perCube).toInt
+  private def cell(x: Float): Int = Math.floor(x.toDouble * perCell).toInt
 
   private def bucket(x: Int, y: Int, z: Int): Int =
     SampleHash.mix64(x * 0x9e3779b97f4a7c15L + y * 0xc2b2ae3d27d4eb4fL + z).toInt & mask
 
-  /** Light that the photons around `vertex` bring and the surface scatters to where its path came
-    * from, as far as they come from directions that the path chooses with a density of at most
-    * `limit`.
+  /** Density estimation: reflected radiance of the photons around `vertex`, towards the camera
+    * subpath. Skips photons from directions whose BSDF pdf exceeds `limit`.
     */
   def gather(vertex: SurfaceVertex, limit: Float): Rgb =
     val p = vertex.at.p
-    // The corner of the eight cubes: the one before the nearest border along each axis
-    val x0 = cube(p.x - radius)
-    val y0 = cube(p.y - radius)
-    val z0 = cube(p.z - radius)
+    // Lowest of the eight cells: the one below the nearest cell boundary along each axis
+    val x0 = cell(p.x - radius)
+    val y0 = cell(p.y - radius)
+    val z0 = cell(p.z - radius)
     var sum = Rgb.Black
     var k = 0
     while k < 8 do
@@ -95,8 +94,8 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
       val py = data(at + 1)
       val pz = data(at + 2)
       val distance2 = square(px - p.x) + square(py - p.y) + square(pz - p.z)
-      // Other cubes may have the same hash, and be looked at in their turn
-      if distance2 < radius2 && cube(px) == x && cube(py) == y && cube(pz) == z then
+      // Other cells may have the same hash; they are visited separately
+      if distance2 < radius2 && cell(px) == x && cell(py) == y && cell(pz) == z then
         val wi = Vec3(data(at + 3), data(at + 4), data(at + 5))
         val f = vertex.received(wi)
         if !f.isBlack && vertex.pdf(wi) <= limit then
@@ -107,5 +106,5 @@ private[bidirectional] final class PhotonMap(parts: Array[Photons], paths: Int, 
     Rgb(r, g, blue)
 
 private[bidirectional] object PhotonMap:
-  /** Of each photon. */
+  /** Floats per photon. */
   inline val Numbers = 9

@@ -6,15 +6,15 @@ import candela.integrators.{LightTransport, PassIntegrator, SceneIntegrator, Wal
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Stochastic progressive photon mapping: paths from the camera end where surfaces scatter light
-  * widely, and gather there the photons of their pass, which is that of their sample's number.
+/** Stochastic progressive photon mapping: camera subpaths end at surfaces that scatter widely, and
+  * gather the photons of their pass, numbered as their sample.
   *
-  * It finds light of points by way of mirrors and glass that is seen by way of these, too. Light
-  * that comes straight from its source is sampled as by a path tracer. Of the rest, what a surface
-  * scatters sharply (with a density above a limit) is followed, and the photons stand for all other
-  * directions: together that is all of it, once.
+  * It finds caustics from point lights, also those seen via specular surfaces. Direct light is
+  * sampled as by a path tracer. For indirect light, directions sampled by narrow lobes (with a pdf
+  * above a limit) are followed, and photons account for all others: together they cover all light
+  * exactly once.
   *
-  * @param maxDepth most scattering events of the part of a path that starts at the camera
+  * @param maxDepth maximum number of scattering events of the camera subpath
   *
   * Sources: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009;
   * [[PhotonPasses]] for the radius; PBRT 3rd ed., §16.2.
@@ -58,7 +58,7 @@ private[bidirectional] final class PhotonMapper(
           if !(vertex.bounce.isSpecular || vertex.bounce.pdf > Sharp) then walk.end()
     walk.radiance.toRgb
 
-  /** Light sampling alone finds light from directions in which paths end. */
+  /** Next-event estimation, without MIS for directions in which paths end. */
   private def addOneLight(sampler: Sampler): Unit =
     if walk.sampleOneLight(sampler) then
       val light = walk.light
@@ -69,5 +69,5 @@ private[bidirectional] final class PhotonMapper(
       )
 
 object PhotonMapper:
-  /** Three times that of a matte surface along its normal. */
+  /** Pdf limit of narrow lobes: three times that of a diffuse surface along its normal. */
   private[bidirectional] inline val Sharp = 0.95f

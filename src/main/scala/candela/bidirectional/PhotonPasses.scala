@@ -9,14 +9,14 @@ import candela.scene.{PathReport, Scene}
 import java.util.concurrent.atomic.AtomicInteger
 import java.util.concurrent.locks.LockSupport
 
-/** How photons are sent out.
+/** Photon mapping settings.
   *
-  * @param radius   of the first pass, in scene units
-  * @param paths    of each pass; at most 0: as many as there are pixels
-  * @param maxEdges of a light path
-  * @param seed     of the random numbers
-  * @param caustics are photons kept that have come by mirrors and glass alone?
-  * @param indirect are all others?
+  * @param radius   initial gathering radius, in scene units
+  * @param paths    light paths per pass; at most 0: one per pixel
+  * @param maxEdges maximum number of edges of a light path
+  * @param seed     random seed
+  * @param caustics whether to store photons that arrive via specular surfaces only
+  * @param indirect whether to store all others
   */
 final case class PhotonSettings(
     radius: Float,
@@ -28,7 +28,7 @@ final case class PhotonSettings(
     indirect: Boolean = true
 )
 
-/** Sends out the photons of a pass; mutable, one per worker. */
+/** Traces the photons of a pass. Mutable, one per worker. */
 private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSettings):
   private val paths =
     LightPaths(scene, settings.maxEdges, rouletteAfter = 1, settings.compresses, weighsAll = false)
@@ -36,7 +36,7 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
 
   def raysTraced: Long = paths.raysTraced
 
-  /** Those of one part of a pass, whoever asks. What arrives straight from a light is left out. */
+  /** Traces one part of a pass, deterministic for any worker. Direct light is left out. */
   def trace(pass: Int, part: Int, count: Int, shutter: Shutter): Photons =
     val photons = Photons()
     var i = 0
@@ -52,16 +52,16 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
       i += 1
     photons
 
-/** The photon maps of all passes, shared by all workers: who needs one helps to make it. Which
-  * photons are in it does not depend on who did.
+/** The photon maps of all passes, shared by all workers. A worker that needs a map helps to build
+  * it; the map is bit-identical for any thread count.
   *
-  * With each pass the radius shrinks, so that the mean over all passes has neither bias nor noise
-  * in the end: r² by (k + α)/(k + 1), α = 2/3.
+  * The radius shrinks with each pass, so that bias and noise of the average over all passes vanish
+  * in the limit: r² by (k + α)/(k + 1), α = 2/3.
   *
   * Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 30(3),
   * 2011.
   *
-  * @param maxDepth most scattering events of a path from the camera
+  * @param maxDepth maximum number of scattering events of a camera subpath
   */
 final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, view: View)
     extends SharedPasses:
@@ -75,7 +75,7 @@ final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, 
   def integrator(report: Option[PathReport]): PassIntegrator =
     PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this)
 
-  /** The photons of a pass; workers may be at work on as many as [[SharedPasses.Open]]. */
+  /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. */
   private[bidirectional] def apply(number: Int, tracer: PhotonTracer): PhotonMap =
     val pass = find(number)
     if pass.map.isEmpty then pass.help(tracer, shutter)
@@ -97,7 +97,7 @@ object PhotonPasses:
   private[bidirectional] val PartSize = 1024
   private val MostPaths = 100_000_000L
 
-  /** Nanoseconds; short beside a pass. */
+  /** In nanoseconds; short beside a pass. */
   private val Pause = 50_000L
 
   private final class Pass(val number: Int, paths: Int, radius: Float):

@@ -2,19 +2,19 @@ package candela.bidirectional
 
 import candela.sampling.{SampleHash, Sampler}
 
-/** The random numbers of which a chain makes its paths: a point of a cube of as many dimensions as
-  * a path asks for, changed a little or thrown anew from path to path. Mutable, one per chain.
+/** A point of primary sample space: the random numbers of a path, with as many dimensions as the
+  * path requests, mutated by small and large steps. Mutable, one per chain.
   *
-  * The numbers come in three streams, so that one more of what a path from a light takes does not
-  * shift those of the path from the camera. A dimension that lately was not asked for makes up for
-  * the steps that it has missed when it is.
+  * Numbers come in three streams, so that an additional dimension of the light subpath doesn't
+  * shift those of the camera subpath. Dimensions are mutated lazily: one not requested recently
+  * catches up on missed steps.
   *
   * Sources: Kelemen, Szirmay-Kalos, Antal, Csonka, "A Simple and Robust Mutation Strategy for the
   * Metropolis Light Transport Algorithm", Eurographics 2002; PBRT 3rd ed., §16.4.4, for the normal
   * distribution of small steps.
   *
-  * @param largeStep probability that all numbers are thrown anew
-  * @param sigma     standard deviation of the other steps
+  * @param largeStep probability of a large step
+  * @param sigma     standard deviation of small steps
   */
 private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float):
   import PrimarySamples.*
@@ -24,14 +24,14 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
   private var lastLarge = 0
   private var spare = Float.NaN
 
-  /** Is the point that is tried thrown anew? */
+  /** Whether the proposal is a large step. */
   var isLarge = true
 
   val camera: Numbers = Numbers(this)
   val light: Numbers = Numbers(this)
   val joins: Numbers = Numbers(this)
 
-  /** Starts anew with a point that depends on `seed` alone. */
+  /** Resets to a point that depends on `seed` only. */
   def start(seed: Long): Unit =
     branch(seed)
     time = 0
@@ -41,12 +41,12 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
     light.clear()
     joins.clear()
 
-  /** Draws on from here what depends on `seed`: chains may start at the same point. */
+  /** Reseeds the random numbers of further steps, as chains may start at the same point. */
   def branch(seed: Long): Unit =
     counter = SampleHash.mix64(seed)
     spare = Float.NaN
 
-  /** Steps to another point, which is then to be accepted or rejected. */
+  /** Proposes a mutation, to be accepted or rejected. */
   def propose(): Unit =
     time += 1
     isLarge = uniform() < largeStep
@@ -62,20 +62,20 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
     joins.restore()
     time -= 1
 
-  /** In [0, 1), independent of the point. */
+  /** Uniform in [0, 1), independent of the point. */
   def uniform(): Float =
     counter += SampleHash.Step
     SampleHash.toUnit((SampleHash.mix64(counter) >>> 32).toInt)
 
-  /** Of so many small steps together. */
+  /** Standard deviation of `steps` small steps combined. */
   private def deviation(steps: Int): Float = sigma * Math.sqrt(steps.toDouble).toFloat
 
   /** Box and Muller, "A Note on the Generation of Random Normal Deviates", 1958: two at a time. */
   private def normal(): Float =
     if spare == spare then
-      val given_ = spare
+      val result = spare
       spare = Float.NaN
-      given_
+      result
     else
       val radius = Math.sqrt(-2 * Math.log(1.0 - uniform()))
       val angle = 2 * Math.PI * uniform()
@@ -84,7 +84,7 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
 
 private[bidirectional] object PrimarySamples:
 
-  /** Some of the dimensions, in the order in which they are asked for. */
+  /** One stream of dimensions, in order of request. */
   final class Numbers(owner: PrimarySamples) extends Sampler:
     private var values = new Array[Float](InitialSize)
     private var changed = new Array[Int](InitialSize)
@@ -137,12 +137,12 @@ private[bidirectional] object PrimarySamples:
       changed(known) = Never
       known += 1
 
-  /** In [0, 1) again: the cube has no border. */
+  /** Wraps around to [0, 1): the space is a torus. */
   private def wrapped(value: Float): Float =
     val inside = value - Math.floor(value.toDouble).toFloat
     if inside < 1f then inside else 0f
 
   private inline val Never = -1
 
-  /** Dimensions to begin with. */
+  /** Initial capacity in dimensions. */
   private inline val InitialSize = 32

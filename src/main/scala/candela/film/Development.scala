@@ -4,17 +4,16 @@ import candela.base.loop
 import candela.color.ColorResponse
 import candela.image.Image
 
-/** What becomes of the means of a pixel's samples.
+/** Post-processing from pixel averages to image values.
   *
-  * @param scale         factor of all values
-  * @param sensor        what a camera's three kinds of cells make of red, green and blue; if empty
-  *                      they are those of the standard observer
-  * @param balance       nine numbers, row by row, that map what the cells make to what is written;
-  *                      if empty it stays as it is
-  * @param clipsNegative filters with negative lobes leave values below 0: pbrt-v2 and v3 write 0
-  *                      for them
-  * @param isHalf        are 16 bits of each value written, not 32?
-  * @param bands         of wavelengths that are written behind the colours, if any
+  * @param scale         scale of all values
+  * @param sensor        spectral response of the camera's three channels; if empty, that of the
+  *                      standard observer
+  * @param balance       3 × 3 matrix, row by row, from sensor to output values; identity if empty
+  * @param clipsNegative whether values below 0, which filters with negative lobes produce, are
+  *                      written as 0, as in pbrt-v2 and v3
+  * @param isHalf        whether values are written with 16 bits instead of 32
+  * @param bands         wavelength bands written as additional channels, if any
   */
 final case class Development(
     scale: Float = 1f,

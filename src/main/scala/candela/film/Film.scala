@@ -3,13 +3,13 @@ package candela.film
 import candela.base.loop
 import candela.image.Image
 
-/** What the camera samples add up to, for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
+/** Accumulates camera samples for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
   *
-  * Not synchronised: a pixel must belong to one worker at a time. Sums are Double, so that a
-  * pixel's value does not drift however many samples it gets.
+  * Not synchronised: one worker at a time owns a pixel. Accumulators are Double, so that values
+  * don't drift with the number of samples.
   *
-  * @param splats what paths from the lights add, if there are such
-  * @param shares takes the samples instead, if each counts in several pixels
+  * @param splats accumulates light path splats, if any
+  * @param shares if defined, accumulates the samples instead, each contributing to several pixels
   */
 final class Film(
     val x0: Int,
@@ -37,13 +37,13 @@ final class Film(
     sums(at + 2) += weight.toDouble * b
     sums(at + 3) += weight.toDouble
 
-  /** A copy of what there is, to see later what was added. */
+  /** A copy of the current state, for [[since]]. */
   def copy(): Film =
     val film = Film(x0, y0, x1, y1, splats.map(_.copy()), shares.map(_.copy()))
     System.arraycopy(sums, 0, film.sums, 0, sums.length)
     film
 
-  /** The samples alone that were added since `earlier` was copied. */
+  /** The delta: samples added since `earlier` was copied. */
   def since(earlier: Film): Film =
     val added = Film(
       x0,
@@ -57,8 +57,8 @@ final class Film(
     loop(sums.length)(i => added.sums(i) -= earlier.sums(i))
     added
 
-  /** The weighted means, times `scale`; pixels without samples are black. May be called while
-    * others add: it then holds what is there.
+  /** The weighted averages, times `scale`; pixels without samples are black. May be called while
+    * others add; the image then holds the current state.
     */
   def toImage(scale: Float): Image =
     val image = Image.rgb(width, height)

@@ -2,11 +2,11 @@ package candela.film
 
 import candela.base.loop
 
-/** Chooses where in a filter's extent a camera sample goes, so that samples count (almost) the
-  * same: every pixel then has samples of its own and no two pixels share one.
+/** Filter importance sampling: samples positions within a filter's extent, so that samples have
+  * (almost) equal weights and each contributes to one pixel.
   *
-  * Along each axis the density is |filter|, interpolated linearly between points 1/32 pixel apart
-  * or closer; box and triangle filters it follows exactly. Mutable, one per worker.
+  * Along each axis the pdf is proportional to |filter|, interpolated linearly between points 1/32
+  * pixel apart or closer; exact for box and triangle filters. Mutable, one per worker.
   *
   * Source: Ernst, Stamminger, Greiner, "Filter Importance Sampling", IEEE Symposium on Interactive
   * Ray Tracing 2006.
@@ -22,10 +22,10 @@ final class FilterSampler private (
     FilterSampler.Axis.of(filter.radiusY, filter.y)
   )
 
-  /** The last sample: pixels from the pixel's centre. */
+  /** Offset of the last sample from the pixel centre, in pixels. */
   var dx, dy: Float = 0f
 
-  /** filter / (density · integral of the filter): 1 on average, negative in the negative lobes. */
+  /** filter / (pdf · integral of the filter): 1 on average, negative in negative lobes. */
   var weight: Float = 0f
 
   /** @param u1 uniform in [0, 1), as `u2` */
@@ -38,10 +38,10 @@ final class FilterSampler private (
 
 private object FilterSampler:
 
-  /** A density on [−radius, radius], linear in each of `heights.length − 1` equal cells.
+  /** A piecewise linear pdf on [−radius, radius], with `heights.length − 1` equal cells.
     *
-    * @param heights  at the ends of the cells; the density is height · inverseArea
-    * @param cdf      at the same places, from 0 to 1
+    * @param heights  pdf at the ends of the cells
+    * @param cdf      at the same points, from 0 to 1
     * @param integral of the signed filter
     */
   private final class Axis(
@@ -61,7 +61,7 @@ private object FilterSampler:
       val v = if high > low then (u - low) / (high - low) else 0f
       val a = heights(cell)
       val b = heights(cell + 1)
-      // The root of the linear density's cumulative that cancels nothing.
+      // Root of the quadratic CDF, in the form without cancellation.
       val root = Math.sqrt((1.0 - v) * a * a + v.toDouble * b * b).toFloat
       val t = if a + root > 0f then v * (a + b) / (a + root) else 0f
       Math.min(radius, (cell + t) * cellWidth - radius)
@@ -73,7 +73,7 @@ private object FilterSampler:
       val density = (1f - t) * heights(cell) + t * heights(cell + 1)
       if density > 0f then value / (density * integral) else 0f
 
-    /** The last cell that begins at or before `u` in the cumulative. */
+    /** Binary search: the last cell that begins at or before `u` in the CDF. */
     private def find(u: Float): Int =
       var low = 0
       var high = cells
@@ -86,16 +86,16 @@ private object FilterSampler:
     private val CellsPerPixel = 32
     private val MinCells = 64
 
-    /** Points of the filter within each cell, for its integral: Simpson's rule, whose error is
-      * below that of Float for functions as smooth as filters are in a cell.
+    /** Simpson intervals per cell for the filter's integral; the error is below Float precision for
+      * functions as smooth as filters are within a cell.
       */
     private val Intervals = 8
 
     def of(radius: Float, filter: Float => Float): Axis =
       val cells = Math.max(MinCells, FilterTable.cells(radius, CellsPerPixel))
-      def place(i: Double): Float = FilterTable.place(radius, cells, i)
+      def position(i: Double): Float = FilterTable.position(radius, cells, i)
 
-      val heights = Array.tabulate(cells + 1)(i => Math.abs(filter(place(i))))
+      val heights = Array.tabulate(cells + 1)(i => Math.abs(filter(position(i))))
       val cumulative = new Array[Double](cells + 1)
       var integral = 0.0
       loop(cells): i =>
@@ -103,25 +103,25 @@ private object FilterSampler:
         integral += (0 to Intervals)
           .map: k =>
             val factor = if k == 0 || k == Intervals then 1 else if k % 2 == 1 then 4 else 2
-            factor * filter(place(i + k.toDouble / Intervals)).toDouble
+            factor * filter(position(i + k.toDouble / Intervals)).toDouble
           .sum / (3 * Intervals)
       val area = cumulative(cells)
       require(area > 0 && integral > 0, "a filter without positive integral")
       val density = heights.map(h => (h / area).toFloat)
       Axis(radius, density, cumulative.map(c => (c / area).toFloat), integral.toFloat)
 
-/** A filter along one axis as a table, for those whose values take long to compute: linear between
+/** A filter tabulated along one axis, for filters that are expensive to evaluate: linear between
   * points 1/64 pixel apart or closer. Immutable.
   *
-  * Box and triangle filters it follows exactly, as they have their kinks at points of the table.
+  * Exact for box and triangle filters, whose kinks are at table points.
   */
 final class FilterTable(radius: Float, filter: Float => Float):
   private val cells = FilterTable.cells(radius, FilterTable.CellsPerPixel)
   private val perPixel = cells / (2f * radius)
   private val values =
-    Array.tabulate(cells + 1)(i => filter(FilterTable.place(radius, cells, i)))
+    Array.tabulate(cells + 1)(i => filter(FilterTable.position(radius, cells, i)))
 
-  /** The filter `d` pixels from a pixel's centre; 0 beyond the radius. */
+  /** Filter value `d` pixels from the pixel centre; 0 outside the radius. */
   def apply(d: Float): Float =
     val at = (d + radius) * perPixel
     if !(at >= 0f && at <= cells) then 0f
@@ -133,11 +133,11 @@ final class FilterTable(radius: Float, filter: Float => Float):
 private[film] object FilterTable:
   private val CellsPerPixel = 64
 
-  /** Cells of [−radius, radius]: a multiple of four, so that the kinks that filters have at the
-    * centre and half radius are ends of cells.
+  /** Number of cells of [−radius, radius]: a multiple of four, so that filter kinks at the centre
+    * and half radius are ends of cells.
     */
   def cells(radius: Float, perPixel: Int): Int = (2 * radius * perPixel).ceil.toInt + 3 & ~3
 
-  /** Where cell `i` of so many begins. */
-  def place(radius: Float, cells: Int, i: Double): Float =
+  /** Start of cell `i` of `cells`. */
+  def position(radius: Float, cells: Int, i: Double): Float =
     Math.max(-radius, Math.min(radius, (radius * (2 * i / cells - 1)).toFloat))

@@ -2,11 +2,10 @@ package candela.film
 
 import candela.math.*
 
-/** A reconstruction filter: how much a sample counts that lies (`dx`, `dy`) pixels from a pixel's
-  * centre. Zero beyond the radii; need not be normalised, may be negative.
+/** A reconstruction filter: filter weight at offset (`dx`, `dy`) from the pixel centre. Zero
+  * outside the radii; need not be normalised, may be negative.
   *
-  * All filters here are products of a function of x and one of y, which makes them cheap to
-  * tabulate and to sample; see [[FilterSampler]].
+  * All filters here are separable, and so cheap to tabulate and to sample; see [[FilterSampler]].
   */
 abstract class Filter(val radiusX: Float, val radiusY: Float):
   require(radiusX > 0f && radiusY > 0f, s"filter radii $radiusX, $radiusY")
@@ -15,7 +14,7 @@ abstract class Filter(val radiusX: Float, val radiusY: Float):
   def y(dy: Float): Float
   final def apply(dx: Float, dy: Float): Float = x(dx) * y(dy)
 
-  /** ∫ of it over its extent, by the midpoint rule along both axes. */
+  /** Integral over its extent, by the midpoint rule along both axes. */
   final def integral: Double = Filter.along(radiusX, x) * Filter.along(radiusY, y)
 
 private object Filter:
@@ -29,17 +28,17 @@ private object Filter:
 // Scene files name the radii `xwidth`, `ywidth` (pbrt-v2, v3) or `xradius`, `yradius` (v4); all in
 // pixels from the centre. The defaults are given as v2 and v3 / v4.
 
-/** Every sample within the box counts the same. Defaults: radii 0.5 / 0.5. */
+/** Box filter: constant weight. Defaults: radii 0.5 / 0.5. */
 final class BoxFilter(radiusX: Float, radiusY: Float) extends Filter(radiusX, radiusY):
   def x(dx: Float): Float = if abs(dx) <= radiusX then 1f else 0f
   def y(dy: Float): Float = if abs(dy) <= radiusY then 1f else 0f
 
-/** A tent. Defaults: radii 2 / 2. */
+/** Triangle (tent) filter. Defaults: radii 2 / 2. */
 final class TriangleFilter(radiusX: Float, radiusY: Float) extends Filter(radiusX, radiusY):
   def x(dx: Float): Float = Math.max(0f, radiusX - abs(dx))
   def y(dy: Float): Float = Math.max(0f, radiusY - abs(dy))
 
-/** exp(−α d²), lowered so that it ends in 0 at the radius.
+/** exp(−α d²), shifted to reach 0 at the radius.
   *
   * @param alpha in pixels⁻², positive
   */
@@ -67,11 +66,12 @@ object GaussianFilter:
   def ofSigma(radiusX: Float, radiusY: Float, sigma: Float): GaussianFilter =
     GaussianFilter(radiusX, radiusY, 1 / (2.0 * sigma * sigma))
 
-/** Two cubic pieces on each side, the outer one negative: sharp, with little ringing. Integrates to
-  * 1 for every `b` and `c` when the radii are 2. Defaults: radii 2 / 2, B = C = 1/3.
+/** Mitchell–Netravali filter: two cubic pieces on each side, the outer one negative; sharp, with
+  * little ringing. Integrates to 1 for every `b` and `c` at radius 2. Defaults: radii 2 / 2, B = C
+  * = 1/3.
   *
-  * Source: Mitchell & Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988,
-  * eq. 8.
+  * Source: Mitchell & Netravali, "Reconstruction filters in computer graphics", SIGGRAPH 1988, eq.
+  * 8.
   */
 final class MitchellFilter(radiusX: Float, radiusY: Float, b: Float, c: Float)
     extends Filter(radiusX, radiusY):
@@ -87,10 +87,10 @@ final class MitchellFilter(radiusX: Float, radiusY: Float, b: Float, c: Float)
       else 0f
     sixfold * (1f / 6f)
 
-/** A sinc within the central lobe of a wider sinc (Lanczos window), cut off at the radius.
+/** Lanczos-windowed sinc: a sinc times the central lobe of a wider sinc, truncated at the radius.
   *
-  * @param frequency of the filtering sinc: zeros at the multiples of 1/frequency pixels
-  * @param window    of the windowing one
+  * @param frequency of the sinc: zeros at the multiples of 1/frequency pixels
+  * @param window    frequency of the windowing sinc
   */
 final class LanczosSincFilter private (
     radiusX: Float,
@@ -107,11 +107,12 @@ final class LanczosSincFilter private (
     if abs(d) > radius then 0f else (sinc(d * frequency) * sinc(d * window)).toFloat
 
   private def sinc(x: Double): Double =
-    // Below this the quotient differs from 1 by less than Double can show.
+    // Below this the quotient differs from 1 by less than Double precision.
     if Math.abs(x) < 1e-9 then 1.0 else Math.sin(Math.PI * x) / (Math.PI * x)
 
 object LanczosSincFilter:
-  /** As in pbrt-v3 and v4: one lobe a pixel, a window of `tau` pixels. Defaults: radii 4, tau 3. */
+  /** As in pbrt-v3 and v4: one lobe per pixel, a window of `tau` pixels. Defaults: radii 4, tau 3.
+    */
   def apply(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
     require(tau > 0f, s"sinc filter with tau $tau")
     new LanczosSincFilter(radiusX, radiusY, 1, 1, 1.0 / tau, 1.0 / tau)

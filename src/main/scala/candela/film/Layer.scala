@@ -6,14 +6,14 @@ import candela.math.Vec3
 import Statistic.*
 import Tally.{color, numbers, vector}
 
-/** What an image can hold beside its colours, mostly of the first surface that each camera ray
-  * meets. A case says all about a layer.
+/** An AOV: an image channel group besides colour, mostly a property of the first visible surface. A
+  * case defines everything about an AOV.
   *
-  * @param word      its name on the command line
-  * @param channels  names as pbrt-v4 has them, or customary ones where it has none
-  * @param meaning   one line for the help
-  * @param statistic one value for each channel
-  * @param needsFootprints must the scene track ray differentials for it?
+  * @param word            command-line name
+  * @param channels        channel names as in pbrt-v4, or customary names where it has none
+  * @param meaning         one line for the help
+  * @param statistic       one value per channel
+  * @param needsFootprints whether the scene must track ray differentials for it
   */
 enum Layer(
     val word: String,
@@ -26,63 +26,63 @@ enum Layer(
       extends Layer(
         "albedo",
         Layer.rgb("Albedo"),
-        "part of the light that is scattered",
+        "directional albedo of the BSDF",
         MeanOfAll(color(_.albedo))
       )
-  case Position extends Layer("position", Layer.xyz("P"), "where it is", Mean(vector(_.p)))
+  case Position extends Layer("position", Layer.xyz("P"), "position", Mean(vector(_.p)))
   case Gradient
       extends Layer(
         "gradient",
         Vector("dzdx", "dzdy"),
-        "change of z to the next sample",
+        "screen-space change of z per sample",
         Magnitude(numbers(_.dzdx, _.dzdy)),
         needsFootprints = true
       )
   case Normal
-      extends Layer("normal", Layer.xyz("N"), "normal of the surface", Direction(vector(_.n)))
+      extends Layer("normal", Layer.xyz("N"), "geometric normal", Direction(vector(_.n)))
   case ShadingNormal
       extends Layer(
         "shadingnormal",
         Layer.xyz("Ns"),
-        "normal that shades it",
+        "shading normal",
         Direction(vector(_.shadingNormal))
       )
-  case Uv extends Layer("uv", Vector("u", "v"), "its parameters", Mean(numbers(_.at.u, _.at.v)))
+  case Uv extends Layer("uv", Vector("u", "v"), "surface parameters", Mean(numbers(_.at.u, _.at.v)))
   case Variance
-      extends Layer("variance", Layer.rgb("Variance"), "variance of the samples", SampleVariance)
+      extends Layer("variance", Layer.rgb("Variance"), "sample variance", SampleVariance)
   case RelativeVariance
       extends Layer(
         "relativevariance",
         Layer.rgb("RelativeVariance"),
-        "variance over the mean",
+        "sample variance over the mean",
         VarianceOverMean
       )
   case Depth extends Layer("depth", Vector("Z"), "distance along the ray", Mean(numbers(_.depth)))
   case Samples
-      extends Layer("samples", Vector("samples"), "how many samples there are", SampleCount)
+      extends Layer("samples", Vector("samples"), "sample count", SampleCount)
 
 object Layer:
-  /** Those of pbrt-v4's film "gbuffer". */
+  /** The AOVs of pbrt-v4's film "gbuffer". */
   val gbuffer: Vector[Layer] =
     Vector(Albedo, Position, Gradient, Normal, ShadingNormal, Uv, Variance, RelativeVariance)
 
   private def rgb(name: String) = Vector("R", "G", "B").map(c => s"$name.$c")
   private def xyz(name: String) = Vector("X", "Y", "Z").map(c => s"$name.$c")
 
-/** The numbers that a pixel keeps of its samples for a layer. Stateless: the numbers are among the
-  * sums of [[LayerFilm]], and start at 0.
+/** Per-pixel accumulators of an AOV. Stateless: the accumulators are stored by [[LayerFilm]] and
+  * start at 0.
   *
-  * @param size how many there are
+  * @param size number of accumulators
   */
 private[film] abstract class Tally(val size: Int):
-  /** Adds a sample that met a surface.
+  /** Adds a sample that hit a surface.
     *
-    * @param at the first of the numbers
+    * @param at index of the first accumulator
     */
   def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface): Unit
 
 private[film] object Tally:
-  /** What is summed by weight. */
+  /** A quantity accumulated with the filter weight. */
   trait Number:
     def apply(seen: VisibleSurface): Float
 
@@ -111,7 +111,7 @@ private[film] object Tally:
   object Empty extends Tally(0):
     def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) = ()
 
-  /** How many samples there are, the means of the light, then the sums of squared deviations.
+  /** Number of samples, means of the light, then sums of squared deviations.
     *
     * Source: Welford, "Note on a method for calculating corrected sums of squares and products",
     * Technometrics 4(3), 1962.
@@ -128,12 +128,12 @@ private[film] object Tally:
       sums(at + 1 + c) += before / sums(at)
       sums(at + 4 + c) += before * (value - sums(at + 1 + c))
 
-/** One pixel's tally, when the image is made.
+/** Accumulators of one pixel, for evaluation.
   *
-  * @param samples   how many there were
-  * @param weight    the sum of their filter weights
-  * @param metWeight of those that met a surface
-  * @param scale     of the samples that were added, to be those of the image
+  * @param samples   number of samples
+  * @param weight    sum of their filter weights
+  * @param hitWeight sum of the filter weights of samples that hit a surface
+  * @param scale     from accumulated values to image values
   */
 private[film] final class PixelTally(
     sums: Array[Double],
@@ -141,7 +141,7 @@ private[film] final class PixelTally(
     val size: Int,
     val samples: Double,
     val weight: Double,
-    val metWeight: Double,
+    val hitWeight: Double,
     val scale: Double
 ):
   def apply(i: Int): Double = sums(at + i)
@@ -149,27 +149,27 @@ private[film] final class PixelTally(
   def over(weight: Double): Array[Double] =
     Array.tabulate(size)(i => if weight != 0 then this(i) / weight else 0.0)
 
-/** What a layer's values are, of all samples of a pixel.
+/** Evaluates an AOV from the samples of a pixel.
   *
-  * @param tally what it is computed from; layers may share one
+  * @param tally its accumulators; AOVs may share them
   */
 private[film] abstract class Statistic(val tally: Tally):
   def apply(pixel: PixelTally): Array[Double]
 
 private[film] object Statistic:
-  /** Over the samples that met a surface. */
+  /** Average over samples that hit a surface. */
   final class Mean(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.metWeight)
+    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight)
 
-  /** Over all samples; those that met nothing count as 0. */
+  /** Average over all samples; misses count as 0. */
   final class MeanOfAll(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.weight)
 
-  /** Of the mean. */
+  /** Absolute value of the average. */
   final class Magnitude(tally: Tally) extends Statistic(tally):
-    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.metWeight).map(Math.abs)
+    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.hitWeight).map(Math.abs)
 
-  /** The mean as a unit vector. */
+  /** Normalised average. */
   final class Direction(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] =
       val v = Array.tabulate(pixel.size)(pixel(_))

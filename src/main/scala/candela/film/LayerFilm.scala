@@ -4,19 +4,19 @@ import candela.base.loop
 import candela.color.Rgb
 import candela.image.Image
 
-/** The sums for the layers that are asked for, beside those of [[Film]]; like it not synchronised,
-  * a pixel belongs to one worker at a time.
+/** Accumulators of the requested AOVs, in addition to [[Film]]. Not synchronised either: one worker
+  * at a time owns a pixel.
   *
-  * Samples that meet nothing count for the albedo and the number of samples only, as in pbrt-v4.
+  * Misses contribute to the albedo and the sample count only, as in pbrt-v4.
   */
 final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer]):
   private val width = x1 - x0
   private val height = y1 - y0
 
-  // A pixel has: samples, weight of all, weight of those that met a surface; then the tallies
+  // Per pixel: sample count, total weight, weight of samples that hit a surface; then the tallies
   private val tallies = layers.map(_.statistic.tally).distinct.toArray
-  private val places = tallies.scanLeft(3)(_ + _.size)
-  private val stride = places.last
+  private val offsets = tallies.scanLeft(3)(_ + _.size)
+  private val stride = offsets.last
   private val sums =
     new Array[Double](Math.multiplyExact(stride, Math.multiplyExact(width, height)))
 
@@ -29,10 +29,10 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
       sums(at + 2) += w
       var i = 0
       while i < tallies.length do
-        tallies(i).add(sums, at + places(i), w, light, seen)
+        tallies(i).add(sums, at + offsets(i), w, light, seen)
         i += 1
 
-  /** Adds a sample that the camera blocks. */
+  /** Adds a sample blocked by the camera. */
   def miss(x: Int, y: Int, weight: Float): Unit =
     val at = first(x, y)
     sums(at) += 1
@@ -40,9 +40,9 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
 
   private def first(x: Int, y: Int): Int = stride * ((y - y0) * width + (x - x0))
 
-  /** The image with the layers behind its own channels.
+  /** Appends the AOV channels to the image.
     *
-    * @param scale of the samples that were added, to be those of the image
+    * @param scale from accumulated values to image values
     */
   def behind(image: Image, scale: Float): Image =
     require(image.width == width && image.height == height)
@@ -61,5 +61,5 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
 
   private def tallyOf(layer: Layer, pixel: Int, scale: Float): PixelTally =
     val tally = layer.statistic.tally
-    val at = pixel + places(tallies.indexOf(tally))
+    val at = pixel + offsets(tallies.indexOf(tally))
     PixelTally(sums, at, tally.size, sums(pixel), sums(pixel + 1), sums(pixel + 2), scale)

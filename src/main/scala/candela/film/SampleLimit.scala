@@ -2,14 +2,14 @@ package candela.film
 
 import candela.color.{Colorimetry, Matrix3, Rgb}
 
-/** The brightest that a sample may be; what is brighter is scaled down, and keeps its colour.
+/** Clamps the brightness of samples; brighter ones are scaled down, preserving their colour.
   *
-  * @param most    of any of the measures
+  * @param most    maximum of any of the measures
   * @param weights of linear red, green and blue in each measure, three numbers each
   */
 final class SampleLimit(val most: Float, weights: Array[Float]):
 
-  /** By what to multiply a sample: 1 if it is within the limit. */
+  /** Scale of a sample: 1 if it is within the limit. */
   def scale(c: Rgb): Float =
     var brightest = 0f
     var i = 0
@@ -21,17 +21,17 @@ final class SampleLimit(val most: Float, weights: Array[Float]):
 
 object SampleLimit:
 
-  /** Of the luminance, as in pbrt-v3; none if it is no limit. */
+  /** Limits the luminance, as in pbrt-v3; none if `most` is infinite. */
   def luminance(most: Float): Option[SampleLimit] =
     limit(most, Colorimetry.XyzOfRgb.slice(3, 6))
 
-  /** Of the largest of X, Y and Z, the components that pbrt-v4's standard sensor has. */
+  /** Limits the largest of X, Y and Z, the channels of pbrt-v4's standard sensor. */
   def sensor(most: Float): Option[SampleLimit] = limit(most, Colorimetry.XyzOfRgb)
 
-  /** Of the largest of what a camera's cells make of light.
+  /** Limits the largest channel of a camera sensor.
     *
-    * @param toSrgb nine numbers, row by row: the map of that to linear sRGB, whose inverse stands
-    *               for what the cells make of a colour
+    * @param toSrgb 3 × 3 matrix, row by row, from sensor values to linear sRGB; its inverse
+    *               approximates the sensor's response to a colour
     */
   def camera(most: Float, toSrgb: Array[Float]): Option[SampleLimit] =
     limit(most, Matrix3(toSrgb.map(_.toDouble).toVector).inverse.toFloats)

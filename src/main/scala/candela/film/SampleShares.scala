@@ -2,16 +2,16 @@ package candela.film
 
 import candela.base.loop
 
-/** Sums of samples each of which counts in all pixels that the filter reaches, by its weight there:
-  * the pixel's value is the weighted mean.
+/** Accumulates samples that contribute to all pixels within the filter's radius, by filter weight:
+  * the pixel value is the weighted average.
   *
-  * The expected image is that of [[FilterSampler]], where a sample counts in one pixel alone, but
-  * the noise is less: Σw² / (Σw)² falls by ∫f² / (∫f)² of the filter f along each axis, which makes
-  * the variance 4/9 for a triangle of radius 1, and less for wider ones. In turn the noise of
-  * neighbours is alike.
+  * The expected image is that of [[FilterSampler]], where a sample contributes to one pixel only,
+  * but with less noise: Σw² / (Σw)² falls by ∫f² / (∫f)² of the filter f along each axis, so that
+  * the variance is 4/9 for a triangle of radius 1, and less for wider filters. In turn the noise of
+  * neighbouring pixels is correlated.
   *
-  * Each tile adds to a block of its own, and the blocks are added up in their order: so the image
-  * is the same, bit for bit, however many workers there are.
+  * Each tile accumulates into its own block. Blocks are merged in order, so the image is
+  * bit-identical for any thread count.
   *
   * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed. 2016, §7.9.2, eq. 7.12.
   */
@@ -33,15 +33,15 @@ final class SampleShares private (
 
   def copy(): SampleShares = new SampleShares(x0, y0, x1, y1, blocks.map(_.copy()))
 
-  /** What was added since `earlier` was copied. */
+  /** The delta since `earlier` was copied. */
   def since(earlier: SampleShares): SampleShares =
     val added = blocks.zip(earlier.blocks).map((now, before) => now.since(before))
     new SampleShares(x0, y0, x1, y1, added)
 
 object SampleShares:
-  /** For the pixels x0 ≤ x < x1, y0 ≤ y < y1 of the film.
+  /** Covers the pixels x0 ≤ x < x1, y0 ≤ y < y1 of the film.
     *
-    * @param tiles of all samples that count in one of these pixels; each has a block of its own
+    * @param tiles of all samples that contribute to these pixels; each has its own block
     */
   def apply(
       x0: Int,
@@ -61,8 +61,8 @@ object SampleShares:
       )
     new SampleShares(x0, y0, x1, y1, blocks)
 
-/** What the samples of one tile add to the pixels x0 ≤ x < x1, y0 ≤ y < y1: those of the tile and
-  * those around it that the filter reaches from there. It belongs to one worker at a time.
+/** Accumulators of one tile for the pixels x0 ≤ x < x1, y0 ≤ y < y1: those of the tile and those
+  * within the filter's radius around it. One worker at a time owns it.
   */
 final class SharedBlock private[film] (
     x0: Int,
@@ -77,16 +77,16 @@ final class SharedBlock private[film] (
   // For each pixel, row by row: weighted red, green, blue, sum of weights
   private val sums = new Array[Double](Math.multiplyExact(4, Math.multiplyExact(width, height)))
 
-  // The pixels that a sample at (x, y) counts in, in pixels of the film
+  // Pixel range that a sample at (x, y) contributes to, in film pixels
   private def left(x: Float): Int = Math.max(x0, Math.ceil(x - 0.5 - reach.radiusX).toInt)
   private def right(x: Float): Int = Math.min(x1 - 1, Math.floor(x - 0.5 + reach.radiusX).toInt)
   private def top(y: Float): Int = Math.max(y0, Math.ceil(y - 0.5 - reach.radiusY).toInt)
   private def bottom(y: Float): Int = Math.min(y1 - 1, Math.floor(y - 0.5 + reach.radiusY).toInt)
 
-  /** Does a sample at (`x`, `y`) count at all? */
+  /** Whether a sample at (`x`, `y`) contributes to any pixel. */
   def reaches(x: Float, y: Float): Boolean = left(x) <= right(x) && top(y) <= bottom(y)
 
-  /** Adds a finite sample at (`x`, `y`) to all pixels that it counts in. */
+  /** Adds a finite sample at (`x`, `y`) to all pixels that it contributes to. */
   def add(x: Float, y: Float, r: Float, g: Float, b: Float): Unit =
     val first = left(x)
     val last = right(x)
@@ -106,7 +106,7 @@ final class SharedBlock private[film] (
         at += 4
       py += 1
 
-  /** Adds all sums to those of a film that begins at (`filmX`, `filmY`). */
+  /** Adds the block to the accumulators of a film that begins at (`filmX`, `filmY`). */
   private[film] def addTo(film: Array[Double], filmX: Int, filmY: Int, filmWidth: Int): Unit =
     loop(height): y =>
       val to = 4 * ((y + y0 - filmY) * filmWidth + x0 - filmX)
@@ -123,22 +123,22 @@ final class SharedBlock private[film] (
     loop(sums.length)(i => block.sums(i) -= earlier.sums(i))
     block
 
-/** How far a filter lets a sample count, and how much: tables of its two axes. Immutable. */
+/** Extent and tabulated weights of a filter along both axes. Immutable. */
 final class FilterReach(filter: Filter):
   val radiusX: Float = filter.radiusX
   val radiusY: Float = filter.radiusY
   val x: FilterTable = FilterTable(radiusX, filter.x)
   val y: FilterTable = FilterTable(radiusY, filter.y)
 
-  /** Pixels beyond its own, to either side, in which a sample may count. */
+  /** Pixels on either side of its own that a sample may contribute to. */
   val beyondX: Int = FilterReach.beyond(radiusX)
   val beyondY: Int = FilterReach.beyond(radiusY)
 
 object FilterReach:
   private def beyond(radius: Float): Int = Math.ceil(radius - 0.5).toInt
 
-  /** Is there any use in sharing samples by this filter? Not if all stay in their own pixel; nor if
-    * it is so wide that the pixels around a tile would take more memory than those within.
+  /** Whether sharing samples pays off. Not if all samples stay in their own pixel, nor if the
+    * filter is so wide that the border of a tile needs more memory than the tile.
     */
   def isUseful(filter: Filter): Boolean =
     val most = Math.max(beyond(filter.radiusX), beyond(filter.radiusY))

@@ -7,11 +7,11 @@ import candela.color.{ColorResponse, Colorimetry, Detector}
 import candela.image.Image
 import candela.math.lerp
 
-/** Bands of wavelengths of equal width, with the mean spectral radiance in each: pbrt-v4's film
-  * "spectral". Light has three components here; its spectrum is that which [[ColorResponse]] takes
-  * it to have, so that lines of a spectrum are not found.
+/** Average spectral radiance in wavelength bands of equal width: pbrt-v4's film "spectral". Light
+  * has three components; its spectrum is reconstructed by [[ColorResponse]], so spectral lines are
+  * not resolved.
   *
-  * Names are those of Fichet, Pacanowski, Wilkie, "An OpenEXR Layout for Spectral Images", JCGT
+  * Channel names follow Fichet, Pacanowski, Wilkie, "An OpenEXR Layout for Spectral Images", JCGT
   * 10(3), 2021.
   *
   * @param from, to wavelengths in nm
@@ -19,7 +19,7 @@ import candela.math.lerp
 final class SpectralBands(count: Int, from: Float, to: Float):
   import SpectralBands.*
 
-  /** By the wavelength in the middle of each; a dot would begin a layer's name. */
+  /** Named by the centre wavelength, with a decimal comma: a dot would start a layer name. */
   val channels: Vector[String] = Vector.tabulate(count): band =>
     val middle = lerp((band + 0.5f) / count, from, to)
     s"S0.${String.format(Locale.ROOT, "%.3f", middle).replace('.', ',')}nm"
@@ -30,9 +30,9 @@ final class SpectralBands(count: Int, from: Float, to: Float):
     val nm = Array.tabulate(Points)(i => lerp((band + (i + 0.5f) / Points) / count, from, to))
     Detector(nm, nm.map(l => Colorimetry.radianceOfD65(l) / Points)))
 
-  /** The image with the bands behind its channels.
+  /** Appends the bands to the image's channels.
     *
-    * @param colors linear sRGB, as the light arrived
+    * @param colors incident light in linear sRGB
     */
   def behind(image: Image, colors: Image): Image =
     require(image.width == colors.width && image.height == colors.height)
@@ -46,9 +46,9 @@ final class SpectralBands(count: Int, from: Float, to: Float):
     Image(image.width, image.height, image.channelNames ++ channels, data)
 
 object SpectralBands:
-  /** What the layout asks of a file. */
+  /** Attributes that the layout requires. */
   val metadata: Vector[(String, String)] =
     Vector("spectralLayoutVersion" -> "1.0", "emissiveUnits" -> "W.m^-2.sr^-1")
 
-  /** Of each band, evenly. */
+  /** Number of equidistant wavelengths per band. */
   private inline val Points = 8

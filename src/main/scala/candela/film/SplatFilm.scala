@@ -5,13 +5,13 @@ import candela.color.{ColorBasis, Rgb}
 
 import java.util.concurrent.atomic.{AtomicLongArray, LongAdder}
 
-/** What paths from the lights add to pixels that they did not choose, beside the sums of [[Film]].
+/** Accumulates splats of light paths, in addition to [[Film]].
   *
-  * Any worker may add to any pixel at any time, and the sums are the same bit for bit in whatever
-  * order: they are kept as integers, in two parts. A value is rounded to a multiple of 2⁻¹⁶, and
-  * the rest to one of 2⁻⁵⁴; the sums have room for 10¹⁴ and for 2³⁸ rests.
+  * Any worker may add to any pixel at any time. Accumulators are integers in two parts, so the sums
+  * are bit-identical in any order. A value is rounded to a multiple of 2⁻¹⁶, and the remainder to
+  * one of 2⁻⁵⁴; the accumulators hold up to 10¹⁴ and 2³⁸ remainders.
   *
-  * @param filter of which a splat gives each pixel its share
+  * @param filter distributes a splat over pixels
   * @param pixels of the full image
   * @param limit  of a splat, as of a sample
   */
@@ -31,7 +31,7 @@ final class SplatFilm(
   private val most: SampleLimit | Null = limit.orNull
   private val volume = filter.integral
 
-  // For each pixel, row by row, and each colour: the coarse part, then the fine one
+  // For each pixel, row by row, and each channel: the coarse part, then the fine one
   private val sums = AtomicLongArray(Math.multiplyExact(6, Math.multiplyExact(width, height)))
   private val paths = LongAdder()
 
@@ -64,7 +64,7 @@ final class SplatFilm(
   private def addTo(at: Int, value: Double): Unit =
     val coarse = Math.rint(value * Coarse)
     val _ = sums.getAndAdd(at, coarse.toLong)
-    // Exact, as both have the bits of a Float
+    // Exact, as both have the precision of a Float
     val rest = value - coarse / Coarse
     val _ = sums.getAndAdd(at + 1, Math.rint(rest * Fine).toLong)
 
@@ -74,7 +74,7 @@ final class SplatFilm(
     film.paths.add(paths.sum)
     film
 
-  /** What was added since `earlier` was copied. */
+  /** The delta since `earlier` was copied. */
   def since(earlier: SplatFilm): SplatFilm =
     val film = copy()
     loop(sums.length): i =>
@@ -82,7 +82,7 @@ final class SplatFilm(
     film.paths.add(-earlier.paths.sum)
     film
 
-  /** Adds to values of pixels, row by row, what all splats make of them, times `scale`. */
+  /** Adds the normalised splats, times `scale`, to pixel values, row by row. */
   def addTo(data: Array[Float], scale: Float): Unit =
     val count = paths.sum
     if count > 0 then
@@ -95,5 +95,5 @@ object SplatFilm:
   private val Coarse: Double = 65536.0
   private val Fine: Double = 18014398509481984.0 // 2⁵⁴
 
-  /** More than this at once would not leave room for others. */
+  /** Larger single contributions are discarded, lest they overflow the accumulators. */
   private val Largest = 1e9f

@@ -6,10 +6,10 @@ import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.scene.Scene
 
-/** The surface that a camera ray meets first, with what layers take from it, whatever the
-  * integrator. A fact is computed when a layer asks for it. Mutable, one per worker.
+/** The first visible surface of a camera ray, source of the AOVs with any integrator. Properties
+  * are computed on demand. Mutable, one per worker.
   *
-  * @param output from world space to that of the layers, at the time of a ray
+  * @param output transform from world space to that of the AOVs, at the time of a ray
   * @param basis  of the scene's colours
   */
 final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
@@ -26,7 +26,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
 
   def copy(): VisibleSurface = VisibleSurface(scene, output, basis)
 
-  /** Traces a camera ray past interfaces, and leaves the ray alone. */
+  /** Traces a camera ray through interfaces; leaves the ray unchanged. */
   def look(from: Ray): Unit =
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
@@ -34,7 +34,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
     meets = scene.closestBehindInterfaces(ray, hit, at)
     if meets then met(from, scene.bsdf(at))
 
-  /** `at` holds what the ray met. */
+  /** Records the hit in `at`. */
   private[film] def met(from: Ray, scattering: Bsdf): Unit =
     meets = true
     bsdf = scattering
@@ -42,23 +42,23 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
     distance = (at.p - from.origin).length
     output.write(from.time, map, 0)
 
-  /** False if the ray met nothing; all else is then old. */
+  /** False if the ray missed; all other properties are then stale. */
   def isThere: Boolean = meets
 
   def p: Vec3 = vector(at.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
 
-  /** Unit normals on the side of the ray. */
+  /** Unit normals facing the ray origin. */
   def n: Vec3 = normal(at.geometricNormal.facing(wo))
   def shadingNormal: Vec3 = normal(at.frame.n.facing(wo))
 
-  /** How z changes to the next sample to the right, and below. */
+  /** Change of z to the next sample to the right, and below. */
   def dzdx: Float = if at.wantsPartials then vector(at.dpdx).z else 0f
   def dzdy: Float = if at.wantsPartials then vector(at.dpdy).z else 0f
 
-  /** From the origin of the ray, in scene units. */
+  /** Distance from the ray origin, in scene units. */
   def depth: Float = distance
 
-  /** Hemispherical-directional reflectance towards the eye, in linear sRGB. */
+  /** Hemispherical-directional reflectance towards the camera, in linear sRGB. */
   def albedo: Rgb =
     val scattering = bsdf
     if scattering == null then Rgb.Black
@@ -79,7 +79,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
     (map(8) * v.x + map(9) * v.y + map(10) * v.z).toFloat
   )
 
-  /** By the transposed inverse. */
+  /** Transforms by the transposed inverse. */
   private def normal(n: Vec3): Vec3 = Vec3(
     (map(12) * n.x + map(16) * n.y + map(20) * n.z).toFloat,
     (map(13) * n.x + map(17) * n.y + map(21) * n.z).toFloat,
@@ -87,10 +87,10 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
   ).normalized
 
 object VisibleSurface:
-  /** As many as pbrt-v4 takes. */
+  /** Number of BSDF samples, as in pbrt-v4. */
   private val Samples = 16
 
-  /** Well distributed points of the unit cube, the same for every surface: so an albedo has no
+  /** Quasi-random points of the unit cube, the same for every surface, so that the albedo has no
     * noise.
     *
     * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: multiples of

@@ -2,8 +2,8 @@ package candela.render
 
 import candela.integrators.ChainWalker
 
-/** Takes chains on: the paths of a wave are as many as its samples of all pixels, and are dealt out
-  * to the chains in turn.
+/** Advances Markov chains. A sample pass has as many paths as samples of all pixels, distributed
+  * over the chains in turn.
   */
 private[render] final class ChainWorker(
     walker: ChainWalker,
@@ -32,7 +32,7 @@ private[render] final class ChainWorker(
       left -= some
     left <= 0
 
-  /** That the chain has after so many samples per pixel. */
+  /** Number of paths of the chain after `samples` per pixel. */
   private def paths(chain: Int, samples: Int): Long =
     (samples * pixels + schedule.pieces - 1 - chain) / schedule.pieces
 
@@ -40,5 +40,5 @@ private[render] final class ChainWorker(
     RenderFailure(walker.x, walker.y, 0, cause)
 
 private object ChainWorker:
-  /** Paths between two looks at whether to stop. */
+  /** Paths between two checks for cancellation. */
   val AtOnce = 1024L

@@ -4,11 +4,10 @@ import candela.base.Parallel
 
 import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
 
-/** Does pieces of work with several threads, the caller's among them.
+/** A thread pool that executes divisible tasks, the calling thread included.
   *
-  * The threads last as long as a call: to start one takes some 50 µs, which is little beside what
-  * is
-  * worth being divided, and so there is nothing to shut down.
+  * Threads live for one call: starting one takes some 50 µs, little beside tasks worth dividing,
+  * and there is nothing to shut down.
   */
 final class Crew(val threads: Int) extends Parallel:
   require(threads >= 1, s"$threads threads")

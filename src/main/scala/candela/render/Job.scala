@@ -4,7 +4,7 @@ import candela.film.*
 import candela.integrators.{Integrator, SharedPasses}
 import candela.scene.PathReport
 
-/** What a plan's method needs to run: film, schedule and workers, each made once. */
+/** Film, schedule and workers of a plan's method, each created once. */
 private[render] final class Job(
     val schedule: Schedule,
     val film: Film,
@@ -46,7 +46,7 @@ private[render] object Job:
           ChainWorker(chains.walker(), schedule, board, plan.crop.pixels)
         new Job(schedule, film, layers = None, worker)
 
-  /** For one sample of one pixel by itself, of which `report` is told. */
+  /** Traces a single sample of one pixel; `report` receives its path. */
   def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
     val pixel = PixelBounds(x, y, x + 1, y + 1)
     val schedule = TileSchedule(pixel, plan.sampler.samplesPerPixel)
@@ -73,7 +73,7 @@ private[render] object Job:
     val pixels = plan.width.toDouble * plan.height
     SplatFilm(x0, y0, x1, y1, plan.filter, pixels, plan.basis, plan.limit)
 
-  /** What the methods that render tiles have in common. */
+  /** Common base of the tiled methods. */
   private final class TileJobs(
       plan: RenderPlan,
       schedule: TileSchedule,

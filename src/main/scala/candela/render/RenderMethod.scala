@@ -3,39 +3,39 @@ package candela.render
 import candela.film.View
 import candela.integrators.{Integrator, SharedChains, SharedPasses}
 
-/** How the samples of an image are organised; the integrator's recipe chooses it. What depends on
-  * the camera or the film is made when they are known.
+/** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
+  * the camera or film are created once these are known.
   */
 enum RenderMethod:
 
-  /** Camera samples, tile by tile, each independent of all others. */
+  /** Independent camera samples, tile by tile. */
   case Tiles(integrator: Integrator)
 
-  /** Camera samples, tile by tile, whose light paths splat to all of the film. */
+  /** Camera samples, tile by tile; their light paths splat to the whole film. */
   case SplattedTiles(integrator: View => Integrator)
 
-  /** Camera samples, tile by tile; all of one number share what their pass has prepared. */
+  /** Camera samples, tile by tile; samples of equal number share their pass's precomputation. */
   case Passes(passes: View => SharedPasses)
 
-  /** Markov chains, which choose places on the film themselves.
+  /** Markov chains, which choose film positions themselves.
     *
-    * @param integrator takes a camera sample by itself, as if there were no chains
+    * @param integrator evaluates a single camera sample without chains
     */
   case Chains(chains: View => SharedChains, integrator: View => Integrator)
 
-  /** Does it take camera samples where the sampler says? Else there are no layers, either. */
+  /** Whether the sampler places the camera samples; required for AOVs. */
   def takesCameraSamples: Boolean = this match
     case Chains(_, _) => false
     case _ => true
 
-  /** May samples count in all pixels that the filter reaches? What light paths and photons find
-    * belongs to the pixel that it was begun for.
+  /** Whether samples may contribute to all pixels within the filter's radius. Light paths and
+    * photons contribute to the pixel that they were started for.
     */
   def canShareSamples: Boolean = this match
     case Tiles(_) => true
     case _ => false
 
-  /** Do paths from the lights end at the camera? */
+  /** Whether light paths connect to the camera. */
   def seesLightPaths: Boolean = this match
     case SplattedTiles(_) | Chains(_, _) => true
     case _ => false

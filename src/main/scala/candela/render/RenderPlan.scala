@@ -5,20 +5,23 @@ import candela.color.ColorBasis
 import candela.film.*
 import candela.sampling.Sampler
 
-/** A scene made ready to render: just the objects that it needs, each the plainest that is right.
+/** A scene prepared for rendering: only the objects that it needs, each the simplest exact
+  * specialisation.
   *
-  * @param width        of the full image in pixels, of which `crop` is rendered
-  * @param method       takes the samples
-  * @param basis        of the radiance that the method finds
-  * @param limit        of samples, if the scene sets one
-  * @param development  makes the image of what the film has gathered
-  * @param differentialScale of camera rays' differentials; 0: nothing in the scene asks for them
-  * @param features     what the plan holds and what it left out, for people: (what, value)
-  * @param shutter      when it is open, if anything moves; else all rays have the same time
-  * @param weighsFirst  is the limit one of the light as the camera weighs it, not as it arrives?
-  * @param layers       what else the image holds, if anything
-  * @param sharesSamples does a sample count in all pixels that the filter reaches? Else it counts
-  *                      in one, and is placed as the filter says
+  * @param width             of the full image in pixels, of which `crop` is rendered
+  * @param method            organisation of the samples
+  * @param basis             colour basis of the method's radiance
+  * @param limit             brightness limit of samples, if the scene sets one
+  * @param development       post-processing from film to image
+  * @param differentialScale scale of camera ray differentials; 0: the scene needs none
+  * @param features          readable summary of what the plan contains and ignores: (what, value)
+  * @param shutter           shutter interval, if anything is animated; else all rays have the same
+  *                          time
+  * @param weighsFirst       whether the limit applies after the camera's weighting of the light,
+  *                          rather than before
+  * @param layers            requested AOVs, if any
+  * @param sharesSamples     if true, a sample contributes to all pixels within the filter's radius;
+  *                          otherwise to one, by filter importance sampling
   */
 final class RenderPlan(
     val width: Int,
@@ -39,7 +42,7 @@ final class RenderPlan(
     val layers: Option[LayerPlan] = None,
     val sharesSamples: Boolean = false
 ):
-  /** The pixels whose samples count in those of `crop`: these and some around them, if shared. */
+  /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =
     if !sharesSamples then crop
     else
@@ -51,9 +54,9 @@ final class RenderPlan(
         crop.y1 + reach.beyondY
       )
 
-  /** What the method sees of it.
+  /** The method's view of the plan.
     *
-    * @param splats receives what paths from the lights bring
+    * @param splats receives the splats of light paths
     */
   def view(splats: Splats): View =
     View(
@@ -68,5 +71,5 @@ final class RenderPlan(
       differentialScale
     )
 
-/** Layers of an image, and the surface that they are taken from. */
+/** The AOVs of an image, and the visible surface that they are computed from. */
 final case class LayerPlan(layers: Vector[Layer], surface: VisibleSurface)

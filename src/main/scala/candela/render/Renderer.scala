@@ -3,14 +3,14 @@ package candela.render
 import candela.color.Rgb
 import candela.scene.PathReport
 
-/** Turns a plan into an image. */
+/** Renders a plan to an image. */
 object Renderer:
 
-  /** Renders with `threads` workers. The image depends on the plan alone, bit for bit: a pixel is
-    * in one tile, whose samples are added in the order of their numbers, whoever does it.
+  /** Renders with `threads` workers. The image is deterministic, bit-identical for any thread
+    * count: each pixel belongs to one tile, which adds its samples in order.
     *
-    * @param onProgress called about ten times a second, and at the end, in the caller's thread
-    * @param witness    who sees the image grow; the image is the same with and without
+    * @param onProgress     called about ten times a second, and at the end, in the caller's thread
+    * @param witness        image observer; doesn't affect the image
     * @throws RenderFailure if a sample fails; all workers then stop
     */
   def render(
@@ -55,10 +55,9 @@ object Renderer:
       job.layers
     )
 
-  /** Takes one sample by itself, the very one that [[render]] takes, and tells `report` what
-    * happens to it.
+  /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.
     *
-    * @return how the film has it: its light, or none if it was refused
+    * @return its light as accumulated by the film; none if it was discarded
     */
   def trace(plan: RenderPlan, x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
     val (film, worker) = Job.single(plan, x, y, report)

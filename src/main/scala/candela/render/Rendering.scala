@@ -3,21 +3,34 @@ package candela.render
 import candela.film.{Development, Film, LayerFilm}
 import candela.image.Image
 
-/** Camera samples that were no light (NaN or infinite), and so were left out of the image.
+/** Progress of a rendering.
   *
-  * @param x the pixel of the first one, with `y`: first by sample number, then by row
-  * @param material the number of the material that its path met last, −1: unknown
+  * @param done    camera samples taken, of `total`
+  * @param seconds elapsed time
+  */
+final case class Progress(done: Long, total: Long, seconds: Double)
+
+/** Requests a rendering to stop soon and return the partial image. Thread-safe. */
+final class Cancellation:
+  @volatile private var requested = false
+  def request(): Unit = requested = true
+  def isRequested: Boolean = requested
+
+/** NaN or infinite camera samples, discarded from the image.
+  *
+  * @param x        pixel of the first one, with `y`: lowest sample number, then lowest row
+  * @param material index of the last material that its path hit; −1: unknown
   */
 final case class Refused(count: Long, x: Int, y: Int, sample: Int, material: Int = -1)
 
-/** What came out of a rendering.
+/** Result of a rendering.
   *
-  * @param samplesPerPixel that were planned
-  * @param samplesDone     that every pixel has at least; less than planned if it was cancelled
-  * @param samplesTaken    camera samples in all pixels together
-  * @param rays            traced, of all kinds
-  * @param refused         none if there were none
-  * @param layers          if the image has more than colours
+  * @param samplesPerPixel planned samples per pixel
+  * @param samplesDone     samples that every pixel has at least; fewer than planned if cancelled
+  * @param samplesTaken    camera samples in all pixels
+  * @param rays            traced rays of all kinds
+  * @param refused         discarded samples, if any
+  * @param layers          requested AOVs, if any
   */
 final case class Rendering(
     film: Film,
@@ -29,7 +42,7 @@ final case class Rendering(
     refused: Option[Refused],
     layers: Option[LayerFilm] = None
 ):
-  /** Colours, then the layers, then the bands of wavelengths. */
+  /** Colour channels, then AOVs, then wavelength bands. */
   def image(development: Development): Image =
     val colors = development(film)
     val layered = layers.fold(colors)(_.behind(colors, development.scale))
@@ -37,6 +50,25 @@ final case class Rendering(
 
   def isComplete: Boolean = samplesDone == samplesPerPixel
 
-/** A bug that showed itself in one sample: `cause` says what, the rest where. */
+/** An internal error in one sample: `cause`, with its pixel and sample number. */
 final class RenderFailure(val x: Int, val y: Int, val sample: Int, cause: Throwable)
     extends RuntimeException(s"at pixel ($x, $y), sample $sample: $cause", cause)
+
+/** A part of a rendering after which all pixels have the same number of samples.
+  *
+  * @param samples samples per pixel so far
+  * @param begin   seconds since the start of rendering, without the observer's time
+  * @param workers busy time of each worker, in seconds
+  */
+final case class Pass(samples: Int, begin: Double, end: Double, workers: Vector[Double])
+
+/** An image observer, called after 1, 2, 4, 8, … samples per pixel, and at the end.
+  *
+  * All workers pause for it, and its time is excluded, so that measurements don't slow down what
+  * they measure. The pause between passes is its only cost.
+  */
+abstract class Witness:
+
+  /** Called in the caller's thread; no sample is added meanwhile. Not called for a cancelled pass.
+    */
+  def passed(pass: Pass, film: Film): Unit

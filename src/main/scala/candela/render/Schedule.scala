@@ -2,14 +2,14 @@ package candela.render
 
 import candela.film.PixelBounds
 
-/** In which order the pieces of a rendering are done: waves of samples, each over all pieces.
+/** Execution order of a rendering: sample passes ("waves"), each over all pieces.
   *
-  * The waves grow (1, 1, 2, 4, … 64 samples per pixel), so that an image which is cut short is
-  * noisy evenly, while a long rendering rarely comes back to a piece.
+  * Waves grow (1, 1, 2, 4, … 64 samples per pixel), so that a cancelled image has uniform noise,
+  * while a long rendering rarely revisits a piece.
   *
-  * @param largestWave samples per pixel
-  * @param openWaves   that may be in work at a time: a wave begins only when the one so many before
-  *                    it is finished
+  * @param largestWave maximum samples per pixel of a wave
+  * @param openWaves   maximum number of waves in progress: wave w begins only when wave w −
+  *                    openWaves is finished
   */
 private[render] class Schedule(
     val pieces: Int,
@@ -18,7 +18,7 @@ private[render] class Schedule(
     val openWaves: Int = Int.MaxValue
 ):
 
-  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1): each doubles what there is.
+  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1), doubling the total.
   private val waveStarts: Array[Int] =
     Iterator
       .iterate(0)(start => start + Math.min(Math.max(start, 1), largestWave))
@@ -27,7 +27,7 @@ private[render] class Schedule(
 
   val waves: Int = waveStarts.length - 1
 
-  /** One piece in one wave is one step; the steps of a wave are consecutive. */
+  /** Number of steps, each a piece in a wave; the steps of a wave are consecutive. */
   val steps: Long = waves.toLong * pieces
 
   def firstSample(wave: Int): Int = waveStarts(wave)
@@ -35,13 +35,13 @@ private[render] class Schedule(
   /** One more than the last sample of the wave. */
   def endSample(wave: Int): Int = waveStarts(wave + 1)
 
-  /** After which waves every pixel has 1, 2, 4, 8, … samples, and after which it has all. */
+  /** Waves after which every pixel has 1, 2, 4, 8, … samples, and the last wave. */
   def passes: Vector[Int] = (1 to waves).toVector.filter: end =>
     end == waves || Integer.bitCount(waveStarts(end)) == 1
 
 private[render] object Schedule:
 
-  /** Longer visits to a piece would not be cheaper. */
+  /** Larger waves would not be cheaper. */
   val LargestWave: Int = 64
 
 /** A schedule whose pieces are the tiles of an image, row by row. */
@@ -57,7 +57,7 @@ private[render] final class TileSchedule(
 
 private[render] object TileSchedule:
 
-  /** Pixels along a tile's edge: small enough that all workers end at about the same time. */
+  /** Tile edge in pixels: small enough that all workers finish at about the same time. */
   val TileSize: Int = 16
 
   private def columns(bounds: PixelBounds): Int = (bounds.width + TileSize - 1) / TileSize

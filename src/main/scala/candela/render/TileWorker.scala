@@ -7,7 +7,7 @@ import candela.integrators.Integrator
 
 /** Renders tiles, pixel by pixel.
   *
-  * @param beginWave is told the first sample of each wave of a tile
+  * @param beginWave receives the first sample number of each wave of a tile
   */
 private[render] final class TileWorker(
     plan: RenderPlan,
@@ -29,12 +29,12 @@ private[render] final class TileWorker(
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
 
-  // Where samples go that several pixels share: the block of the tile
+  // Accumulators of samples shared by several pixels: the block of the tile
   private val shares: SampleShares | Null = film.shares.orNull
   private var block: SharedBlock | Null = null
   private var filmX, filmY = 0f
 
-  // Where the worker is, for the message if something fails.
+  // Current position, for error messages.
   private var x, y, sample = 0
 
   private var refusedCount = 0L
@@ -46,7 +46,7 @@ private[render] final class TileWorker(
     Option.when(refusedCount > 0):
       Refused(refusedCount, refusedX, refusedY, refusedSample, refusedMaterial)
 
-  /** Takes one sample of the first tile, whatever the schedule says. */
+  /** Takes one sample of the first tile, independent of the schedule. */
   def take(x: Int, y: Int, sample: Int): Unit =
     this.x = x
     this.y = y
@@ -64,7 +64,7 @@ private[render] final class TileWorker(
     if shares != null then block = shares.block(tile)
     beginWave(firstSample)
 
-  /** False if it was told to stop on the way. */
+  /** False if cancelled on the way. */
   private def renderTile(tile: PixelBounds, wave: Int): Boolean =
     val first = schedule.firstSample(wave)
     val end = schedule.endSample(wave)
@@ -91,14 +91,14 @@ private[render] final class TileWorker(
       filmY = y + 0.5f + filterSampler.dy
       follow()
     else
-      // Samplers know the image's own pixels; those around it take the numbers of the far side
+      // Samplers cover the image only; pixels outside wrap around to the opposite side
       sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)
       sampler.next2D()
       filmX = x + sampler.x
       filmY = y + sampler.y
       if shared.reaches(filmX, filmY) then follow()
 
-  /** What comes to the chosen place of the film, by the sampler's next numbers. */
+  /** Traces the camera ray at the sampled film position. */
   private def follow(): Unit =
     val weight = rays.next(filmX, filmY, sampler)
     if weight == 0f then

@@ -1,21 +1,21 @@
 package candela.render
 
-/** One of several that make the same image: takes pieces of work from the board, wave by wave, and
-  * owns all that it scribbles on.
+/** A worker of one rendering: takes steps from the shared queue, wave by wave, and owns its scratch
+  * memory.
   */
 private[render] abstract class Worker(schedule: Schedule, board: Board) extends Runnable:
   def raysTraced: Long
   def refused: Option[Refused]
 
-  /** False if it was told to stop on the way. */
+  /** False if cancelled on the way. */
   protected def work(piece: Int, wave: Int): Boolean
 
-  /** Says where the worker was. */
+  /** Adds the current position to a failure. */
   protected def failure(cause: Throwable): RenderFailure
 
   private var runNanos = 0L
 
-  /** How long the last run took: from when its thread began until it found no more to do. */
+  /** Duration of the last run, from its thread's start until the queue was empty. */
   def seconds: Double = runNanos * 1e-9
 
   final def run(): Unit =

@@ -3,19 +3,19 @@ package candela.render
 import java.util.concurrent.atomic.{AtomicIntegerArray, AtomicLong, AtomicReference, LongAdder}
 import java.util.concurrent.locks.LockSupport
 
-/** What the workers of one rendering share: who does what, what is done, and whether to stop. */
+/** Shared state of the workers: the task queue, progress, cancellation. */
 private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
-  private var endStep = 0L // changed only while there are no workers
+  private var endStep = 0L // changed only while no worker runs
   private val finishedWaves = AtomicIntegerArray(schedule.pieces)
   private val limitsWaves = schedule.openWaves < schedule.waves
   private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.waves else 0)
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
 
-  /** Allows the steps of all waves before `wave`. */
+  /** Opens the steps of all waves before `wave`. */
   def openUntil(wave: Int): Unit =
-    // Workers that found nothing to do have counted on.
+    // Idle workers have incremented it further.
     nextStep.set(endStep)
     endStep = wave.toLong * schedule.pieces
 
@@ -26,17 +26,17 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
   def fail(cause: Throwable): Unit =
     val _ = firstFailure.compareAndSet(None, Some(cause))
 
-  /** The next step that nobody has taken, or -1 if there is no more to do. */
+  /** Claims the next step; -1 if none is left. */
   def takeStep(): Long =
     val step = nextStep.getAndIncrement()
     if step < endStep && !isStopped then step else -1L
 
-  /** Waits until the earlier waves of a piece are finished, and until the schedule opens this wave;
-    * false if that won't be.
+  /** Waits until the earlier waves of a piece are finished and the schedule opens this wave; false
+    * if cancelled.
     *
-    * Another worker may still be at them. There is no deadlock, since steps are taken in order:
-    * whoever waits, waits for an earlier step. This is also what makes that worker's sums visible
-    * to this one.
+    * Another worker may still process them. Deadlock is impossible, since steps are claimed in
+    * order: a worker waits only for earlier steps. Waiting also makes the other worker's
+    * accumulators visible to this one.
     */
   def awaitTurn(piece: Int, wave: Int): Boolean =
     while !isTurn(piece, wave) && !isStopped do LockSupport.parkNanos(Board.Pause)
@@ -52,23 +52,23 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     if limitsWaves then
       val _ = finishedPieces.incrementAndGet(wave)
 
-  /** Samples that every pixel has. */
+  /** Number of samples that every pixel has. */
   def samplesDone: Int =
     val wave = (0 until schedule.pieces).map(finishedWaves.get).min
     schedule.firstSample(wave)
 
 private object Board:
-  /** Nanoseconds; short beside the milliseconds that a step takes. */
+  /** In nanoseconds; short beside the milliseconds of a step. */
   val Pause = 50_000L
 
-/** Runs workers side by side until all have ended. */
+/** Runs workers in parallel until all have ended. */
 private[render] object Workers:
 
-  /** Milliseconds between two reports of progress. */
+  /** Interval of progress reports, in milliseconds. */
   private val Tick = 100L
 
-  /** Runs each worker in a thread of its own. What one throws stops the others (through the board)
-    * and is thrown here; `onTick` runs about ten times a second in the caller's thread.
+  /** Runs each worker in its own thread. An exception in one stops the others (through the board)
+    * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
     */
   def run(workers: Vector[Runnable], board: Board)(onTick: () => Unit): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>
