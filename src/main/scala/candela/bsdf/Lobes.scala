@@ -40,16 +40,16 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       rest -= probabilities(i)
       i += 1
     val p = probabilities(i)
-    val drawn = lobes(i).sample(wo, clamp(rest / p, 0f, OneMinusEpsilon), u1, u2)
-    if drawn.pdf == 0f then BsdfSample.Absorbed
-    else if drawn.isSpecular then
-      BsdfSample(drawn.wi, drawn.weight * (1f / p), drawn.pdf * p, isSpecular = true, drawn.eta)
+    val s = lobes(i).sample(wo, clamp(rest / p, 0f, OneMinusEpsilon), u1, u2)
+    if s.pdf == 0f then BsdfSample.Absorbed
+    else if s.isSpecular then
+      BsdfSample(s.wi, s.weight * (1f / p), s.pdf * p, isSpecular = true, s.eta)
     else
-      val density = pdf(wo, drawn.wi)
+      val density = pdf(wo, s.wi)
       if density <= 0f then BsdfSample.Absorbed
       else
-        val weight = f(wo, drawn.wi) * (Hemisphere.absCos(drawn.wi) / density)
-        BsdfSample(drawn.wi, weight, density, isSpecular = false, drawn.eta)
+        val weight = f(wo, s.wi) * (Hemisphere.absCos(s.wi) / density)
+        BsdfSample(s.wi, weight, density, isSpecular = false, s.eta)
 
   private val specular: Float =
     lobes.indices.filter(lobes(_).isSpecular).map(probabilities(_)).sum
@@ -68,8 +68,8 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
         i += 1
       val p = probabilities(chosen) / specular
       val within = clamp(1f + rest / probabilities(chosen), 0f, OneMinusEpsilon)
-      val drawn = lobes(chosen).sample(wo, within, 0.5f, 0.5f)
-      BsdfSample(drawn.wi, drawn.weight * (1f / p), drawn.pdf * p, drawn.isSpecular, drawn.eta)
+      val s = lobes(chosen).sample(wo, within, 0.5f, 0.5f)
+      BsdfSample(s.wi, s.weight * (1f / p), s.pdf * p, s.isSpecular, s.eta)
 
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)

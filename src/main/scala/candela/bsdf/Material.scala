@@ -30,7 +30,7 @@ abstract class Material extends Varying:
 
 /** A medium interface: rays pass through unscattered (pbrt's "interface" and "none"). */
 object InterfaceMaterial extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("an interface has no BSDF")
+  def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("a medium interface has no BSDF")
   override def isConstant: Boolean = true
   override def folded: Material = this
 

@@ -19,7 +19,7 @@ final class Film(
     val splats: Option[SplatFilm] = None,
     val shares: Option[SampleShares] = None
 ):
-  require(x1 > x0 && y1 > y0, s"empty film [$x0, $x1) × [$y0, $y1)")
+  require(x1 > x0 && y1 > y0, s"film must not be empty, found [$x0, $x1) × [$y0, $y1)")
 
   val width: Int = x1 - x0
   val height: Int = y1 - y0

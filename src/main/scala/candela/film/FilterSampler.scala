@@ -106,7 +106,7 @@ private object FilterSampler:
             factor * filter(position(i + k.toDouble / Intervals)).toDouble
           .sum / (3 * Intervals)
       val area = cumulative(cells)
-      require(area > 0 && integral > 0, "a filter without positive integral")
+      require(area > 0 && integral > 0, "the filter's integral must be positive")
       val density = heights.map(h => (h / area).toFloat)
       Axis(radius, density, cumulative.map(c => (c / area).toFloat), integral.toFloat)
 

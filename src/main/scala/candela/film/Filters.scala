@@ -8,7 +8,7 @@ import candela.math.*
   * All filters here are separable, and so cheap to tabulate and to sample; see [[FilterSampler]].
   */
 abstract class Filter(val radiusX: Float, val radiusY: Float):
-  require(radiusX > 0f && radiusY > 0f, s"filter radii $radiusX, $radiusY")
+  require(radiusX > 0f && radiusY > 0f, s"filter radii must be positive, found $radiusX, $radiusY")
 
   def x(dx: Float): Float
   def y(dy: Float): Float
@@ -44,7 +44,7 @@ final class TriangleFilter(radiusX: Float, radiusY: Float) extends Filter(radius
   */
 final class GaussianFilter private (radiusX: Float, radiusY: Float, alpha: Double)
     extends Filter(radiusX, radiusY):
-  require(alpha > 0, s"Gaussian filter with alpha $alpha")
+  require(alpha > 0, s"`alpha` must be positive, found $alpha")
 
   private val edgeX = Math.exp(-alpha * radiusX * radiusX)
   private val edgeY = Math.exp(-alpha * radiusY * radiusY)
@@ -114,14 +114,14 @@ object LanczosSincFilter:
   /** As in pbrt-v3 and v4: one lobe per pixel, a window of `tau` pixels. Defaults: radii 4, tau 3.
     */
   def apply(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
-    require(tau > 0f, s"sinc filter with tau $tau")
+    require(tau > 0f, s"`tau` must be positive, found $tau")
     new LanczosSincFilter(radiusX, radiusY, 1, 1, 1.0 / tau, 1.0 / tau)
 
   /** As in pbrt-v2: the window ends at the radius, with `tau` lobes inside. Defaults: radii 4,
     * tau 3.
     */
   def stretched(radiusX: Float, radiusY: Float, tau: Float): LanczosSincFilter =
-    require(tau > 0f, s"sinc filter with tau $tau")
+    require(tau > 0f, s"`tau` must be positive, found $tau")
     val inverseX = 1.0 / radiusX
     val inverseY = 1.0 / radiusY
     new LanczosSincFilter(radiusX, radiusY, tau * inverseX, tau * inverseY, inverseX, inverseY)

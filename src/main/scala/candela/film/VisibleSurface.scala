@@ -17,7 +17,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
   private val map = new Array[Double](Motion.Work)
   private var wo = Vec3.Zero
   private var bsdf: Bsdf | Null = null
-  private var meets = false
+  private var isHit = false
   private var distance = 0f
 
   /** The intersection, in world space. */
@@ -31,19 +31,19 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
-    meets = scene.closestBehindInterfaces(ray, hit, at)
-    if meets then met(from, scene.bsdf(at))
+    isHit = scene.closestBehindInterfaces(ray, hit, at)
+    if isHit then record(from, scene.bsdf(at))
 
   /** Records the hit in `at`. */
-  private[film] def met(from: Ray, scattering: Bsdf): Unit =
-    meets = true
+  private[film] def record(from: Ray, scattering: Bsdf): Unit =
+    isHit = true
     bsdf = scattering
     wo = -from.direction
     distance = (at.p - from.origin).length
     output.write(from.time, map, 0)
 
   /** False if the ray missed; all other properties are then stale. */
-  def isThere: Boolean = meets
+  def isThere: Boolean = isHit
 
   def p: Vec3 = vector(at.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
 

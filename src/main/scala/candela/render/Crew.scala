@@ -10,7 +10,7 @@ import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
   * and there is nothing to shut down.
   */
 final class Crew(val threads: Int) extends Parallel:
-  require(threads >= 1, s"$threads threads")
+  require(threads >= 1, s"`threads` must be at least 1, found $threads")
 
   def each(count: Int)(task: Int => Unit): Unit =
     if threads == 1 || count <= 1 then Parallel.Alone.each(count)(task)

@@ -20,7 +20,7 @@ object Renderer:
       onProgress: Progress => Unit = _ => (),
       witness: Option[Witness] = None
   ): Rendering =
-    require(threads >= 1, s"$threads threads")
+    require(threads >= 1, s"`threads` must be at least 1, found $threads")
     val started = System.nanoTime
     var paused = 0L
     def seconds = (System.nanoTime - started - paused) * 1e-9

@@ -29,7 +29,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     seen.at.u = 0.25f
     val ray = Ray()
     ray.set(Vec3.Zero, -n, 1f)
-    seen.met(ray, Lambert(Rgb(albedo, 0f, 1f)))
+    seen.record(ray, Lambert(Rgb(albedo, 0f, 1f)))
     seen
 
   private def value(image: Image, name: String, x: Int = 0): Float =

@@ -44,11 +44,11 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
   /** Advances to the next event: [[LayerPath.Base]], [[LayerPath.Top]] or [[LayerPath.Medium]]. */
   def advance(): Int =
     val up = w.z > 0f
-    val met = if up then LayerPath.Top else LayerPath.Base
+    val event = if up then LayerPath.Top else LayerPath.Base
     if layers.isClear then
       throughput = throughput * layers.attenuation(layers.thickness, w)
       height = if up then layers.thickness else 0f
-      met
+      event
     else
       val far = -log(1f - next()) * w.z
       val reached = height + far
@@ -57,15 +57,15 @@ private[bsdf] final class LayerPath(layers: Layers, seed: Long):
         LayerPath.Medium
       else
         height = if up then layers.thickness else 0f
-        met
+        event
 
   def scatterAtBase(u1: Float, u2: Float): Unit =
-    val drawn = layers.base.sample(-w, next(), u1, u2)
-    if drawn.pdf > 0f then
-      throughput = throughput * drawn.weight
-      basePdf = if drawn.isSpecular then Float.PositiveInfinity else drawn.pdf
-      isSpecular = isSpecular && drawn.isSpecular
-      w = drawn.wi
+    val sampled = layers.base.sample(-w, next(), u1, u2)
+    if sampled.pdf > 0f then
+      throughput = throughput * sampled.weight
+      basePdf = if sampled.isSpecular then Float.PositiveInfinity else sampled.pdf
+      isSpecular = isSpecular && sampled.isSpecular
+      w = sampled.wi
     else w = Vec3.Zero
 
   def scatterInMedium(): Unit =

@@ -107,13 +107,13 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
       while events < layers.maxDepth && !path.isOver do
         path.roulette(events)
         if !path.isOver then
-          val met = path.advance()
+          val event = path.advance()
           events += 1
-          if met == LayerPath.Top then path.reflectAtTop()
+          if event == LayerPath.Top then path.reflectAtTop()
           else
             val distance = layers.thickness - path.height
             var pdf = 0f
-            if met == LayerPath.Base then
+            if event == LayerPath.Base then
               if !layers.base.isSpecular then
                 val w = heuristic(exitPdf, layers.base.pdf(-path.w, exit))
                 val found = path.throughput * layers.base.f(-path.w, exit)
@@ -196,12 +196,12 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     while !path.isOver do
       path.roulette(events)
       if !path.isOver then
-        val met = path.advance()
-        if met == LayerPath.Top then
+        val event = path.advance()
+        if event == LayerPath.Top then
           val wi = path.scatterAtTop()
           if !wi.isZero then result = leave(wo, wi, path.throughput, path.isSpecular, chance)
         // A smooth interface leaves the stratified samples unused
-        else if met == LayerPath.Base then
+        else if event == LayerPath.Base then
           if events == 0 && top.isSmooth then path.scatterAtBase(u1, u2)
           else path.scatterAtBase(path.next(), path.next())
         else
