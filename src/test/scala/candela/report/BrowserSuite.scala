@@ -48,9 +48,19 @@ class BrowserSuite extends AnyFunSuite:
     val dom = opened(SuitePage.html(Reports.suite), "mode=flip")
     assert(viewer(dom, "ready") == "flip relmse", viewer(dom, "failed"))
 
+  private lazy val browser: Path =
+    val found = installed.getOrElse(cancel(s"none of ${names.mkString(", ")} is on the PATH"))
+    // A browser that can't show even this tests nothing
+    if !dom(found, "<p>shown</p>", "").exists(_.contains("shown")) then
+      cancel(s"$found doesn't show a page of one word")
+    found
+
   /** The page as it is after its script ran, without a network. */
   private def opened(page: String, fragment: String): String =
-    val browser = installed.getOrElse(cancel(s"none of ${names.mkString(", ")} is on the PATH"))
+    dom(browser, page, fragment).getOrElse(fail(s"the page hangs: no end within $Limit seconds"))
+
+  /** None: the browser didn't end. */
+  private def dom(browser: Path, page: String, fragment: String): Option[String] =
     val folder = Files.createTempDirectory("candela-browser")
     try
       val file = Files.writeString(folder.resolve("page.html"), page)
@@ -60,15 +70,19 @@ class BrowserSuite extends AnyFunSuite:
         Vector("--virtual-time-budget=20000", "--dump-dom", s"${file.toUri}#$fragment")
       val process = ProcessBuilder(command.asJava).redirectOutput(out)
         .redirectError(folder.resolve("err.txt").toFile).start()
-      if !process.waitFor(120, TimeUnit.SECONDS) then
+      val ended = process.waitFor(Limit, TimeUnit.SECONDS)
+      if !ended then
+        process.descendants.forEach(p => p.destroyForcibly(): Unit)
         val _ = process.destroyForcibly().waitFor()
-        cancel(s"$browser didn't end within two minutes")
-      Files.readString(out.toPath)
+      Option.when(ended)(Files.readString(out.toPath))
     finally
       Using.resource(Files.walk(folder)): files =>
         files.iterator.asScala.toVector.reverse.foreach(f => f.toFile.delete())
 
 object BrowserSuite:
+  /** Pages take some seconds. */
+  private val Limit = 120L
+
   private val names = Vector("chromium", "chromium-browser", "chromium-headless-shell") ++
     Vector("google-chrome", "google-chrome-stable", "chrome")
 
