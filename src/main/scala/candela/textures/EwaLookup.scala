@@ -66,8 +66,8 @@ object EwaLookup:
   ): Rgb =
     val w = level.width.toFloat
     val h = level.height.toFloat
-    val x = s * w - 0.5f
-    val y = row * h - 0.5f
+    val x = MipLevel.within(s * w - 0.5f)
+    val y = MipLevel.within(row * h - 0.5f)
     // The ellipse is a·dx² + b·dx·dy + c·dy² = 1 (Heckbert, p. 80)
     val a0 = square(ay * h) + square(by * h) + 1f
     val b0 = -2f * (ax * w * ay * h + bx * w * by * h)
@@ -81,11 +81,13 @@ object EwaLookup:
     val reachY = sqrt(a0)
     val x1 = MipLevel.floor(x + reachX)
     val y1 = MipLevel.floor(y + reachY)
+    // Where Floats lie farther apart than texels, at least the texel itself
+    val x0 = Math.min(MipLevel.floor(x - reachX) + 1, MipLevel.floor(x))
     var sum, red, green, blue = 0f
-    var iy = MipLevel.floor(y - reachY) + 1
+    var iy = Math.min(MipLevel.floor(y - reachY) + 1, MipLevel.floor(y))
     while iy <= y1 do
       val dy = iy - y
-      var ix = MipLevel.floor(x - reachX) + 1
+      var ix = x0
       while ix <= x1 do
         val dx = ix - x
         val r2 = a * dx * dx + b * dx * dy + c * dy * dy

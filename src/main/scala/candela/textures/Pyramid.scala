@@ -180,8 +180,8 @@ final class MipLevel(private[textures] val texels: Texels, wrap: Wrap):
 
   /** Bilinear interpolation of the four nearest texels. */
   def bilinear(s: Float, row: Float): Rgb =
-    val x = s * width - 0.5f
-    val y = row * height - 0.5f
+    val x = MipLevel.within(s * width - 0.5f)
+    val y = MipLevel.within(row * height - 0.5f)
     val x0 = MipLevel.floor(x)
     val y0 = MipLevel.floor(y)
     val dx = x - x0
@@ -202,6 +202,16 @@ final class MipLevel(private[textures] val texels: Texels, wrap: Wrap):
     lerp(dy, lerp(dx, apply(i00, c), apply(i10, c)), lerp(dx, apply(i01, c), apply(i11, c)))
 
 object MipLevel:
+  /** Texels farther out than this have no numbers that one can count on from. */
+  private val Farthest = 1e9f
+
+  /** A place in texels, brought to where they have numbers; 0 for NaN. */
+  private[textures] def within(x: Float): Float =
+    if x >= -Farthest && x <= Farthest then x
+    else if x > Farthest then Farthest
+    else if x < -Farthest then -Farthest
+    else 0f
+
   private[textures] def floor(x: Float): Int =
     val truncated = x.toInt
     if truncated > x then truncated - 1 else truncated

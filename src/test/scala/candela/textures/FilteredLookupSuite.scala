@@ -37,6 +37,17 @@ class FilteredLookupSuite extends AnyFunSuite:
         // Sums of up to a few hundred Floats
         assert(abs(v - 0.7f) < 1e-5f, s"$w×$h, $wrap, ${lookup.getClass}: $v")
 
+  test("far out and where the place is no number, a picture of one value has it, too"):
+    val wild = Seq(1e10f, -1e10f, 1e30f, -1e30f, Float.PositiveInfinity, Float.NaN, 0.3f)
+    for
+      wrap <- Seq(Wrap.Repeat, Wrap.Clamp)
+      lookup <- lookups(pyramid(Size, Size, wrap)((_, _) => 0.7f))
+      s <- wild
+      t <- wild
+    do
+      val v = lookup.filtered(s, t, 0.03f, 0f, 0f, 0.03f).r
+      assert(abs(v - 0.7f) < 1e-5f, s"$wrap, ${lookup.getClass}, at ($s, $t): $v")
+
   test("a footprint as large as a texel of a level gives the mean of what that texel covers"):
     val levels = pyramid(Size, Size)((s, t) => (s * 977 % 1) * (t * 331 % 1))
     val lookup = TrilinearLookup(levels, 1f, fromSecond = false, bottomUp = false, turned = false)
