@@ -84,8 +84,16 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
       val silent = pass.defaults.get(category).map: name =>
         Declaration(category, name, Vector.empty, placeOfNone, java.nio.file.Path.of(""))
       given_.orElse(silent).flatMap(convert(_, category))
-    val objects = scene.objects.map((name, shapes) => name -> shapes.flatMap(shape))
-    val shapes = scene.shapes.flatMap(shape)
+    val media =
+      scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d)))
+    // What is left out must not be named
+    val lost = scene.media.map(_.name).toSet -- media.map(_.name)
+    def medium(name: String) = if lost(name) then "" else name
+    def within(s: ShapeDescription) =
+      s.copy(insideMedium = medium(s.insideMedium), outsideMedium = medium(s.outsideMedium))
+    val objects =
+      scene.objects.map((name, shapes) => name -> shapes.flatMap(shape).map(within))
+    val shapes = scene.shapes.flatMap(shape).map(within)
     val materials =
       scene.namedMaterials.flatMap((name, d) => convert(d, "Material").map(name -> _))
     scene.copy(
@@ -104,10 +112,12 @@ final class PassRun(val pass: Pass, val scene: SceneDescription, val files: Side
       ,
       namedMaterials = materials,
       lights = scene.lights.flatMap: l =>
-        convert(l.light, "LightSource").map(d => pass.light(l).copy(light = d)),
+        convert(l.light, "LightSource")
+          .map(d => pass.light(l).copy(light = d, medium = medium(l.medium))),
       shapes = shapes,
       objects = objects,
-      media = scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d))),
+      cameraMedium = medium(scene.cameraMedium),
+      media = media,
       volumes = scene.volumes.flatMap(v => convert(v.light, "Volume").map(d => v.copy(light = d))),
       textures = allTextures ++ added
     )
