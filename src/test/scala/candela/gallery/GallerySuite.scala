@@ -6,7 +6,9 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.SceneError
 import candela.build.BuildOptions
+import candela.image.{Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer}
+import candela.testing.Blocks
 
 /** Checks that the gallery shows every type. */
 final class GallerySuite extends AnyFunSuite:
@@ -16,13 +18,23 @@ final class GallerySuite extends AnyFunSuite:
       assert(e.reason.nonEmpty || e.scene.nonEmpty, "write one in src/test/scala/candela/gallery")
 
   for e <- Gallery.exhibits if e.scene.nonEmpty do
-    test(s"the example of ${e.file} builds without problems and renders a visible image"):
+    test(s"the example of ${e.file} builds without problems and matches its picture"):
       val (plan, problems) =
-        try e.plan(BuildOptions(spp = Some(2), quick = true))
+        try e.plan(BuildOptions(spp = Some(8)))
         catch case error: SceneError => fail(error.problems.map(_.message).mkString("\n"))
       assert(problems.isEmpty, problems.map(_.message))
       val rendering = Renderer.render(plan, threads = 1)
-      assert(rendering.refused.isEmpty && rendering.image(plan.development).data.exists(_ > 0f))
+      assert(rendering.refused.isEmpty)
+      val seen = shades(rendering.image(plan.development))
+      val drawn = shades(ImageFiles.read(Gallery.Pictures.resolve(s"${e.file}.png")).linear)
+      val worst = seen.indices.map(i => Math.abs(seen(i) - drawn(i))).max
+      // Noise: 0.05 at most, in blocks of 256 pixels
+      assert(worst < 0.1)
+
+  /** The means of blocks, as a screen shows them: at most 1. */
+  private def shades(image: Image): Array[Double] =
+    val shown = image.data.map(Math.min(_, 1f))
+    Blocks.means(Image(image.width, image.height, image.channelNames, shown), 6)
 
   test("no example is of an unknown type"):
     assert(Examples.strays.isEmpty)

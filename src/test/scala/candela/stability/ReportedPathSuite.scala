@@ -12,6 +12,7 @@ import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
 import candela.scene.PathReport
 import candela.scenefile.Dialect
+import candela.scenefile.Dialect.{V3, V4}
 import candela.testing.SceneTexts
 
 /** What is no number never reaches the film, and one can see where it is from. */
@@ -65,6 +66,57 @@ class ReportedPathSuite extends AnyFunSuite:
         Rgb(image.data(0), image.data(1), image.data(2))
       )
     assert(same > 10, s"$same of ${pixels.size}")
+
+  /** A ball on a floor, in few pixels. */
+  private def onFloor(dialect: Dialect, integrator: String, material: String): String =
+    val (film, p, floor) =
+      if dialect == Dialect.V4 then ("rgb", "point3", "diffuse") else ("image", "point", "matte")
+    s"""LookAt 0 -4 1.5  0 0 0  0 0 1
+       |Camera "perspective" "float fov" 35
+       |Film "$film" "integer xresolution" 8 "integer yresolution" 8
+       |PixelFilter "box"
+       |Sampler "halton" "integer pixelsamples" 1
+       |Integrator $integrator
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [.4 .5 .6]
+       |LightSource "point" "$p from" [2 -2 3] "rgb I" [9 8 7]
+       |Material "$floor"
+       |Shape "disk" "float height" -1 "float radius" 9
+       |$material
+       |Shape "sphere"
+       |""".stripMargin
+
+  private val mixed = Seq(
+    """MakeNamedMaterial "a" "string type" "dielectric" "spectrum eta" "glass-F11"""",
+    """MakeNamedMaterial "b" "string type" "conductor"""",
+    """Material "mix" "string materials" ["a" "b"]"""
+  ).mkString("\n")
+
+  /** Scenes, and what the report of their paths must name. */
+  private val reports: Seq[(Dialect, String, String, String)] = Seq(
+    (V3, "\"path\"", "Material \"glass\" \"float uroughness\" .2", "RoughDielectric"),
+    (V3, "\"path\"", "Material \"uber\" \"rgb opacity\" [.5 .6 .7]", "Lobes"),
+    (V3, "\"path\"", "Material \"subsurface\" \"float scale\" 9", "SmoothDielectric"),
+    (V3, "\"directlighting\"", "Material \"mirror\"", "Mirror"),
+    (V3, "\"volpath\"", "Material \"plastic\"", "Lobes"),
+    (V4, "\"path\"", "Material \"dielectric\" \"spectrum eta\" \"glass-F11\"", " nm: "),
+    (V4, "\"path\"", mixed, " nm: "),
+    (V4, "\"path\" \"bool regularize\" true", "Material \"coatedconductor\"", "regularized: "),
+    (V4, "\"volpath\" \"bool regularize\" true", "Material \"conductor\"", "regularized: "),
+    (V4, "\"volpath\"", "Material \"interface\"", "Lambert")
+  )
+
+  for (dialect, integrator, material, words) <- reports do
+    val last = material.linesIterator.toVector.last
+    test(s"each path is told as it is rendered: $integrator of $dialect, $last"):
+      val plan = SceneTexts.plan(onFloor(dialect, integrator, material), dialect)
+      val image = Renderer.render(plan, threads = 1).film.toImage(1f)
+      val lines = ArrayBuffer.empty[String]
+      for y <- 0 until plan.height; x <- 0 until plan.width do
+        val light = Renderer.trace(plan, x, y, 0, PathReport(line => lines += line))
+        val rendered = Rgb(image(x, y, 0), image(x, y, 1), image(x, y, 2))
+        assert(light.contains(rendered), s"at $x, $y")
+      assert(lines.exists(_.contains(words)), lines.mkString("\n"))
 
   test("a sample that is no number is none, and the first one is named with its material"):
     val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)
