@@ -20,15 +20,12 @@ val jvmOptions = Seq(
   "-Djava.awt.headless=true",
   "-Dfile.encoding=UTF-8", // the default from JDK 18 on
   "--enable-native-access=ALL-UNNAMED", // LWJGL
+  // Loads the Vector API at run time: --add-modules prints a warning at every start.
+  "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED",
   // JDK 24 and later warn about Scala's lazy values; JDK 17 does not know the option against it.
   "-XX:+IgnoreUnrecognizedVMOptions",
   "--sun-misc-unsafe-memory-access=allow"
 )
-
-/** Enables SIMD traversal; everything runs without it, too. In the staged program the launcher adds
-  * it for long renderings only, because JDK 25 starts 2.8 times as slowly with it.
-  */
-val vectorModule = "--add-modules=jdk.incubator.vector"
 
 lazy val root = (project in file("."))
   .enablePlugins(UniversalPlugin)
@@ -57,7 +54,7 @@ lazy val root = (project in file("."))
     Compile / sourceGenerators += versionSource,
 
     // `sbt run`: a separate JVM in the project folder, attached to the terminal.
-    Compile / run / javaOptions ++= jvmOptions :+ vectorModule :+ "-XX:MaxRAMPercentage=70",
+    Compile / run / javaOptions ++= jvmOptions :+ "-XX:MaxRAMPercentage=70",
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
     // `sbt stage`: src/universal, the program's jar, native libraries, and the same JVM options.
@@ -67,7 +64,7 @@ lazy val root = (project in file("."))
     // `sbt test`: a separate JVM, suites in parallel.
     Test / fork := true,
     Test / testForkedParallel := true,
-    Test / javaOptions ++= jvmOptions :+ vectorModule :+ "-Xmx3g",
+    Test / javaOptions ++= jvmOptions :+ "-Xmx3g",
     Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
     Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
@@ -83,7 +80,7 @@ lazy val bench = (project in file("bench"))
     run / fork := true,
     run / baseDirectory := (ThisBuild / baseDirectory).value,
     run / javaHome := sys.env.get("CANDELA_JAVA").map(file),
-    run / javaOptions ++= jvmOptions :+ vectorModule :+ "-Xmx2g"
+    run / javaOptions ++= jvmOptions :+ "-Xmx2g"
   )
 
 /** Files that the launcher in src/universal/bin needs: one jar, the native libraries, and the JVM
@@ -92,8 +89,7 @@ lazy val bench = (project in file("bench"))
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  // The launcher adds the vector module where it pays off.
-  val options = jvmOptions.filterNot(_.startsWith("--add-modules")) :+ "-XX:MaxRAMPercentage=70"
+  val options = jvmOptions :+ "-XX:MaxRAMPercentage=70"
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))

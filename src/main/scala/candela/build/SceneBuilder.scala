@@ -3,7 +3,7 @@ package candela.build
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.build.settings.{OptionRecipe, SceneSettings}
-import candela.film.{FilterReach, Layer, SpectralBands, VisibleSurface}
+import candela.film.{FilterReach, Layer, PixelBounds, SpectralBands, VisibleSurface}
 import candela.math.{Still, Transform}
 import candela.render.{LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.IndependentSampler
@@ -50,10 +50,13 @@ object SceneBuilder:
     def footprints =
       val cone = Option.when(context.isV4)(camera.cone(image, sampling.footprint))
       Footprints(integrator.followsSpecular, cone)
-    val world = WorldBuilder(context, integrator, camera.shutter).build(footprints)
+    val crop = image.crop(integrator.window, options)
+    val samples = crop.pixels * sampling.sampler.samplesPerPixel
+    val world = WorldBuilder(context, integrator, camera.shutter, samples).build(footprints)
     warnOfLimits(context, image, camera, world.method)
     context.problems.stopAtErrors()
-    (plan(context, options, image, integrator, sampling, camera, world), context.problems.result)
+    val made = plan(context, options, image, crop, integrator, sampling, camera, world)
+    (made, context.problems.result)
 
   private def sceneSettings(context: BuildContext): SceneSettings =
     val statement = context.unwritten("Option", "").copy(params = context.description.options)
@@ -92,6 +95,7 @@ object SceneBuilder:
       context: BuildContext,
       options: BuildOptions,
       image: ImageSetup,
+      crop: PixelBounds,
       integrator: IntegratorPlan,
       sampling: SamplingSetup,
       camera: CameraSetup,
@@ -109,7 +113,7 @@ object SceneBuilder:
     RenderPlan(
       width = image.width,
       height = image.height,
-      crop = image.crop(integrator.window, options),
+      crop = crop,
       camera = camera.camera,
       filter = image.filter,
       // Markov chains ignore the sampler

@@ -32,11 +32,14 @@ private[build] final class Structure(
 
 /** Builds the world of a description in stages: materials, surfaces, lights, acceleration
   * structures, scene, and render method.
+  *
+  * @param samples maximum number of camera samples
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
     integrator: IntegratorPlan,
-    shutter: Shutter
+    shutter: Shutter,
+    samples: Long
 ):
   import context.{description, problems}
 
@@ -110,8 +113,8 @@ private[build] final class WorldBuilder(
   private def structure(world: Surfaces, objects: Vector[Surfaces], uses: Vector[PlacedObject]) =
     val asked =
       description.accelerator.flatMap(d => Accelerators.all.build(context.site(d)))
-    val accelerate: Primitives => Accelerator =
-      asked.getOrElse(BvhRecipe.accelerator(context.resources))
+    val plan = asked.getOrElse(BvhRecipe.accelerator(context.resources))
+    def accelerate(primitives: Primitives): Accelerator = plan(primitives, samples)
     val places = uses.zipWithIndex.flatMap((use, o) => use.places.map(o -> _))
     val accelerators = objects.map(o => accelerate(o.primitives()))
     val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)

@@ -1,6 +1,5 @@
 package candela.build
 
-import candela.accel.{Accelerator, Primitives}
 import candela.bsdf.Material
 import candela.build.cameras.{CameraPlan, Cameras}
 import candela.build.film.{FilmSettings, Films, Filters}
@@ -11,7 +10,9 @@ import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerRequest, Samplers}
-import candela.build.settings.{Accelerators, ColorSpaces, OptionStatements, SceneSettings}
+import candela.build.settings.{
+  AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements, SceneSettings
+}
 import candela.build.shapes.{ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.film.Filter
@@ -83,6 +84,6 @@ final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](Volume
 final class OptionRecipesSuite extends RecipeLaws[SceneSettings](OptionStatements.all)
 
 final class AcceleratorRecipesSuite
-    extends RecipeLaws[Primitives => Accelerator](Accelerators.all)
+    extends RecipeLaws[AcceleratorPlan](Accelerators.all)
 
 final class ColorSpaceRecipesSuite extends RecipeLaws[Unit](ColorSpaces.all)

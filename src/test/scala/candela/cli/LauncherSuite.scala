@@ -166,34 +166,10 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.archives(p.lib).size == 1)
       Thread.sleep(200) // until what it worked in is gone, and the folder can go
 
-  test("vectors are for much to render, and for a JDK that has them"):
-    TempFolder.use: folder =>
-      val p = StagedProgram(folder)
-      val modules = "java.base jdk.incubator.vector jdk.net"
-      val _ = p.jdk("99", modules = modules)
-      val older = p.jdk("17", in = "elsewhere")
-      val scene = folder.resolve("my scene.pbrt").toString
-      val film = "Film \"image\" \"integer xresolution\" [ 64 ]\n \"integer yresolution\" 50\n"
-      val _ = Files.writeString(Path.of(scene), s"$film WorldBegin \"integer pixelsamples\" 9999")
-      def vectors(words: Seq[String], env: (String, String)*) =
-        assert(p.run(words, Map(None_) ++ env).code == 0)
-        p.starts.last.contains("--add-modules=jdk.incubator.vector")
-      assert(!vectors(Seq(scene)))
-      assert(!vectors(Seq("render", scene, "--spp", "1000")))
-      assert(vectors(Seq("render", "--spp", "2000", scene)))
-      assert(vectors(Seq("--spp=2000", scene)))
-      assert(!vectors(Seq("--spp=2000", scene), "CANDELA_JAVA" -> older.toString))
-      assert(vectors(Seq("--spp=1", scene, scene)))
-      assert(!vectors(Seq("bench", "suite.conf")))
-      assert(!vectors(Seq("check", scene)) && !vectors(Nil) && !vectors(Seq("--spp")))
-      val much = Files.writeString(Path.of(scene), s"$film Sampler \"integer pixelsamples\" 0256")
-      assert(vectors(Seq(much.toString)))
-
-  test("vectors have an archive of their own"):
+  test("Java is never asked for a module in incubation, about which it would warn"):
     staged: p =>
-      val _ = p.jdk("99", modules = "jdk.incubator.vector")
+      val _ = p.jdk("99", modules = "java.base jdk.incubator.vector")
       assert(p.run(env = Make).code == 0)
-      val names = p.archives(p.lib).map(_.getFileName.toString).toSet
-      assert(names == Set("99.aot", "99-vectors.jsa"))
-      assert(p.run(Seq("a.pbrt", "b.pbrt"), Map.empty).code == 0)
-      assert(p.starts.last.exists(_.endsWith("99-vectors.jsa")))
+      for words <- Seq(Seq("a.pbrt", "--spp", "9999"), Seq("a.pbrt", "b.pbrt")) do
+        assert(p.run(words, Map.empty).code == 0)
+      assert(p.starts.size == 3 && !p.starts.flatten.exists(_.contains("incubator")))

@@ -1,10 +1,7 @@
 package candela.bench
 
 import candela.accel.{Accelerator, BruteForce, Primitives}
-import candela.accel.tracing.Grid
-import candela.build.recipe.Resources
-import candela.build.settings.BvhRecipe
-import candela.color.ColorBasis
+import candela.accel.tracing.{Grid, Hierarchies}
 import candela.geometry.{Hit, Ray}
 import candela.math.Vec3
 import candela.report.{LogLogChart, Mark, Series}
@@ -35,7 +32,7 @@ object Scale:
     Files.writeString(scene, Torus.scene(name)): Unit
 
   private val kinds: Vector[(String, Primitives => Accelerator)] = Vector(
-    "hierarchy" -> BvhRecipe.accelerator(Resources(ColorBasis.Srgb)),
+    "hierarchy" -> Hierarchies.of(_),
     "grid" -> (Grid(_)),
     "none" -> (BruteForce(_))
   )

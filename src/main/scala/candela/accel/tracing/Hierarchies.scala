@@ -6,9 +6,16 @@ import candela.base.Parallel
 
 /** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:
-  def of(primitives: Primitives, parallel: Parallel = Parallel.Alone): Accelerator =
+
+  /** @param samples upper bound of the number of camera samples */
+  def of(
+      primitives: Primitives,
+      parallel: Parallel = Parallel.Alone,
+      samples: Long = Long.MaxValue
+  ): Accelerator =
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
-    else if hasVectors && primitives.count >= Few then vector(primitives, parallel = parallel)
+    else if samples >= Many && primitives.count >= Few && hasVectors then
+      vector(primitives, parallel = parallel)
     else scalar(primitives, parallel = parallel)
 
   /** Wide BVH traversed by scalar code only. */
@@ -31,11 +38,8 @@ object Hierarchies:
   private[tracing] def careful(primitives: Primitives): Accelerator =
     WideBvh(WideBuilder.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
 
-  /** Whether the JVM's incubating Vector API is available (`--add-modules jdk.incubator.vector`),
-    * and this machine's SIMD is worth using.
-    */
-  lazy val hasVectors: Boolean =
-    ModuleLayer.boot.findModule("jdk.incubator.vector").isPresent && VectorKernel.isWorthIt
+  /** Whether the JVM's incubating Vector API is available, and this machine's SIMD worth using. */
+  lazy val hasVectors: Boolean = VectorModule.isLoaded && VectorKernel.isWorthIt
 
   private inline val MaxLeaf = 4
 
@@ -50,6 +54,9 @@ object Hierarchies:
     * of 36 triangles took 2.4 s more of processor time for 4 million samples.
     */
   private inline val Few = 1000
+
+  /** Camera samples below which loading and compiling SIMD code costs more than it saves. */
+  private inline val Many = 4000000L
 
   /** Primitive count above which blocks would not fit into one array. */
   private inline val Most = 60000000

@@ -4,33 +4,35 @@ import candela.accel.{Accelerator, Primitives}
 import candela.accel.tracing.{Grid, Hierarchies}
 import candela.build.recipe.*
 
+/** Makes an accelerator for primitives and a number of camera samples. */
+type AcceleratorPlan = (Primitives, Long) => Accelerator
+
 /** Recipes of accelerators, none of which changes the image. */
 object Accelerators:
-  val all: Recipes[Primitives => Accelerator] =
+  val all: Recipes[AcceleratorPlan] =
     Recipes("accelerator", Vector(BvhRecipe, GridRecipe, KdTreeRecipe))
 
 object BvhRecipe
-    extends Recipe[Primitives => Accelerator]("bvh", "bounding volume hierarchy"):
+    extends Recipe[AcceleratorPlan]("bvh", "bounding volume hierarchy"):
   noMeaning("Candela builds its own BVH")(
     string("splitmethod", "split method: sah, hlbvh, middle, equal")("sah"),
     integer("maxnodeprims", "maximum primitives per leaf")(4)
   )
-  protected def make()(using site: Site): Primitives => Accelerator =
-    accelerator(site.resources)
+  protected def make()(using site: Site): AcceleratorPlan = accelerator(site.resources)
 
   /** The default accelerator. */
-  def accelerator(resources: Resources): Primitives => Accelerator =
-    Hierarchies.of(_, resources.crew)
+  def accelerator(resources: Resources): AcceleratorPlan =
+    (primitives, samples) => Hierarchies.of(primitives, resources.crew, samples)
 
 object GridRecipe
-    extends Recipe[Primitives => Accelerator]("grid", "uniform grid", onlyV2):
+    extends Recipe[AcceleratorPlan]("grid", "uniform grid", onlyV2):
   noMeaning("all shapes are refined in advance")(
     bool("refineimmediately", "refine all shapes when the grid is built")(false)
   )
-  protected def make()(using Site): Primitives => Accelerator = Grid(_)
+  protected def make()(using Site): AcceleratorPlan = (primitives, _) => Grid(primitives)
 
 object KdTreeRecipe
-    extends Recipe[Primitives => Accelerator]("kdtree", "k-d tree"):
+    extends Recipe[AcceleratorPlan]("kdtree", "k-d tree"):
   override def pending: Option[String] = Some("using \"bvh\", with the same image")
   declare(
     integer("intersectcost", "SAH cost of intersecting a primitive")(if v4 then 5 else 80),
@@ -39,5 +41,5 @@ object KdTreeRecipe
     integer("maxprims", "maximum primitives per leaf")(1),
     integer("maxdepth", "maximum depth", shown = "by the count")(-1)
   )
-  protected def make()(using site: Site): Primitives => Accelerator =
+  protected def make()(using site: Site): AcceleratorPlan =
     BvhRecipe.accelerator(site.resources)
