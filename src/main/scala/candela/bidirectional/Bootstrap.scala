@@ -10,8 +10,8 @@ import java.util.concurrent.locks.LockSupport
   *
   * Paths come in rounds. The first has the requested count; each later one doubles the total, until
   * the relative standard error of the mean is [[Bootstrap.Precision]], or the total is
-  * [[Bootstrap.Share]] of the mutations. Workers that need the result help to compute it; it is
-  * bit-identical for any thread count.
+  * that of the mutations. Workers that need the result help to compute it; it is bit-identical for
+  * any thread count.
   *
   * @param asked     paths of the first round
   * @param mutations total mutations of all chains
@@ -19,7 +19,7 @@ import java.util.concurrent.locks.LockSupport
 private[bidirectional] final class Bootstrap(asked: Int, mutations: Long):
   import Bootstrap.*
 
-  private val most = Math.max(asked.toLong, Math.min((mutations * Share).toLong, MostPaths)).toInt
+  private val most = Math.max(asked.toLong, Math.min(mutations, MostPaths)).toInt
   @volatile private var round = Round(asked, Sums(0, 0, 0), None)
   @volatile private var result: Option[Start] = None
   @volatile private var failure: Option[Throwable] = None
@@ -66,9 +66,6 @@ private[bidirectional] object Bootstrap:
 
   /** Target relative standard error of the brightness. */
   private[bidirectional] val Precision = 0.003
-
-  /** Maximum number of paths, relative to the number of mutations. */
-  private[bidirectional] val Share = 0.5
 
   /** Minimum number of paths for a reliable error estimate. */
   private val Fewest = 1000

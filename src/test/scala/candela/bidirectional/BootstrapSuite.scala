@@ -37,15 +37,15 @@ final class BootstrapSuite extends AnyFunSuite:
   test("a few that are alike by chance are not trusted"):
     assert(run(asked = 2, mutations = 100_000)(path => if path < 40 then 1f else 2f)._2 > 1000)
 
-  test("they are half as many as all mutations at most, but as many as asked for"):
-    assert(run(asked = 1000, mutations = 20_000)(rare)._2 == 10_000)
+  test("they are as many as all mutations at most, but as many as asked for"):
+    assert(run(asked = 1000, mutations = 10_000)(rare)._2 == 10_000)
     assert(run(asked = 1000, mutations = 400)(rare)._2 == 1000)
-    val (dark, count) = run(asked = 1000, mutations = 20_000)(_ => 0f)
+    val (dark, count) = run(asked = 1000, mutations = 10_000)(_ => 0f)
     assert(count == 10_000 && dark.mean == 0f)
 
   test("chains start where light is, be it found late"):
     for strength <- Seq(rare, (path: Int) => if path < 5000 then 0f else rare(path)) do
-      val (start, _) = run(asked = 1000, mutations = 20_000)(strength)
+      val (start, _) = run(asked = 1000, mutations = 10_000)(strength)
       for u <- Seq(0f, 0.3f, 0.6f, 0.999f) do assert(strength(start.path(u)) > 0f)
 
   test("the result does not depend on how many help"):
@@ -55,10 +55,10 @@ final class BootstrapSuite extends AnyFunSuite:
     assert(found(1) == found(4))
 
   test("who is told to stop does so, and a failure is everyone's"):
-    val stopped = Bootstrap(1000, 20_000)
+    val stopped = Bootstrap(1000, 10_000)
     stopped.help(() => true)(rare)
     assert(stopped.start.isEmpty)
-    val broken = Bootstrap(1000, 20_000)
+    val broken = Bootstrap(1000, 10_000)
     val bug = ArithmeticException("planted")
     assert(intercept[ArithmeticException](broken.help(() => false)(_ => throw bug)) eq bug)
     assert(intercept[ArithmeticException](broken.help(() => false)(rare)) eq bug)

@@ -102,7 +102,7 @@ final class MetropolisSuite extends AnyFunSuite:
     val bdpt = room("Integrator \"bdpt\"", Dialect.V3).replace("samples\" 300", "samples\" 2000")
     val expected = mean(bdpt, seed = 1)
     val errors = (1 to 6).map(seed => mean(room(asked, Dialect.V3), seed) / expected - 1)
-    // Half as many as there are mutations leave 3 %, a hundred alone 27 %
+    // As many as there are mutations leave 2 %, a hundred alone 27 %
     val rms = Math.sqrt(errors.map(e => e * e).sum / errors.size)
     assert(rms < 0.08, errors)
 

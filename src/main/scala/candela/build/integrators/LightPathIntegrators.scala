@@ -35,7 +35,7 @@ object MltRecipe
   private val bootstrap = integer(
     "bootstrapsamples",
     "minimum number of bootstrap paths; more are traced until the brightness has a standard " +
-      "error of 0.3 %, or until they are half as many as the mutations"
+      "error of 0.3 %, or until there are as many as mutations"
   )(100000)
   private val chains = integer("chains", "Markov chains")(1000)
   private val mutations = integer("mutationsperpixel", "path mutations per pixel")(100)

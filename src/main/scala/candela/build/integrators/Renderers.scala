@@ -45,7 +45,7 @@ object MetropolisRecipe
   private val bootstrap = integer(
     "bootstrapsamples",
     "minimum number of bootstrap paths; more are traced until the brightness has a standard " +
-      "error of 0.3 %, or until they are half as many as the mutations"
+      "error of 0.3 %, or until there are as many as mutations"
   )(100000)
   noMeaning("the chains sample all light with bidirectional paths, with the same mean")(
     integer("directsamples", "direct light samples per pixel")(4),
