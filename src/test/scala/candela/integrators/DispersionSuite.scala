@@ -99,7 +99,7 @@ class DispersionSuite extends BsdfLaws:
         "Material \"dielectric\"",
         s"${fog}MediumInterface \"fog\" \"\"\nMaterial \"dielectric\""
       )
-    assert(warning(foggy).startsWith("glass that splits light is not supported here yet"))
+    assert(warning(foggy).startsWith("this integrator does not support dispersion yet"))
     val coated = scene(glass).replace("\"dielectric\"", "\"coateddiffuse\"")
     assert(warning(coated).startsWith("dispersion of \"coateddiffuse\" is not supported"))
 
