@@ -32,7 +32,7 @@ object Scale:
     Files.writeString(scene, Torus.scene(name)): Unit
 
   private val kinds: Vector[(String, Primitives => Accelerator)] = Vector(
-    "hierarchy" -> Hierarchies.of(_),
+    "hierarchy" -> (Hierarchies.of(_)),
     "grid" -> (Grid(_)),
     "none" -> (BruteForce(_))
   )
