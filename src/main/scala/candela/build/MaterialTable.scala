@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable
 
-import candela.bsdf.{InterfaceMaterial, Material}
+import candela.bsdf.Material
 import candela.build.integrators.IntegratorPlan
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
@@ -33,7 +33,6 @@ private[build] final class MaterialTable private (
   def dress(shape: ShapeDescription): DressedShape = dressed(shape)
 
   def needsTangents: Boolean = materials.exists(_.isAnisotropic)
-  def hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
 
   def describe: String =
     s"${materials.length}, ${materials.count(_.isConstant)} of them constant"

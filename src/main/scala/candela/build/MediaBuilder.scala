@@ -73,8 +73,8 @@ private[build] final class MediaBuilder(
     val isUsed = camera >= 0 || materials.touchesMedia
     warnOfBlindness(isUsed)
     (plan.throughMedia, plan.throughVolumes) match
-      case (Some(make), _) if isUsed || materials.hasInterfaces =>
-        val all = SceneMedia(media, materials.borders, camera, reach, materials.hasInterfaces)
+      case (Some(make), _) if isUsed || scene.hasInterfaces =>
+        val all = SceneMedia(media, materials.borders, camera, reach)
         (RenderMethod.Tiles(make(scene, all)), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)

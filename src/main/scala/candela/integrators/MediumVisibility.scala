@@ -32,7 +32,7 @@ private[integrators] final class MediumVisibility(
     work.shadow.start(work.weights.hero, 1f)
     val end =
       if light.isInfinite then origin + light.wi * media.reach else LightConnection.end(light)
-    if media.hasInterfaces then passes(origin, end, medium)
+    if scene.hasInterfaces then passes(origin, end, medium)
     else
       if light.isInfinite then ray.set(origin, light.wi, Float.PositiveInfinity)
       else ray.set(origin, end - origin, LightConnection.ShadowEnd)

@@ -15,15 +15,12 @@ final case class MediumBorder(inside: Int, outside: Int)
   * @param camera        index of the medium around the camera; −1 for vacuum
   * @param reach         distance that light from infinity travels through media: the scene's
   *   diameter, as in pbrt-v3 and v4
-  * @param hasInterfaces whether any surface is an interface; shadow rays must then examine their
-  *   hits
   */
 final class SceneMedia(
     val media: Array[Medium],
     borders: Array[MediumBorder],
     val camera: Int,
-    val reach: Float,
-    val hasInterfaces: Boolean
+    val reach: Float
 ):
   private val inside = borders.map(_.inside)
   private val outside = borders.map(_.outside)
