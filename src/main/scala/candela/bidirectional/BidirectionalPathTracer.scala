@@ -207,7 +207,7 @@ final class BidirectionalPathTracer(
         val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
         val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
-        f * sample.radiance * weight.toFloat
+        f * sample.radiance.toRgb * weight.toFloat
 
   /** Connects the camera vertex to all light vertices. */
   private def connected(): Rgb =

@@ -1,6 +1,6 @@
 package candela.cameras
 
-import candela.geometry.{Frame, Ray, ShadingPoint}
+import candela.geometry.{Ray, ShadingPoint}
 import candela.math.*
 
 /** Approximate footprint of a pixel at any surface point, as if the camera saw the point: pbrt-v4's
@@ -20,30 +20,54 @@ final class PixelCone(
     turnY: Float,
     scale: Float
 ):
-  private val directionX = Vec3(turnX, 0f, 1f - 0.5f * square(turnX))
-  private val directionY = Vec3(0f, turnY, 1f - 0.5f * square(turnY))
+  private val zX = 1f - 0.5f * square(turnX)
+  private val zY = 1f - 0.5f * square(turnY)
 
-  /** Sets `at.dpdx` and `at.dpdy`. */
+  /** Sets `at.dpdx` and `at.dpdy`. Written in scalars: the JIT does not keep the vectors of so long
+    * an expression off the heap.
+    */
   def meet(at: ShadingPoint): Unit =
-    val along = at.p - eye
-    val distance = along.length
+    val p = at.p
+    val x = p.x - eye.x
+    val y = p.y - eye.y
+    val z = p.z - eye.z
+    val distance = sqrt(x * x + y * y + z * z)
     val isApart = distance > 0f
     val inverse = if isApart then 1f / distance else 0f
-    // A single Vec3 for all cases: the compiler keeps only that off the heap
-    val axis = Vec3(along.x * inverse, along.y * inverse, if isApart then along.z * inverse else 1f)
-    val frame = Frame.around(axis)
-    val n = frame.toLocal(at.geometricNormal)
-    at.dpdx = frame.toWorld(meeting(Vec3(stepX, 0f, 0f), directionX, n, distance)) * scale
-    at.dpdy = frame.toWorld(meeting(Vec3(0f, stepY, 0f), directionY, n, distance)) * scale
+    // The basis of Frame.around the unit vector from the eye
+    val nx = x * inverse
+    val ny = y * inverse
+    val nz = if isApart then z * inverse else 1f
+    val sign = Math.copySign(1f, nz)
+    val a = -1f / (sign + nz)
+    val b = nx * ny * a
+    val sx = 1f + sign * nx * nx * a
+    val sy = sign * b
+    val sz = -sign * nx
+    val tx = b
+    val ty = sign + ny * ny * a
+    val tz = -ny
+    val normal = at.geometricNormal
+    val normalX = normal.x * sx + normal.y * sy + normal.z * sz
+    val normalY = normal.x * tx + normal.y * ty + normal.z * tz
+    val normalZ = normal.x * nx + normal.y * ny + normal.z * nz
 
-  /** Vector from the point at `distance` along z to the offset ray's hit with its tangent plane.
-    */
-  private def meeting(o: Vec3, d: Vec3, n: Vec3, distance: Float): Vec3 =
-    val p = Vec3(0f, 0f, distance)
-    val t = ((p - o) dot n) / (d dot n)
-    val meets = java.lang.Float.isFinite(t)
-    val v = o + d * t - p
-    Vec3(if meets then v.x else 0f, if meets then v.y else 0f, if meets then v.z else 0f)
+    // From the point to where the ray of the next pixel meets the tangent plane: origin (ox, oy, 0)
+    // and direction (dx, dy, dz) in the basis
+    inline def meeting(ox: Float, oy: Float, dx: Float, dy: Float, dz: Float, out: MutableVec3) =
+      val above = distance * normalZ - (ox * normalX + oy * normalY)
+      val t = above / (dx * normalX + dy * normalY + dz * normalZ)
+      val meets = java.lang.Float.isFinite(t)
+      val u = if meets then ox + dx * t else 0f
+      val v = if meets then oy + dy * t else 0f
+      val w = if meets then dz * t - distance else 0f
+      out.set(
+        (sx * u + tx * v + nx * w) * scale,
+        (sy * u + ty * v + ny * w) * scale,
+        (sz * u + tz * v + nz * w) * scale
+      )
+    meeting(stepX, 0f, turnX, 0f, zX, at.dpdx)
+    meeting(0f, stepY, 0f, turnY, zY, at.dpdy)
 
 object PixelCone:
   /** Rays along the image's diagonal, of which the closest neighbours are used. */

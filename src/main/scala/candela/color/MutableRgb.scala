@@ -30,6 +30,9 @@ final class MutableRgb:
     g *= s
     b *= s
 
+  /** Product with `s`. */
+  def *(s: Float): Rgb = Rgb(r * s, g * s, b * s)
+
   def isBlack: Boolean = r == 0f && g == 0f && b == 0f
 
   /** Largest magnitude, as [[Rgb.largest]]. */

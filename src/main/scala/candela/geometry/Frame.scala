@@ -63,7 +63,16 @@ final class MutableFrame:
     ownT.set(around.t)
 
   def toLocal(v: Vec3): Vec3 = Vec3(v dot ownS, v dot ownT, v dot ownN)
-  def toWorld(v: Vec3): Vec3 = Vec3(
+  def toWorld(v: Vec3): Vec3 =
+    val out = MutableVec3()
+    toWorld(v, out)
+    out.toVec3
+
+  /** As above, written to `out`: a vector returned by a method that the JIT does not inline is
+    * allocated.
+    */
+  def toLocal(v: Vec3, out: MutableVec3): Unit = out.set(v dot ownS, v dot ownT, v dot ownN)
+  def toWorld(v: Vec3, out: MutableVec3): Unit = out.set(
     ownS.x * v.x + ownT.x * v.y + ownN.x * v.z,
     ownS.y * v.x + ownT.y * v.y + ownN.y * v.z,
     ownS.z * v.x + ownT.z * v.y + ownN.z * v.z

@@ -26,6 +26,9 @@ final class LightConnection(
   /** The point on the light. */
   val sample: LightSample = LightSample()
 
+  /** Direction towards it in the frame of the surface that [[scattered]] was asked for. */
+  val localWi: MutableVec3 = MutableVec3()
+
   def raysTraced: Long = rays
 
   /** A new camera path starts. */
@@ -93,7 +96,7 @@ final class LightConnection(
     *               else 1
     */
   inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
-    val localWi = vertex.at.frame.toLocal(wi)
+    vertex.at.frame.toLocal(wi, localWi)
     val f = vertex.received(wi, localWi)
     if f.isBlack || isBlocked(vertex.at) then Rgb.Black
     else

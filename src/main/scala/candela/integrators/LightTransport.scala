@@ -42,11 +42,14 @@ object LightTransport:
       ray: Ray,
       inline weight: (Int, EnvironmentLight) => Float
   ): Rgb =
-    var sum = Rgb.Black
+    var r, g, b = 0f
     var i = 0
     while i < scene.environments.length do
       val source = scene.environments(i)
       val w = weight(scene.environmentIndex(i), source)
-      sum += source.radiance(ray.origin, ray.direction) * w
+      val arriving = source.radiance(ray.origin, ray.direction)
+      r += arriving.r * w
+      g += arriving.g * w
+      b += arriving.b * w
       i += 1
-    sum
+    Rgb(r, g, b)

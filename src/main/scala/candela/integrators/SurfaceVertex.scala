@@ -14,7 +14,7 @@ import candela.scene.Scene
   */
 class SurfaceVertex(scene: Scene):
   final val at: ShadingPoint = scene.newPoint()
-  private val ownWo, ownLocalWo = MutableVec3()
+  private val ownWo, ownLocalWo, departing = MutableVec3()
 
   /** The direction that [[draw]] sampled. */
   final val bounce: Bounce = Bounce()
@@ -27,7 +27,7 @@ class SurfaceVertex(scene: Scene):
   /** Computes the surface geometry where `ray` hit it. */
   final def hit(ray: Ray, hit: Hit): Unit =
     scene.surface(ray, hit, at)
-    ownWo.set(-ray.direction)
+    ownWo.set(-ray.dx, -ray.dy, -ray.dz)
 
   /** Only a border of media, without a BSDF? */
   final def isInterface: Boolean = scene.isInterface(at)
@@ -46,7 +46,7 @@ class SurfaceVertex(scene: Scene):
   final def scatterBy(bsdf: Bsdf, wo: Vec3): Unit =
     scattering = bsdf
     ownWo.set(wo)
-    ownLocalWo.set(at.frame.toLocal(wo))
+    at.frame.toLocal(wo, ownLocalWo)
 
   /** The BSDF for light from `wi` that a camera path receives. */
   final def received(wi: Vec3): Rgb = received(wi, at.frame.toLocal(wi))
@@ -110,7 +110,8 @@ class SurfaceVertex(scene: Scene):
 
   /** Likewise, to the local direction `localWi`. */
   final def leave(ray: Ray, localWi: Vec3, isSpecular: Boolean, eta: Float): Boolean =
-    val wi = at.frame.toWorld(localWi)
+    val wi = departing
+    at.frame.toWorld(localWi, wi)
     ray.set(at.offsetOrigin(wi), wi, Float.PositiveInfinity)
     scene.scattered(ray, at, wo, wi, isSpecular, eta)
     isSpecular || isOpen(wi)

@@ -90,7 +90,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     then Rgb.Black
     else
       val phase = regions.phase(wo, light.wi, work)
-      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * light.sample.radiance
+      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * light.sample.radiance.toRgb
       sent * light.transmittance(this) * (phase / light.pdf)
 
   /** Transmittance along the ray up to `ray.tMax`.

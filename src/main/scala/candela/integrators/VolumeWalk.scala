@@ -198,7 +198,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     if !(byLight > 0f) then Rgb.Black
     else
       val weight = LightTransport.powerHeuristic(byLight, byScattering) / byLight
-      w.throughput * s.throughput * light.sample.radiance * weight
+      w.throughput * s.throughput * light.sample.radiance.toRgb * weight
 
   /** Samples the BSDF: `vertex.bounce`. */
   def scatter(sampler: Sampler): Unit =

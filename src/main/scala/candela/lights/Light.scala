@@ -1,6 +1,6 @@
 package candela.lights
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.math.*
 
@@ -49,6 +49,7 @@ abstract class Light:
 /** Result of [[Light.sample]]; mutable, one per worker. It owns its vectors. */
 final class LightSample:
   private val ownWi = MutableVec3(0f, 0f, 1f)
+  private val ownRadiance = MutableRgb()
 
   /** Unit vector towards the light. */
   def wi: MutableVec3 = ownWi
@@ -57,7 +58,8 @@ final class LightSample:
   /** Unoccluded incident radiance; for delta lights, the irradiance on a plane facing the light,
     * with `pdf` 1.
     */
-  var radiance: Rgb = Rgb.Black
+  def radiance: MutableRgb = ownRadiance
+  def radiance_=(c: Rgb): Unit = ownRadiance.set(c)
 
   /** Pdf per solid angle. */
   var pdf: Float = 0f
@@ -99,7 +101,7 @@ abstract class EnvironmentLight extends Light:
   def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
     sample(scene.center, v1, v2, out.sample)
     out.fromAfar(-out.sample.wi, scene, u1, u2)
-    out.radiance = out.sample.radiance
+    out.radiance = out.sample.radiance.toRgb
     out.pdf = if scene.area > 0f then out.sample.pdf / scene.area else 0f
 
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =

@@ -23,35 +23,10 @@ final case class LightBounds(
     power: Float,
     twoSided: Boolean
 ):
-  private val center = box.center
-  private val sinNormals = safeSqrt(1f - square(cosNormals))
-  private val radius2 = square(box.radius)
-  private val minDistance2 = Math.max(radius2, square(box.extent.length * 0.5f))
-
   /** Estimate of the contribution to `p` with normal `n` (zero vector: a point that receives light
     * from all directions). Zero only if these lights can't contribute.
     */
-  def importance(p: Vec3, n: Vec3): Float =
-    val toCenter = center - p
-    val distance2 = toCenter.lengthSquared
-    val wi = if distance2 > 0f then toCenter * (1f / sqrt(distance2)) else Vec3.Z
-    val cosAxis0 = -(axis dot wi)
-    val cosAxis = if twoSided then Math.abs(cosAxis0) else cosAxis0
-    val sinAxis = safeSqrt(1f - square(cosAxis))
-    // θb: half the angle subtended by the bounding sphere; all directions from inside
-    val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
-    val sinBox = safeSqrt(1f - square(cosBox))
-    val cosX = LightBounds.cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
-    val sinX = LightBounds.sinDifference(sinAxis, cosAxis, sinNormals, cosNormals)
-    val cosMin = LightBounds.cosDifference(sinX, cosX, sinBox, cosBox)
-    if cosMin <= cosEmission then 0f
-    else
-      val emitted = power * cosMin / Math.max(distance2, minDistance2)
-      if n.isZero then emitted
-      else
-        val cosSurface = Math.abs(wi dot n)
-        val sinSurface = safeSqrt(1f - square(cosSurface))
-        Math.max(0f, emitted * LightBounds.cosDifference(sinSurface, cosSurface, sinBox, cosBox))
+  def importance(p: Vec3, n: Vec3): Float = LightNodes(Array(this)).importance(0, p, n)
 
   def union(b: LightBounds): LightBounds =
     if power == 0f then b
@@ -71,12 +46,6 @@ object LightBounds:
   def everywhere(p: Vec3, power: Float): LightBounds =
     LightBounds(Bounds3(p, p), Vec3.Z, -1f, 0f, power, twoSided = false)
 
-  /** cos(max(0, a − b)); `sinDifference` is sin(max(0, a − b)). */
-  private def cosDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
-    if cosA > cosB then 1f else cosA * cosB + sinA * sinB
-  private def sinDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
-    if cosA > cosB then 0f else sinA * cosB - cosA * sinB
-
   /** Smallest cone around two cones, as axis and cosine of the half-angle. */
   private def unionCones(a: Vec3, cosA: Float, b: Vec3, cosB: Float): (Vec3, Float) =
     val angleA = Math.acos(clamp(cosA, -1f, 1f).toDouble)
@@ -93,3 +62,70 @@ object LightBounds:
           .rotate(Math.toDegrees(half - angleA), turnAxis.x, turnAxis.y, turnAxis.z)
           .fold(a)(_.vector(a))
         (turned.normalized, Math.cos(half).toFloat)
+
+/** [[LightBounds]] in a flat array, for light sampling. Immutable. */
+final class LightNodes(bounds: Array[LightBounds]):
+  import LightNodes.*
+
+  private val data = new Array[Float](Stride * bounds.length)
+  for (b, i) <- bounds.zipWithIndex if b != null do
+    val center = b.box.center
+    val radius2 = square(b.box.radius)
+    val row = Array(
+      center.x,
+      center.y,
+      center.z,
+      b.axis.x,
+      b.axis.y,
+      b.axis.z,
+      safeSqrt(1f - square(b.cosNormals)),
+      b.cosNormals,
+      radius2,
+      Math.max(radius2, square(b.box.extent.length * 0.5f)),
+      b.power,
+      b.cosEmission,
+      if b.twoSided then 1f else 0f
+    )
+    System.arraycopy(row, 0, data, Stride * i, row.length)
+
+  /** [[LightBounds.importance]] of the bounds with this index. */
+  def importance(node: Int, p: Vec3, n: Vec3): Float =
+    val at = Stride * node
+    val x = data(at) - p.x
+    val y = data(at + 1) - p.y
+    val z = data(at + 2) - p.z
+    val distance2 = x * x + y * y + z * z
+    val isApart = distance2 > 0f
+    val inverse = if isApart then 1f / sqrt(distance2) else 0f
+    val wx = x * inverse
+    val wy = y * inverse
+    val wz = if isApart then z * inverse else 1f
+    val cosAxis0 = -(data(at + 3) * wx + data(at + 4) * wy + data(at + 5) * wz)
+    val cosAxis = if data(at + 12) != 0f then Math.abs(cosAxis0) else cosAxis0
+    val sinAxis = safeSqrt(1f - square(cosAxis))
+    // θb: half the angle subtended by the bounding sphere; all directions from inside
+    val radius2 = data(at + 8)
+    val cosBox = if distance2 < radius2 then -1f else safeSqrt(1f - radius2 / distance2)
+    val sinBox = safeSqrt(1f - square(cosBox))
+    val sinNormals = data(at + 6)
+    val cosNormals = data(at + 7)
+    val cosX = cosDifference(sinAxis, cosAxis, sinNormals, cosNormals)
+    val sinX = sinDifference(sinAxis, cosAxis, sinNormals, cosNormals)
+    val cosMin = cosDifference(sinX, cosX, sinBox, cosBox)
+    if cosMin <= data(at + 11) then 0f
+    else
+      val emitted = data(at + 10) * cosMin / Math.max(distance2, data(at + 9))
+      if n.isZero then emitted
+      else
+        val cosSurface = Math.abs(wx * n.x + wy * n.y + wz * n.z)
+        val sinSurface = safeSqrt(1f - square(cosSurface))
+        Math.max(0f, emitted * cosDifference(sinSurface, cosSurface, sinBox, cosBox))
+
+private object LightNodes:
+  inline val Stride = 16
+
+  /** cos(max(0, a − b)); `sinDifference` is sin(max(0, a − b)). */
+  inline def cosDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
+    if cosA > cosB then 1f else cosA * cosB + sinA * sinB
+  inline def sinDifference(sinA: Float, cosA: Float, sinB: Float, cosB: Float): Float =
+    if cosA > cosB then 0f else sinA * cosB - cosA * sinB

@@ -48,8 +48,8 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
 
   /** Bounds by node; children(i) is the second child (the first is i + 1), or ~light for a leaf.
     */
-  private val nodes = new Array[LightBounds](Math.max(1, 2 * finite.length))
-  private val children = new Array[Int](nodes.length)
+  private val bounds = new Array[LightBounds](Math.max(1, 2 * finite.length))
+  private val children = new Array[Int](bounds.length)
   private var used = 0
 
   /** Path from the root to each light as bits, low bit first, 1 = second child; −1 if the light is
@@ -58,6 +58,8 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private val trail = Array.fill(lights.length)(-1L)
 
   if finite.nonEmpty then build(finite, 0L, 0): Unit
+
+  private val nodes = LightNodes(bounds)
 
   def describe: String = s"${lights.length} lights, sampled by importance (light BVH)"
 
@@ -77,7 +79,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
         val a = build(left, bits, depth + 1)
         children(node) = used
         a.union(build(right, bits | (1L << depth), depth + 1))
-    nodes(node) = all
+    bounds(node) = all
     all
 
   /** Median split along the axis of largest centroid extent: the depth stays at log2 of the count.
@@ -104,13 +106,13 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private def descend(p: Vec3, n: Vec3, u0: Float, out: LightChoice): Unit =
     var u = u0
     var node = 0
-    if children(0) < 0 && nodes(0).importance(p, n) <= 0f then out.light = -1
+    if children(0) < 0 && nodes.importance(0, p, n) <= 0f then out.light = -1
     else
       var probability = out.probability
       while node >= 0 && children(node) >= 0 do
         val second = children(node)
-        val a = nodes(node + 1).importance(p, n)
-        val b = nodes(second).importance(p, n)
+        val a = nodes.importance(node + 1, p, n)
+        val b = nodes.importance(second, p, n)
         if !(a + b > 0f) then node = -1
         else
           val pa = a / (a + b)
@@ -128,15 +130,15 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   def probability(p: Vec3, n: Vec3, light: Int): Float =
     if lights(light).bounds.isEmpty then (if lights(light).isSampled then infiniteShare else 0f)
     else if trail(light) < 0 then 0f
-    else if children(0) < 0 && nodes(0).importance(p, n) <= 0f then 0f
+    else if children(0) < 0 && nodes.importance(0, p, n) <= 0f then 0f
     else
       var bits = trail(light)
       var node = 0
       var probability = infiniteShare
       while children(node) >= 0 do
         val second = children(node)
-        val a = nodes(node + 1).importance(p, n)
-        val b = nodes(second).importance(p, n)
+        val a = nodes.importance(node + 1, p, n)
+        val b = nodes.importance(second, p, n)
         if !(a + b > 0f) then return 0f
         if (bits & 1L) == 0L then
           probability *= a / (a + b)

@@ -25,7 +25,7 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
     if out.pdf > 0f then
       // The ray's closest hit is either the sampled point or occludes it
       out.ray.set(from, out.wi, Float.PositiveInfinity)
-      if surface.meets(out.ray, out.hit, out.at) then out.radiance = out.radiance * factor(out.at)
+      if surface.meets(out.ray, out.hit, out.at) then out.radiance.scale(factor(out.at))
       else out.pdf = 0f
 
   def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)

@@ -69,6 +69,11 @@ final class MutableVec3(x0: Float, y0: Float, z0: Float) extends Vec3(x0, y0, z0
     ownY = v.y
     ownZ = v.z
 
+  def set(x: Float, y: Float, z: Float): Unit =
+    ownX = x
+    ownY = y
+    ownZ = z
+
   /** An immutable copy of the current value. */
   def toVec3: Vec3 = Vec3(x, y, z)
 

@@ -36,7 +36,9 @@ final class PathReport(say: String => Unit):
       s"throughput $throughput")
 
   def chosen(light: Int, s: LightSample): Unit =
-    say(s"   light $light is sampled: radiance ${s.radiance}, pdf ${s.pdf}, direction ${s.wi}")
+    say(
+      s"   light $light is sampled: radiance ${s.radiance.toRgb}, pdf ${s.pdf}, direction ${s.wi}"
+    )
 
   def found(light: Int, radiance: Rgb): Unit =
     say(s"   light $light is hit: radiance $radiance, throughput $throughput")

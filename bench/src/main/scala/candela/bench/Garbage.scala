@@ -19,10 +19,13 @@ object Garbage:
   private val WarmUp = 24
   private val Passes = 8
 
+  /** Samples of a long render, for which the SIMD kernels are loaded. */
+  private val AsIf = 1024
+
   def main(scenes: Array[String]): Unit =
     for scene <- scenes do
       val description = Parser.readable(Path.of(scene), None, keepGoing = false)
-      val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(WarmUp + Passes)))
+      val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(AsIf)))
       val paths = Paths(plan)
       for pass <- 0 until WarmUp do paths.take(pass)
       val before = allocated()
