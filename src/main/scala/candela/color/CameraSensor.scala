@@ -48,8 +48,10 @@ object CameraSensor:
     "sony_ilce_7rm3", "sony_ilce_9"
   )
 
+  private[color] def file(name: String): String = s"camera-$name"
+
   def named(name: String): Option[CameraSensor] =
-    Option.when(names.contains(name))(CameraSensor(spectra(s"camera-$name")))
+    Option.when(names.contains(name))(CameraSensor(spectra(file(name))))
 
   /** Eight spectra in place of the 24 of a ColorChecker, to which pbrt-v4 fits: their products for
     * any two wavelengths have the same sum, to four digits, and the fit depends on nothing else.

@@ -2,7 +2,7 @@ package candela.color
 
 import scala.io.{Codec, Source}
 
-/** Converts spectra to linear sRGB with the CIE 1931 observer, and provides named spectra. */
+/** Converts spectra to linear sRGB with the CIE 1931 observer. */
 object Colorimetry:
 
   /** Illuminant under which a spectrum is converted. */
@@ -16,7 +16,7 @@ object Colorimetry:
 
   /** Wavelengths at which integrals are sampled: 360–830 nm in steps of 5. */
   private lazy val observer: Array[Array[Float]] = table("cie1931")
-  lazy val D65: Spectrum = named("D65").get
+  lazy val D65: Spectrum = NamedSpectra("stdillum-D65").get
 
   /** The observer's colour matching functions x, y and z. */
   private[color] lazy val observers: Vector[Spectrum] =
@@ -78,20 +78,6 @@ object Colorimetry:
   def fromXyz(x: Double, y: Double, z: Double): Rgb =
     val c = rgbOfXyz * Vector(x, y, z)
     Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
-
-  /** Names of the built-in spectra, as in pbrt-v4. */
-  val names: Vector[String] =
-    val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
-    metals.flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k")) ++
-      Vector(
-        "BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11"
-      ).map(g => s"glass-$g") :+ "stdillum-D65"
-
-  def named(name: String): Option[Spectrum] =
-    val file = name.stripPrefix("stdillum-")
-    Option.when(names.contains(name) || file == "D65"):
-      val rows = table(file)
-      Spectrum(rows.map(_(0)), rows.map(_(1)))
 
   /** Rows of numbers; lines that begin with # are comments. */
   private[color] def table(name: String): Array[Array[Float]] =

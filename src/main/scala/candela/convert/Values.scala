@@ -2,7 +2,7 @@ package candela.convert
 
 import java.nio.file.{Files, InvalidPathException}
 
-import candela.color.{Colorimetry, Rgb, Spectrum}
+import candela.color.{Colorimetry, NamedSpectra, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.*
 
@@ -39,7 +39,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
     */
   private def indices(p: Param, d: Declaration): Option[Param] =
     if to == Dialect.V4 && p.strings.nonEmpty then Some(p)
-    else if to != Dialect.V4 && p.strings.nonEmpty && Colorimetry.named(p.strings.head).isEmpty then
+    else if to != Dialect.V4 && p.strings.nonEmpty && NamedSpectra(p.strings.head).isEmpty then
       Some(p)
     else
       spectrum(p, d).map: s =>
@@ -75,7 +75,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
     p.strings.headOption match
       case None => of(p.floats)
       case Some(name) =>
-        Colorimetry.named(name).orElse:
+        NamedSpectra(name).orElse:
           val read = numbersOf(name, d).flatMap(of)
           if read.isEmpty then warn(p, s"no such spectrum: `$name`; ignoring `${p.name}`")
           read

@@ -6,7 +6,7 @@ import candela.bsdf.microfacet.{
   UniformMetal
 }
 import candela.build.recipe.*
-import candela.color.{Colorimetry, Rgb}
+import candela.color.{Colorimetry, NamedSpectra, Rgb}
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.RgbTexture
@@ -26,7 +26,7 @@ private[build] trait MetalFields extends SpectrumFields:
     */
   protected final def metalIndex(prefix: String = "", tint: Boolean = false): MetalIndex =
     def copper(quantity: String) =
-      SpectralValue.Wavelengths(Colorimetry.named(s"metal-Cu-$quantity").get)
+      SpectralValue.Wavelengths(NamedSpectra(s"metal-Cu-$quantity").get)
     def number(name: String, meaning: String) =
       spectrumTexture(s"$prefix$name", meaning, shown = "of copper")(copper(name))
     MetalIndex(

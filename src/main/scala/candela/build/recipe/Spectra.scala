@@ -6,7 +6,7 @@ import java.nio.file.Files
 import scala.util.Try
 
 import candela.base.Suggest
-import candela.color.{ColorBasis, Colorimetry, Rgb, Spectrum}
+import candela.color.{ColorBasis, Colorimetry, NamedSpectra, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantRgb, RgbTexture}
@@ -98,17 +98,17 @@ object Spectra:
 
   private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
-    Colorimetry.named(name).orElse {
+    NamedSpectra(name).orElse {
       def path = site.declaration.folder.resolve(name.replace('\\', '/'))
       // a name with a zero byte is not a valid path
       val file = Try(path).getOrElse(site.declaration.folder)
       if !Files.isRegularFile(file) then
-        val near = Suggest.nearest(name, Colorimetry.names).map(n => s"did you mean `$n`?")
+        val near = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
         site.problems.missing(
           p.valuesAt,
           s"`$name` is neither a named spectrum nor a file",
           standIn,
-          near.orElse(Suggest.file(file)).orElse(Suggest.help(name, Colorimetry.names))
+          near.orElse(Suggest.file(file)).orElse(Suggest.help(name, NamedSpectra.names))
         )
         None
       else

@@ -1,0 +1,32 @@
+package candela.color
+
+/** Spectra known by name, as in pbrt-v4, each tabulated in a file that cites its source.
+  *
+  * Illuminants have relative power only. Two differ from pbrt-v4's tables, which do not have the
+  * published chromaticities: `stdillum-D50` by up to 14 % beyond 560 nm, `stdillum-F10` at 605 nm.
+  */
+object NamedSpectra:
+
+  /** Place of a spectrum: a file and a column after that of wavelengths. */
+  private final class Place(val file: String, val column: Int = 1)
+
+  private val places: Vector[(String, Place)] =
+    val metals = Vector("Ag", "Al", "Au", "Cu", "CuZn", "MgO", "TiO2")
+      .flatMap(m => Vector(s"metal-$m-eta", s"metal-$m-k"))
+    val glasses = Vector("BK7", "BAF10", "FK51A", "LASF9", "F5", "F10", "F11").map(g => s"glass-$g")
+    val lamps = (1 to 12).map(i => s"stdillum-F$i" -> Place("fluorescent", i))
+    val channels = Vector("r", "g", "b").zipWithIndex
+    val sensors = CameraSensor.names.flatMap: sensor =>
+      channels.map((c, i) => s"${sensor}_$c" -> Place(CameraSensor.file(sensor), i + 1))
+    (metals ++ glasses).map(name => name -> Place(name)) ++
+      Vector("A", "D50", "D65").map(name => s"stdillum-$name" -> Place(name)) ++ lamps ++
+      Vector("illum-acesD60" -> Place("acesD60")) ++ sensors
+
+  val names: Vector[String] = places.map(_._1)
+
+  private val byName = places.toMap
+
+  /** The tabulated function, constant outside its range. */
+  def apply(name: String): Option[Spectrum] = byName.get(name).map: place =>
+    val rows = Colorimetry.table(place.file)
+    Spectrum(rows.map(_(0)), rows.map(_(place.column)))
