@@ -40,7 +40,11 @@ final class DeltaLightsSuite extends AnyFunSuite:
     val light = DistantLight(Vec3.Y, Rgb(1f, 2f, 3f))
     for from <- Seq(Vec3.Zero, Vec3(100, -3, 7)) do
       light.sample(from, 0.1f, 0.9f, out)
-      assert(out.wi == Vec3.Y && out.radiance.toRgb == Rgb(1f, 2f, 3f) && out.pdf == 1f && out.isInfinite)
+      assert(out.wi == Vec3.Y && out.radiance.toRgb == Rgb(
+        1f,
+        2f,
+        3f
+      ) && out.pdf == 1f && out.isInfinite)
     assert(light.bounds.isEmpty)
 
   test("rays meet neither by chance"):

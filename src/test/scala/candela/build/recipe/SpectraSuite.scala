@@ -55,7 +55,7 @@ final class SpectraSuite extends AnyFunSuite:
     assert(close(v2 * 0.6387f, v3, 2e-4f * v3.r))
 
   test("a name that is neither a spectrum nor a file is an error"):
-    val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D56\"\n"
+    val text = "WorldBegin\nLightSource \"point\" \"spectrum I\" \"stdillum-D66\"\n"
     val p = SceneTexts.problems(text, Dialect.V4).head
-    assert(p.message.contains("`stdillum-D56` is neither a named spectrum nor a file"))
+    assert(p.message.contains("`stdillum-D66` is neither a named spectrum nor a file"))
     assert(p.help.exists(_.contains("`stdillum-D65`")))
