@@ -4,6 +4,7 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.Suggest
 import candela.film.Layer
+import candela.image.DisplayTransform
 import candela.scenefile.Dialect
 
 /** Parses a command line to [[Options]], or to the text to print instead. */
@@ -55,6 +56,7 @@ enum Command(val word: String):
   case Bench extends Command("bench")
   case Describe extends Command("describe")
   case Convert extends Command("convert")
+  case View extends Command("view")
 
 /** Part of the image to render, in fractions [0, 1] of width and height. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
@@ -68,6 +70,9 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param markdown whether `describe` prints the whole reference
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
+  * @param display how pictures show linear light
+  * @param thumbnail how to show the image in the terminal
+  * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
   * @param reference reference image for reports
   * @param reports report files
@@ -92,6 +97,9 @@ final case class Options(
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
+    display: DisplayTransform = DisplayTransform.Plain,
+    thumbnail: Option[ThumbnailKind] = None,
+    columns: Option[Int] = None,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,
     compare: CompareOptions = CompareOptions(),

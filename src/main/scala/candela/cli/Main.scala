@@ -27,13 +27,15 @@ object Main:
         answer.code
       case Right(options) =>
         val canKeepGoing = OptionTable.names(options.command.word).contains("keep-going")
-        val report = Report(terminal.err, options.quiet, options.verbose, canKeepGoing)
+        val report =
+          Report(terminal.err, options.quiet, options.verbose, canKeepGoing, terminal.hasColor)
         options.command match
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Check => CheckCommand(options, terminal, report, loader).run()
           case Command.Compare => CompareCommand(options, terminal, report).run()
           case Command.Bench => BenchCommand(options, terminal, report).run()
           case Command.Describe => DescribeCommand(options, terminal, report).run()
+          case Command.View => ViewCommand(options, terminal, report).run()
           case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number
 

@@ -124,7 +124,7 @@ private[cli] object OptionTable:
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
-  )
+  ) ++ DisplayTable.options
 
   private val checkOptions: Vector[Row] =
     Vector(parsedAs, keepGoing, explain, quiet, verbose(", and what --explain prints"))
@@ -157,6 +157,17 @@ private[cli] object OptionTable:
     verbose("")
   )
 
+  private val viewOptions: Vector[Row] = Vector[Row](
+    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+      .text(s"picture to write, ${OutputFormat.listed(Contents.Display)} (default: the terminal)")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    opt[Int]("columns").valueName("N")
+      .text("pictures per row of a contact sheet (default: about as many as rows)")
+      .validate(atLeast("columns", 1))
+      .action((n, o) => o.copy(columns = Some(n))),
+    quiet
+  ) ++ DisplayTable.options
+
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
@@ -166,6 +177,7 @@ private[cli] object OptionTable:
       case Some(Command.Bench) => benchOptions
       case Some(Command.Describe) => describeOptions
       case Some(Command.Convert) => convertOptions
+      case Some(Command.View) => viewOptions
       case None => Vector.empty
     rows.flatMap(_.toList).map(_.name)
 
@@ -203,6 +215,11 @@ private[cli] object OptionTable:
     command(Command.Convert, "convert a scene to another dialect")(
       file("scene.pbrt", "the scene to convert") +: convertOptions
     ),
+    note(""),
+    command(Command.View, "show images, or write them as a picture; several: a contact sheet")(
+      arg[String]("image...").unbounded().text("images in any readable format")
+        .action((f, o) => o.copy(files = o.files :+ f)) +: viewOptions
+    ),
     note("""
       |Without --outfile the scene's Film names the image, and a preview is written next to it.
       |Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits immediately.
@@ -215,6 +232,8 @@ private[cli] object OptionTable:
         failure("--debug and --pixel x,y must be given together")
       else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then
         failure("--report needs a single scene, found several")
+      else if o.columns.isDefined && o.files.size < 2 then
+        failure("--columns needs several images")
       else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty then
         failure("--reference needs --report FILE")
       else success

@@ -7,7 +7,7 @@ import scala.util.{Failure, Success, Try}
 
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
-import candela.image.{ImageError, ImageFiles}
+import candela.image.{Contents, ImageError, ImageFiles, OutputFormat, WriteOptions}
 import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
 import candela.scene.PathReport
 
@@ -42,6 +42,7 @@ final class RenderCommand(
   private def load(scene: String): LoadedScene =
     // Warns before parsing, which may take long.
     OutputFiles.asked(options.outfiles).check()
+    for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     val loaded = loader.load(scene, options)
     report.warnings(loaded.warnings, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
@@ -74,6 +75,10 @@ final class RenderCommand(
       for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
         if !options.quiet then terminal.out.println(s"wrote $path")
       terminal.out.flush()
+      for kind <- options.thumbnail do
+        val picture = rendering.image(loaded.plan.development)
+        terminal.out.print(Thumbnail.of(picture, options.display, kind, terminal))
+      terminal.out.flush()
       if written.size < paths.size then ExitCode.BadInput
       else if cancellation.isRequested then ExitCode.Interrupted
       else ExitCode.Done
@@ -88,7 +93,11 @@ final class RenderCommand(
     val development = loaded.plan.development
     val image = rendering.image(development)
     val about = metadata(scene, loaded, rendering)
-    def write(path: Path) = Try(ImageFiles.write(path, image, about, development.isHalf))
+    val how = WriteOptions(development.isHalf, options.display)
+    def texts(path: Path) =
+      val isShown = OutputFormat.of(path).exists(_.contents == Contents.Display)
+      if isShown then about ++ options.display.describe(image) else about
+    def write(path: Path) = Try(ImageFiles.write(path, image, texts(path), how))
     val attempts = paths.map(path => path -> write(path))
     val failures = attempts.collect:
       case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)

@@ -9,12 +9,14 @@ import candela.render.RenderFailure
 /** Turns problems into text and exit codes; no other class does.
   *
   * @param canKeepGoing whether the command has the option `--keep-going`
+  * @param hasColor     whether `err` shows colours
   */
 final class Report(
     err: PrintStream,
     isQuiet: Boolean,
     isVerbose: Boolean,
-    canKeepGoing: Boolean = true
+    canKeepGoing: Boolean = true,
+    hasColor: Boolean = false
 ):
 
   private var errorCount = 0
@@ -67,7 +69,7 @@ final class Report(
     if places > 1 then
       err.println(s" and at ${Figures.count(places - 1, "more position")}; --verbose shows all")
 
-  private def print(problem: Problem): Unit = err.println(ProblemText.format(problem))
+  private def print(problem: Problem): Unit = err.println(ProblemText.format(problem, hasColor))
 
   private def ioMessage(e: IOException): String = s"${e.getClass.getSimpleName}: ${e.getMessage}"
 
@@ -105,9 +107,15 @@ object Report:
   */
 object ProblemText:
 
+  private val Red = "31"
+  private val Yellow = "33"
+
   /** The problem as lines, without a final line end. */
-  def format(p: Problem): String =
-    val severity = if p.severity == Severity.Error then "error" else "warning"
+  def format(p: Problem, hasColor: Boolean = false): String =
+    val isError = p.severity == Severity.Error
+    val word = if isError then "error" else "warning"
+    val severity =
+      if hasColor then s"\u001b[1;${if isError then Red else Yellow}m$word\u001b[0m" else word
     val head = p.at.fold("")(at => s"$at: ") + s"$severity: ${p.message}"
     val shown = p.at.zip(p.excerpt).toVector.flatMap(excerpt)
     val help = p.help.map(h => s" $h")

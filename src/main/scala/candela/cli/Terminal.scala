@@ -11,20 +11,25 @@ import scala.util.Try
   * @param err problems and progress
   * @param isInteractive whether a line on `err` can be redrawn
   * @param columns text width, in characters
+  * @param environment variables of the process
   */
 final class Terminal(
     val out: PrintStream,
     val err: PrintStream,
     val isInteractive: Boolean,
     val interrupts: Interrupts,
-    val columns: Int = Terminal.UsualColumns
-)
+    val columns: Int = Terminal.UsualColumns,
+    val environment: Map[String, String] = Map.empty
+):
+  /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
+  def hasColor: Boolean = isInteractive && environment.getOrElse("NO_COLOR", "").isEmpty
 
 object Terminal:
 
   def ofProcess: Terminal =
     val redraws = isInteractive
-    Terminal(System.out, System.err, redraws, Interrupts.fromSignals(System.err, redraws), columns)
+    val interrupts = Interrupts.fromSignals(System.err, redraws)
+    Terminal(System.out, System.err, redraws, interrupts, columns, sys.env)
 
   private val UsualColumns = 80
 

@@ -26,7 +26,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     Image(part.width, part.height, order.map(inFile), data)
 
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
-  def write(image: Image, metadata: Vector[(String, String)], isHalf: Boolean): Array[Byte] =
+  def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
-    ExrEncoder.encode(image.linear, metadata, isHalf)
+    ExrEncoder.encode(image.linear, metadata, options.isHalf)

@@ -52,18 +52,17 @@ object ImageFiles:
     * Atomic: writes to a temporary file beside the target and renames it.
     *
     * @param metadata names and texts to store in the file
-    * @param isHalf   whether to store 16-bit instead of 32-bit floats, if the format supports both
     */
   def write(
       path: Path,
       image: Image,
       metadata: Vector[(String, String)] = Vector.empty,
-      isHalf: Boolean = false
+      options: WriteOptions = WriteOptions()
   ): Unit =
     val bytes =
       try
         (OutputFormat.of(path), FileName.suffix(path)) match
-          case (Some(format), _) => format.write(image, metadata, isHalf)
+          case (Some(format), _) => format.write(image, metadata, options)
           case (None, "") => throw ImageError(s"the name has no extension; $Writable")
           case (None, other) => throw ImageError(s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
@@ -74,6 +73,10 @@ object ImageFiles:
 
   /** The bytes that `write` stores in an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)
+
+  /** The bytes that `write` stores in a `.png` file. */
+  def png(image: Image, display: DisplayTransform = DisplayTransform.Plain): Array[Byte] =
+    Png.write(image, Vector.empty, WriteOptions(display = display))
 
   private def reason(e: IOException): String =
     e.getClass.getSimpleName.stripSuffix("Exception") match

@@ -6,7 +6,7 @@ import java.nio.file.Path
 
 /** Pixel data that a format can store. */
 enum Contents:
-  /** Display-referred colours: 8 bits, sRGB, clamped to [0, 1]. */
+  /** Display-referred colours: sRGB, clamped to [0, 1]. */
   case Display
 
   /** Linear red, green and blue as floats. */
@@ -15,25 +15,37 @@ enum Contents:
   /** Floats in arbitrarily named channels. */
   case Channels
 
+/** Choices that some formats have.
+  *
+  * @param isHalf  whether to store 16-bit instead of 32-bit floats
+  * @param display how display formats show linear light
+  */
+final case class WriteOptions(
+    isHalf: Boolean = false,
+    display: DisplayTransform = DisplayTransform.Plain
+)
+
 /** An output file format; all are listed in [[OutputFormat.all]].
   *
   * @param suffix file extension, in lower case
   */
 abstract class OutputFormat(val suffix: String, val contents: Contents):
 
+  /** Other extensions of such files. */
+  def aliases: Vector[String] = Vector.empty
+
   /** Encodes an image file.
     *
     * @param metadata names and texts to store, if the format supports them
-    * @param isHalf   whether to store 16-bit instead of 32-bit floats, if the format supports both
     */
   private[image] def write(
       image: Image,
       metadata: Vector[(String, String)],
-      isHalf: Boolean = false
+      options: WriteOptions = WriteOptions()
   ): Array[Byte]
 
 object OutputFormat:
-  val all: Vector[OutputFormat] = Vector(Exr, Png)
+  val all: Vector[OutputFormat] = Vector(Exr, Png, Jpeg)
 
   /** Replaces formats that are not supported. */
   val default: OutputFormat = Exr
@@ -41,9 +53,11 @@ object OutputFormat:
   /** Preview format for images that can't be displayed directly. */
   val preview: OutputFormat = Png
 
-  def of(path: Path): Option[OutputFormat] = all.find(_.suffix == FileName.suffix(path))
+  def of(path: Path): Option[OutputFormat] =
+    val suffix = FileName.suffix(path)
+    all.find(f => f.suffix == suffix || f.aliases.contains(suffix))
 
-  /** Extensions of the formats with such contents, or of all: `.exr or .png`. */
+  /** Extensions of the formats with such contents, or of all: `.exr, .png or .jpg`. */
   def listed(contents: Contents*): String =
     inWords(all.filter(f => contents.isEmpty || contents.contains(f.contents)))
 

@@ -1,7 +1,7 @@
 package candela.measure
 
 import candela.base.loop
-import candela.color.Encoding
+import candela.color.{Encoding, Magma}
 import candela.image.{Image, ImageError}
 
 /** Image error metrics; docs/METRICS.md has definitions and sources.
@@ -61,29 +61,15 @@ object ErrorMap:
   private def gray(pair: ImagePair, data: Array[Float]): Image =
     Image(pair.width, pair.height, Vector("Y"), data)
 
-/** False colours from black through purple and orange to pale yellow: the perceptually uniform
-  * colour map "magma" of Stéfan van der Walt and Nathaniel Smith (2015, public domain),
-  * interpolated linearly between eleven points.
-  */
+/** Images in the false colours of [[Magma]]. */
 object HeatMap:
-
-  /** sRGB codes, from 0 to 1 in tenths. */
-  val Colors: Vector[Int] = Vector(
-    0x000004, 0x140e36, 0x3b0f70, 0x641a80, 0x8c2981, 0xb73779, 0xde4968, 0xf7705c, 0xfe9f6d,
-    0xfecf92, 0xfcfdbf
-  )
 
   /** A single-channel image in false colours; `brightest` and above map to the last colour. */
   def of(map: Image, brightest: Double): Image =
     val data = new Array[Float](3 * map.data.length)
     loop(map.data.length): i =>
       val value = if brightest > 0 then map.data(i) / brightest else 0.0
-      val place = Math.min(1.0, Math.max(0.0, value)) * (Colors.size - 1)
-      val before = Math.min(place.toInt, Colors.size - 2)
-      loop(3): c =>
-        val low = channel(Colors(before), c)
-        val high = channel(Colors(before + 1), c)
-        data(3 * i + c) = (low + (high - low) * (place - before)).toFloat
+      loop(3)(c => data(3 * i + c) = Magma(value, c))
     Image(map.width, map.height, Image.RgbNames, data, Encoding.Srgb)
 
   /** Default top of the scale: FLIP's maximum; for other metrics the 99th percentile. */
@@ -93,5 +79,3 @@ object HeatMap:
       val sorted = map.data.sorted
       val most = sorted(Math.min(sorted.length - 1, sorted.length * 99 / 100))
       if most > 0 then most.toDouble else sorted.last.toDouble
-
-  private def channel(color: Int, c: Int): Float = (color >> (16 - 8 * c) & 0xff) / 255f

@@ -1,7 +1,8 @@
 package candela.report
 
+import candela.color.Magma
 import candela.image.Image
-import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric}
+import candela.measure.{ErrorMap, ImagePair, Metric}
 
 import scalatags.Text.all.*
 
@@ -70,7 +71,7 @@ private[report] object Viewer:
       Option.when(shown.exists(_.isReference))(Metric.Flip)
     all.map(m => option(value := m.word, m.title))
 
-  private def gradient: String = HeatMap.Colors.map("#%06x".format(_)).mkString(",")
+  private def gradient: String = Magma.Colors.map("#%06x".format(_)).mkString(",")
 
   private def json(shown: Vector[Picture], reference: Option[Picture]): String =
     val packed = shown.map: p =>
@@ -85,7 +86,7 @@ private[report] object Viewer:
     val all = ujson.Obj(
       "width" -> shown.head.image.width,
       "height" -> shown.head.image.height,
-      "magma" -> ujson.Arr.from(HeatMap.Colors),
+      "magma" -> ujson.Arr.from(Magma.Colors),
       "pictures" -> ujson.Arr.from(packed)
     )
     // Within a page, a name with </script> would end the script.

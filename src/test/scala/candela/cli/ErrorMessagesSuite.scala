@@ -20,7 +20,7 @@ class ErrorMessagesSuite extends AnyFunSuite:
     // file names as they are where `/` stands between folders
     val separator = java.io.File.separator
     problems
-      .map(ProblemText.format)
+      .map(ProblemText.format(_))
       .mkString("", "\n\n", "\n")
       .replace(s"$folder$separator", "errors/")
       .replace(s"errors/parts$separator", "errors/parts/")

@@ -48,7 +48,7 @@ class OutputFilesSuite extends AnyFunSuite:
 
   test("a format that is not written is noticed before rendering"):
     TempFolder.use: folder =>
-      val path = folder.resolve("a.jpg")
+      val path = folder.resolve("a.webp")
       assert(problems(path) == Vector(s"can't write `$path`"))
 
   test("a folder in the place of the image is noticed before rendering"):

@@ -50,6 +50,31 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(code == 0)
       assert(TempFolder.names(folder) == Set("b.png"))
 
+  test("tone curves change pictures alone: the EXR keeps the light"):
+    TempFolder.use: folder =>
+      val loader = Known("s.pbrt" -> plan(folder.resolve("x.exr")))
+      val files = s"$folder/a.exr,$folder/a.png"
+      val options = Seq("--outfile", files, "--exposure", "-2", "--thumbnail", "blocks")
+      val captured = Captured()
+      assert(run(captured, loader, "s.pbrt" +: options*) == 0)
+      val exr = ImageFiles.read(folder.resolve("a.exr"))
+      assert((exr(3, 2, 0), exr(3, 2, 1), exr(3, 2, 2)) == (0.5f, 0.25f, 2f))
+      val png = ImageFiles.read(folder.resolve("a.png")).linear
+      for (wanted, c) <- Vector(0.125f, 0.0625f, 0.5f).zipWithIndex do
+        assert(Math.abs(png(3, 2, c) - wanted) < 0.005f)
+      assert(captured.out.count(_ == '▀') == 40 * 14)
+      def has(file: String) =
+        Files.readString(folder.resolve(file), java.nio.charset.StandardCharsets.ISO_8859_1)
+          .contains("-2.00 stops")
+      assert(has("a.png") && !has("a.exr"))
+
+  test("a thumbnail for an unknown terminal is refused before anything is loaded"):
+    TempFolder.use: folder =>
+      val captured = Captured()
+      val loader = Known("s.pbrt" -> plan(folder.resolve("x.exr")))
+      assert(run(captured, loader, "s.pbrt", "--thumbnail", "auto") == 1)
+      assert(loader.loaded.isEmpty && captured.err.startsWith("error: no terminal known"))
+
   test("layers go into an EXR; without one they are refused before anything is rendered"):
     TempFolder.use: folder =>
       val scene = folder.resolve("s.pbrt")

@@ -25,6 +25,21 @@ class ReportSuite extends AnyFunSuite:
     assert(text.linesIterator.toVector ==
       Vector("a.pbrt:2:5: error: a", "a.pbrt:10:1: error: b", "2 errors"))
 
+  test("colours mark errors and warnings where the terminal has them"):
+    val captured = Captured()
+    val report = Report(captured.terminal.err, false, false, hasColor = true)
+    val _ = report.errors(Vector(Problem.error(at(1), "a"), Problem.warning(at(2), "b")))
+    assert(captured.err == "a.pbrt:2:1: \u001b[1;33mwarning\u001b[0m: b\n" +
+      "a.pbrt:1:1: \u001b[1;31merror\u001b[0m: a\n")
+
+  test("colours are for terminals, and not with NO_COLOR"):
+    def terminal(isInteractive: Boolean, environment: (String, String)*) =
+      Terminal(System.out, System.err, isInteractive, Interrupts.Ignored, 80, environment.toMap)
+    assert(terminal(isInteractive = true).hasColor)
+    assert(terminal(isInteractive = true, "NO_COLOR" -> "").hasColor)
+    assert(!terminal(isInteractive = true, "NO_COLOR" -> "1").hasColor)
+    assert(!terminal(isInteractive = false).hasColor)
+
   test("one error is not counted"):
     assert(report()(_.errors(Vector(Problem.general("a", Some("b"))))) == "error: a\n b\n")
 

@@ -115,7 +115,7 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val image = Image(7, 5, names, data)
     val whole = Exr.read(Exr.write(image, Vector.empty))
     assert(whole.channelNames == names && whole.data.sameElements(data))
-    val file = Exr.write(image, Vector.empty, isHalf = true)
+    val file = Exr.write(image, Vector.empty, WriteOptions(isHalf = true))
     assert(ExrHeader.parts(file).head.channels.forall(_.pixelType == ExrHeader.Half))
     val half = Exr.read(file)
     assert(half.channelNames == names)

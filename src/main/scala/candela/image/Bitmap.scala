@@ -1,0 +1,59 @@
+package candela.image
+
+import candela.base.loop
+import candela.color.{Encoding, Srgb}
+import candela.sampling.SampleHash
+
+import java.awt.color.ColorSpace
+import java.awt.image.{BufferedImage, ComponentColorModel, DataBuffer, Raster}
+import java.awt.Transparency
+
+/** Display-referred images of 8 or 16 bits, sRGB-encoded: clamped to [0, 1], NaN black. */
+private[image] object Bitmap:
+
+  // Before the first class of AWT loads: a renderer must not open a display.
+  if System.getProperty("java.awt.headless") == null then
+    val _ = System.setProperty("java.awt.headless", "true")
+
+  /** Luminance alone is written as grey. */
+  def of(image: Image, display: DisplayTransform): BufferedImage =
+    val shown = display(image)
+    val isGray = shown.indicesOf(Image.RgbNames).isEmpty
+    val sources = if isGray then Vector(shown.colorChannels.head) else shown.colorChannels
+    val picture = empty(shown.width, shown.height, isGray, display.bits)
+    val codes = new Array[Int](sources.size * shown.width)
+    val most = ((1 << display.bits) - 1).toFloat
+    val dithers = display.dithers && display.bits == 8
+    loop(shown.height): y =>
+      loop(shown.width): x =>
+        loop(sources.size): c =>
+          val value = encoded(shown(x, y, sources(c)), shown.encoding)
+          val round = if dithers then threshold(x, y, c) else 0.5f
+          codes(x * sources.size + c) = (value * most + round).toInt
+      picture.getRaster.setPixels(0, y, shown.width, 1, codes)
+    picture
+
+  private def encoded(value: Float, encoding: Encoding): Float =
+    val code = if encoding == Encoding.Srgb then value else Srgb.encode(encoding.decode(value))
+    if code > 0f then Math.min(code, 1f) else 0f
+
+  /** Uniform in [0, 1), so that the expected code is the exact value, and codes that are whole
+    * numbers stay.
+    *
+    * Source: Roberts, "Picture Coding Using Pseudo-Random Noise", IRE Transactions on Information
+    * Theory 8(2), 1962.
+    */
+  private def threshold(x: Int, y: Int, channel: Int): Float =
+    SampleHash.toUnit((SampleHash.pixel(x, y, channel) >>> 32).toInt)
+
+  private def empty(width: Int, height: Int, isGray: Boolean, bits: Int): BufferedImage =
+    if bits == 8 then
+      val kind = if isGray then BufferedImage.TYPE_BYTE_GRAY else BufferedImage.TYPE_INT_RGB
+      BufferedImage(width, height, kind)
+    else if isGray then BufferedImage(width, height, BufferedImage.TYPE_USHORT_GRAY)
+    else
+      val space = ColorSpace.getInstance(ColorSpace.CS_sRGB)
+      val kind = DataBuffer.TYPE_USHORT
+      val model = ComponentColorModel(space, false, false, Transparency.OPAQUE, kind)
+      val raster = Raster.createInterleavedRaster(kind, width, height, 3, null)
+      BufferedImage(model, raster, false, null)

@@ -1,0 +1,90 @@
+package candela.image
+
+import candela.base.loop
+import candela.color.{Encoding, Magma, Rgb, ToneCurve}
+
+/** Scale of the light before its tone curve. */
+enum Exposure:
+  /** Powers of two. */
+  case Stops(value: Float)
+
+  /** The image's geometric mean luminance becomes middle grey; black pixels don't count.
+    *
+    * Source: Reinhard et al., "Photographic Tone Reproduction for Digital Images", SIGGRAPH 2002,
+    * §2, with key 0.18.
+    */
+  case Auto
+
+/** How linear light becomes a picture: only display formats use it.
+  *
+  * @param falseColor whether to show luminance in stops instead of colours
+  * @param bits       8 or 16 bits per channel, if the format supports both
+  * @param dithers    whether 8-bit values are rounded at random, which hides banding
+  */
+final case class DisplayTransform(
+    curve: ToneCurve = ToneCurve.Linear,
+    exposure: Exposure = Exposure.Stops(0f),
+    falseColor: Boolean = false,
+    bits: Int = 8,
+    dithers: Boolean = false
+):
+  /** Whether colours are stored as they are. */
+  def isPlain: Boolean =
+    curve == ToneCurve.Linear && exposure == Exposure.Stops(0f) && !falseColor
+
+  /** Display-referred colours. */
+  def apply(image: Image): Image =
+    if isPlain then image
+    else
+      val light = image.toRgb
+      val scale = scaleOf(light)
+      val data = new Array[Float](light.data.length)
+      loop(light.width * light.height): pixel =>
+        val at = 3 * pixel
+        val c = Rgb(light.data(at), light.data(at + 1), light.data(at + 2)) * scale
+        if falseColor then
+          val stops = Math.log(c.luminance / DisplayTransform.Grey) / Math.log(2)
+          val place = (stops / DisplayTransform.Stops + 1) / 2
+          loop(3)(i => data(at + i) = Magma(if place.isNaN then 0 else place, i))
+        else
+          val shown = curve(c)
+          data(at) = shown.r
+          data(at + 1) = shown.g
+          data(at + 2) = shown.b
+      val encoding = if falseColor then Encoding.Srgb else Encoding.Linear
+      Image(light.width, light.height, Image.RgbNames, data, encoding)
+
+  /** What was done, for the picture's metadata. */
+  def describe(image: Image): Vector[(String, String)] =
+    if isPlain then Vector.empty
+    else
+      val stops = Math.log(scaleOf(image.toRgb).toDouble) / Math.log(2)
+      val range = f"luminance from -${DisplayTransform.Stops}%.0f to ${DisplayTransform.Stops}%.0f"
+      Vector(
+        "exposure" -> "%.2f stops".formatLocal(java.util.Locale.ROOT, stops),
+        if falseColor then "falseColor" -> s"$range stops about ${DisplayTransform.Grey}"
+        else "toneCurve" -> curve.word
+      )
+
+  private def scaleOf(light: Image): Float = exposure match
+    case Exposure.Stops(value) => Math.pow(2, value.toDouble).toFloat
+    case Exposure.Auto =>
+      var sum = 0.0
+      var count = 0
+      loop(light.width * light.height): pixel =>
+        val at = 3 * pixel
+        val y = Rgb(light.data(at), light.data(at + 1), light.data(at + 2)).luminance
+        if y > 0f && java.lang.Float.isFinite(y) then
+          sum += Math.log(y.toDouble)
+          count += 1
+      if count == 0 then 1f else (DisplayTransform.Grey / Math.exp(sum / count)).toFloat
+
+object DisplayTransform:
+  /** Colours as they are, in 8 bits. */
+  val Plain: DisplayTransform = DisplayTransform()
+
+  /** Reflectance of a photographer's grey card. */
+  val Grey = 0.18f
+
+  /** Half the range of the false-colour view. */
+  private val Stops = 6.0
