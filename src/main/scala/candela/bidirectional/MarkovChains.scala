@@ -1,5 +1,6 @@
 package candela.bidirectional
 
+import candela.base.{CheckedInput, CheckedOutput}
 import candela.film.{Splats, View}
 import candela.integrators.{ChainWalker, SharedChains}
 import candela.sampling.SampleHash
@@ -72,6 +73,22 @@ final class MarkovChains(
       state.samples.branch(seed(chain, Walks))
       states(chain) = state
     states(chain)
+
+  /** The bootstrap is not saved: it is computed again. */
+  def save(to: CheckedOutput): Unit =
+    val begun = states.indices.filter(states(_) != null)
+    to.int(begun.size)
+    for i <- begun do
+      to.int(i)
+      states(i).samples.save(to)
+      states(i).current.save(to)
+
+  def load(from: CheckedInput): Unit =
+    for _ <- 0 until from.int() do
+      val state = MarkovChain(PrimarySamples(settings.largeStep, settings.sigma), view)
+      states(from.int()) = state
+      state.samples.load(from)
+      state.current.load(from)
 
   private def seed(number: Int, purpose: Int): Long =
     SampleHash.pixel(number, purpose, settings.seed)

@@ -1,5 +1,6 @@
 package candela.bidirectional
 
+import candela.base.{CheckedInput, CheckedOutput}
 import candela.cameras.CameraRays
 import candela.color.Rgb
 import candela.film.{Splats, View}
@@ -119,6 +120,17 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
         data(at + 4) = light.b
         count += 1
         strength += weight
+
+  def save(to: CheckedOutput): Unit =
+    to.float(strength)
+    to.int(count)
+    for i <- 0 until count * Numbers do to.float(data(i))
+
+  def load(from: CheckedInput): Unit =
+    strength = from.float()
+    count = from.int()
+    data = new Array[Float](Math.max(1, count) * Numbers)
+    for i <- 0 until count * Numbers do data(i) = from.float()
 
   /** Swaps the contents with `other`. */
   def swap(other: Contribution): Unit =

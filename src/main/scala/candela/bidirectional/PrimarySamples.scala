@@ -1,5 +1,6 @@
 package candela.bidirectional
 
+import candela.base.{CheckedInput, CheckedOutput}
 import candela.sampling.{SampleHash, Sampler}
 
 /** A point of primary sample space: the random numbers of a path, with as many dimensions as the
@@ -67,6 +68,21 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
     counter += SampleHash.Step
     SampleHash.toUnit((SampleHash.mix64(counter) >>> 32).toInt)
 
+  /** Writes the state between two steps. */
+  def save(to: CheckedOutput): Unit =
+    to.long(counter)
+    to.int(time)
+    to.int(lastLarge)
+    to.float(spare)
+    for stream <- Vector(camera, light, joins) do stream.save(to)
+
+  def load(from: CheckedInput): Unit =
+    counter = from.long()
+    time = from.int()
+    lastLarge = from.int()
+    spare = from.float()
+    for stream <- Vector(camera, light, joins) do stream.load(from)
+
   /** Standard deviation of `steps` small steps combined. */
   private def deviation(steps: Int): Float = sigma * Math.sqrt(steps.toDouble).toFloat
 
@@ -96,6 +112,24 @@ private[bidirectional] object PrimarySamples:
     def samplesPerPixel: Int = 1
     def start(x: Int, y: Int, sample: Int): Unit = rewind()
     def copy(): Numbers = Numbers(owner)
+
+    def save(to: CheckedOutput): Unit =
+      to.int(known)
+      for i <- 0 until known do
+        to.float(values(i))
+        to.int(changed(i))
+
+    def load(from: CheckedInput): Unit =
+      known = from.int()
+      next = 0
+      val size = Math.max(InitialSize, known)
+      values = new Array[Float](size)
+      changed = new Array[Int](size)
+      oldValues = new Array[Float](size)
+      oldChanged = new Array[Int](size)
+      for i <- 0 until known do
+        values(i) = from.float()
+        changed(i) = from.int()
 
     def clear(): Unit =
       known = 0

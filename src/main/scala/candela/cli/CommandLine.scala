@@ -74,6 +74,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param thumbnail how to show the image in the terminal
   * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
+  * @param storeTime whether to store the render time in the image file
   * @param reference reference image for reports
   * @param reports report files
   * @param bench options of `bench`
@@ -100,6 +101,7 @@ final case class Options(
     display: DisplayTransform = DisplayTransform.Plain,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
+    storeTime: Boolean = false,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,
     compare: CompareOptions = CompareOptions(),

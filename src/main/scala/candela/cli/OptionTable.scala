@@ -113,6 +113,9 @@ private[cli] object OptionTable:
       .validate: f =>
         if f == "gbuffer" then success else failure(s"--film must be gbuffer, found `$f`")
       .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer)),
+    opt[Unit]("store-time")
+      .text("store the render time in the image file; equal images are then different files")
+      .action((_, o) => o.copy(storeTime = true)),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
       .text("write error over time as .html, .json or .csv; the image is unaffected")
       .action((f, o) => o.copy(reports = o.reports ++ f)),

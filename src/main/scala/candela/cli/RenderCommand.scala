@@ -120,9 +120,11 @@ final class RenderCommand(
       "scene" -> scene,
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
       "samplesPerPixel" -> rendering.samplesDone.toString,
-      "seed" -> options.seed.toString,
-      "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
+      "seed" -> options.seed.toString
+    ) ++ Option.when(options.storeTime)("renderSeconds" -> Figures.fixed(
+      rendering.seconds,
+      2
+    )) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
 
   private def summarise(

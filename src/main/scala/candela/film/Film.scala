@@ -1,12 +1,12 @@
 package candela.film
 
-import candela.base.loop
+import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.image.Image
 
 /** Accumulates camera samples for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
   *
-  * Not synchronised: one worker at a time owns a pixel. Accumulators are Double, so that values
-  * don't drift with the number of samples.
+  * Not synchronised: one worker at a time owns a pixel. Sums are exact: a film may be divided and
+  * added in any order.
   *
   * @param splats accumulates light path splats, if any
   * @param shares if defined, accumulates the samples instead, each contributing to several pixels
@@ -25,22 +25,23 @@ final class Film(
   val height: Int = y1 - y0
 
   // For each pixel, row by row: weighted red, green, blue, sum of weights.
-  private val sums = new Array[Double](
+  private val sums = ExactSums(
     if shares.isDefined then 0 else Math.multiplyExact(4, Math.multiplyExact(width, height))
   )
 
   /** Adds a finite sample to its pixel. */
   def add(x: Int, y: Int, r: Float, g: Float, b: Float, weight: Float): Unit =
     val at = 4 * ((y - y0) * width + (x - x0))
-    sums(at) += weight.toDouble * r
-    sums(at + 1) += weight.toDouble * g
-    sums(at + 2) += weight.toDouble * b
-    sums(at + 3) += weight.toDouble
+    // The products of two Floats are exact, too
+    sums.add(at, weight.toDouble * r)
+    sums.add(at + 1, weight.toDouble * g)
+    sums.add(at + 2, weight.toDouble * b)
+    sums.add(at + 3, weight.toDouble)
 
   /** A copy of the current state, for [[since]]. */
   def copy(): Film =
     val film = Film(x0, y0, x1, y1, splats.map(_.copy()), shares.map(_.copy()))
-    System.arraycopy(sums, 0, film.sums, 0, sums.length)
+    film.sums.add(sums)
     film
 
   /** The delta: samples added since `earlier` was copied. */
@@ -53,16 +54,27 @@ final class Film(
       splats.zip(earlier.splats).map(_.since(_)),
       shares.zip(earlier.shares).map(_.since(_))
     )
-    System.arraycopy(sums, 0, added.sums, 0, sums.length)
-    loop(sums.length)(i => added.sums(i) -= earlier.sums(i))
+    added.sums.add(sums)
+    added.sums.add(earlier.sums, isNegative = true)
     added
+
+  /** Writes the state, in a form that depends only on the samples. */
+  def save(to: CheckedOutput): Unit =
+    shares.fold(sums.save(to))(_.save(to))
+    splats.foreach(_.save(to))
+
+  /** Adds what was saved by a film of the same size and kind. */
+  def load(from: CheckedInput): Unit =
+    shares.fold(sums.load(from))(_.load(from))
+    splats.foreach(_.load(from))
 
   /** The weighted averages, times `scale`; pixels without samples are black. May be called while
     * others add; the image then holds the current state.
     */
   def toImage(scale: Float): Image =
     val image = Image.rgb(width, height)
-    val all = shares.fold(sums)(_.sums)
+    val shared = shares.map(_.sums)
+    def all(i: Int) = shared.fold(sums(i))(_(i))
     loop(width * height): pixel =>
       val weight = all(4 * pixel + 3)
       if weight != 0 then

@@ -79,7 +79,7 @@ private[film] abstract class Tally(val size: Int):
     *
     * @param at index of the first accumulator
     */
-  def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface): Unit
+  def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface): Unit
 
 private[film] object Tally:
   /** A quantity accumulated with the filter weight. */
@@ -88,45 +88,40 @@ private[film] object Tally:
 
   def numbers(of: Number*): Tally = new Tally(of.length):
     private val all = of.toArray
-    def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       var i = 0
       while i < all.length do
-        sums(at + i) += weight * all(i)(seen)
+        sums.add(at + i, weight * all(i)(seen))
         i += 1
 
   def vector(of: VisibleSurface => Vec3): Tally = new Tally(3):
-    def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       val v = of(seen)
-      sums(at) += weight * v.x
-      sums(at + 1) += weight * v.y
-      sums(at + 2) += weight * v.z
+      sums.add(at, weight * v.x)
+      sums.add(at + 1, weight * v.y)
+      sums.add(at + 2, weight * v.z)
 
   def color(of: VisibleSurface => Rgb): Tally = new Tally(3):
-    def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
       val c = of(seen)
-      sums(at) += weight * c.r
-      sums(at + 1) += weight * c.g
-      sums(at + 2) += weight * c.b
+      sums.add(at, weight * c.r)
+      sums.add(at + 1, weight * c.g)
+      sums.add(at + 2, weight * c.b)
 
   object Empty extends Tally(0):
-    def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) = ()
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) = ()
 
-  /** Number of samples, means of the light, then sums of squared deviations.
-    *
-    * Source: Welford, "Note on a method for calculating corrected sums of squares and products",
-    * Technometrics 4(3), 1962.
-    */
+  /** Number of samples, sums of the light, then sums of its squares. */
   object Moments extends Tally(7):
-    def add(sums: Array[Double], at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
-      sums(at) += 1
-      deviate(sums, at, 0, light.r)
-      deviate(sums, at, 1, light.g)
-      deviate(sums, at, 2, light.b)
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+      sums.add(at, 1)
+      power(sums, at, 0, light.r)
+      power(sums, at, 1, light.g)
+      power(sums, at, 2, light.b)
 
-    private def deviate(sums: Array[Double], at: Int, c: Int, value: Float): Unit =
-      val before = value - sums(at + 1 + c)
-      sums(at + 1 + c) += before / sums(at)
-      sums(at + 4 + c) += before * (value - sums(at + 1 + c))
+    private def power(sums: ExactSums, at: Int, c: Int, value: Float): Unit =
+      sums.add(at + 1 + c, value)
+      sums.add(at + 4 + c, value.toDouble * value)
 
 /** Accumulators of one pixel, for evaluation.
   *
@@ -136,7 +131,7 @@ private[film] object Tally:
   * @param scale     from accumulated values to image values
   */
 private[film] final class PixelTally(
-    sums: Array[Double],
+    sums: ExactSums,
     at: Int,
     val size: Int,
     val samples: Double,
@@ -145,6 +140,18 @@ private[film] final class PixelTally(
     val scale: Double
 ):
   def apply(i: Int): Double = sums(at + i)
+
+  /** n Σx² − (Σx)², from the sums of x and x². A difference of nearly equal numbers: it needs the
+    * digits that rounding would lose.
+    */
+  def spread(n: Double, x: Int, squares: Int): Double =
+    val s = sums(at + x)
+    val q = sums(at + squares)
+    val ofMean = s * s
+    val ofSquares = n * q
+    val lost = Math.fma(n, q, -ofSquares) - Math.fma(s, s, -ofMean)
+    val below = n * sums.remainder(at + squares) - 2 * s * sums.remainder(at + x)
+    Math.max(0.0, ofSquares - ofMean + (lost + below))
 
   def over(weight: Double): Array[Double] =
     Array.tabulate(size)(i => if weight != 0 then this(i) / weight else 0.0)
@@ -185,8 +192,9 @@ private[film] object Statistic:
 
   object VarianceOverMean extends Statistic(Tally.Moments):
     def apply(pixel: PixelTally): Array[Double] = Array.tabulate(3): c =>
-      val mean = pixel(1 + c)
+      val mean = if pixel(0) > 0 then pixel(1 + c) / pixel(0) else 0.0
       if mean == 0 then 0.0 else variance(pixel, c) / mean * pixel.scale
 
   private def variance(pixel: PixelTally, c: Int): Double =
-    if pixel(0) > 1 then pixel(4 + c) / (pixel(0) - 1) else 0.0
+    val n = pixel(0)
+    if n > 1 then pixel.spread(n, 1 + c, 4 + c) / (n * (n - 1)) else 0.0

@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.loop
+import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.color.Rgb
 import candela.image.Image
 
@@ -18,7 +18,7 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
   private val offsets = tallies.scanLeft(3)(_ + _.size)
   private val stride = offsets.last
   private val sums =
-    new Array[Double](Math.multiplyExact(stride, Math.multiplyExact(width, height)))
+    ExactSums(Math.multiplyExact(stride, Math.multiplyExact(width, height)))
 
   /** Adds a sample to its pixel. */
   def add(x: Int, y: Int, light: Rgb, weight: Float, seen: VisibleSurface): Unit =
@@ -26,7 +26,7 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
     if seen.isThere then
       val at = first(x, y)
       val w = weight.toDouble
-      sums(at + 2) += w
+      sums.add(at + 2, w)
       var i = 0
       while i < tallies.length do
         tallies(i).add(sums, at + offsets(i), w, light, seen)
@@ -35,10 +35,15 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
   /** Adds a sample blocked by the camera. */
   def miss(x: Int, y: Int, weight: Float): Unit =
     val at = first(x, y)
-    sums(at) += 1
-    sums(at + 1) += weight
+    sums.add(at, 1)
+    sums.add(at + 1, weight)
 
   private def first(x: Int, y: Int): Int = stride * ((y - y0) * width + (x - x0))
+
+  def save(to: CheckedOutput): Unit = sums.save(to)
+
+  /** Adds what was saved. */
+  def load(from: CheckedInput): Unit = sums.load(from)
 
   /** Appends the AOV channels to the image.
     *

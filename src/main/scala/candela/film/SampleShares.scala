@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.loop
+import candela.base.{CheckedInput, CheckedOutput, loop}
 
 /** Accumulates samples that contribute to all pixels within the filter's radius, by filter weight:
   * the pixel value is the weighted average.
@@ -10,8 +10,9 @@ import candela.base.loop
   * the variance is 4/9 for a triangle of radius 1, and less for wider filters. In turn the noise of
   * neighbouring pixels is correlated.
   *
-  * Each tile accumulates into its own block. Blocks are merged in order, so the image is
-  * bit-identical for any thread count.
+  * Each tile accumulates into its own block: one sample of all its pixels is accumulated in
+  * Doubles, and these sums are added up exactly. Blocks are merged in order. So the image is
+  * bit-identical for any thread count, and however the samples are divided.
   *
   * Source: Pharr, Jakob, Humphreys, "Physically Based Rendering", 3rd ed. 2016, §7.9.2, eq. 7.12.
   */
@@ -22,7 +23,8 @@ final class SampleShares private (
     y1: Int,
     private val blocks: Vector[SharedBlock]
 ):
-  def block(tile: Int): SharedBlock = blocks(tile)
+  /** Adds samples; one for each worker. */
+  def pass(): SharedPass = SharedPass(blocks)
 
   /** For each pixel, row by row: weighted red, green, blue, sum of weights. */
   def sums: Array[Double] =
@@ -37,6 +39,11 @@ final class SampleShares private (
   def since(earlier: SampleShares): SampleShares =
     val added = blocks.zip(earlier.blocks).map((now, before) => now.since(before))
     new SampleShares(x0, y0, x1, y1, added)
+
+  def save(to: CheckedOutput): Unit = blocks.foreach(_.sums.save(to))
+
+  /** Adds what was saved. */
+  def load(from: CheckedInput): Unit = blocks.foreach(_.sums.load(from))
 
 object SampleShares:
   /** Covers the pixels x0 ≤ x < x1, y0 ≤ y < y1 of the film.
@@ -64,38 +71,67 @@ object SampleShares:
 /** Accumulators of one tile for the pixels x0 ≤ x < x1, y0 ≤ y < y1: those of the tile and those
   * within the filter's radius around it. One worker at a time owns it.
   */
-final class SharedBlock private[film] (
-    x0: Int,
-    y0: Int,
-    x1: Int,
-    y1: Int,
-    reach: FilterReach
+private final class SharedBlock(
+    val x0: Int,
+    val y0: Int,
+    val x1: Int,
+    val y1: Int,
+    val reach: FilterReach
 ):
-  private val width = x1 - x0
-  private val height = y1 - y0
+  def width: Int = x1 - x0
+  def height: Int = y1 - y0
 
   // For each pixel, row by row: weighted red, green, blue, sum of weights
-  private val sums = new Array[Double](Math.multiplyExact(4, Math.multiplyExact(width, height)))
+  val sums = ExactSums(Math.multiplyExact(4, Math.multiplyExact(width, height)))
 
   // Pixel range that a sample at (x, y) contributes to, in film pixels
-  private def left(x: Float): Int = Math.max(x0, Math.ceil(x - 0.5 - reach.radiusX).toInt)
-  private def right(x: Float): Int = Math.min(x1 - 1, Math.floor(x - 0.5 + reach.radiusX).toInt)
-  private def top(y: Float): Int = Math.max(y0, Math.ceil(y - 0.5 - reach.radiusY).toInt)
-  private def bottom(y: Float): Int = Math.min(y1 - 1, Math.floor(y - 0.5 + reach.radiusY).toInt)
+  def left(x: Float): Int = Math.max(x0, Math.ceil(x - 0.5 - reach.radiusX).toInt)
+  def right(x: Float): Int = Math.min(x1 - 1, Math.floor(x - 0.5 + reach.radiusX).toInt)
+  def top(y: Float): Int = Math.max(y0, Math.ceil(y - 0.5 - reach.radiusY).toInt)
+  def bottom(y: Float): Int = Math.min(y1 - 1, Math.floor(y - 0.5 + reach.radiusY).toInt)
+
+  /** Adds the block to the accumulators of a film that begins at (`filmX`, `filmY`). */
+  def addTo(film: Array[Double], filmX: Int, filmY: Int, filmWidth: Int): Unit =
+    loop(height): y =>
+      val to = 4 * ((y + y0 - filmY) * filmWidth + x0 - filmX)
+      val from = 4 * y * width
+      loop(4 * width)(i => film(to + i) += sums(from + i))
+
+  def copy(): SharedBlock =
+    val block = SharedBlock(x0, y0, x1, y1, reach)
+    block.sums.add(sums)
+    block
+
+  def since(earlier: SharedBlock): SharedBlock =
+    val block = copy()
+    block.sums.add(earlier.sums, isNegative = true)
+    block
+
+/** Adds samples to the blocks of [[SampleShares]]: one sample of each pixel of a tile at a time.
+  * Mutable, one per worker.
+  */
+final class SharedPass private[film] (blocks: Vector[SharedBlock]):
+  private var block = blocks.head
+  private val sums = new Array[Double](blocks.map(_.sums.size).max)
+
+  /** Selects the tile. */
+  def begin(tile: Int): Unit = block = blocks(tile)
 
   /** Whether a sample at (`x`, `y`) contributes to any pixel. */
-  def reaches(x: Float, y: Float): Boolean = left(x) <= right(x) && top(y) <= bottom(y)
+  def reaches(x: Float, y: Float): Boolean =
+    block.left(x) <= block.right(x) && block.top(y) <= block.bottom(y)
 
   /** Adds a finite sample at (`x`, `y`) to all pixels that it contributes to. */
   def add(x: Float, y: Float, r: Float, g: Float, b: Float): Unit =
-    val first = left(x)
-    val last = right(x)
-    val end = bottom(y)
-    var py = top(y)
+    val reach = block.reach
+    val first = block.left(x)
+    val last = block.right(x)
+    val end = block.bottom(y)
+    var py = block.top(y)
     while py <= end do
       val inRow = reach.y(y - 0.5f - py)
       var px = first
-      var at = 4 * ((py - y0) * width + first - x0)
+      var at = 4 * ((py - block.y0) * block.width + first - block.x0)
       while px <= last do
         val weight = (inRow * reach.x(x - 0.5f - px)).toDouble
         sums(at) += weight * r
@@ -106,22 +142,15 @@ final class SharedBlock private[film] (
         at += 4
       py += 1
 
-  /** Adds the block to the accumulators of a film that begins at (`filmX`, `filmY`). */
-  private[film] def addTo(film: Array[Double], filmX: Int, filmY: Int, filmWidth: Int): Unit =
-    loop(height): y =>
-      val to = 4 * ((y + y0 - filmY) * filmWidth + x0 - filmX)
-      val from = 4 * y * width
-      loop(4 * width)(i => film(to + i) += sums(from + i))
-
-  private[film] def copy(): SharedBlock =
-    val block = SharedBlock(x0, y0, x1, y1, reach)
-    System.arraycopy(sums, 0, block.sums, 0, sums.length)
-    block
-
-  private[film] def since(earlier: SharedBlock): SharedBlock =
-    val block = copy()
-    loop(sums.length)(i => block.sums(i) -= earlier.sums(i))
-    block
+  /** Ends a sample of the tile's pixels. */
+  def end(): Unit =
+    val to = block.sums
+    var i = 0
+    while i < to.size do
+      if sums(i) != 0.0 then
+        to.add(i, sums(i))
+        sums(i) = 0.0
+      i += 1
 
 /** Extent and tabulated weights of a filter along both axes. Immutable. */
 final class FilterReach(filter: Filter):

@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.loop
+import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.color.{ColorBasis, Rgb}
 
 import java.util.concurrent.atomic.{AtomicLongArray, LongAdder}
@@ -81,6 +81,16 @@ final class SplatFilm(
       val _ = film.sums.addAndGet(i, -earlier.sums.get(i))
     film.paths.add(-earlier.paths.sum)
     film
+
+  def save(to: CheckedOutput): Unit =
+    to.long(paths.sum)
+    loop(sums.length)(i => to.long(sums.get(i)))
+
+  /** Adds what was saved. */
+  def load(from: CheckedInput): Unit =
+    paths.add(from.long())
+    loop(sums.length): i =>
+      val _ = sums.addAndGet(i, from.long())
 
   /** Adds the normalised splats, times `scale`, to pixel values, row by row. */
   def addTo(data: Array[Float], scale: Float): Unit =

@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.base.{CheckedInput, CheckedOutput}
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.sampling.Sampler
@@ -54,6 +55,12 @@ abstract class SharedChains:
 
   /** Scratch memory of one worker. */
   def walker(): ChainWalker
+
+  /** Writes the state of all chains; none may be advanced meanwhile. */
+  def save(to: CheckedOutput): Unit
+
+  /** Continues the saved chains; others stay as they are. */
+  def load(from: CheckedInput): Unit
 
 /** Advances chains; mutable, one per worker. A chain may move from one worker to another, but is
   * never advanced by two at a time.

@@ -2,14 +2,11 @@ package candela.render
 
 import candela.integrators.ChainWalker
 
-/** Advances Markov chains. A sample pass has as many paths as samples of all pixels, distributed
-  * over the chains in turn.
-  */
+/** Advances Markov chains. */
 private[render] final class ChainWorker(
     walker: ChainWalker,
-    schedule: Schedule,
-    board: Board,
-    pixels: Long
+    schedule: ChainSchedule,
+    board: Board
 ) extends Worker(schedule, board):
   import ChainWorker.*
 
@@ -20,25 +17,26 @@ private[render] final class ChainWorker(
       Refused(walker.refused, walker.x, walker.y, 0, walker.lastMaterial)
 
   protected def work(chain: Int, wave: Int): Boolean =
-    walker.begin(() => board.isStopped) && advance(chain, wave)
+    !schedule.takes(chain) ||
+      (walker.begin(() => board.isStopped) && advance(chain, wave))
 
   private def advance(chain: Int, wave: Int): Boolean =
-    val end = paths(chain, schedule.endSample(wave))
-    var left = end - paths(chain, schedule.firstSample(wave))
-    while left > 0 && !board.isStopped do
-      val some = Math.min(left, AtOnce)
+    val end = schedule.paths(chain, schedule.endSample(wave))
+    var done =
+      Math.max(schedule.paths(chain, schedule.firstSample(wave)), board.progress.get(chain))
+    while done < end && board.goesOn() do
+      val some = Math.min(end - done, AtOnce)
       walker.advance(chain, some)
       board.samplesTaken.add(some)
-      left -= some
-    left <= 0
-
-  /** Number of paths of the chain after `samples` per pixel. */
-  private def paths(chain: Int, samples: Int): Long =
-    (samples * pixels + schedule.pieces - 1 - chain) / schedule.pieces
+      done += some
+      board.progress.set(chain, done)
+    done >= end
 
   protected def failure(cause: Throwable): RenderFailure =
     RenderFailure(walker.x, walker.y, 0, cause)
 
 private object ChainWorker:
-  /** Paths between two checks for cancellation. */
+  /** Paths between two checks for cancellation and pauses; part of the image's definition, as a
+    * chain's state is splatted whenever it stops.
+    */
   val AtOnce = 1024L

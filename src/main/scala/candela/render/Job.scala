@@ -1,7 +1,7 @@
 package candela.render
 
 import candela.film.*
-import candela.integrators.{Integrator, SharedPasses}
+import candela.integrators.{Integrator, SharedChains, SharedPasses}
 import candela.scene.PathReport
 
 /** Film, schedule and workers of a plan's method, each created once. */
@@ -9,21 +9,23 @@ private[render] final class Job(
     val schedule: Schedule,
     val film: Film,
     val layers: Option[LayerFilm],
+    val chains: Option[SharedChains],
     val worker: Board => Worker
 )
 
 private[render] object Job:
 
-  def apply(plan: RenderPlan): Job =
+  def apply(plan: RenderPlan, shard: Shard): Job =
     val samples = plan.sampler.samplesPerPixel
     plan.method match
       case RenderMethod.Tiles(integrator) =>
-        val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop)
+        val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
         tiles.job(tiles.worker(integrator.copy(), _))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
         val integrator = make(plan.view(splats))
-        val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, Some(splats))
+        val tiles =
+          TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes, Some(splats))
         tiles.job(tiles.worker(integrator.copy(), _))
       case RenderMethod.Passes(make) =>
         val passes = make(plan.view(Splats.Discarded))
@@ -33,24 +35,25 @@ private[render] object Job:
           largestWave = 1,
           openWaves = SharedPasses.Open
         )
-        val tiles = TileJobs(plan, schedule, plan.crop)
+        val takes = (_: Int, sample: Int) => shard.takesPass(sample)
+        val tiles = TileJobs(plan, schedule, plan.crop, takes)
         tiles.job: board =>
           val integrator = passes.integrator(None)
           tiles.worker(integrator, board, integrator.begin)
       case RenderMethod.Chains(make, _) =>
         val splats = splatFilm(plan)
         val chains = make(plan.view(splats))
-        val schedule = Schedule(chains.count, samples)
+        val schedule = ChainSchedule(chains.count, plan.crop.pixels, samples, shard)
         val film = filmOf(plan.crop, Some(splats))
         def worker(board: Board) =
-          ChainWorker(chains.walker(), schedule, board, plan.crop.pixels)
-        new Job(schedule, film, layers = None, worker)
+          ChainWorker(chains.walker(), schedule, board)
+        new Job(schedule, film, layers = None, Some(chains), worker)
 
   /** Traces a single sample of one pixel; `report` receives its path. */
   def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
     val pixel = PixelBounds(x, y, x + 1, y + 1)
     val schedule = TileSchedule(pixel, plan.sampler.samplesPerPixel)
-    val tiles = TileJobs(plan, schedule, pixel)
+    val tiles = TileJobs(plan, schedule, pixel, (_, _) => true)
     val board = Board(schedule, Cancellation())
     val view = plan.view(Splats.Discarded)
     val worker = plan.method match
@@ -78,6 +81,7 @@ private[render] object Job:
       plan: RenderPlan,
       schedule: TileSchedule,
       bounds: PixelBounds,
+      takes: (Int, Int) => Boolean,
       splats: Option[SplatFilm] = None
   ):
     private val PixelBounds(x0, y0, x1, y1) = bounds
@@ -90,7 +94,7 @@ private[render] object Job:
     private val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     private val filterSampler = new FilterSampler(plan.filter)
 
-    def job(worker: Board => Worker): Job = new Job(schedule, film, layers, worker)
+    def job(worker: Board => Worker): Job = new Job(schedule, film, layers, chains = None, worker)
 
     def worker(
         integrator: Integrator,
@@ -98,5 +102,5 @@ private[render] object Job:
         beginWave: Int => Unit = _ => ()
     ): TileWorker =
       TileWorker(
-        plan, schedule, board, film, layers, filterSampler.copy(), integrator, beginWave
+        plan, schedule, board, film, layers, filterSampler.copy(), integrator, takes, beginWave
       )

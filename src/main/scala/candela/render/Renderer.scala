@@ -7,10 +7,12 @@ import candela.scene.PathReport
 object Renderer:
 
   /** Renders with `threads` workers. The image is deterministic, bit-identical for any thread
-    * count: each pixel belongs to one tile, which adds its samples in order.
+    * count: sums are exact, or of one tile, which adds its samples in order.
     *
     * @param onProgress     called about ten times a second, and at the end, in the caller's thread
     * @param witness        image observer; doesn't affect the image
+    * @param shard          part of the samples to take
+    * @param keeper         keeps the state, if it is to be kept
     * @throws RenderFailure if a sample fails; all workers then stop
     */
   def render(
@@ -18,7 +20,9 @@ object Renderer:
       threads: Int,
       cancellation: Cancellation = Cancellation(),
       onProgress: Progress => Unit = _ => (),
-      witness: Option[Witness] = None
+      witness: Option[Witness] = None,
+      shard: Shard = Shard.Whole,
+      keeper: Option[Keeper] = None
   ): Rendering =
     require(threads >= 1, s"`threads` must be at least 1, found $threads")
     val started = System.nanoTime
@@ -26,34 +30,58 @@ object Renderer:
     def seconds = (System.nanoTime - started - paused) * 1e-9
 
     val samplesPerPixel = plan.sampler.samplesPerPixel
-    val job = Job(plan)
+    val job = Job(plan, shard)
     val schedule = job.schedule
     val board = Board(schedule, cancellation)
     val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt)(job.worker(board))
 
-    val total = plan.sampled.pixels * samplesPerPixel
+    val state = RenderState(job, board, workers)
+    keeper.foreach(_.restore(state))
+    val total = plan.sampled.pixels * (samplesPerPixel - state.samplesDone) / shard.count
     def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
-    for end <- witness.fold(Vector(schedule.waves))(_ => schedule.passes) if !board.isStopped do
+    def tick() =
+      progress()
+      for k <- keeper if k.isDue do board.paused(k.save(state))
+    def isEnough = witness.exists(_.isEnough)
+    for end <- ends(schedule, witness) if !board.isStopped && !isEnough do
       board.openUntil(end)
       val begin = seconds
-      Workers.run(workers, board)(() => progress())
+      Workers.run(workers, board)(() => tick())
       for w <- witness if !board.isStopped do
         val pass = Pass(schedule.firstSample(end), begin, seconds, workers.map(_.seconds))
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
     progress()
+    keeper.foreach(_.save(state))
 
-    Rendering(
-      job.film,
-      samplesPerPixel,
-      board.samplesDone,
-      board.samplesTaken.sum,
-      workers.map(_.raysTraced).sum,
-      seconds,
-      firstOf(workers.flatMap(_.refused)),
-      job.layers
-    )
+    rendering(state, job, workers, if isEnough then state.samplesDone else samplesPerPixel)
+      .copy(samplesTaken = board.samplesTaken.sum, seconds = seconds)
+
+  /** The image of a saved state, or of several that add up to one.
+    *
+    * @param load loads them
+    */
+  def gather(plan: RenderPlan, load: RenderState => Unit): Rendering =
+    val job = Job(plan, Shard.Whole)
+    val state = RenderState(job, Board(job.schedule, Cancellation()), Vector.empty)
+    load(state)
+    rendering(state, job, Vector.empty, state.samplesDone)
+
+  private def rendering(
+      state: RenderState,
+      job: Job,
+      workers: Vector[Worker],
+      samplesPerPixel: Int
+  ): Rendering =
+    val rays = workers.map(_.raysTraced).sum
+    Rendering(job.film, samplesPerPixel, state.samplesDone, 0, rays, 0, state.refused, job.layers)
+
+  /** The waves after which the workers wait for each other. */
+  private def ends(schedule: Schedule, witness: Option[Witness]): Vector[Int] = witness match
+    case None => Vector(schedule.waves)
+    case Some(w) if w.seesWaves => (1 to schedule.waves).toVector
+    case Some(_) => schedule.passes
 
   /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.
     *
@@ -64,8 +92,3 @@ object Renderer:
     worker.take(x, y, sample)
     val data = film.toImage(1f).data
     Option.when(worker.refused.isEmpty)(Rgb(data(0), data(1), data(2)))
-
-  private def firstOf(refused: Vector[Refused]): Option[Refused] =
-    refused
-      .minByOption(r => (r.sample, r.y, r.x))
-      .map(_.copy(count = refused.map(_.count).sum))

@@ -23,6 +23,11 @@ final class Cancellation:
   */
 final case class Refused(count: Long, x: Int, y: Int, sample: Int, material: Int = -1)
 
+private[render] object Refused:
+  /** The first, with the count of all. */
+  def of(all: Vector[Refused]): Option[Refused] =
+    all.minByOption(r => (r.sample, r.y, r.x)).map(_.copy(count = all.map(_.count).sum))
+
 /** Result of a rendering.
   *
   * @param samplesPerPixel planned samples per pixel
@@ -72,3 +77,11 @@ abstract class Witness:
   /** Called in the caller's thread; no sample is added meanwhile. Not called for a cancelled pass.
     */
   def passed(pass: Pass, film: Film): Unit
+
+  /** Whether the image is good enough: the rendering then ends. */
+  def isEnough: Boolean = false
+
+  /** Whether it is also called in between, after each part of which every pixel gets equally many
+    * samples, up to 64.
+    */
+  def seesWaves: Boolean = false

@@ -2,6 +2,8 @@ package candela.render
 
 import candela.film.PixelBounds
 
+import java.util.concurrent.atomic.AtomicLongArray
+
 /** Execution order of a rendering: sample passes ("waves"), each over all pieces.
   *
   * Waves grow (1, 1, 2, 4, … 64 samples per pixel), so that a cancelled image has uniform noise,
@@ -11,7 +13,7 @@ import candela.film.PixelBounds
   * @param openWaves   maximum number of waves in progress: wave w begins only when wave w −
   *                    openWaves is finished
   */
-private[render] class Schedule(
+private[render] abstract class Schedule(
     val pieces: Int,
     samplesPerPixel: Int,
     largestWave: Int = Schedule.LargestWave,
@@ -29,6 +31,12 @@ private[render] class Schedule(
 
   /** Number of steps, each a piece in a wave; the steps of a wave are consecutive. */
   val steps: Long = waves.toLong * pieces
+
+  /** Samples per pixel that a piece with this progress has at least. */
+  protected def samplesOf(piece: Int, progress: Long): Int
+
+  final def samplesDone(progress: AtomicLongArray): Int =
+    (0 until pieces).map(i => samplesOf(i, progress.get(i))).min
 
   def firstSample(wave: Int): Int = waveStarts(wave)
 
@@ -52,8 +60,29 @@ private[render] final class TileSchedule(
     openWaves: Int = Int.MaxValue
 ) extends Schedule(TileSchedule.count(bounds), samplesPerPixel, largestWave, openWaves):
 
+  protected def samplesOf(tile: Int, progress: Long): Int = progress.toInt
+
   val tiles: Vector[PixelBounds] =
     Vector.tabulate(pieces)(TileSchedule.tile(bounds, _))
+
+/** A schedule whose pieces are Markov chains. Their paths are as many as samples of all pixels,
+  * distributed over the chains in turn.
+  */
+private[render] final class ChainSchedule(
+    chains: Int,
+    pixels: Long,
+    samplesPerPixel: Int,
+    shard: Shard
+) extends Schedule(chains, samplesPerPixel):
+
+  def takes(chain: Int): Boolean = shard.takesChain(chain)
+
+  /** Number of paths of the chain after `samples` per pixel. */
+  def paths(chain: Int, samples: Int): Long = (samples * pixels + pieces - 1 - chain) / pieces
+
+  protected def samplesOf(chain: Int, progress: Long): Int =
+    if !takes(chain) then samplesPerPixel
+    else (0 to waves).map(firstSample).filter(paths(chain, _) <= progress).last
 
 private[render] object TileSchedule:
 

@@ -7,6 +7,7 @@ import candela.integrators.Integrator
 
 /** Renders tiles, pixel by pixel.
   *
+  * @param takes     whether to take this sample of this tile
   * @param beginWave receives the first sample number of each wave of a tile
   */
 private[render] final class TileWorker(
@@ -17,6 +18,7 @@ private[render] final class TileWorker(
     layers: Option[LayerFilm],
     filterSampler: FilterSampler,
     integrator: Integrator,
+    takes: (Int, Int) => Boolean,
     beginWave: Int => Unit = _ => ()
 ) extends Worker(schedule, board):
   private val camera = plan.camera
@@ -29,9 +31,8 @@ private[render] final class TileWorker(
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
 
-  // Accumulators of samples shared by several pixels: the block of the tile
-  private val shares: SampleShares | Null = film.shares.orNull
-  private var block: SharedBlock | Null = null
+  // Accumulators of samples shared by several pixels
+  private val shares: SharedPass | Null = film.shares.map(_.pass()).orNull
   private var filmX, filmY = 0f
 
   // Current position, for error messages.
@@ -51,38 +52,43 @@ private[render] final class TileWorker(
     this.x = x
     this.y = y
     this.sample = sample
-    begin(0, sample)
+    beginWave(sample)
+    if shares != null then shares.begin(0)
     takeSample()
+    if shares != null then shares.end()
 
   protected def failure(cause: Throwable): RenderFailure = RenderFailure(x, y, sample, cause)
 
   protected def work(tile: Int, wave: Int): Boolean =
-    begin(tile, schedule.firstSample(wave))
-    renderTile(schedule.tiles(tile), wave)
-
-  private def begin(tile: Int, firstSample: Int): Unit =
-    if shares != null then block = shares.block(tile)
-    beginWave(firstSample)
-
-  /** False if cancelled on the way. */
-  private def renderTile(tile: PixelBounds, wave: Int): Boolean =
     val first = schedule.firstSample(wave)
     val end = schedule.endSample(wave)
-    y = tile.y0
-    while y < tile.y1 && !board.isStopped do
-      x = tile.x0
-      while x < tile.x1 do
-        sample = first
-        while sample < end do
-          takeSample()
-          sample += 1
+    var begun = false
+    sample = Math.max(first, board.progress.get(tile).toInt)
+    while sample < end && board.goesOn() do
+      if takes(tile, sample) then
+        if !begun then beginWave(first)
+        begun = true
+        renderSample(tile)
+      sample += 1
+      board.progress.set(tile, sample)
+    sample >= end
+
+  /** Takes a sample of each pixel of the tile. */
+  private def renderSample(tile: Int): Unit =
+    val bounds = schedule.tiles(tile)
+    if shares != null then shares.begin(tile)
+    y = bounds.y0
+    while y < bounds.y1 do
+      x = bounds.x0
+      while x < bounds.x1 do
+        takeSample()
         x += 1
-      board.samplesTaken.add(tile.width.toLong * (end - first))
       y += 1
-    y == tile.y1
+    if shares != null then shares.end()
+    board.samplesTaken.add(bounds.pixels)
 
   private def takeSample(): Unit =
-    val shared = block
+    val shared = shares
     if shared == null then
       sampler.start(x, y, sample)
       sampler.next2D()
@@ -116,7 +122,7 @@ private[render] final class TileWorker(
       else refuse()
 
   private def add(light: Rgb): Unit =
-    val shared = block
+    val shared = shares
     if shared == null then film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
     else shared.add(filmX, filmY, light.r, light.g, light.b)
 

@@ -1,6 +1,12 @@
 package candela.render
 
-import java.util.concurrent.atomic.{AtomicIntegerArray, AtomicLong, AtomicReference, LongAdder}
+import java.util.concurrent.atomic.{
+  AtomicIntegerArray,
+  AtomicLong,
+  AtomicLongArray,
+  AtomicReference,
+  LongAdder
+}
 import java.util.concurrent.locks.LockSupport
 
 /** Shared state of the workers: the task queue, progress, cancellation. */
@@ -12,6 +18,10 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
   private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.waves else 0)
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
+  private val gate = Gate()
+
+  /** Of each piece, how much is done: samples of a tile, paths of a chain. */
+  val progress: AtomicLongArray = AtomicLongArray(schedule.pieces)
 
   /** Opens the steps of all waves before `wave`. */
   def openUntil(wave: Int): Unit =
@@ -20,6 +30,17 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     endStep = wave.toLong * schedule.pieces
 
   def isStopped: Boolean = cancellation.isRequested || firstFailure.get.isDefined
+
+  /** Called by workers wherever they may pause; false if the rendering is stopped. */
+  def goesOn(): Boolean =
+    gate.pass()
+    !isStopped
+
+  /** Runs `body` while all workers pause. */
+  def paused[A](body: => A): A = gate.closed(body)
+
+  private[render] def begin(workers: Int): Unit = gate.expect(workers)
+  private[render] def end(): Unit = gate.leave()
 
   def failure: Option[Throwable] = firstFailure.get
 
@@ -39,7 +60,7 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     * accumulators visible to this one.
     */
   def awaitTurn(piece: Int, wave: Int): Boolean =
-    while !isTurn(piece, wave) && !isStopped do LockSupport.parkNanos(Board.Pause)
+    while !isTurn(piece, wave) && goesOn() do LockSupport.parkNanos(Board.Pause)
     isTurn(piece, wave)
 
   private[render] def isTurn(piece: Int, wave: Int): Boolean =
@@ -51,11 +72,6 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     finishedWaves.set(piece, wave + 1)
     if limitsWaves then
       val _ = finishedPieces.incrementAndGet(wave)
-
-  /** Number of samples that every pixel has. */
-  def samplesDone: Int =
-    val wave = (0 until schedule.pieces).map(finishedWaves.get).min
-    schedule.firstSample(wave)
 
 private object Board:
   /** In nanoseconds; short beside the milliseconds of a step. */
@@ -75,9 +91,11 @@ private[render] object Workers:
       val guarded: Runnable = () =>
         try worker.run()
         catch case e: Throwable => board.fail(e)
+        finally board.end()
       val thread = Thread(guarded, s"candela-worker-${i + 1}")
       thread.setDaemon(true)
       thread
+    board.begin(threads.size)
     threads.foreach(_.start())
     try
       for thread <- threads do

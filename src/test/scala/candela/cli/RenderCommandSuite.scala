@@ -97,8 +97,20 @@ class RenderCommandSuite extends AnyFunSuite:
       val bytes = String(Files.readAllBytes(file), "ISO-8859-1")
       val wanted =
         Vector("software", s"Candela ${Version.current}", "scene", "s.pbrt", "dialect", "v3") ++
-          Vector("samplesPerPixel", "seed", "renderSeconds", "integrator", "formula")
+          Vector("samplesPerPixel", "seed", "integrator", "formula")
       for text <- wanted do assert(bytes.contains(text), text)
+
+  test("two renderings of a scene are the same files, unless the time is to be stored"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      def files(words: String*) =
+        val _ = run(Captured(), Known("s.pbrt" -> plan(file)), "s.pbrt" +: words*)
+        Vector("a.exr", "a.png").map(name => Files.readAllBytes(folder.resolve(name)).toVector)
+      val first = files("--nthreads", "1")
+      assert(files("--nthreads", "3") == first)
+      val timed = files("--store-time")
+      assert(timed(0) != first(0) && timed(1) != first(1))
+      assert(String(timed(0).toArray, "ISO-8859-1").contains("renderSeconds"))
 
   test("--quiet prints nothing when all is well"):
     TempFolder.use: folder =>

@@ -25,7 +25,8 @@ class SampleSharesSuite extends AnyFunSuite:
   /** As many samples along each axis of each pixel, evenly placed. */
   private def fill(s: SampleShares, along: Int)(light: (Float, Float) => Float): Unit =
     for (tile, i) <- tiles.zipWithIndex do
-      val block = s.block(i)
+      val pass = s.pass()
+      pass.begin(i)
       for
         y <- tile.y0 until tile.y1; x <- tile.x0 until tile.x1
         v <- 0 until along; u <- 0 until along
@@ -33,7 +34,8 @@ class SampleSharesSuite extends AnyFunSuite:
         val px = x + (u + 0.5f) / along
         val py = y + (v + 0.5f) / along
         val value = light(px, py)
-        if block.reaches(px, py) then block.add(px, py, value, 2f * value, 0.5f)
+        if pass.reaches(px, py) then pass.add(px, py, value, 2f * value, 0.5f)
+      pass.end()
 
   test("a table differs from its filter by less than a thousandth of the peak"):
     for filter <- filters do
@@ -70,18 +72,22 @@ class SampleSharesSuite extends AnyFunSuite:
         assert(Math.abs(got(x, y, 0) - sum / all) < 0.01, s"$filter at ($x, $y)")
 
   test("samples count just where the filter reaches the film"):
-    val block = shares(TriangleFilter(1f, 1f)).block(0)
-    assert(block.reaches(9.6f, 19.6f) && !block.reaches(9.4f, 21f) && !block.reaches(11f, 19.4f))
+    val pass = shares(TriangleFilter(1f, 1f)).pass()
+    assert(pass.reaches(9.6f, 19.6f) && !pass.reaches(9.4f, 21f) && !pass.reaches(11f, 19.4f))
 
   test("the sums do not depend on which tile was first"):
     def light(x: Float, y: Float): Float = (x * 12.9898f + y * 78.233f) % 1f
     val orders =
       for order <- Vector(Vector(0, 1), Vector(1, 0)) yield
         val s = shares(GaussianFilter.ofSigma(1.5f, 1.5f, 0.5f))
-        for i <- order; k <- 0 until 500 do
-          val x = (if i == 0 then 10f else 12f) + k * 0.0037f
-          val y = 20f + k * 0.0091f
-          s.block(i).add(x, y, light(x, y), 1e6f * light(y, x), 1f)
+        val pass = s.pass()
+        for i <- order do
+          pass.begin(i)
+          for k <- 0 until 500 do
+            val x = (if i == 0 then 10f else 12f) + k * 0.0037f
+            val y = 20f + k * 0.0091f
+            pass.add(x, y, light(x, y), 1e6f * light(y, x), 1f)
+          pass.end()
         image(s).data.toVector
     assert(orders(0) == orders(1))
 

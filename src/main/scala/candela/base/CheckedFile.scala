@@ -1,0 +1,121 @@
+package candela.base
+
+import java.io.{EOFException, IOException}
+import java.nio.ByteBuffer
+import java.nio.ByteOrder.LITTLE_ENDIAN
+import java.nio.channels.FileChannel
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Path, StandardOpenOption}
+import java.util.zip.CRC32C
+
+import scala.util.Using
+
+/** A file of numbers and texts that ends with its length and checksum, so that a damaged file is
+  * recognised before any of it is used.
+  */
+object CheckedFile:
+
+  /** Writes the file, and waits until the device has it. */
+  def write(path: Path, mark: String)(body: CheckedOutput => Unit): Unit =
+    Using.resource(FileChannel.open(path, StandardOpenOption.WRITE)): channel =>
+      val out = CheckedOutput(channel)
+      out.text(mark)
+      body(out)
+      out.end()
+
+  /** Verifies the file, then reads it from its start.
+    *
+    * @param mark what the file must begin with, as given to `write`
+    * @throws IOException if it can't be read, is damaged, or of another kind
+    */
+  def read[A](path: Path, mark: String)(body: CheckedInput => A): A =
+    Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
+      val in = CheckedInput(channel)
+      val isMarked =
+        try in.text() == mark
+        catch case _: EOFException => false
+      if !isMarked then throw IOException("it begins with other bytes")
+      verify(channel)
+      body(in)
+
+  private def verify(channel: FileChannel): Unit =
+    val end = channel.size - Trailer
+    val sum = CRC32C()
+    val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN)
+    var at = 0L
+    while at < end do
+      buffer.clear().limit(Math.min(buffer.capacity.toLong, end - at).toInt)
+      if channel.read(buffer, at) < 0 then throw EOFException()
+      at += buffer.position()
+      sum.update(buffer.flip())
+    buffer.clear().limit(Trailer)
+    while buffer.hasRemaining && channel.read(buffer, end + buffer.position()) >= 0 do ()
+    buffer.flip()
+    if buffer.limit() < Trailer || buffer.getLong() != end || buffer.getLong() != sum.getValue then
+      throw IOException("it is damaged: its checksum is wrong")
+
+  /** Bytes of length and checksum. */
+  private[base] val Trailer = 16
+
+/** Writes values to a [[CheckedFile]], in little-endian order. */
+final class CheckedOutput private[base] (channel: FileChannel):
+  private val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN)
+  private val sum = CRC32C()
+  private var length = 0L
+
+  def int(value: Int): Unit = room(4).putInt(value): Unit
+  def long(value: Long): Unit = room(8).putLong(value): Unit
+  def float(value: Float): Unit = room(4).putFloat(value): Unit
+  def double(value: Double): Unit = room(8).putDouble(value): Unit
+
+  def text(value: String): Unit =
+    val bytes = value.getBytes(UTF_8)
+    int(bytes.length)
+    for b <- bytes do room(1).put(b): Unit
+
+  private def room(bytes: Int): ByteBuffer =
+    if buffer.remaining < bytes then flush()
+    buffer
+
+  private def flush(): Unit =
+    buffer.flip()
+    sum.update(buffer.duplicate())
+    length += buffer.remaining
+    while buffer.hasRemaining do channel.write(buffer): Unit
+    buffer.clear(): Unit
+
+  private[base] def end(): Unit =
+    flush()
+    buffer.putLong(length).putLong(sum.getValue).flip()
+    while buffer.hasRemaining do channel.write(buffer): Unit
+    channel.force(true)
+
+/** Reads the values of a [[CheckedFile]], in the order in which they were written. */
+final class CheckedInput private[base] (channel: FileChannel):
+  private val buffer = ByteBuffer.allocateDirect(1 << 16).order(LITTLE_ENDIAN).flip()
+  private var left = channel.size - CheckedFile.Trailer
+
+  def int(): Int = take(4).getInt
+  def long(): Long = take(8).getLong
+  def float(): Float = take(4).getFloat
+  def double(): Double = take(8).getDouble
+
+  def text(): String =
+    val length = int()
+    if length < 0 || length > left + buffer.remaining then throw EOFException()
+    val bytes = new Array[Byte](length)
+    for i <- bytes.indices do bytes(i) = take(1).get
+    String(bytes, UTF_8)
+
+  private def take(bytes: Int): ByteBuffer =
+    if buffer.remaining < bytes then
+      buffer.compact().limit(Math.min(
+        buffer.capacity.toLong,
+        buffer.position() + Math.max(0L, left)
+      ).toInt)
+      val before = buffer.position()
+      while buffer.hasRemaining && channel.read(buffer) >= 0 do ()
+      left -= buffer.position() - before
+      buffer.flip()
+      if buffer.remaining < bytes then throw EOFException()
+    buffer

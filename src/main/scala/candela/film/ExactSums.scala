@@ -1,0 +1,98 @@
+package candela.film
+
+import candela.base.{CheckedInput, CheckedOutput, loop}
+
+import java.math.BigDecimal
+import java.util.concurrent.ConcurrentHashMap
+
+/** Sums of finite numbers without any rounding, so that neither the order of the additions nor
+  * their division among machines matters.
+  *
+  * A sum is the unevaluated sum of two Doubles: each addition's rounding error is computed and
+  * added to the second. A third part, of arbitrary precision, is used only if values differ by
+  * more than some 100 binary digits. One worker at a time owns a sum.
+  *
+  * Source: Knuth, "The Art of Computer Programming", vol. 2, §4.2.2, theorem B; Shewchuk, "Adaptive
+  * Precision Floating-Point Arithmetic", Discrete & Computational Geometry 18, 1997.
+  */
+final class ExactSums(val size: Int):
+  private val high = new Array[Double](size)
+  private val low = new Array[Double](size)
+  private val rest = ConcurrentHashMap[Int, BigDecimal]
+
+  def add(at: Int, value: Double): Unit =
+    val h = high(at)
+    val sum = h + value
+    high(at) = sum
+    val error = ExactSums.error(h, value, sum)
+    if error != 0.0 then addLow(at, error)
+
+  private def addLow(at: Int, value: Double): Unit =
+    val l = low(at)
+    val sum = l + value
+    low(at) = sum
+    val error = ExactSums.error(l, value, sum)
+    if error != 0.0 then
+      // Moves what the high part can hold there, which makes room
+      val h = high(at)
+      high(at) = h + sum
+      val moved = ExactSums.error(h, sum, high(at))
+      low(at) = moved + error
+      val left = ExactSums.error(moved, error, low(at))
+      if left != 0.0 then addRest(at, BigDecimal(left))
+
+  private def addRest(at: Int, value: BigDecimal): Unit =
+    val _ = rest.merge(at, value, (a, b) => a.add(b))
+
+  /** The sum, rounded once. */
+  def apply(at: Int): Double =
+    if rest.isEmpty || !rest.containsKey(at) then high(at) + low(at) else exact(at).doubleValue
+
+  /** The difference of the sum and its rounded value, rounded. */
+  def remainder(at: Int): Double =
+    if rest.isEmpty || !rest.containsKey(at) then
+      ExactSums.error(high(at), low(at), high(at) + low(at))
+    else
+      val all = exact(at)
+      all.subtract(BigDecimal(all.doubleValue)).doubleValue
+
+  private def exact(at: Int): BigDecimal =
+    BigDecimal(high(at)).add(BigDecimal(low(at))).add(rest.getOrDefault(at, BigDecimal.ZERO))
+
+  /** Adds all sums of `other`, or subtracts them. */
+  def add(other: ExactSums, isNegative: Boolean = false): Unit =
+    require(size == other.size, s"$size sums, and ${other.size}")
+    val sign = if isNegative then -1.0 else 1.0
+    loop(size): i =>
+      add(i, sign * other.high(i))
+      add(i, sign * other.low(i))
+    other.rest.forEach((i, value) => addRest(i, if isNegative then value.negate else value))
+
+  /** Writes the sums, in a form that depends on their values only: the rounded sums, the rounded
+    * remainders, and what these leave of some, as decimal numbers.
+    */
+  def save(to: CheckedOutput): Unit =
+    loop(size)(i => to.double(this(i) + 0.0)) // no negative zeros
+    loop(size)(i => to.double(remainder(i) + 0.0))
+    val left = Vector.newBuilder[(Int, BigDecimal)]
+    rest.keySet.forEach: i =>
+      val value = exact(i).subtract(BigDecimal(this(i))).subtract(BigDecimal(remainder(i)))
+      if value.signum != 0 then left += i -> value
+    val sorted = left.result().sortBy(_._1)
+    to.int(sorted.size)
+    for (i, value) <- sorted do
+      to.int(i)
+      to.text(value.stripTrailingZeros.toString)
+
+  /** Adds saved sums. */
+  def load(from: CheckedInput): Unit =
+    loop(size)(i => add(i, from.double()))
+    loop(size)(i => add(i, from.double()))
+    loop(from.int())(_ => addRest(from.int(), BigDecimal(from.text())))
+
+private object ExactSums:
+
+  /** The rounding error of `sum` = `a` + `b`; exact. */
+  inline def error(a: Double, b: Double, sum: Double): Double =
+    val fromB = sum - a
+    (a - (sum - fromB)) + (b - fromB)

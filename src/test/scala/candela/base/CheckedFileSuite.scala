@@ -1,0 +1,55 @@
+package candela.base
+
+import java.io.IOException
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class CheckedFileSuite extends AnyFunSuite:
+  private val text = "Größe, 漢字, and more".repeat(5000) // longer than the buffer
+
+  private def withFile[A](body: Path => A): A =
+    val file = Files.createTempFile("checked", ".bin")
+    try
+      CheckedFile.write(file, "test 1"): out =>
+        out.int(-3)
+        out.text(text)
+        for i <- 0 until 20000 do out.double(i * 0.1)
+        out.long(Long.MinValue)
+        out.float(0.1f)
+      body(file)
+    finally Files.delete(file)
+
+  private def read(file: Path, mark: String = "test 1"): (Int, String, Double, Long, Float) =
+    CheckedFile.read(file, mark): in =>
+      (in.int(), in.text(), (0 until 20000).map(_ => in.double()).last, in.long(), in.float())
+
+  private def reason(file: Path, mark: String = "test 1"): String =
+    intercept[IOException](read(file, mark)).getMessage
+
+  test("values are read as they were written"):
+    withFile: file =>
+      assert(read(file) == (-3, text, 19999 * 0.1, Long.MinValue, 0.1f))
+
+  test("a file of another kind is refused"):
+    withFile: file =>
+      assert(reason(file, "test 2") == "it begins with other bytes")
+      Files.write(file, Array[Byte](1, 2, 3))
+      assert(reason(file) == "it begins with other bytes")
+
+  test("a file with any bit changed, or cut off anywhere, is refused before it is used"):
+    withFile: file =>
+      val whole = Files.readAllBytes(file)
+      for at <- Vector(10, 1000, whole.length / 2, whole.length - 17, whole.length - 1) do
+        val wrong = whole.clone
+        wrong(at) = (wrong(at) ^ 4).toByte
+        Files.write(file, wrong)
+        assert(reason(file) == "it is damaged: its checksum is wrong", at)
+      for length <- Vector(30, 1000, whole.length - 1) do
+        Files.write(file, whole.take(length))
+        assert(reason(file) == "it is damaged: its checksum is wrong", length)
+
+  test("reading past the end fails"):
+    withFile: file =>
+      val _ = intercept[IOException]:
+        CheckedFile.read(file, "test 1")(in => (0 until 100000).foreach(_ => in.long()))
