@@ -28,6 +28,7 @@ private[build] final class MaterialTable private (
     val materials: Array[Material],
     val borders: Array[MediumBorder],
     val touchesMedia: Boolean,
+    val names: Vector[String],
     dressed: ShapeDescription => DressedShape
 ):
   def dress(shape: ShapeDescription): DressedShape = dressed(shape)
@@ -65,10 +66,16 @@ private[build] object MaterialTable:
       worn.map((ref, _) => made.getOrElseUpdate(ref, material(context, ref))).toArray,
       worn.map(_._2).toArray,
       borders.exists(b => b.inside >= 0 || b.outside >= 0),
+      worn.map((ref, _) => name(ref)),
       s =>
         val (declared, ref) = split(s)
         DressedShape(s, declared, number((ref, media.seen(media.border(s)))))
     )
+
+  private def name(ref: MaterialRef): String = ref match
+    case MaterialRef.Default => "default"
+    case MaterialRef.Inline(d) => s"${d.name} ${d.at}"
+    case MaterialRef.Named(name, _) => name
 
   private def material(context: BuildContext, ref: MaterialRef): Material = ref match
     case MaterialRef.Default => Materials.default

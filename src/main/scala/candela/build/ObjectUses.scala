@@ -7,8 +7,15 @@ import candela.build.recipe.*
 import candela.math.{Motion, MotionProduct}
 import candela.scenefile.*
 
-/** An object and the motions of its instances. */
-final case class PlacedObject(shapes: Vector[ShapeDescription], places: Vector[Motion])
+/** An object and the motions of its instances.
+  *
+  * @param name of the object; empty for an animated shape, which is one
+  */
+final case class PlacedObject(
+    shapes: Vector[ShapeDescription],
+    places: Vector[Motion],
+    name: String = ""
+)
 
 /** Splits shapes into those of the world and objects that are instanced:
   *
@@ -47,7 +54,7 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
           )
       case Some(shapes) =>
         val message = "shapes of an object can't be area lights; emission is ignored"
-        place(shapes.map(withoutLight(_, message)), uses)
+        place(name, shapes.map(withoutLight(_, message)), uses)
 
   /** Shapes of the world, including copied objects. */
   def world: Vector[ShapeDescription] = own.toVector
@@ -55,7 +62,11 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
   /** Objects with several or animated instances. */
   def shared: Vector[PlacedObject] = objects.toVector
 
-  private def place(shapes: Vector[ShapeDescription], uses: Vector[InstanceDescription]): Unit =
+  private def place(
+      name: String,
+      shapes: Vector[ShapeDescription],
+      uses: Vector[InstanceDescription]
+  ): Unit =
     val (affine, seen) = uses.partition(u => Motions.isAffine(u.instanceToWorld))
     for u <- seen do
       if u.instanceToWorld.isAnimated || shapes.exists(s => Motions.moves(s.objectToWorld)) then
@@ -65,7 +76,7 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
     val places = affine.map(u => motions.ofInstance(u.instanceToWorld))
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
-    else if still.nonEmpty && places.nonEmpty then objects += PlacedObject(still, places)
+    else if still.nonEmpty && places.nonEmpty then objects += PlacedObject(still, places, name)
     if places.nonEmpty then
       for s <- moving do
         val within = motions.of(s.objectToWorld)

@@ -3,11 +3,11 @@ package candela.build
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.build.settings.{OptionRecipe, SceneSettings}
-import candela.film.{FilterReach, Layer, PixelBounds, SpectralBands, VisibleSurface}
-import candela.math.{Still, Transform}
+import candela.film.{FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface}
+import candela.math.{Motion, Still, Transform}
 import candela.render.{LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.IndependentSampler
-import candela.scene.Footprints
+import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
 
 /** Options of the command line, which override or extend the scene.
@@ -139,10 +139,26 @@ object SceneBuilder:
       weighsFirst = context.isV4,
       layers = Option.when(image.layers.nonEmpty && usesSampler):
         val space = if film.layersInWorld then Still(Transform.Identity) else camera.fromWorld
-        LayerPlan(image.layers, VisibleSurface(world.scene, space, context.resources.basis))
+        layerPlan(context, image, camera, world, space)
       ,
       sharesSamples = shares
     )
+
+  private def layerPlan(
+      context: BuildContext,
+      image: ImageSetup,
+      camera: CameraSetup,
+      world: World,
+      space: Motion
+  ): LayerPlan =
+    def wants(some: Layer*) = some.exists(image.layers.contains)
+    val names =
+      if wants(Layer.CryptoObject, Layer.CryptoMaterial) then world.surfaceNames
+      else SurfaceNames.Empty
+    val motion =
+      if wants(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
+    val surface = VisibleSurface(world.scene, space, context.resources.basis, names, motion)
+    LayerPlan(image.layers, surface, names)
 
   private def described(layers: Vector[Layer], bands: Option[SpectralBands]): String =
     val all = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")

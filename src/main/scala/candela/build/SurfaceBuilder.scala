@@ -9,14 +9,21 @@ import candela.build.recipe.*
 import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes, SoupBuilder}
 import candela.lights.Light
 import candela.scene.{ShapeInstance, Surfaces}
-import candela.scenefile.Dialect
+import candela.scenefile.{Declaration, Dialect}
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
 
 /** A light and its number of samples in v2's and v3's direct lighting. */
 private[build] final case class SampledLight(light: Light, samples: Int)
 
-/** Surfaces and their area lights, in the order of their indices. */
-private[build] final case class LitSurfaces(surfaces: Surfaces, lights: Vector[SampledLight])
+/** Surfaces and their area lights, in the order of their indices.
+  *
+  * @param statements of the meshes, then of the other shapes
+  */
+private[build] final case class LitSurfaces(
+    surfaces: Surfaces,
+    lights: Vector[SampledLight],
+    statements: Vector[Declaration]
+)
 
 /** Collects the surfaces of the world or of an instanced object. */
 private[build] final class SurfaceBuilder(context: BuildContext, materials: MaterialTable):
@@ -24,6 +31,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
   private val solids = ArrayBuffer.empty[ShapeInstance]
   private val meshMasks = ArrayBuffer.empty[Mask]
   private val solidMasks = ArrayBuffer.empty[Mask]
+  private val meshStatements, solidStatements = ArrayBuffer.empty[Declaration]
 
   /** Creates the area lights from all triangles, in the order of their indices. */
   private val lights = ArrayBuffer.empty[TriangleSoup => Vector[SampledLight]]
@@ -50,7 +58,8 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
     LitSurfaces(
       Surfaces(triangles, solids.toArray, masks),
-      lights.iterator.flatMap(_(triangles)).toVector
+      lights.iterator.flatMap(_(triangles)).toVector,
+      (meshStatements ++ solidStatements).toVector
     )
 
   /** A shape being placed in the world. */
@@ -91,6 +100,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         addLights(1, lamp.samples)(_ => Vector(made))
       solids += ShapeInstance(shape, dressed.material, light, isInverted)
       solidMasks += plan.mask
+      solidStatements += dressed.declared
 
     private def hasArea(shape: Shape): Boolean =
       val hasArea = shape.area > 0f && java.lang.Float.isFinite(shape.area)
@@ -108,6 +118,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         val first =
           soup.add(mesh, toWorld, isReversed, flipNormals, dressed.material, light, bumps)
         meshMasks += plan.mask
+        meshStatements += dressed.declared
         for lamp <- lamp do
           addLights(count, lamp.samples)(MeshLights(lamp, plan.holes, first, count, here).of)
 

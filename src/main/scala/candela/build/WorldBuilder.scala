@@ -6,18 +6,22 @@ import candela.build.lights.{LightPlan, Lights}
 import candela.build.settings.{Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
+import candela.film.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
-import candela.scene.{Footprints, Instanced, Scene, Surfaces}
-import candela.scenefile.{LightDescription, ShapeDescription}
+import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
+import candela.scenefile.{Declaration, LightDescription, ShapeDescription}
 
 /** The world, ready to render, with a description of its features. */
 private[build] final class World(
     val scene: Scene,
     val method: RenderMethod,
     val features: Vector[(String, String)],
-    val moves: Boolean
-)
+    val moves: Boolean,
+    names: () => SurfaceNames
+):
+  /** For image layers. */
+  def surfaceNames: SurfaceNames = names()
 
 /** All surfaces of the world and its objects, with their acceleration structures. */
 private[build] final class Structure(
@@ -96,8 +100,18 @@ private[build] final class WorldBuilder(
         "media" -> inMedia,
         "lights" -> (if all.isEmpty then "none" else selection.describe)
       ),
-      placed.instanced.instances.moving > 0
+      placed.instanced.instances.moving > 0,
+      () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
     )
+
+  /** Of the world's shapes, then of instances: static ones come first. */
+  private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =
+    def named(d: Declaration) = s"${d.name} ${d.at}"
+    val places = objects.flatMap: o =>
+      o.places.zipWithIndex.map: (motion, i) =>
+        (motion.moves, if o.name.isEmpty then named(o.shapes.head.shape) else s"${o.name}.${i + 1}")
+    val (moving, still) = places.partition(_._1)
+    world.statements.map(named) ++ (still ++ moving).map(_._2)
 
   private def lightPlan(l: LightDescription): Option[LightPlan] =
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))

@@ -15,7 +15,7 @@ final case class Shutter(open: Float, close: Float):
   * @param camera  at the origin, looking along +z
   * @param toWorld its animated transform
   */
-final class MovingCamera(camera: Camera, toWorld: Motion) extends Camera:
+final class MovingCamera(val camera: Camera, val toWorld: Motion) extends Camera:
   override def weighs: Boolean = camera.weighs
   override protected[cameras] def step: Float = camera.step
 

@@ -75,6 +75,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
   * @param storeTime whether to store the render time in the image file
+  * @param precisions whether AOVs are stored in 16 bits, where asked
   * @param reference reference image for reports
   * @param reports report files
   * @param bench options of `bench`
@@ -98,6 +99,7 @@ final case class Options(
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
+    precisions: Vector[(Layer, Boolean)] = Vector.empty,
     display: DisplayTransform = DisplayTransform.Plain,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,

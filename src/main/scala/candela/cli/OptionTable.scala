@@ -34,10 +34,16 @@ private[cli] object OptionTable:
           "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
         )
 
-  private given Read[Layer] = Read.reads: text =>
-    Layer.values
-      .find(_.word.equalsIgnoreCase(text.trim))
+  /** A layer, with a precision if given. */
+  private given Read[(Layer, Option[Boolean])] = Read.reads: text =>
+    val (word, precision) = text.trim.toLowerCase match
+      case s"$w:half" => (w, Some(true))
+      case s"$w:float" => (w, Some(false))
+      case w => (w, None)
+    val layer = Layer.values
+      .find(_.word.equalsIgnoreCase(word))
       .getOrElse(throw IllegalArgumentException(s"expected one or more of $layers"))
+    (layer, precision)
 
   private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
     if number.gteq(n, number.fromInt(least)) then success
@@ -105,9 +111,15 @@ private[cli] object OptionTable:
     opt[Unit]("debug")
       .text("trace one sample and print the events along its path; writes no image")
       .action((_, o) => o.copy(debug = true)),
-    opt[Seq[Layer]]("aov").unbounded().valueName("LAYER[,LAYER]")
-      .text(s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers")
-      .action((l, o) => o.copy(layers = o.layers ++ l)),
+    opt[Seq[(Layer, Option[Boolean])]]("aov").unbounded().valueName("LAYER[,LAYER]")
+      .text(
+        s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers; " +
+          "LAYER:half and LAYER:float select its precision"
+      )
+      .action: (l, o) =>
+        val precisions = l.collect { case (layer, Some(isHalf)) => layer -> isHalf }
+        o.copy(layers = o.layers ++ l.map(_._1), precisions = o.precisions ++ precisions)
+    ,
     opt[String]("film").valueName("gbuffer")
       .text("add all AOVs of pbrt-v4's gbuffer film")
       .validate: f =>

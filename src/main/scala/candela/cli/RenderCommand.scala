@@ -93,10 +93,11 @@ final class RenderCommand(
     val development = loaded.plan.development
     val image = rendering.image(development)
     val about = metadata(scene, loaded, rendering)
-    val how = WriteOptions(development.isHalf, options.display)
+    val how = WriteOptions(development.isHalf, precisions(loaded.plan), options.display)
     def texts(path: Path) =
       val isShown = OutputFormat.of(path).exists(_.contents == Contents.Display)
-      if isShown then about ++ options.display.describe(image) else about
+      if isShown then about ++ options.display.describe(image)
+      else about ++ loaded.plan.layers.fold(Vector.empty)(_.metadata(image))
     def write(path: Path) = Try(ImageFiles.write(path, image, texts(path), how))
     val attempts = paths.map(path => path -> write(path))
     val failures = attempts.collect:
@@ -105,6 +106,11 @@ final class RenderCommand(
     if failures.nonEmpty then
       val _ = report.errors(failures)
     attempts.collect { case (path, Success(_)) => path }
+
+  /** Channels whose layers have another precision than the image: whether it is half. */
+  private def precisions(plan: RenderPlan): Map[String, Boolean] =
+    val own = plan.layers.toVector.flatMap(_.layers).filter(_.needsFloat).map(_ -> false)
+    (own ++ options.precisions).flatMap((layer, isHalf) => layer.channels.map(_ -> isHalf)).toMap
 
   private def metadata(
       scene: String,

@@ -4,7 +4,7 @@ import candela.color.Rgb
 import candela.math.Vec3
 
 import Statistic.*
-import Tally.{color, numbers, vector}
+import Tally.{color, numbers, plane, vector}
 
 /** An AOV: an image channel group besides colour, mostly a property of the first visible surface. A
   * case defines everything about an AOV.
@@ -14,13 +14,15 @@ import Tally.{color, numbers, vector}
   * @param meaning         one line for the help
   * @param statistic       one value per channel
   * @param needsFootprints whether the scene must track ray differentials for it
+  * @param needsFloat      whether its values need 32 bits even if the image has 16
   */
 enum Layer(
     val word: String,
     val channels: Vector[String],
     val meaning: String,
     private[film] val statistic: Statistic,
-    val needsFootprints: Boolean = false
+    val needsFootprints: Boolean = false,
+    val needsFloat: Boolean = false
 ):
   case Albedo
       extends Layer(
@@ -60,6 +62,51 @@ enum Layer(
   case Depth extends Layer("depth", Vector("Z"), "distance along the ray", Mean(numbers(_.depth)))
   case Samples
       extends Layer("samples", Vector("samples"), "sample count", SampleCount)
+  case Motion
+      extends Layer(
+        "motion",
+        Vector("Motion.X", "Motion.Y"),
+        "motion while the shutter is open, in pixels to the right and down",
+        Mean(plane(_.motion)),
+        needsFloat = true
+      )
+  case Emission
+      extends Layer(
+        "emission",
+        Layer.rgb("Emission"),
+        "light that the surface emits",
+        ScaledMeanOfAll(color(_.emitted))
+      )
+  case DenoisingAlbedo
+      extends Layer(
+        "denoisingalbedo",
+        Layer.rgb("DenoisingAlbedo"),
+        "albedo, through mirrors and glass",
+        MeanOfAll(color(_.albedoBehind))
+      )
+  case DenoisingNormal
+      extends Layer(
+        "denoisingnormal",
+        Layer.xyz("DenoisingNormal"),
+        "shading normal, through mirrors and glass",
+        MeanOfAll(vector(_.normalBehind))
+      )
+  case CryptoObject
+      extends Layer(
+        "cryptoobject",
+        Cryptomatte.channels("CryptoObject"),
+        "Cryptomatte of shapes and instances",
+        Cryptomatte.Ranked(Cryptomatte.tally(_.objectId)),
+        needsFloat = true
+      )
+  case CryptoMaterial
+      extends Layer(
+        "cryptomaterial",
+        Cryptomatte.channels("CryptoMaterial"),
+        "Cryptomatte of materials",
+        Cryptomatte.Ranked(Cryptomatte.tally(_.materialId)),
+        needsFloat = true
+      )
 
 object Layer:
   /** The AOVs of pbrt-v4's film "gbuffer". */
@@ -81,6 +128,12 @@ private[film] abstract class Tally(val size: Int):
     */
   def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface): Unit
 
+  /** Moves what is not a sum from `more` to `sums`, before the sums of both are added. */
+  def join(sums: ExactSums, at: Int, more: ExactSums): Unit = ()
+
+  /** Whether `join` does anything. */
+  def joins: Boolean = false
+
 private[film] object Tally:
   /** A quantity accumulated with the filter weight. */
   trait Number:
@@ -100,6 +153,12 @@ private[film] object Tally:
       sums.add(at, weight * v.x)
       sums.add(at + 1, weight * v.y)
       sums.add(at + 2, weight * v.z)
+
+  def plane(of: VisibleSurface => Vec3): Tally = new Tally(2):
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+      val v = of(seen)
+      sums.add(at, weight * v.x)
+      sums.add(at + 1, weight * v.y)
 
   def color(of: VisibleSurface => Rgb): Tally = new Tally(3):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
@@ -171,6 +230,10 @@ private[film] object Statistic:
   /** Average over all samples; misses count as 0. */
   final class MeanOfAll(tally: Tally) extends Statistic(tally):
     def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.weight)
+
+  /** The same, in image values. */
+  final class ScaledMeanOfAll(tally: Tally) extends Statistic(tally):
+    def apply(pixel: PixelTally): Array[Double] = pixel.over(pixel.weight).map(_ * pixel.scale)
 
   /** Absolute value of the average. */
   final class Magnitude(tally: Tally) extends Statistic(tally):

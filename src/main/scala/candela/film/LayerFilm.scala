@@ -43,7 +43,14 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
   def save(to: CheckedOutput): Unit = sums.save(to)
 
   /** Adds what was saved. */
-  def load(from: CheckedInput): Unit = sums.load(from)
+  def load(from: CheckedInput): Unit =
+    if !tallies.exists(_.joins) then sums.load(from)
+    else
+      val more = ExactSums(sums.size)
+      more.load(from)
+      loop(width * height): pixel =>
+        loop(tallies.length)(i => tallies(i).join(sums, stride * pixel + offsets(i), more))
+      sums.add(more)
 
   /** Appends the AOV channels to the image.
     *

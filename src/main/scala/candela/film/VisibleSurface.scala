@@ -4,30 +4,48 @@ import candela.bsdf.Bsdf
 import candela.color.{ColorBasis, Rgb}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.scene.Scene
+import candela.scene.{Scene, SurfaceNames}
 
 /** The first visible surface of a camera ray, source of the AOVs with any integrator. Properties
   * are computed on demand. Mutable, one per worker.
   *
   * @param output transform from world space to that of the AOVs, at the time of a ray
   * @param basis  of the scene's colours
+  * @param names  of what can be seen
+  * @param motion projection of moving points, if the camera has one
   */
-final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
+final class VisibleSurface(
+    val scene: Scene,
+    output: Motion,
+    basis: ColorBasis,
+    names: SurfaceNames = SurfaceNames.Empty,
+    motionOnFilm: Option[ScreenMotion] = None
+):
   private val ray = Ray()
   private val map = new Array[Double](Motion.Work)
   private var wo = Vec3.Zero
   private var bsdf: Bsdf | Null = null
   private var isHit = false
   private var distance = 0f
+  private var sample = 0
+  private val moved: ScreenMotion | Null = motionOnFilm.map(_.copy()).orNull
+
+  // What is seen through specular surfaces; traced once per camera ray, when asked for
+  private lazy val reflection = SpecularView(scene)
+  private var isReflectionKnown = false
 
   /** The intersection, in world space. */
   val hit: Hit = Hit()
   val at: ShadingPoint = scene.newPoint()
 
-  def copy(): VisibleSurface = VisibleSurface(scene, output, basis)
+  def copy(): VisibleSurface = VisibleSurface(scene, output, basis, names, motionOnFilm)
 
-  /** Traces a camera ray through interfaces; leaves the ray unchanged. */
-  def look(from: Ray): Unit =
+  /** Traces a camera ray through interfaces; leaves the ray unchanged.
+    *
+    * @param sample number of the pixel's sample
+    */
+  def look(from: Ray, sample: Int = 0): Unit =
+    this.sample = sample
     ray.set(from.origin, from.direction, Float.PositiveInfinity)
     ray.time = from.time
     ray.differential.copy(from.differential)
@@ -37,6 +55,7 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
   /** Records the hit in `at`. */
   private[film] def record(from: Ray, scattering: Bsdf): Unit =
     isHit = true
+    isReflectionKnown = false
     bsdf = scattering
     wo = -from.direction
     distance = (at.p - from.origin).length
@@ -62,16 +81,54 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
   def albedo: Rgb =
     val scattering = bsdf
     if scattering == null then Rgb.Black
+    else basis.toSrgb(VisibleSurface.albedo(scattering, at.frame.toLocal(wo)))
+
+  /** Radiance emitted towards the camera, in linear sRGB. */
+  def emitted: Rgb =
+    if at.areaLight < 0 then Rgb.Black
+    else basis.toSrgb(scene.surfaceLight(at).radiance(at, wo))
+
+  /** Motion on the film while the shutter is open, in pixels. */
+  def motion: Vec3 =
+    val projection = moved
+    if projection == null || hit.primitive < 0 then Vec3.Zero
     else
-      val local = at.frame.toLocal(wo)
-      var sum = Rgb.Black
-      var i = 0
-      while i < VisibleSurface.Samples do
-        val k = 3 * i
-        val points = VisibleSurface.points
-        sum += scattering.sample(local, points(k), points(k + 1), points(k + 2)).weight
-        i += 1
-      basis.toSrgb(sum * (1f / VisibleSurface.Samples))
+      val spare = reflection.at
+      scene.surfaceAt(ray, hit, projection.shutter.open, spare)
+      val opening = spare.p.toVec3
+      scene.surfaceAt(ray, hit, projection.shutter.close, spare)
+      projection.of(opening, spare.p.toVec3)
+
+  /** Identifiers of [[Cryptomatte]]; 0: unknown. */
+  def objectId: Float =
+    if hit.primitive < 0 then 0f else names.objectId(scene.objectIndex(hit))
+  def materialId: Float = names.materialId(at.material)
+
+  /** The albedo of the first surface that is not specular, times the weight of the path there; the
+    * environment counts as white.
+    */
+  def albedoBehind: Rgb =
+    if !isSpecular then albedo
+    else
+      reflect()
+      basis.toSrgb(reflection.albedo)
+
+  /** The normal there; where the path escapes, that of the first surface. */
+  def normalBehind: Vec3 =
+    if !isSpecular then shadingNormal
+    else
+      reflect()
+      if reflection.isHit then normal(reflection.n) else shadingNormal
+
+  private def isSpecular: Boolean =
+    val scattering = bsdf
+    scattering != null && scattering.isSpecular
+
+  private def reflect(): Unit =
+    if !isReflectionKnown then
+      isReflectionKnown = true
+      val scattering = bsdf
+      if scattering != null then reflection.follow(ray, at, wo, scattering, sample)
 
   private def vector(v: Vec3): Vec3 = Vec3(
     (map(0) * v.x + map(1) * v.y + map(2) * v.z).toFloat,
@@ -87,6 +144,16 @@ final class VisibleSurface(val scene: Scene, output: Motion, basis: ColorBasis):
   ).normalized
 
 object VisibleSurface:
+  /** Mean weight of samples of the BSDF, in the scene's basis. */
+  private[film] def albedo(bsdf: Bsdf, wo: Vec3): Rgb =
+    var sum = Rgb.Black
+    var i = 0
+    while i < Samples do
+      val k = 3 * i
+      sum += bsdf.sample(wo, points(k), points(k + 1), points(k + 2)).weight
+      i += 1
+    sum * (1f / Samples)
+
   /** Number of BSDF samples, as in pbrt-v4. */
   private val Samples = 16
 

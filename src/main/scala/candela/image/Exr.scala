@@ -29,4 +29,4 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
-    ExrEncoder.encode(image.linear, metadata, options.isHalf)
+    ExrEncoder.encode(image.linear, metadata, options.others.getOrElse(_, options.isHalf))

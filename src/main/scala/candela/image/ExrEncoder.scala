@@ -18,20 +18,21 @@ private[image] object ExrEncoder:
   /** Largest finite half. */
   private val LargestHalf = 65504f
 
-  /** @param isHalf whether to store 16 bits per value; the encoder rounds */
+  /** @param isHalf whether to store 16 bits per value of a channel; the encoder rounds */
   def encode(
       image: Image,
       metadata: Vector[(String, String)],
-      isHalf: Boolean
+      isHalf: String => Boolean
   ): Array[Byte] =
     // Readers look channels up by binary search: the file must have them sorted by name.
     val order = image.channelNames.indices.sortBy(image.channelNames)
-    val planes = order.map(plane(image, _, if isHalf then LargestHalf else Float.MaxValue))
+    val halves = order.map(i => isHalf(image.channelNames(i)))
+    val planes = order.zip(halves).map: (channel, half) =>
+      plane(image, channel, if half then LargestHalf else Float.MaxValue)
     // Allocated individually: MemoryStack is too small for many channels.
     val channels = EXRChannelInfo.calloc(order.size)
     val types = MemoryUtil.memCallocInt(order.size)
     val stored = MemoryUtil.memCallocInt(order.size)
-    val storedType = if isHalf then TINYEXR_PIXELTYPE_HALF else TINYEXR_PIXELTYPE_FLOAT
     val attributes = EXRAttribute.calloc(Math.max(1, metadata.size))
     val texts = metadata.map((_, text) => MemoryUtil.memUTF8(text, false))
     val stack = stackPush()
@@ -41,7 +42,8 @@ private[image] object ExrEncoder:
         put(channels.get(i).name, name)
         val _ = channels.get(i).pixel_type(TINYEXR_PIXELTYPE_FLOAT).x_sampling(1).y_sampling(1)
         val _ = types.put(i, TINYEXR_PIXELTYPE_FLOAT)
-        val _ = stored.put(i, storedType)
+        val kind = if halves(i) then TINYEXR_PIXELTYPE_HALF else TINYEXR_PIXELTYPE_FLOAT
+        val _ = stored.put(i, kind)
       loop(metadata.size): i =>
         put(attributes.get(i).name, metadata(i)(0))
         put(attributes.get(i).`type`, "string")

@@ -18,10 +18,12 @@ enum Contents:
 /** Choices that some formats have.
   *
   * @param isHalf  whether to store 16-bit instead of 32-bit floats
+  * @param others  the same of channels by name, where it differs
   * @param display how display formats show linear light
   */
 final case class WriteOptions(
     isHalf: Boolean = false,
+    others: Map[String, Boolean] = Map.empty,
     display: DisplayTransform = DisplayTransform.Plain
 )
 

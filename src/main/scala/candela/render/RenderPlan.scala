@@ -3,7 +3,9 @@ package candela.render
 import candela.cameras.{Camera, Shutter}
 import candela.color.ColorBasis
 import candela.film.*
+import candela.image.Image
 import candela.sampling.Sampler
+import candela.scene.SurfaceNames
 
 /** A scene prepared for rendering: only the objects that it needs, each the simplest exact
   * specialisation.
@@ -71,5 +73,17 @@ final class RenderPlan(
       differentialScale
     )
 
-/** The AOVs of an image, and the visible surface that they are computed from. */
-final case class LayerPlan(layers: Vector[Layer], surface: VisibleSurface)
+/** The AOVs of an image, and the visible surface that they are computed from.
+  *
+  * @param names legend of the identifiers
+  */
+final case class LayerPlan(
+    layers: Vector[Layer],
+    surface: VisibleSurface,
+    names: SurfaceNames = SurfaceNames.Empty
+):
+  /** Legends of the layers in the image. */
+  def metadata(image: Image): Vector[(String, String)] = layers.flatMap:
+    case Layer.CryptoObject => Cryptomatte.metadata("CryptoObject", names.objects, image)
+    case Layer.CryptoMaterial => Cryptomatte.metadata("CryptoMaterial", names.materials, image)
+    case _ => Vector.empty

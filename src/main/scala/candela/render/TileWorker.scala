@@ -111,7 +111,7 @@ private[render] final class TileWorker(
       add(Rgb.Black)
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
-      if visible != null then visible.look(ray)
+      if visible != null then visible.look(ray, sample)
       val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
       val seen = if weighs then weighed(radiance, weight) else radiance
       val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen

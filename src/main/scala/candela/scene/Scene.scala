@@ -93,6 +93,17 @@ final class Scene(
     val rule = footprintRule
     if rule != null && at.wantsPartials then rule.find(ray, at)
 
+  /** Computes the place of a hit at the ray's time, as it is at `time`. */
+  def surfaceAt(ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
+    val primitive = hit.primitive
+    if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
+    else instanced.fillAt(primitive - firstInstance, ray, hit, time, at)
+
+  /** Index of what was hit: the world's meshes and other shapes, then the instances. */
+  def objectIndex(hit: Hit): Int =
+    if hit.primitive < firstInstance then surfaces.partOf(hit.primitive)
+    else surfaces.parts + hit.primitive - firstInstance
+
   /** Whether light passes this surface unscattered. */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 

@@ -14,6 +14,13 @@ final class Surfaces(
 ):
   def count: Int = soup.count + solids.length
 
+  /** Index of the primitive's mesh or, behind the meshes, of its shape. */
+  def partOf(primitive: Int): Int =
+    if primitive < soup.count then soup.meshOf(primitive)
+    else soup.meshes.length + primitive - soup.count
+
+  def parts: Int = soup.meshes.length + solids.length
+
   /** The primitives to build an accelerator from: these surfaces, and `instances` of others. */
   def primitives(instances: Instances = Instances.Empty): Primitives =
     Primitives(soup, solids.map(_.shape), instances, masks)
@@ -38,6 +45,15 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
   def fill(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
     instances.locate(i, ray, at)
+
+  /** Computes the geometry of a hit at the ray's time, as it is at `time`, in world space. */
+  def fillAt(i: Int, ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
+    objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
+    val before = ray.time
+    ray.time = time
+    val _ = instances.enter(i, ray)
+    instances.locate(i, ray, at)
+    ray.time = before
 
   /** Summary for the render plan. */
   def describe: String =

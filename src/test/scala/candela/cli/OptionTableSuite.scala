@@ -37,3 +37,9 @@ class OptionTableSuite extends AnyFunSuite:
   test("README's table has every option, with the commands that know it"):
     assert((known -- told).isEmpty, "missing")
     assert((told -- known).isEmpty, "unknown to the program")
+
+  test("the page of layers has every layer with its first channel"):
+    val text = Files.readString(Path.of("docs/LAYERS.md"))
+    for layer <- candela.film.Layer.values do
+      assert(text.contains(s"`${layer.word}`"), layer)
+      assert(text.contains(s"`${layer.channels.head}`"), layer)

@@ -90,6 +90,33 @@ class RenderCommandSuite extends AnyFunSuite:
       val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")
       assert(refused == 1 && captured.err.contains("AOVs need .exr output"))
 
+  test("layers have the precision asked for; identifiers have 32 bits, and a legend"):
+    TempFolder.use: folder =>
+      val scene = folder.resolve("s.pbrt")
+      val film = "Film \"rgb\" \"integer xresolution\" 6 \"integer yresolution\" 4"
+      val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\""
+      val world = "WorldBegin LightSource \"infinite\" Shape \"sphere\""
+      val _ = Files.writeString(scene, s"$film\n$camera\n$world")
+      def image(aov: String) =
+        val file = folder.resolve("a.exr")
+        assert(Main.run(
+          Seq(scene.toString, "--aov", aov, "--outfile", file.toString),
+          Captured().terminal
+        ) == 0)
+        (
+          ImageFiles.read(file),
+          Files.readString(file, java.nio.charset.StandardCharsets.ISO_8859_1)
+        )
+      def isExact(image: candela.image.Image, channel: String) =
+        val c = image.channelNames.indexOf(channel)
+        (0 until 24).exists: i =>
+          val bits = java.lang.Float.floatToRawIntBits(image.data(i * image.channels + c))
+          (bits & 0x1fff) != 0
+      val (plain, legend) = image("depth,cryptoobject")
+      assert(!isExact(plain, "Z") && isExact(plain, "CryptoObject00.R"))
+      assert(legend.contains("{\"sphere " + scene) && legend.contains("MurmurHash3_32"))
+      assert(isExact(image("depth:float")._1, "Z") && !isExact(image("depth:half")._1, "Z"))
+
   test("the EXR says of what it is an image"):
     TempFolder.use: folder =>
       val file = folder.resolve("a.exr")

@@ -11,13 +11,16 @@ import candela.math.Vec3
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
-final class LayerFilmSuite extends AnyFunSuite:
+object LayerFilmSuite:
 
   /** The camera's space is the world's, and colours are in linear sRGB. */
-  private def nothing: VisibleSurface =
+  def nothing: VisibleSurface =
     val text = """Camera "perspective" WorldBegin LightSource "infinite" Shape "sphere" """
     val asked = BuildOptions(layers = Layer.values.toVector)
     SceneTexts.plan(text, Dialect.V3, asked).layers.get.surface
+
+final class LayerFilmSuite extends AnyFunSuite:
+  import LayerFilmSuite.nothing
 
   /** Seen from the origin. */
   private def surface(p: Vec3, n: Vec3, albedo: Float): VisibleSurface =

@@ -124,6 +124,19 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     for i <- 6 until data.length do
       assert(Math.abs(half.data(i) - data(i)) <= Math.abs(data(i)) / 2048 + 1e-7f): Unit
 
+  test("channels may have a precision of their own"):
+    val image = Image(1, 1, Image.RgbNames :+ "Z", Array(0.1f, 0.2f, 0.3f, 0.4f))
+    def types(options: WriteOptions) =
+      ExrHeader.parts(Exr.write(image, Vector.empty, options)).head.channels
+        .map(c => c.name -> (c.pixelType == ExrHeader.Half)).toMap
+    val floatDepth = types(WriteOptions(isHalf = true, others = Map("Z" -> false)))
+    assert(floatDepth == Map("R" -> true, "G" -> true, "B" -> true, "Z" -> false))
+    val halfDepth = types(WriteOptions(others = Map("Z" -> true)))
+    assert(halfDepth == Map("R" -> false, "G" -> false, "B" -> false, "Z" -> true))
+    val file =
+      Exr.write(image, Vector.empty, WriteOptions(isHalf = true, others = Map("Z" -> false)))
+    assert(Exr.read(file).data(3) == 0.4f)
+
   test("tiles are counted over all levels"):
     // By hand, for 37×21 pixels in tiles of 16×8: 3·3, halved to 18×10: 2·2, 9×5: 1, 4×2, 2×1, 1×1.
     assert(ExrTiling(16, 8, 0, roundsUp = false).tiles(37, 21) == 9)

@@ -5,8 +5,9 @@ import java.nio.file.Path
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{BuildOptions, SceneBuilder}
-import candela.film.Layer
+import candela.film.{Cryptomatte, Layer}
 import candela.image.{Image, ImageFiles}
+import candela.math.square
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}
 import candela.testing.SceneTexts
@@ -80,6 +81,123 @@ final class FilmLayersSuite extends AnyFunSuite:
     assert(colors == plain.data.toSeq)
     val plan = SceneTexts.plan(text, Dialect.V4)
     assert(plan.layers.isEmpty && plan.differentialScale == 0f)
+
+  /** Renders with these layers. */
+  private def layered(text: String, layers: Layer*): Image =
+    render(s"PixelFilter \"box\"\n$text", BuildOptions(layers = layers.toVector))
+
+  // A unit at distance 4 is this many pixels wide
+  private val unit = (10 / (4 * Math.tan(Math.toRadians(20)))).toFloat
+
+  test("motion is that of the surface on the film while the shutter is open"):
+    val moving = world.replace(
+      "Shape",
+      "ActiveTransform EndTime\nTranslate .3 0 0\nTranslate 0 -.2 0\nActiveTransform All\nShape"
+    )
+    val image = layered(s"$view\n${film("rgb")}\n$moving", Layer.Motion)
+    assertClose(pixel(image, 10, 10)("Motion.X", "Motion.Y"), .3f * unit, .2f * unit)
+    assertClose(pixel(image, 0, 0)("Motion.X", "Motion.Y"), 0, 0)
+    val still = layered(s"$view\n${film("rgb")}\n$world", Layer.Motion)
+    assert(pixel(still, 10, 10)("Motion.X", "Motion.Y") == Seq(0f, 0f))
+
+  test("a moving camera moves everything the other way"):
+    val moving = view.replace(
+      "LookAt",
+      "ActiveTransform EndTime\nTranslate -.3 0 0\nActiveTransform All\nLookAt"
+    )
+    val image = layered(s"$moving\n${film("rgb")}\n$world", Layer.Motion)
+    assertClose(pixel(image, 10, 10)("Motion.X", "Motion.Y"), -.3f * unit, 0)
+
+  test("emission is what the surface emits, scaled as the image is"):
+    val lit = world.replace("Shape", "AreaLightSource \"diffuse\" \"rgb L\" [3 2 1]\nShape")
+    // A quadric's outside is towards +z: seen from behind
+    val behind = view.replace("0 0 -4", "0 0 4")
+    val bright = film("rgb") + " \"float iso\" 200"
+    val image = layered(s"$behind\n$bright\n$lit", Layer.Emission)
+    val Seq(r, g, b) = pixel(image, 10, 10)("Emission.R", "Emission.G", "Emission.B"): @unchecked
+    val colors = pixel(image, 10, 10)("R", "G", "B")
+    assert(r > 4f && r > 1.2f * g && g > 1.2f * b)
+    // The image adds the environment's light, reflected
+    assert(colors.head > r && colors.head < r + 1f)
+    assertClose(pixel(image, 0, 0)("Emission.R", "Emission.G"), 0, 0)
+
+  private val mirror = """WorldBegin
+    LightSource "infinite" "rgb L" [.5 .5 .5]
+    AttributeBegin
+      Translate 0 0 -6
+      Material "diffuse" "rgb reflectance" [.2 .4 .6]
+      Shape "disk" "float radius" 30
+    AttributeEnd
+    Material "conductor" "float roughness" 0 "rgb reflectance" [.5 .5 .5]
+    Shape "disk" "float radius" 1 """
+
+  test("albedo and normals for denoising are those seen in a mirror"):
+    val image = layered(
+      s"$view\n${film("rgb")}\n$mirror",
+      Layer.DenoisingAlbedo,
+      Layer.DenoisingNormal,
+      Layer.ShadingNormal,
+      Layer.Albedo
+    )
+    val albedo = Vector("R", "G", "B").map(c => s"DenoisingAlbedo.$c")
+    assertClose(pixel(image, 10, 10)(albedo*), .1f, .2f, .3f)
+    assertClose(pixel(image, 10, 10)("DenoisingNormal.Z", "Ns.Z", "Albedo.R"), 1, -1, .5f)
+
+  test("behind glass both branches count, by their weights"):
+    val glass = mirror.replace(
+      "\"conductor\" \"float roughness\" 0 \"rgb reflectance\" [.5 .5 .5]",
+      "\"thindielectric\" \"float eta\" 1.5"
+    )
+    val many = view.replace("\"integer pixelsamples\" 4", "\"integer pixelsamples\" 64")
+    val image = layered(s"$many\n${film("rgb")}\n$glass", Layer.DenoisingAlbedo)
+    // A slab reflects 1/13 at normal incidence; the environment behind it counts as white
+    val Seq(found) = pixel(image, 10, 10)("DenoisingAlbedo.R"): @unchecked
+    // Two of 64 choices
+    assert(Math.abs(found - (12f / 13 + .2f / 13)) < 2 * .8f / 64, found)
+
+  test("cryptomattes cover the pixels of their objects and materials, by name"):
+    val two = s"""$view ${film("rgb")} WorldBegin
+      MakeNamedMaterial "paint" "string type" "diffuse"
+      NamedMaterial "paint"
+      Shape "disk" "float radius" .5
+      ObjectBegin "thing"
+      Shape "disk" "float height" 1 "float radius" .25
+      ObjectEnd
+      AttributeBegin
+      Translate -1 0 0
+      ObjectInstance "thing"
+      AttributeEnd
+      AttributeBegin
+      Translate 1 0 0
+      ObjectInstance "thing"
+      AttributeEnd"""
+    val asked = BuildOptions(layers = Vector(Layer.CryptoObject, Layer.CryptoMaterial))
+    val plan = SceneTexts.plan(two, Dialect.V4, asked)
+    val image = Renderer.render(plan, threads = 2).image(plan.development)
+    def coverage(layer: String, name: String) =
+      val id = Cryptomatte.id(name)
+      (0 until 400).map: i =>
+        (0 until 3).flatMap(n => Vector(("R", "G"), ("B", "A")).map((a, b) => (n, a, b))).map:
+          (n, idChannel, weightChannel) =>
+            val Seq(found, weight) =
+              pixel(image, i % 20, i / 20)(
+                s"$layer${"%02d".format(n)}.$idChannel",
+                s"$layer${"%02d".format(n)}.$weightChannel"
+              ): @unchecked
+            if found == id then weight else 0f
+        .sum
+    def area(radius: Float, distance: Float) =
+      Math.PI * square(radius * unit * 4 / distance)
+    val disk = plan.layers.get.names.objects.head
+    assert(disk.startsWith("disk test.pbrt:"))
+    assert(plan.layers.get.names.objects.tail == Vector("thing.1", "thing.2"))
+    assert(Math.abs(coverage("CryptoObject", disk).sum - area(.5f, 4)) < 2)
+    for name <- Vector("thing.1", "thing.2") do
+      assert(Math.abs(coverage("CryptoObject", name).sum - area(.25f, 5)) < 1, name)
+    val all = coverage("CryptoMaterial", "paint").sum
+    assert(Math.abs(all - area(.5f, 4) - 2 * area(.25f, 5)) < 4)
+    val legends = plan.layers.get.metadata(image).map(_._2).filter(_.startsWith("{"))
+    assert(legends.exists(_.contains("\"thing.2\":")) && legends.exists(_.contains("\"paint\":")))
 
   test("samples are shared where a filter reaches beyond the pixel, but for images with layers"):
     def shares(filter: String, film: String, integrator: String = "volpath") =
