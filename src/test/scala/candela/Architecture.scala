@@ -75,7 +75,8 @@ object Architecture:
       "convert" -> convert,
       "report" -> report,
       "suite" -> (report + "report"),
-      "cli" -> (towers ++ bridge ++ Set("measure", "convert", "report", "suite"))
+      "watch" -> (report ++ Set("film", "render", "report")),
+      "cli" -> (towers ++ bridge ++ Set("measure", "convert", "report", "suite", "watch"))
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
@@ -85,7 +86,7 @@ object Architecture:
     "sun" -> Set("cli"),
     "scalatags" -> Set("report"),
     "ujson" -> Set("report"),
-    "com" -> Set("suite"),
+    "com" -> Set("suite", "watch"),
     "jdk" -> Set("accel.tracing")
   )
   private val language = Set("candela", "java", "javax", "scala")

@@ -16,7 +16,7 @@ document.querySelector("#theme").addEventListener("click", () => {
 });
 
 // Charts: one per metric and axis; the buttons select the visible one.
-for (const part of document.querySelectorAll(".charts")) {
+function charts(part) {
   const state = { chart: asked.get("chart"), axis: asked.get("axis") };
   const all = [...part.querySelectorAll(".chart")];
   const known = key => all.some(c => c.dataset[key] === state[key]);
@@ -27,9 +27,12 @@ for (const part of document.querySelectorAll(".charts")) {
       b.setAttribute("aria-pressed", state[b.dataset.key] === b.dataset.value);
   };
   for (const b of part.querySelectorAll("button[data-key]"))
-    b.addEventListener("click", () => { state[b.dataset.key] = b.dataset.value; show(); });
+    b.addEventListener("click", () => {
+      state[b.dataset.key] = b.dataset.value; asked.set(b.dataset.key, b.dataset.value); show();
+    });
   show();
 }
+for (const part of document.querySelectorAll(".charts")) charts(part);
 
 async function unpacked(base64) {
   const packed = Uint8Array.from(atob(base64), c => c.charCodeAt(0));
@@ -54,6 +57,56 @@ const Errors = {
   mse: (a, b) => (a - b) * (a - b),
   mae: (a, b) => Math.abs(a - b),
 };
+
+// Zoom by wheel, pan by dragging, the pixel under the pointer: s has zoom, left, top, x, y, and held
+// while the pointer is down. `pans` tells whether a drag moves the image; `clicked` is called without one.
+function navigate(canvas, width, height, s, draw, pans = () => true, clicked = () => {}) {
+  const pixelOf = event => {
+    const box = canvas.getBoundingClientRect();
+    return [s.left + (event.clientX - box.left) / box.width * width / s.zoom,
+            s.top + (event.clientY - box.top) / box.height * height / s.zoom];
+  };
+  const keepInside = () => {
+    s.left = Math.min(Math.max(0, s.left), width - width / s.zoom);
+    s.top = Math.min(Math.max(0, s.top), height - height / s.zoom);
+  };
+  const zoomAt = (x, y, factor) => {
+    const before = s.zoom;
+    s.zoom = Math.min(64, Math.max(1, s.zoom * factor));
+    s.left = x - (x - s.left) * before / s.zoom; s.top = y - (y - s.top) * before / s.zoom;
+    keepInside(); draw();
+  };
+  canvas.addEventListener("pointerdown", e => {
+    s.held = { x: e.clientX, y: e.clientY, moved: false };
+    canvas.setPointerCapture(e.pointerId);
+  });
+  canvas.addEventListener("pointermove", e => {
+    const box = canvas.getBoundingClientRect(), held = s.held;
+    if (held && pans()) {
+      held.moved ||= Math.hypot(e.clientX - held.x, e.clientY - held.y) > 3;
+      if (held.moved) {
+        s.left -= (e.clientX - held.x) / box.width * width / s.zoom;
+        s.top -= (e.clientY - held.y) / box.height * height / s.zoom;
+        held.x = e.clientX; held.y = e.clientY; keepInside();
+      }
+    }
+    [s.x, s.y] = pixelOf(e).map(Math.floor);
+    draw();
+  });
+  canvas.addEventListener("pointerup", () => {
+    if (s.held && pans() && !s.held.moved) clicked();
+    s.held = null;
+  });
+  canvas.addEventListener("wheel", e => {
+    e.preventDefault();
+    zoomAt(...pixelOf(e), Math.pow(1.2, -Math.sign(e.deltaY)));
+  }, { passive: false });
+  const whole = () => { s.zoom = 1; s.left = s.top = 0; draw(); };
+  canvas.addEventListener("dblclick", whole);
+  canvas.width = Math.max(width, Math.min(1600, Math.ceil(1000 / width) * width));
+  canvas.height = Math.round(canvas.width * height / width);
+  return { zoomAt, whole, keepInside };
+}
 
 async function viewer(root) {
   const data = JSON.parse(root.querySelector("script[type='application/json']").textContent);
@@ -158,47 +211,16 @@ async function viewer(root) {
     find(".readout").textContent = `pixel (${s.x}, ${s.y})\n${lines.join("\n")}`;
   }
 
-  function pixelOf(event) {
-    const box = canvas.getBoundingClientRect();
-    return [s.left + (event.clientX - box.left) / box.width * width / s.zoom,
-            s.top + (event.clientY - box.top) / box.height * height / s.zoom];
-  }
-  function keepInside() {
-    s.left = Math.min(Math.max(0, s.left), width - width / s.zoom);
-    s.top = Math.min(Math.max(0, s.top), height - height / s.zoom);
-  }
-  let drag = null;
   canvas.addEventListener("pointerdown", e => {
     const box = canvas.getBoundingClientRect(), at = (e.clientX - box.left) / box.width;
-    drag = s.mode === "slider" && Math.abs(at - s.split) < 0.04 ? "split" : { x: e.clientX, y: e.clientY, moved: false };
-    canvas.setPointerCapture(e.pointerId);
+    s.splits = s.mode === "slider" && Math.abs(at - s.split) < 0.04;
   });
   canvas.addEventListener("pointermove", e => {
     const box = canvas.getBoundingClientRect();
-    if (drag === "split") s.split = Math.min(1, Math.max(0, (e.clientX - box.left) / box.width));
-    else if (drag) {
-      drag.moved ||= Math.hypot(e.clientX - drag.x, e.clientY - drag.y) > 3;
-      if (drag.moved) {
-        s.left -= (e.clientX - drag.x) / box.width * width / s.zoom;
-        s.top -= (e.clientY - drag.y) / box.height * height / s.zoom;
-        drag.x = e.clientX; drag.y = e.clientY; keepInside();
-      }
-    }
-    [s.x, s.y] = pixelOf(e).map(Math.floor);
-    draw();
+    if (s.held && s.splits) s.split = Math.min(1, Math.max(0, (e.clientX - box.left) / box.width));
   });
-  canvas.addEventListener("pointerup", () => {
-    if (s.mode === "flip" && drag && drag !== "split" && !drag.moved) { s.flipped = !s.flipped; draw(); }
-    drag = null;
-  });
-  canvas.addEventListener("wheel", e => {
-    e.preventDefault();
-    const [x, y] = pixelOf(e), before = s.zoom;
-    s.zoom = Math.min(64, Math.max(1, s.zoom * Math.pow(1.2, -Math.sign(e.deltaY))));
-    s.left = x - (x - s.left) * before / s.zoom; s.top = y - (y - s.top) * before / s.zoom;
-    keepInside(); draw();
-  }, { passive: false });
-  canvas.addEventListener("dblclick", () => { s.zoom = 1; s.left = s.top = 0; draw(); });
+  navigate(canvas, width, height, s, draw,
+    () => !s.splits, () => { if (s.mode === "flip") { s.flipped = !s.flipped; draw(); } });
 
   for (const key of ["a", "b"]) {
     const select = find(`select.${key}`);
@@ -215,8 +237,6 @@ async function viewer(root) {
       if (b.dataset.mode === "flip" && s.mode === "flip") s.flipped = !s.flipped;
       s.mode = b.dataset.mode; repaint();
     });
-  canvas.width = Math.max(width, Math.min(1600, Math.ceil(1000 / width) * width));
-  canvas.height = Math.round(canvas.width * height / width);
   repaint();
 }
 

@@ -6,6 +6,7 @@ import candela.base.Suggest
 import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
+import candela.watch.WatchAddress
 
 /** Parses a command line to [[Options]], or to the text to print instead. */
 object CommandLine:
@@ -15,7 +16,7 @@ object CommandLine:
 
   def parse(args: Seq[String]): Either[Answer, Options] =
     val (options, effects) =
-      OParser.runParser(OptionTable.table, withCommand(args), Options(), setup)
+      OParser.runParser(OptionTable.table, joined(withCommand(args)), Options(), setup)
     val out = effects.collect { case OEffect.DisplayToOut(text) => text }
     val errors = effects.collect:
       case OEffect.ReportError(text) => s"error: ${explained(text, args)}"
@@ -36,6 +37,13 @@ object CommandLine:
   private def withCommand(args: Seq[String]): Seq[String] =
     val words = Command.values.map(_.word) ++ Seq("--help", "--version")
     if args.headOption.exists(words.contains) then args else Command.Render.word +: args
+
+  /** Options whose value may be missing are joined with it: what follows may be a scene. */
+  private def joined(args: Seq[String]): Seq[String] =
+    args.foldRight(List.empty[String]):
+      case ("--watch", value :: rest) if WatchAddresses.isOne(value) => s"--watch=$value" :: rest
+      case ("--watch", rest) => "--watch=" :: rest
+      case (word, rest) => word :: rest
 
   private def lines(texts: List[String]): String = texts.map(_ + "\n").mkString
 
@@ -78,6 +86,8 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param precisions whether AOVs are stored in 16 bits, where asked
   * @param reference reference image for reports
   * @param reports report files
+  * @param watch address of the live page
+  * @param watchAfter whether the page stays when rendering has ended
   * @param bench options of `bench`
   * @param compare options of `compare`
   */
@@ -106,11 +116,15 @@ final case class Options(
     storeTime: Boolean = false,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,
+    watch: Option[WatchAddress] = None,
+    watchAfter: Boolean = false,
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
     markdown: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None
 ):
+  def isWatched: Boolean = watch.isDefined
+
   /** The requested number of threads, or else the number of processors. */
   def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

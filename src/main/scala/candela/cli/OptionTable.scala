@@ -4,6 +4,7 @@ import candela.base.Version
 import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
+import candela.watch.WatchAddress
 
 import scopt.{OParser, Read}
 
@@ -33,6 +34,10 @@ private[cli] object OptionTable:
         throw IllegalArgumentException(
           "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
         )
+
+  private given Read[WatchAddress] = Read.reads: text =>
+    WatchAddresses.parse(text)
+      .getOrElse(throw IllegalArgumentException("expected PORT or ADDRESS:PORT, e.g. 0.0.0.0:8642"))
 
   /** A layer, with a precision if given. */
   private given Read[(Layer, Option[Boolean])] = Read.reads: text =>
@@ -132,8 +137,17 @@ private[cli] object OptionTable:
       .text("write error over time as .html, .json or .csv; the image is unaffected")
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[String]("reference").valueName("FILE")
-      .text("reference for --report (default: the error is estimated from the noise)")
+      .text("reference for --report and --watch (default: the error is estimated from the noise)")
       .action((f, o) => o.copy(reference = Some(f))),
+    opt[Option[WatchAddress]]("watch").valueName("[PORT]")
+      .text(
+        "serve a live page of the image, on this machine only (default: a usual port); with " +
+          "ADDRESS:PORT elsewhere, too, for those who have the link"
+      )
+      .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None))))),
+    opt[Unit]("watch-after")
+      .text("keep the live page when rendering has ended, until Ctrl-C or its button `end`")
+      .action((_, o) => o.copy(watchAfter = true)),
     parsedAs,
     keepGoing,
     explain,
@@ -249,7 +263,11 @@ private[cli] object OptionTable:
         failure("--report needs a single scene, found several")
       else if o.columns.isDefined && o.files.size < 2 then
         failure("--columns needs several images")
-      else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty then
-        failure("--reference needs --report FILE")
+      else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty &&
+        o.watch.isEmpty
+      then failure("--reference needs --report FILE or --watch")
+      else if o.isWatched && o.files.size > 1 then
+        failure("--watch needs a single scene, found several")
+      else if o.watchAfter && o.watch.isEmpty then failure("--watch-after needs --watch")
       else success
   )

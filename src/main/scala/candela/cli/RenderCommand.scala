@@ -8,7 +8,7 @@ import scala.util.{Failure, Success, Try}
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
 import candela.image.{Contents, ImageError, ImageFiles, OutputFormat, WriteOptions}
-import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.render.{Cancellation, Live, Progress, Refused, Renderer, Rendering, RenderPlan}
 import candela.scene.PathReport
 
 /** `candela render`: renders scenes to image files. */
@@ -65,31 +65,44 @@ final class RenderCommand(
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
       val show: Progress => Unit = if options.quiet then _ => () else progress.update
-      val rendering =
-        try Renderer.render(loaded.plan, threads, cancellation, show, reporting.map(_.recorder))
-        finally progress.finish()
-      val started = System.nanoTime
-      val written = write(paths, scene, loaded, rendering)
-      val writeSeconds = (System.nanoTime - started) * 1e-9
-      summarise(written, loaded, rendering, writeSeconds)
-      for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
-        if !options.quiet then terminal.out.println(s"wrote $path")
-      terminal.out.flush()
-      for kind <- options.thumbnail do
-        val picture = rendering.image(loaded.plan.development)
-        terminal.out.print(Thumbnail.of(picture, options.display, kind, terminal))
-      terminal.out.flush()
-      if written.size < paths.size then ExitCode.BadInput
-      else if cancellation.isRequested then ExitCode.Interrupted
-      else ExitCode.Done
+      val watching = Option.when(options.isWatched)(watched(scene, loaded, paths))
+      def recorder = reporting.map(_.recorder)
+      try
+        val rendering =
+          try
+            def start(live: Live): Unit = watching.foreach(_.start(live))
+            Renderer.render(loaded.plan, threads, cancellation, show, recorder, onStart = start(_))
+          finally progress.finish()
+        watching.foreach(_.end(rendering))
+        val started = System.nanoTime
+        val written = write(paths, scene, loaded, rendering)
+        val writeSeconds = (System.nanoTime - started) * 1e-9
+        summarise(written, loaded, rendering, writeSeconds)
+        for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
+          if !options.quiet then terminal.out.println(s"wrote $path")
+        terminal.out.flush()
+        for kind <- options.thumbnail do
+          val picture = rendering.image(loaded.plan.development)
+          terminal.out.print(Thumbnail.of(picture, options.display, kind, terminal))
+        terminal.out.flush()
+        watching.foreach(_.await())
+        if written.size < paths.size then ExitCode.BadInput
+        else if !rendering.isComplete then ExitCode.Interrupted
+        else ExitCode.Done
+      finally watching.foreach(_.close())
 
-  /** Writes every file that can be written; returns those written. */
+  private def watched(scene: String, loaded: LoadedScene, paths: Vector[Path]): Watching =
+    val reference = options.reference.map(RenderRecorder.fitting(loaded.plan, _))
+    def save(rendering: Rendering) = write(paths, scene, loaded, rendering).mkString(", ")
+    Watching(options, scene, loaded.plan, reference, cancellation, terminal, save)
+
+  /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */
   private def write(
       paths: Vector[Path],
       scene: String,
       loaded: LoadedScene,
       rendering: Rendering
-  ): Vector[Path] =
+  ): Vector[Path] = synchronized:
     val development = loaded.plan.development
     val image = rendering.image(development)
     val about = metadata(scene, loaded, rendering)

@@ -48,14 +48,14 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
 
 object RenderRecorder:
 
+  def of(plan: RenderPlan, reference: Option[String]): RenderRecorder =
+    RenderRecorder(plan.development, reference.map(fitting(plan, _)))
+
   /** Reads the reference and crops it to the plan's crop window.
     *
     * @throws SceneError if its size differs from the image's
     */
-  def of(plan: RenderPlan, reference: Option[String]): RenderRecorder =
-    RenderRecorder(plan.development, reference.map(fitting(plan, _)))
-
-  private def fitting(plan: RenderPlan, name: String): Image =
+  def fitting(plan: RenderPlan, name: String): Image =
     val image = ImageFiles.read(OutputFiles.path(name)).toRgb
     val crop = plan.crop
     def has(width: Int, height: Int) = image.width == width && image.height == height

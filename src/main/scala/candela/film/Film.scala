@@ -3,6 +3,8 @@ package candela.film
 import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.image.Image
 
+import java.util.Arrays
+
 /** Accumulates camera samples for the pixels x0 ≤ x < x1, y0 ≤ y < y1.
   *
   * Not synchronised: one worker at a time owns a pixel. Sums are exact: a film may be divided and
@@ -67,6 +69,19 @@ final class Film(
   def load(from: CheckedInput): Unit =
     shares.fold(sums.load(from))(_.load(from))
     splats.foreach(_.load(from))
+
+  /** For each pixel, row by row, the sum of its samples' weights. Without camera samples: the
+    * number of light paths, in all pixels.
+    */
+  def weights: Array[Float] =
+    val shared = shares.map(_.sums)
+    val weights = new Array[Float](width * height)
+    loop(weights.length): pixel =>
+      val at = 4 * pixel + 3
+      weights(pixel) = shared.fold(sums(at))(_(at)).toFloat
+    if weights.forall(_ == 0) then
+      for s <- splats do Arrays.fill(weights, s.pathCount.toFloat)
+    weights
 
   /** The weighted averages, times `scale`; pixels without samples are black. May be called while
     * others add; the image then holds the current state.

@@ -37,6 +37,9 @@ final class SplatFilm(
 
   def begin(): Unit = paths.increment()
 
+  /** Number of light paths. */
+  def pathCount: Long = paths.sum
+
   def add(x: Float, y: Float, light: Rgb): Unit =
     val seen = basis.toSrgb(light)
     if seen.isFinite && !seen.isBlack then

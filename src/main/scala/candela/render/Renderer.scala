@@ -13,6 +13,7 @@ object Renderer:
     * @param witness        image observer; doesn't affect the image
     * @param shard          part of the samples to take
     * @param keeper         keeps the state, if it is to be kept
+    * @param onStart        receives the rendering before its first sample
     * @throws RenderFailure if a sample fails; all workers then stop
     */
   def render(
@@ -22,7 +23,8 @@ object Renderer:
       onProgress: Progress => Unit = _ => (),
       witness: Option[Witness] = None,
       shard: Shard = Shard.Whole,
-      keeper: Option[Keeper] = None
+      keeper: Option[Keeper] = None,
+      onStart: Live => Unit = _ => ()
   ): Rendering =
     require(threads >= 1, s"`threads` must be at least 1, found $threads")
     val started = System.nanoTime
@@ -38,7 +40,9 @@ object Renderer:
     val state = RenderState(job, board, workers)
     keeper.foreach(_.restore(state))
     val total = plan.sampled.pixels * (samplesPerPixel - state.samplesDone) / shard.count
-    def progress() = onProgress(Progress(board.samplesTaken.sum, total, seconds))
+    val live = Live(plan, job, board, workers, state, total, () => seconds)
+    def progress() = onProgress(live.progress)
+    onStart(live)
     def tick() =
       progress()
       for k <- keeper if k.isDue do board.paused(k.save(state))
@@ -55,8 +59,8 @@ object Renderer:
     progress()
     keeper.foreach(_.save(state))
 
-    rendering(state, job, workers, if isEnough then state.samplesDone else samplesPerPixel)
-      .copy(samplesTaken = board.samplesTaken.sum, seconds = seconds)
+    val result = live.rendering
+    if isEnough then result.copy(samplesPerPixel = result.samplesDone) else result
 
   /** The image of a saved state, or of several that add up to one.
     *
@@ -68,7 +72,7 @@ object Renderer:
     load(state)
     rendering(state, job, Vector.empty, state.samplesDone)
 
-  private def rendering(
+  private[render] def rendering(
       state: RenderState,
       job: Job,
       workers: Vector[Worker],

@@ -14,6 +14,10 @@ private[render] abstract class Worker(schedule: Schedule, board: Board) extends 
   protected def failure(cause: Throwable): RenderFailure
 
   private var runNanos = 0L
+  @volatile private var current = Worker.Idle
+
+  /** What it works on at the moment, for observers. */
+  def piece: Option[Int] = Option(current).filter(_ != Worker.Idle)
 
   /** Duration of the last run, from its thread's start until the queue was empty. */
   def seconds: Double = runNanos * 1e-9
@@ -25,7 +29,12 @@ private[render] abstract class Worker(schedule: Schedule, board: Board) extends 
       while step >= 0 do
         val wave = (step / schedule.pieces).toInt
         val piece = (step % schedule.pieces).toInt
+        current = piece
         if board.awaitTurn(piece, wave) && work(piece, wave) then board.finish(piece, wave)
         step = board.takeStep()
+      current = Worker.Idle
       runNanos = System.nanoTime - started
     catch case e: Throwable => throw failure(e)
+
+private object Worker:
+  val Idle: Int = -1

@@ -1,6 +1,6 @@
 package candela.report
 
-import candela.measure.{CurvePoint, LogLogFit, Metric}
+import candela.measure.{CurvePoint, LogLogFit}
 
 import scalatags.Text.all.*
 
@@ -10,10 +10,11 @@ object RenderPage:
   def html(r: RenderReport): String =
     val against = r.reference.fold("without a reference: errors are estimated from the noise"):
       name => s"compared with $name"
+    val charts = ErrorCharts(r.points, isEstimated = r.reference.isEmpty)
     Page.html(s"Report: ${r.scene}", against, r.version)(
-      tiles(r),
+      tiles(r, charts),
       h2("Error over time"),
-      charts(r),
+      charts.all,
       explained(r),
       h2("Figures"),
       figures(r),
@@ -28,12 +29,12 @@ object RenderPage:
       Page.facts(("version" -> s"Candela ${r.version}") +: (r.options ++ r.machine.rows))
     )
 
-  private def tiles(r: RenderReport): Frag =
+  private def tiles(r: RenderReport, charts: ErrorCharts): Frag =
     val last = r.points.lastOption
     val slope = LogLogFit.slope(r.points.map(p => (p.samples.toDouble, p.errors.relativeMse)))
     div(
       cls := "tiles",
-      last.map(p => Page.tile(Numbers.short(p.errors.relativeMse), word(r, "relative MSE"))),
+      last.map(p => Page.tile(Numbers.short(p.errors.relativeMse), charts.word("relative MSE"))),
       last.map(p => Page.tile(s"${Numbers.short(p.seconds)} s", "rendering")),
       last.map(p => Page.tile(p.samples.toString, "samples per pixel")),
       last.filter(p => p.errors.relativeMse > 0).map: p =>
@@ -43,31 +44,6 @@ object RenderPage:
       slope.map(s => Page.tile(Numbers.fixed(s, 2), "slope of error against samples")),
       last.flatMap(_.errors.flip).map(f => Page.tile(Numbers.short(f), "FLIP"))
     )
-
-  private def word(r: RenderReport, metric: String): String =
-    if r.reference.isDefined then metric else s"$metric, estimated"
-
-  private def charts(r: RenderReport): Frag =
-    val metrics = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
-      .filter(m => r.points.exists(_.errors(m).exists(_ > 0)))
-    val all =
-      for m <- metrics; axis <- Vector("seconds", "samples")
-      yield (m.word, m.title, axis, chart(r, m, axis))
-    if all.isEmpty then
-      p("No error to plot: zero error, or neither a reference nor a second sample.")
-    else Page.charts(all)
-
-  private def chart(r: RenderReport, metric: Metric, axis: String): Svg.Node =
-    val marks = r.points.flatMap: point =>
-      point.errors(metric).map: e =>
-        val x = if axis == "seconds" then point.seconds else point.samples.toDouble
-        val when = s"${point.samples} samples, ${Numbers.short(point.seconds)} s"
-        val tip = s"$when: ${Numbers.short(e)}"
-        Mark(x, e, e, e, tip)
-    val label = if axis == "seconds" then "render time (s)" else "samples per pixel"
-    val series = Series("this rendering", 0, isThin = false, marks)
-    val title = s"${word(r, metric.title)} over $axis"
-    LogLogChart(title, label, metric.title, Vector(series), LogLogChart.guideOf(metric)).svg
 
   private def explained(r: RenderReport): Frag =
     val what =

@@ -4,6 +4,7 @@ import candela.base.Version
 import candela.film.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
+import candela.watch.WatchAddress
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -41,6 +42,13 @@ class CommandLineSuite extends AnyFunSuite:
     "render check" -> one.copy(files = Vector("check")),
     "a.pbrt --report r.html,r.csv --reference b.exr" ->
       one.copy(reports = Vector("r.html", "r.csv"), reference = Some("b.exr")),
+    "a.pbrt --watch" -> one.copy(watch = Some(WatchAddress(None, None))),
+    "--watch a.pbrt --watch-after" ->
+      one.copy(watch = Some(WatchAddress(None, None)), watchAfter = true),
+    "--watch 80 a.pbrt" -> one.copy(watch = Some(WatchAddress(None, Some(80)))),
+    "--watch 0.0.0.0:80 a.pbrt" ->
+      one.copy(watch = Some(WatchAddress(Some("0.0.0.0"), Some(80)))),
+    "--watch=[::1]:80 a.pbrt" -> one.copy(watch = Some(WatchAddress(Some("::1"), Some(80)))),
     "bench s.conf --samples 4,1 --seeds 5 --programs a,b --scenes c --report x.html" ->
       Options(
         command = Command.Bench,
@@ -98,6 +106,9 @@ class CommandLineSuite extends AnyFunSuite:
     "--outfile x.exr a.pbrt b.pbrt" -> "--outfile needs a single scene",
     "--report x.html a.pbrt b.pbrt" -> "--report needs a single scene",
     "--reference x.exr a.pbrt" -> "--reference needs --report",
+    "--watch a.pbrt b.pbrt" -> "--watch needs a single scene",
+    "--watch=no a.pbrt" -> "expected PORT or ADDRESS:PORT",
+    "--watch-after a.pbrt" -> "--watch-after needs --watch",
     "bench s.conf --seeds 0" -> "--seeds must be at least 1, found `0`",
     "compare a.exr" -> "reference",
     "compare a.exr b.exr c.exr" -> "c.exr",

@@ -1,15 +1,14 @@
 package candela.report
 
 import candela.measure.{ErrorMap, ImagePair, Metric, Metrics}
+import candela.testing.Chromium
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import java.io.File
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
 import scala.jdk.CollectionConverters.*
-import scala.util.Using
 
 /** What a page's script does, in a real browser: a headless Chromium, if there is one. */
 class BrowserSuite extends AnyFunSuite:
@@ -49,7 +48,8 @@ class BrowserSuite extends AnyFunSuite:
     assert(viewer(dom, "ready") == "flip relmse", viewer(dom, "failed"))
 
   private lazy val browser: Path =
-    val found = installed.getOrElse(cancel(s"none of ${names.mkString(", ")} is on the PATH"))
+    val names = Chromium.names.mkString(", ")
+    val found = Chromium.installed.getOrElse(cancel(s"none of $names is on the PATH"))
     // A browser that can't show even this tests nothing
     if !dom(found, "<p>shown</p>", "").exists(_.contains("shown")) then
       cancel(s"$found doesn't show a page of one word")
@@ -65,27 +65,15 @@ class BrowserSuite extends AnyFunSuite:
     try
       val file = Files.writeString(folder.resolve("page.html"), page)
       val out = folder.resolve("dom.html").toFile
-      val command = Vector(browser.toString, "--headless", "--no-sandbox", "--disable-gpu") ++
-        Vector(s"--user-data-dir=$folder/profile", "--host-resolver-rules=MAP * ~NOTFOUND") ++
+      val command = Chromium.command(browser, folder.resolve("profile")) ++
         Vector("--virtual-time-budget=20000", "--dump-dom", s"${file.toUri}#$fragment")
       val process = ProcessBuilder(command.asJava).redirectOutput(out)
         .redirectError(folder.resolve("err.txt").toFile).start()
       val ended = process.waitFor(Limit, TimeUnit.SECONDS)
-      if !ended then
-        process.descendants.forEach(p => p.destroyForcibly(): Unit)
-        val _ = process.destroyForcibly().waitFor()
+      if !ended then Chromium.kill(process)
       Option.when(ended)(Files.readString(out.toPath))
-    finally
-      Using.resource(Files.walk(folder)): files =>
-        files.iterator.asScala.toVector.reverse.foreach(f => f.toFile.delete())
+    finally Chromium.delete(folder)
 
 object BrowserSuite:
   /** Pages take some seconds. */
   private val Limit = 120L
-
-  private val names = Vector("chromium", "chromium-browser", "chromium-headless-shell") ++
-    Vector("google-chrome", "google-chrome-stable", "chrome")
-
-  private def installed: Option[Path] =
-    val folders = sys.env.getOrElse("PATH", "").split(File.pathSeparatorChar).toVector
-    (for name <- names; folder <- folders yield Path.of(folder, name)).find(Files.isExecutable(_))

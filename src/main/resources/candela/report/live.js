@@ -1,0 +1,221 @@
+
+// The live page: asks the server how far the rendering is, and for the image when it has changed.
+// #layer=…&curve=filmic&ev=1&x=10&y=20 sets the initial view, beside the theme and the chart.
+const byId = id => document.getElementById(id), live = byId("live");
+const me = Math.random().toString(36).slice(2);
+
+const ToneCurves = {
+  srgb: v => encode(Math.min(1, v)),
+  // Narkowicz, "ACES filmic tone mapping curve", 2015
+  filmic: v => encode(Math.min(1, v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14))),
+  // Reinhard et al., "Photographic tone reproduction for digital images", 2002, eq. 3, per channel
+  reinhard: v => encode(v / (1 + v)),
+};
+
+// Display code of v, at the place v / (1 + v) of 8192
+const codesOf = curve => Uint8ClampedArray.from({ length: 8193 },
+  (_, i) => i === 8192 ? 255 : 255 * ToneCurves[curve](i / (8192 - i)) + 0.5);
+
+const clock = seconds => {
+  const s = Math.round(seconds), two = n => String(n).padStart(2, "0");
+  return seconds < 60 ? `${seconds.toFixed(1)} s` : s < 3600 ? `${s / 60 | 0}:${two(s % 60)}`
+    : `${s / 3600 | 0}:${two((s / 60 | 0) % 60)}:${two(s % 60)}`;
+};
+const metric = n => n >= 1e9 ? `${(n / 1e9).toPrecision(3)} G` : n >= 1e6 ? `${(n / 1e6).toPrecision(3)} M`
+  : n >= 1e3 ? `${(n / 1e3).toPrecision(3)} k` : n.toPrecision(3);
+
+function liveView(size) {
+  const { width, height } = size, canvas = live.querySelector("canvas"), context = canvas.getContext("2d");
+  const stage = live.querySelector(".stage"), readout = live.querySelector(".readout");
+  const number = (key, other) => asked.has(key) ? +asked.get(key) : other;
+  const s = { zoom: 1, left: 0, top: 0, x: number("x", -1), y: number("y", -1), held: null,
+    ev: number("ev", 0), curve: asked.get("curve") in ToneCurves ? asked.get("curve") : "srgb",
+    layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
+  const pixels = Object.assign(document.createElement("canvas"), { width, height });
+  const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);
+  let data = null, channels = 3, codes = codesOf(s.curve), asking = null;
+
+  function paint() {
+    if (!data) return;
+    const gain = Math.pow(2, s.ev), n = width * height, last = channels - 1;
+    for (let i = 0, o = 0; i < n; i++, o += 4) {
+      for (let k = 0; k < 3; k++) {
+        const v = data[i * channels + (k < last ? k : last)] * gain;
+        out.data[o + k] = v > 0 ? codes[v === Infinity ? 8192 : 8192 * v / (1 + v) | 0] : 0;
+      }
+      out.data[o + 3] = 255;
+    }
+    paper.putImageData(out, 0, 0);
+    byId("evtext").textContent = `${s.ev >= 0 ? "+" : ""}${s.ev.toFixed(1)} EV`;
+    draw();
+  }
+
+  function draw() {
+    const scale = canvas.width / width * s.zoom, at = (x, y) => [(x - s.left) * scale, (y - s.top) * scale];
+    context.setTransform(1, 0, 0, 1, 0, 0);
+    context.imageSmoothingEnabled = false;
+    context.clearRect(0, 0, canvas.width, canvas.height);
+    context.drawImage(pixels, ...at(0, 0), width * scale, height * scale);
+    context.lineWidth = 2;
+    if (byId("showtiles").checked) {
+      context.strokeStyle = "#fb0";
+      for (const [x0, y0, x1, y1] of s.tiles)
+        context.strokeRect(...at(x0, y0), (x1 - x0) * scale, (y1 - y0) * scale);
+    }
+    const [x, y] = at(s.x, s.y), side = Math.max(3, scale) + 2;
+    if (s.x >= 0) { context.strokeStyle = "#0ff"; context.strokeRect(x - 1, y - 1, side, side); }
+    if (`${s.x} ${s.y}` !== live.dataset.cursor) readOut();
+  }
+
+  // The values come from the server: all layers, as exact as the file.
+  function readOut() {
+    live.dataset.cursor = `${s.x} ${s.y}`;
+    if (!(s.x >= 0 && s.x < width && s.y >= 0 && s.y < height)) {
+      readout.textContent = "rest the mouse on a pixel";
+    } else {
+      clearTimeout(asking);
+      asking = setTimeout(async () => {
+        const [x, y] = [s.x, s.y];
+        try {
+          const rows = await (await fetch(`pixel?x=${x}&y=${y}`)).json();
+          const text = v => (v === null ? "–" : short(v)).padStart(11);
+          readout.textContent = `pixel (${x + size.x0}, ${y + size.y0})\n` +
+            rows.map(r => `${r.layer.padEnd(18)} ${r.values.map(text).join(" ")}`).join("\n");
+          live.dataset.pixel = JSON.stringify({ x, y, version: s.version, rows });
+        } catch (e) { /* the next state tells that the server has gone */ }
+      }, 40);
+    }
+  }
+
+  async function load(state) {
+    const answer = await fetch(`image?layer=${encodeURIComponent(s.layer)}`);
+    if (!answer.ok) return;
+    channels = +answer.headers.get("X-Channels");
+    data = new Float32Array(await answer.arrayBuffer());
+    s.version = +answer.headers.get("X-Version");
+    paint(); readOut();
+    live.dataset.version = s.version;
+    live.dataset.mean = data.reduce((a, b) => a + b, 0) / data.length;
+  }
+
+  async function show(state) {
+    const select = byId("layer"), names = [...select.options].map(o => o.value);
+    if (names.join() !== state.layers.join()) {
+      select.replaceChildren(...state.layers.map(l => new Option(l, l)));
+      if (!state.layers.includes(s.layer)) s.layer = state.layers[0] || "";
+      select.value = s.layer;
+    }
+    s.tiles = state.tiles.map(t => [t[0] - size.x0, t[1] - size.y0, t[2] - size.x0, t[3] - size.y0]);
+    if (state.version > 0 && (state.version !== s.version || s.stale)) { s.stale = false; await load(state); }
+    else draw();
+    if (state.points !== s.points) {
+      s.points = state.points;
+      byId("charts").innerHTML = await (await fetch("charts")).text();
+      byId("charts").querySelectorAll(".charts").forEach(charts);
+    }
+  }
+
+  function set(changes) {
+    Object.assign(s, changes);
+    byId("ev").value = s.ev; byId("curve").value = s.curve; byId("layer").value = s.layer;
+    codes = codesOf(s.curve);
+    if ("layer" in changes) { s.stale = true; poll(); } else paint();
+  }
+  const next = (select, by = 1) => {
+    const n = select.options.length;
+    return select.options[(select.selectedIndex + by + n) % n].value;
+  };
+
+  const view = navigate(canvas, width, height, s, draw);
+  byId("ev").addEventListener("input", e => set({ ev: +e.target.value }));
+  byId("curve").addEventListener("change", e => set({ curve: e.target.value }));
+  byId("layer").addEventListener("change", e => set({ layer: e.target.value }));
+  byId("showtiles").addEventListener("change", draw);
+  byId("whole").addEventListener("click", view.whole);
+
+  function move(dx, dy) {
+    const clamp = (v, n) => Math.min(n - 1, Math.max(0, v));
+    s.x = s.x < 0 ? width >> 1 : clamp(s.x + dx, width);
+    s.y = s.y < 0 ? height >> 1 : clamp(s.y + dy, height);
+    const w = width / s.zoom, h = height / s.zoom;
+    if (s.x < s.left || s.x >= s.left + w) s.left = s.x - w / 2;
+    if (s.y < s.top || s.y >= s.top + h) s.top = s.y - h / 2;
+    view.keepInside(); draw();
+  }
+  const middle = () => s.x >= 0 ? [s.x + 0.5, s.y + 0.5]
+    : [s.left + width / s.zoom / 2, s.top + height / s.zoom / 2];
+  document.addEventListener("keydown", e => {
+    const isField = ["SELECT", "INPUT"].includes(e.target.tagName);
+    if (isField && e.key.startsWith("Arrow") || e.ctrlKey || e.metaKey || e.altKey) return;
+    const far = e.shiftKey ? 10 : 1;
+    const keys = {
+      "+": () => view.zoomAt(...middle(), 1.5), "=": () => view.zoomAt(...middle(), 1.5),
+      "-": () => view.zoomAt(...middle(), 1 / 1.5), "0": view.whole,
+      ArrowLeft: () => move(-far, 0), ArrowRight: () => move(far, 0),
+      ArrowUp: () => move(0, -far), ArrowDown: () => move(0, far),
+      e: () => set({ ev: Math.min(10, s.ev + 0.5) }), E: () => set({ ev: Math.max(-10, s.ev - 0.5) }),
+      c: () => set({ curve: next(byId("curve")) }), l: () => set({ layer: next(byId("layer")) }),
+      t: () => { byId("showtiles").click(); },
+    };
+    if (keys[e.key]) { e.preventDefault(); keys[e.key](); }
+  });
+  byId("ev").value = s.ev; byId("curve").value = s.curve;
+  stage.focus({ preventScroll: true });
+  return { show, s };
+}
+
+let view = null, run = null, timer = null, polling = false;
+
+function figures(state) {
+  const words = { rendering: "rendering", stopping: "stopping", stopped: "stopped: a partial image",
+    done: "done" };
+  byId("stage").textContent = `${words[state.stage]}${state.saved ? `; saved ${state.saved}` : ""}` +
+    (state.viewers > 1 ? `; ${state.viewers} viewers` : "");
+  byId("done").style.width = `${100 * state.part}%`;
+  byId("samples").textContent = `${state.samples} / ${state.planned}`;
+  byId("seconds").textContent = clock(state.seconds);
+  byId("left").textContent = state.left === null ? "–" : clock(state.left);
+  byId("rate").textContent = metric(state.rate);
+  byId("error").textContent = state.error === null ? "–" : short(state.error);
+  const isOver = state.stage === "done" || state.stage === "stopped";
+  byId("stop").disabled = state.stage !== "rendering";
+  byId("save").disabled = byId("end").disabled = false;
+  byId("end").hidden = !(isOver && state.stays);
+  live.dataset.stage = state.stage;
+}
+
+async function poll() {
+  if (polling) return;
+  polling = true;
+  clearTimeout(timer);
+  const began = performance.now();
+  let pause = 250;
+  try {
+    const version = view ? view.s.version : -1;
+    const state = await (await fetch(`state?viewer=${me}&shown=${version}`)).json();
+    if (run && run !== state.run) { location.reload(); return; }
+    run = state.run;
+    figures(state);
+    view ||= liveView(state);
+    await view.show(state);
+    // The page takes little of the machine that renders.
+    pause = Math.min(2000, Math.max(250, 10 * (performance.now() - began)));
+    live.dataset.lost = "";
+  } catch (e) {
+    const isOver = ["done", "stopped"].includes(live.dataset.stage);
+    byId("stage").textContent = isOver ? `${live.dataset.stage}; the program has ended` : "no connection to the program";
+    for (const b of ["stop", "save", "end"]) byId(b).disabled = true;
+    live.dataset.lost = "yes";
+    pause = 2000;
+  }
+  polling = false;
+  timer = setTimeout(poll, document.hidden ? Math.max(2000, pause) : view && view.s.stale ? 0 : pause);
+}
+
+for (const action of ["stop", "save", "end"])
+  byId(action).addEventListener("click", async () => {
+    await fetch(action, { method: "POST" }).catch(() => {});
+    poll();
+  });
+document.addEventListener("visibilitychange", () => { if (!document.hidden) poll(); });
+poll();

@@ -1,0 +1,89 @@
+package candela.report
+
+import candela.measure.CurvePoint
+
+/** A rectangle of pixels of the image, as half-open ranges. */
+final case class Frame(x0: Int, y0: Int, x1: Int, y1: Int)
+
+/** How far a rendering is. */
+enum Stage(val word: String):
+  case Rendering extends Stage("rendering")
+  case Stopping extends Stage("stopping")
+  case Stopped extends Stage("stopped")
+  case Done extends Stage("done")
+
+/** What the live page shows beside the image.
+  *
+  * @param version of the image; changes whenever the image does
+  * @param frame   rendered pixels of the full image
+  * @param layers  names of the images that the page can show
+  * @param samples that every pixel has at least, of `planned`
+  * @param part    of the work that is done, in [0, 1]
+  * @param left    remaining seconds, if known
+  * @param rate    camera samples per second
+  * @param tiles   that workers render at the moment
+  * @param points  of the error curve so far
+  * @param stays   whether the page remains when rendering has ended
+  * @param saved   files written on request, most recently
+  */
+final case class LiveState(
+    run: String,
+    version: Int,
+    stage: Stage,
+    frame: Frame,
+    layers: Vector[String],
+    samples: Int,
+    planned: Int,
+    part: Double,
+    seconds: Double,
+    left: Option[Double],
+    rate: Double,
+    tiles: Vector[Frame],
+    points: Vector[CurvePoint],
+    viewers: Int,
+    stays: Boolean,
+    saved: Option[String]
+)
+
+/** Formats the live page's data. */
+object LiveData:
+
+  def state(s: LiveState): String =
+    ujson.write(
+      ujson.Obj(
+        "run" -> s.run,
+        "version" -> s.version,
+        "stage" -> s.stage.word,
+        "x0" -> s.frame.x0,
+        "y0" -> s.frame.y0,
+        "width" -> (s.frame.x1 - s.frame.x0),
+        "height" -> (s.frame.y1 - s.frame.y0),
+        "layers" -> ujson.Arr.from(s.layers),
+        "samples" -> s.samples,
+        "planned" -> s.planned,
+        "part" -> s.part,
+        "seconds" -> s.seconds,
+        "left" -> s.left.fold(ujson.Null: ujson.Value)(ujson.Num(_)),
+        "rate" -> s.rate,
+        "tiles" -> ujson.Arr.from(s.tiles.map(t => ujson.Arr(t.x0, t.y0, t.x1, t.y1))),
+        "error" -> s.points.lastOption.fold(ujson.Null: ujson.Value): p =>
+          RenderData.number(p.errors.relativeMse),
+        "points" -> s.points.size,
+        "viewers" -> s.viewers,
+        "stays" -> s.stays,
+        "saved" -> s.saved.fold(ujson.Null: ujson.Value)(ujson.Str(_))
+      )
+    )
+
+  /** The error curves, as part of the page. */
+  def charts(points: Vector[CurvePoint], isEstimated: Boolean): String =
+    ErrorCharts(points, isEstimated).all.render
+
+  /** One pixel: the values of each layer, channel by channel. */
+  def pixel(values: Vector[(String, Vector[(String, Float)])]): String =
+    ujson.write(ujson.Arr.from(values.map: (layer, channels) =>
+      ujson.Obj(
+        "layer" -> layer,
+        "channels" -> ujson.Arr.from(channels.map(_._1)),
+        "values" -> ujson.Arr.from(channels.map((_, value) => RenderData.number(value.toDouble)))
+      )))

@@ -1,0 +1,116 @@
+package candela.watch
+
+import candela.base.Version
+import candela.render.{Background, Cancellation, Rendering, RenderPlan}
+import candela.report.{Frame, LivePage, LiveState, Stage}
+
+import java.net.{BindException, InetAddress}
+import java.util.UUID
+import java.util.concurrent.{CountDownLatch, TimeUnit}
+
+/** Where the live page is served.
+  *
+  * @param host address or name; None: the loopback address
+  * @param port None: the usual one, or any if that is taken; 0: any
+  */
+final case class WatchAddress(host: Option[String], port: Option[Int])
+
+/** The live page of a rendering: follows it until the end, and longer if it stays.
+  *
+  * @param cancellation requested by the page's button
+  * @param save         writes the image so far, and returns what to tell the viewers
+  * @param stays        whether the page remains when rendering has ended
+  */
+final class LiveView(
+    scene: String,
+    plan: RenderPlan,
+    address: WatchAddress,
+    observer: Observer,
+    viewers: Viewers,
+    cancellation: Cancellation,
+    isEstimated: Boolean,
+    save: Rendering => String,
+    stays: Boolean
+) extends AutoCloseable:
+  import LiveView.*
+
+  private val run = UUID.randomUUID.toString
+  private val ended = CountDownLatch(1)
+  private val threads = Background.pool("viewers", MostAnswers)
+  @volatile private var saved: Option[String] = None
+
+  private val actions: Map[String, () => Unit] = Map(
+    "stop" -> (() => cancellation.request()),
+    "save" -> (() => saved = Some(save(observer.rendering))),
+    "end" -> (() => ended.countDown())
+  )
+
+  private val server: LiveServer =
+    val host = address.host.fold(InetAddress.getLoopbackAddress)(InetAddress.getByName)
+    val page = LivePage.html(scene, Version.current, plan.features, isEstimated)
+    def at(port: Int) =
+      LiveServer(host, port, page, observer, viewers, () => state, actions, isEstimated, threads)
+    address.port match
+      case Some(port) => at(port)
+      case None =>
+        try at(UsualPort)
+        catch case _: BindException => at(0)
+
+  /** Address of the page. */
+  def link: String = server.access.link
+
+  /** Waits until viewers need the page no longer: until one asks for the end, if the page stays,
+    * otherwise a moment, until all have the last image. A cancellation after the end ends it too.
+    */
+  def await(): Unit =
+    if stays then
+      val wasRequested = cancellation.isRequested
+      while !ended.await(100, TimeUnit.MILLISECONDS) &&
+        (wasRequested || !cancellation.isRequested)
+      do ()
+    else
+      val begin = System.nanoTime
+      while !viewers.haveAll && System.nanoTime - begin < Patience &&
+        !ended.await(50, TimeUnit.MILLISECONDS)
+      do ()
+
+  def close(): Unit =
+    server.close()
+    val _ = threads.shutdownNow()
+
+  private def state: LiveState =
+    val rendering = observer.rendering
+    val progress = observer.progress
+    val part = if progress.total == 0 then 1.0 else progress.done.toDouble / progress.total
+    val rate = progress.done / Math.max(progress.seconds, 1e-9)
+    val crop = plan.crop
+    val isOver = observer.isEnded
+    LiveState(
+      run,
+      observer.snapshot.fold(0)(_.version),
+      if isOver then if rendering.isComplete then Stage.Done else Stage.Stopped
+      else if cancellation.isRequested then Stage.Stopping
+      else Stage.Rendering,
+      Frame(crop.x0, crop.y0, crop.x1, crop.y1),
+      observer.snapshot.fold(Vector.empty)(_.layers),
+      rendering.samplesDone,
+      rendering.samplesPerPixel,
+      part,
+      progress.seconds,
+      Option.when(progress.done > 0 && !isOver)((progress.total - progress.done) / rate),
+      rate,
+      observer.tiles.map(t => Frame(t.x0, t.y0, t.x1, t.y1)),
+      observer.points,
+      viewers.count,
+      stays,
+      saved
+    )
+
+object LiveView:
+  private val UsualPort = 8642
+
+  /** Answers at the same time. */
+  private val MostAnswers = 8
+
+  /** For the last image, in nanoseconds. */
+  private val Patience = 5_000_000_000L

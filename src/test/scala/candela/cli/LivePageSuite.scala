@@ -1,0 +1,95 @@
+package candela.cli
+
+import candela.color.Rgb
+import candela.image.ImageFiles
+import candela.render.TinyPlan
+import candela.testing.{Chromium, OpenPage}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.nio.file.{Files, Path}
+
+/** The live page in a real browser, if there is one. */
+class LivePageSuite extends AnyFunSuite:
+
+  private lazy val browser: Path = Chromium.installed
+    .getOrElse(cancel(s"none of ${Chromium.names.mkString(", ")} is on the PATH"))
+
+  private def plan(spp: Int, file: Path) =
+    TinyPlan(spp = spp, filename = file.toString): (where, sampler) =>
+      Rgb(sampler.next1D(), 2 * sampler.next1D(), where.x / 40f)
+
+  private def data(page: OpenPage, key: String) =
+    page.value(s"document.querySelector('#live').dataset.$key || ''").str
+
+  private def click(page: OpenPage, id: String): Unit =
+    val _ = page.value(s"document.getElementById('$id').click()")
+
+  test("the picture changes, stop stops, and the values under the cursor are those of the EXR"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val running = Watched(plan(1_000_000_000, file), "--watch", "0", "--nthreads", "1")
+      Chromium.use(browser, s"${running.link}#x=3&y=2&theme=dark"): page =>
+        page.until("document.querySelector('#live').dataset.version > 0")
+        val mean = data(page, "mean")
+        assert(Math.abs(mean.toDouble - (0.5 + 1 + 0.4875) / 3) < 0.1)
+        page.until(s"document.querySelector('#live').dataset.mean != '$mean'")
+        page.until("document.querySelector('#charts svg')")
+        assert(page.value("document.documentElement.dataset.theme").str == "dark")
+        assert(running.isRunning && data(page, "stage") == "rendering")
+        click(page, "stop")
+        assert(running.ended == 130)
+        page.until("document.querySelector('#live').dataset.stage == 'stopped'")
+        val image = ImageFiles.read(file)
+        val pixel = ujson.read(data(page, "pixel"))
+        val rows = pixel("rows").arr.map(r => r("layer").str -> r("values").arr.map(_.num.toFloat))
+        assert(rows.toMap.apply("color") == (0 to 2).map(image(3, 2, _)))
+        assert(rows.map(_._1) == Seq("color", "noise", "variance"))
+        val readout = page.value("document.querySelector('.readout').textContent").str
+        assert(readout.startsWith("pixel (3, 2)\ncolor "), readout)
+
+  test("keys move the cursor, zoom, and change exposure, tone curve and layer"):
+    TempFolder.use: folder =>
+      val running = Watched(plan(1_000_000_000, folder.resolve("a.exr")), "--watch", "0")
+      try
+        Chromium.use(browser, s"${running.link}#x=3&y=2"): page =>
+          page.until("[...document.querySelector('#layer').options].length == 2")
+          def painted = page.value("document.querySelector('canvas').toDataURL()").str
+          def chosen(id: String) = page.value(s"document.getElementById('$id').value").str
+          val first = painted
+          page.press("e", "e")
+          assert(chosen("ev") == "0.5" && painted != first)
+          page.press("c", "c")
+          assert(chosen("curve") == "filmic")
+          page.press("ArrowRight")
+          page.until("document.querySelector('.readout').textContent.startsWith('pixel (4, 2)')")
+          page.press("l", "l")
+          assert(chosen("layer") == "noise")
+          page.until("document.querySelector('#live').dataset.mean < 0.5")
+          val before = painted
+          page.press("+", "+")
+          assert(painted != before)
+      finally
+        val _ = WebClient.post(s"${running.link}stop")
+      assert(running.ended == 130)
+
+  test("with --watch-after the page stays, for reloads and several viewers, until it is ended"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val running = Watched(plan(4, file), "--watch", "0", "--watch-after")
+      Chromium.use(browser, running.link): page =>
+        page.until("document.querySelector('#live').dataset.stage == 'done'")
+        page.value("location.reload()")
+        page.until("document.querySelector('#live').dataset.stage == 'done'")
+        val _ = WebClient.get(s"${running.link}state?viewer=other&shown=0")
+        page.until("document.getElementById('stage').textContent.includes('viewers')")
+        Files.delete(file)
+        click(page, "save")
+        page.until("document.getElementById('stage').textContent.includes('saved')")
+        assert(Files.exists(file))
+        assert(running.isRunning)
+        click(page, "end")
+        assert(running.ended == 0)
+        page.until("document.querySelector('#live').dataset.lost == 'yes'")
+        assert(page.value("document.getElementById('stage').textContent").str ==
+          "done; the program has ended")

@@ -1,0 +1,35 @@
+package candela.cli
+
+import candela.render.RenderPlan
+import candela.scenefile.{Dialect, SceneDescription}
+import candela.testing.Chromium
+
+import java.util.concurrent.atomic.AtomicReference
+
+/** A rendering of `plan` in a thread of its own, as its user starts and sees it. */
+final class Watched(plan: RenderPlan, args: String*):
+  private val captured = Captured()
+  private val code = AtomicReference[Option[Int]](None)
+
+  private object Loader extends SceneLoader:
+    def load(scene: String, options: Options): LoadedScene =
+      LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+
+  private val thread = Thread: () =>
+    code.set(Some(Main.run("s.pbrt" +: args, captured.terminal, Loader)))
+  thread.setDaemon(true)
+  thread.start()
+
+  def out: String = captured.out
+  def err: String = captured.err
+
+  /** The live page's address, once it is served. */
+  lazy val link: String = Chromium.eventually("link"):
+    raw"watch at (http://\S+)\n".r.findFirstMatchIn(captured.err).map(_.group(1))
+
+  /** The exit code, once it has ended. */
+  def ended: Int =
+    thread.join(60_000)
+    code.get.getOrElse(throw IllegalStateException("it doesn't end"))
+
+  def isRunning: Boolean = thread.isAlive

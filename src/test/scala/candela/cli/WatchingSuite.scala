@@ -1,0 +1,128 @@
+package candela.cli
+
+import candela.color.Rgb
+import candela.image.ImageFiles
+import candela.render.{TinyPlan, Where}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import java.net.ServerSocket
+import java.nio.file.Path
+import java.nio.{ByteBuffer, ByteOrder}
+import java.util.concurrent.CountDownLatch
+
+/** What the live page's server answers, and what watching does to a rendering: nothing. */
+class WatchingSuite extends AnyFunSuite:
+
+  private def plan(spp: Int, file: Path) =
+    TinyPlan(spp = spp, filename = file.toString): (where, sampler) =>
+      Rgb(sampler.next1D(), 2 * sampler.next1D(), where.x / 40f)
+
+  private def floats(bytes: Array[Byte]): Vector[Float] =
+    val buffer = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN).asFloatBuffer
+    Vector.fill(buffer.remaining)(buffer.get())
+
+  /** A rendering that has ended, and whose page stays. */
+  private def stays[A](words: String*)(test: (Watched, Path) => A): A =
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val running = Watched(plan(16, file), words :+ "--watch-after"*)
+      try
+        candela.testing.Chromium.eventually("end")(Option.when(running.out.contains("wrote"))(()))
+        test(running, file)
+      finally
+        val _ = WebClient.post(s"${running.link}end")
+        val _ = running.ended
+
+  test("the image of a watched rendering has the same bits, and viewers get all of them"):
+    stays("--watch", "0", "--nthreads", "2"): (running, file) =>
+      val answer = WebClient.get(s"${running.link}image?layer=color")
+      assert(answer.header("X-Channels").contains("3"))
+      val image = ImageFiles.read(file)
+      assert(floats(answer.body) == image.data.toVector)
+      TempFolder.use: other =>
+        val plain = Watched(plan(16, other.resolve("a.exr")), "--nthreads", "1")
+        assert(plain.ended == 0)
+        assert(ImageFiles.read(other.resolve("a.exr")).data.sameElements(image.data))
+        assert(plain.err.isEmpty)
+
+  test("while it renders, the state tells how far it is, and the image is that of the samples"):
+    TempFolder.use: folder =>
+      val gate = CountDownLatch(1)
+      val file = folder.resolve("a.exr")
+      val halting =
+        TinyPlan(width = 20, height = 16, spp = 16, filename = file.toString): (where, sampler) =>
+          if where == Where(0, 0, 8) then gate.await()
+          Rgb(sampler.next1D(), 2 * sampler.next1D(), 0)
+      val running = Watched(halting, "--watch", "0", "--watch-after", "--nthreads", "1")
+      def state = ujson.read(WebClient.get(s"${running.link}state?viewer=a&shown=0").text)
+      val early = candela.testing.Chromium.eventually("snapshot"):
+        Some(state).filter(_("version").num > 0)
+      assert(early("stage").str == "rendering" && early("samples").num == 8)
+      assert(early("tiles").arr.map(_.arr.map(_.num)) == Seq(Seq(0, 0, 16, 16)))
+      assert(early("part").num == 0.5 && early("error").isNull && early("viewers").num == 1)
+      assert(early("planned").num == 16 && early("left").num > 0)
+      def image(layer: String) = floats(WebClient.get(s"${running.link}image?layer=$layer").body)
+      val first = image("color")
+      gate.countDown()
+      val late =
+        candela.testing.Chromium.eventually("end")(Some(state).filter(_("stage").str == "done"))
+      assert(late("version").num > early("version").num && image("color") != first)
+      assert(late("layers").arr.map(_.str) == Seq("color", "noise"))
+      // Means of 16 uniform numbers, times 1, 2 and 0
+      val noise = image("noise")
+      for (c, scale) <- Vector(0 -> 1, 1 -> 2) do
+        val squares = noise.indices.filter(_ % 3 == c).map(i => noise(i) * noise(i))
+        val truth = scale * scale / 12.0 / 16
+        // 320 pixels with one degree of freedom: 8 %; four times that
+        assert(Math.abs(squares.sum / squares.size / truth - 1) < 0.32, c)
+      assert(Math.abs(late("error").num) > 0)
+      assert(WebClient.get(s"${running.link}charts").text.contains("<svg"))
+      val _ = WebClient.post(s"${running.link}end")
+      assert(running.ended == 0)
+
+  test("the state tells that it is done, and what is not there is not found"):
+    stays("--watch", "0"): (running, _) =>
+      val state = ujson.read(WebClient.get(s"${running.link}state?viewer=a&shown=0").text)
+      assert(state("stage").str == "done" && state("part").num == 1 && state("samples").num == 16)
+      assert(state("tiles").arr.isEmpty)
+      assert(WebClient.get(running.link).text.contains("<!DOCTYPE html>"))
+      assert(WebClient.get(s"${running.link}nonsense").code == 404)
+      assert(WebClient.get(s"${running.link}pixel?x=40&y=0").code == 404)
+
+  test("the page needs nothing but its server"):
+    stays("--watch", "0"): (running, _) =>
+      val page = WebClient.get(running.link).text
+      val addresses = """https?://[^\s"'<]+""".r.findAllIn(page).toSet
+      assert(addresses.isEmpty)
+      for word <- Vector("src=", "<link", "@import", "url(") do assert(!page.contains(word), word)
+
+  test("pages of other servers can neither read nor stop a rendering"):
+    stays("--watch", "0"): (running, _) =>
+      val foreign = "Origin" -> "http://example.com"
+      assert(WebClient.post(s"${running.link}end", foreign).code == 404)
+      assert(WebClient.get(s"${running.link}state", foreign).code == 404)
+      assert(running.isRunning)
+      val own = "Origin" -> running.link.stripSuffix("/")
+      assert(WebClient.get(s"${running.link}state", own).code == 200)
+
+  test("at another address, only those see anything who have the link"):
+    stays("--watch", "0.0.0.0:0"): (running, _) =>
+      val port = raw":(\d+)/".r.findFirstMatchIn(running.link).get.group(1)
+      val token = running.link.split('/').last
+      assert(token.length == 32)
+      val here = s"http://127.0.0.1:$port"
+      assert(WebClient.get(s"$here/").code == 404 && WebClient.get(s"$here/state").code == 404)
+      assert(WebClient.post(s"$here/end").code == 404)
+      assert(WebClient.get(s"$here/$token/state").code == 200)
+
+  test("a port that is taken is refused if it was asked for"):
+    TempFolder.use: folder =>
+      val taken = ServerSocket(0, 1, java.net.InetAddress.getLoopbackAddress)
+      try
+        val running =
+          Watched(plan(1, folder.resolve("a.exr")), "--watch", taken.getLocalPort.toString)
+        assert(running.ended == 1)
+        val message = s"error: can't serve the live page at ${taken.getLocalPort}: "
+        assert(running.err.startsWith(message), running.err)
+      finally taken.close()
