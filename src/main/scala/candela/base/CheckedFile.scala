@@ -5,7 +5,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder.LITTLE_ENDIAN
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Path, StandardOpenOption}
+import java.nio.file.{Files, Path, StandardOpenOption}
 import java.util.zip.CRC32C
 
 import scala.util.Using
@@ -15,13 +15,19 @@ import scala.util.Using
   */
 object CheckedFile:
 
-  /** Writes the file, and waits until the device has it. */
+  /** Writes the file; [[force]] waits until the device has it. */
   def write(path: Path, mark: String)(body: CheckedOutput => Unit): Unit =
-    Using.resource(FileChannel.open(path, StandardOpenOption.WRITE)): channel =>
+    import StandardOpenOption.{CREATE, TRUNCATE_EXISTING, WRITE}
+    Using.resource(FileChannel.open(path, CREATE, TRUNCATE_EXISTING, WRITE)): channel =>
       val out = CheckedOutput(channel)
       out.text(mark)
       body(out)
       out.end()
+
+  /** Waits until the device has the file, or a folder's entries. */
+  def force(path: Path): Unit =
+    val mode = if Files.isDirectory(path) then StandardOpenOption.READ else StandardOpenOption.WRITE
+    Using.resource(FileChannel.open(path, mode))(_.force(true))
 
   /** Verifies the file, then reads it from its start.
     *
@@ -88,7 +94,6 @@ final class CheckedOutput private[base] (channel: FileChannel):
     flush()
     buffer.putLong(length).putLong(sum.getValue).flip()
     while buffer.hasRemaining do channel.write(buffer): Unit
-    channel.force(true)
 
 /** Reads the values of a [[CheckedFile]], in the order in which they were written. */
 final class CheckedInput private[base] (channel: FileChannel):

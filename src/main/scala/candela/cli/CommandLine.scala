@@ -16,7 +16,8 @@ object CommandLine:
 
   def parse(args: Seq[String]): Either[Answer, Options] =
     val (options, effects) =
-      OParser.runParser(OptionTable.table, joined(withCommand(args)), Options(), setup)
+      val words = FilmOptions.withValues(joined(withCommand(args)))
+      OParser.runParser(OptionTable.table, words, Options(), setup)
     val out = effects.collect { case OEffect.DisplayToOut(text) => text }
     val errors = effects.collect:
       case OEffect.ReportError(text) => s"error: ${explained(text, args)}"
@@ -59,6 +60,8 @@ object CommandLine:
 
 enum Command(val word: String):
   case Render extends Command("render")
+  case Resume extends Command("resume")
+  case Merge extends Command("merge")
   case Check extends Command("check")
   case Compare extends Command("compare")
   case Bench extends Command("bench")
@@ -71,8 +74,8 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
 
 /** A parsed command line; None if an option was not given.
   *
-  * @param files scenes; for `compare`, the image and its reference; for `describe`, category and
-  *   type
+  * @param files scenes; for `resume` and `merge`, film files; for `compare`, the image and its
+  *   reference; for `describe`, category and type
   * @param outfiles output images, instead of the file named by the scene
   * @param pixel with `sample`, the sample that `debug` traces instead of rendering
   * @param markdown whether `describe` prints the whole reference
@@ -82,6 +85,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param thumbnail how to show the image in the terminal
   * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
+  * @param film options of saved renderings
   * @param storeTime whether to store the render time in the image file
   * @param precisions whether AOVs are stored in 16 bits, where asked
   * @param reference reference image for reports
@@ -113,6 +117,7 @@ final case class Options(
     display: DisplayTransform = DisplayTransform.Plain,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
+    film: FilmOptions = FilmOptions(),
     storeTime: Boolean = false,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,

@@ -31,6 +31,8 @@ object Main:
           Report(terminal.err, options.quiet, options.verbose, canKeepGoing, terminal.hasColor)
         options.command match
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
+          case Command.Resume => ResumeCommand(options, terminal, report, loader).run()
+          case Command.Merge => MergeCommand(options, terminal, report, loader).run()
           case Command.Check => CheckCommand(options, terminal, report, loader).run()
           case Command.Compare => CompareCommand(options, terminal, report).run()
           case Command.Bench => BenchCommand(options, terminal, report).run()

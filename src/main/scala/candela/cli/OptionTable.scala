@@ -83,20 +83,24 @@ private[cli] object OptionTable:
     opt[Unit]("verbose").text(s"print every warning$text")
       .action((_, o) => o.copy(verbose = true))
 
+  private def threads: Row = opt[Int]('j', "nthreads").valueName("N")
+    .text("number of render threads (default: one per processor)")
+    .validate(atLeast("nthreads", 1))
+    .action((n, o) => o.copy(threads = Some(n)))
+
+  private def samples(text: String): Row = opt[Int]("spp").valueName("N")
+    .text(text)
+    .validate(atLeast("spp", 1))
+    .action((n, o) => o.copy(spp = Some(n)))
+
   private def layers: String = Layer.values.map(_.word).mkString(", ")
 
   private val renderOptions: Vector[Row] = Vector(
     opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
       .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
-    opt[Int]('j', "nthreads").valueName("N")
-      .text("number of render threads (default: one per processor)")
-      .validate(atLeast("nthreads", 1))
-      .action((n, o) => o.copy(threads = Some(n))),
-    opt[Int]("spp").valueName("N")
-      .text("samples per pixel; overrides the scene")
-      .validate(atLeast("spp", 1))
-      .action((n, o) => o.copy(spp = Some(n))),
+    threads,
+    samples("samples per pixel; overrides the scene"),
     opt[Int]("seed").valueName("N")
       .text("random seed (default 0)")
       .action((n, o) => o.copy(seed = n)),
@@ -153,7 +157,18 @@ private[cli] object OptionTable:
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
-  ) ++ DisplayTable.options
+  ) ++ FilmTable.render ++ DisplayTable.options
+
+  private val resumeOptions: Vector[Row] = Vector(
+    threads,
+    samples("samples per pixel; more than planned adds samples")
+  ) ++ FilmTable.resume ++ Vector(quiet, verbose(", and the time of each phase"))
+
+  private val mergeOptions: Vector[Row] = Vector(
+    opt[Seq[String]]("outfile").required().unbounded().valueName("FILE[,FILE]")
+      .text(s"output image, ${OutputFormat.listed()}; or .film: the film of all")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
+  ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
 
   private val checkOptions: Vector[Row] =
     Vector(parsedAs, keepGoing, explain, quiet, verbose(", and what --explain prints"))
@@ -201,6 +216,8 @@ private[cli] object OptionTable:
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
       case Some(Command.Render) => renderOptions
+      case Some(Command.Resume) => resumeOptions
+      case Some(Command.Merge) => mergeOptions
       case Some(Command.Check) => checkOptions
       case Some(Command.Compare) => CompareTable.options
       case Some(Command.Bench) => benchOptions
@@ -221,6 +238,15 @@ private[cli] object OptionTable:
     note(""),
     command(Command.Render, "render scenes (the default command)")(
       scenes +: renderOptions
+    ),
+    note(""),
+    command(Command.Resume, "continue a saved rendering, or add samples")(
+      file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it") +:
+        resumeOptions
+    ),
+    note(""),
+    command(Command.Merge, "make an image of shards, or of a saved rendering")(
+      file("film.film...", "film files of all shards of a rendering").unbounded() +: mergeOptions
     ),
     note(""),
     command(Command.Check, "parse and build scenes, and report errors")(scenes +: checkOptions),
@@ -252,6 +278,7 @@ private[cli] object OptionTable:
     note("""
       |Without --outfile the scene's Film names the image, and a preview is written next to it.
       |Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits immediately.
+      |Film files (.film) save renderings: --checkpoint, resume, --shard, merge.
       |Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted.
       |""".stripMargin.stripTrailing),
     checkConfig: o =>
@@ -263,6 +290,8 @@ private[cli] object OptionTable:
         failure("--report needs a single scene, found several")
       else if o.columns.isDefined && o.files.size < 2 then
         failure("--columns needs several images")
+      else if o.command == Command.Render && FilmTable.problem(o).isDefined then
+        failure(FilmTable.problem(o).mkString)
       else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty &&
         o.watch.isEmpty
       then failure("--reference needs --report FILE or --watch")

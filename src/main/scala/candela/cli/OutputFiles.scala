@@ -26,9 +26,9 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
 
 object OutputFiles:
 
-  /** Exactly the requested files. */
+  /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =
-    OutputFiles(names.map(path).distinct, Vector.empty)
+    OutputFiles(names.filterNot(FilmOptions.isFilm).map(path).distinct, Vector.empty)
 
   /** The file named by the scene's Film, relative to the current folder, plus a preview if its
     * format can't be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by

@@ -8,49 +8,60 @@ import scala.util.{Failure, Success, Try}
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
 import candela.image.{Contents, ImageError, ImageFiles, OutputFormat, WriteOptions}
-import candela.render.{Cancellation, Live, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.render.storage.FilmFile
 import candela.scene.PathReport
 
-/** `candela render`: renders scenes to image files. */
+/** `candela render`: renders scenes to image files.
+  *
+  * @param resumed the saved rendering to continue, if any
+  */
 final class RenderCommand(
     options: Options,
     terminal: Terminal,
     report: Report,
-    loader: SceneLoader
+    loader: SceneLoader,
+    resumed: Option[FilmFile] = None
 ):
   private val cancellation = Cancellation()
   private val threads = options.threadCount
+  private val goals = options.film
 
   def run(): ExitCode =
-    var code = ExitCode.Done
+    val sequence = Sequence(options)
     var taken = Map.empty[Path, String]
-    for scene <- options.files if !cancellation.isRequested do
-      code = code.worseOf:
+    for Frame(scene, outfiles) <- sequence.frames if !cancellation.isRequested do
+      sequence.ended(scene):
         report.guarded:
-          val loaded = load(scene)
+          val loaded = load(scene, outfiles)
           if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
           else
-            val files = outputs(loaded.plan.filename)
+            val files = outputs(loaded.plan.filename, outfiles)
             val plan = loaded.plan
-            if plan.layers.nonEmpty || plan.development.bands.nonEmpty then files.checkLayers()
+            val hasLayers = plan.layers.nonEmpty || plan.development.bands.nonEmpty
+            if hasLayers && files.paths.nonEmpty then files.checkLayers()
             for path <- files.paths.map(_.toAbsolutePath.normalize) do
               taken.get(path).foreach(other => throw overwrite(path, scene, other))
               taken += path -> scene
-            render(scene, loaded, files.paths)
-    code
+            render(scene, loaded, outfiles, files.paths, sequence)
+    if !options.quiet && !cancellation.isRequested then
+      sequence.summary.foreach(terminal.out.println)
+    terminal.out.flush()
+    sequence.code
 
-  private def load(scene: String): LoadedScene =
+  private def load(scene: String, outfiles: Vector[String]): LoadedScene =
     // Warns before parsing, which may take long.
-    OutputFiles.asked(options.outfiles).check()
+    OutputFiles.asked(outfiles).check()
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     val loaded = loader.load(scene, options)
     report.warnings(loaded.warnings, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
     loaded
 
-  private def outputs(filename: String): OutputFiles =
+  private def outputs(filename: String, outfiles: Vector[String]): OutputFiles =
     val files =
-      if options.outfiles.nonEmpty then OutputFiles.asked(options.outfiles)
+      if outfiles.nonEmpty then OutputFiles.asked(outfiles)
+      else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
       else OutputFiles.ofFilm(filename)
     report.warnings(files.warnings, all = true)
     files.check()
@@ -60,24 +71,66 @@ final class RenderCommand(
     val message = s"the image of `$scene` would overwrite that of `$other`: $path"
     SceneError(Problem.general(message, Some("render them separately, with --outfile")))
 
-  private def render(scene: String, loaded: LoadedScene, paths: Vector[Path]): ExitCode =
+  private def render(
+      scene: String,
+      loaded: LoadedScene,
+      outfiles: Vector[String],
+      paths: Vector[Path],
+      sequence: Sequence
+  ): ExitCode =
+    val name = resumed.fold(scene)(_.header.scene)
+    val keeping = FilmKeeping.of(options, report, name, loaded, outfiles, paths, resumed)
+    val digest = Option.when(goals.skipDone):
+      FilmHeaders.digest(FilmHeaders.of(options, name, loaded, Path.of("film"), paths))
+    val isDone = digest.exists(Sequence.isDone(paths, _)) ||
+      (goals.skipDone && paths.isEmpty && keeping.exists(_.isDone))
+    if isDone then
+      sequence.skip(scene)
+      ExitCode.Done
+    else
+      for k <- keeping; film <- k.start if !options.quiet do
+        terminal.err.println(Summary.continues(film))
+      val about = metadata(name, loaded) ++ digest.map(Sequence.Digest -> _)
+      render(name, loaded, paths, keeping, about)
+
+  private def render(
+      scene: String,
+      loaded: LoadedScene,
+      paths: Vector[Path],
+      keeping: Option[FilmKeeping],
+      about: Vector[(String, String)]
+  ): ExitCode =
     val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
+    def recorder = Option.when(goals.error.isDefined)(RenderRecorder.of(loaded.plan, None))
+    val goal = Option.when(goals.time.isDefined || goals.error.isDefined):
+      Goal(goals, reporting.map(_.recorder).orElse(recorder))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
       val show: Progress => Unit = if options.quiet then _ => () else progress.update
-      val watching = Option.when(options.isWatched)(watched(scene, loaded, paths))
-      def recorder = reporting.map(_.recorder)
+      val keeper = keeping.map(_.keeper(() => goal.exists(_.isEnough)))
+      val watching = Option.when(options.isWatched)(watched(scene, loaded, paths, about))
       try
         val rendering =
           try
-            def start(live: Live): Unit = watching.foreach(_.start(live))
-            Renderer.render(loaded.plan, threads, cancellation, show, recorder, onStart = start(_))
+            Renderer.render(
+              loaded.plan,
+              threads,
+              cancellation,
+              show,
+              goal.orElse(reporting.map(_.recorder)),
+              goals.shard,
+              keeper,
+              live => watching.foreach(_.start(live))
+            )
           finally progress.finish()
         watching.foreach(_.end(rendering))
         val started = System.nanoTime
-        val written = write(paths, scene, loaded, rendering)
+        val facts = about.filter((name, _) => name != Sequence.Digest || rendering.isComplete)
+        val written = write(paths, loaded, rendering, facts)
         val writeSeconds = (System.nanoTime - started) * 1e-9
-        summarise(written, loaded, rendering, writeSeconds)
+        val films =
+          keeping.map(_.path).filter(_ => paths.isEmpty && keeper.forall(_.failure.isEmpty))
+        summarise(written ++ films, loaded, rendering, writeSeconds)
         for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
           if !options.quiet then terminal.out.println(s"wrote $path")
         terminal.out.flush()
@@ -86,26 +139,44 @@ final class RenderCommand(
           terminal.out.print(Thumbnail.of(picture, options.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await())
-        if written.size < paths.size then ExitCode.BadInput
+        if written.size < paths.size || keeper.exists(_.failure.nonEmpty) then ExitCode.BadInput
         else if !rendering.isComplete then ExitCode.Interrupted
         else ExitCode.Done
       finally watching.foreach(_.close())
 
-  private def watched(scene: String, loaded: LoadedScene, paths: Vector[Path]): Watching =
+  private def watched(
+      scene: String,
+      loaded: LoadedScene,
+      paths: Vector[Path],
+      about: Vector[(String, String)]
+  ): Watching =
     val reference = options.reference.map(RenderRecorder.fitting(loaded.plan, _))
-    def save(rendering: Rendering) = write(paths, scene, loaded, rendering).mkString(", ")
+    def save(rendering: Rendering) = write(paths, loaded, rendering, about).mkString(", ")
     Watching(options, scene, loaded.plan, reference, cancellation, terminal, save)
+
+  /** Writes the image of a rendering that was put together from film files. */
+  private[cli] def finish(
+      scene: String,
+      loaded: LoadedScene,
+      paths: Vector[Path],
+      rendering: Rendering
+  ): ExitCode =
+    val written = write(paths, loaded, rendering, metadata(scene, loaded))
+    summarise(written, loaded, rendering, 0)
+    if written.size < paths.size then ExitCode.BadInput else ExitCode.Done
 
   /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */
   private def write(
       paths: Vector[Path],
-      scene: String,
       loaded: LoadedScene,
-      rendering: Rendering
+      rendering: Rendering,
+      facts: Vector[(String, String)]
   ): Vector[Path] = synchronized:
     val development = loaded.plan.development
     val image = rendering.image(development)
-    val about = metadata(scene, loaded, rendering)
+    val time = Option.when(options.storeTime):
+      "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
+    val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time
     val how = WriteOptions(development.isHalf, precisions(loaded.plan), options.display)
     def texts(path: Path) =
       val isShown = OutputFormat.of(path).exists(_.contents == Contents.Display)
@@ -125,11 +196,7 @@ final class RenderCommand(
     val own = plan.layers.toVector.flatMap(_.layers).filter(_.needsFloat).map(_ -> false)
     (own ++ options.precisions).flatMap((layer, isHalf) => layer.channels.map(_ -> isHalf)).toMap
 
-  private def metadata(
-      scene: String,
-      loaded: LoadedScene,
-      rendering: Rendering
-  ): Vector[(String, String)] =
+  private def metadata(scene: String, loaded: LoadedScene): Vector[(String, String)] =
     val plan = loaded.plan
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val crop = Option.when(plan.crop != PixelBounds(0, 0, plan.width, plan.height)):
@@ -138,12 +205,8 @@ final class RenderCommand(
       "software" -> s"Candela ${Version.current}",
       "scene" -> scene,
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
-      "samplesPerPixel" -> rendering.samplesDone.toString,
       "seed" -> options.seed.toString
-    ) ++ Option.when(options.storeTime)("renderSeconds" -> Figures.fixed(
-      rendering.seconds,
-      2
-    )) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
+    ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
 
   private def summarise(
@@ -191,13 +254,19 @@ object Summary:
   def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
     val missing = if standIns > 0 then s", ${Figures.count(standIns, "placeholder")}" else ""
     val names = written.mkString(", ")
-    if r.isComplete then
+    if r.isComplete && r.seconds == 0 then
+      s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
+    else if r.isComplete then
       val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
       val size = s"${r.film.width}x${r.film.height}"
       s"wrote $names  $size, ${r.samplesDone} spp, ${Figures.duration(r.seconds)}, $rates$missing"
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel$missing"
+
+  /** `continuing x.film: 12 of 64 samples per pixel` */
+  def continues(film: FilmFile): String =
+    s"continuing ${film.path}: ${film.header.done} of ${film.header.samples} samples per pixel"
 
   def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
     Vector(

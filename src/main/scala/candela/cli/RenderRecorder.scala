@@ -31,6 +31,9 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
     last.map(named).toVector ++ begin.map(named) ++
       reference.map(Picture("reference", _, isReference = true))
 
+  override def begins(samples: Int, film: Film): Unit =
+    if reference.isEmpty && samples > 0 then earlier = Some((film.copy(), samples))
+
   def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime
     val image = development(film)

@@ -72,10 +72,13 @@ object Cryptomatte:
 
     override def join(sums: ExactSums, at: Int, more: ExactSums): Unit =
       for i <- at until at + 2 * Slots by 2 do
-        val (id, weight) = (more(i), more(i + 1))
+        val (id, weight, rest) = (more(i), more(i + 1), more.remainder(i + 1))
         more.add(i, -id)
         more.add(i + 1, -weight)
-        if id != 0.0 then count(sums, at, id, weight)
+        more.add(i + 1, -rest)
+        if id != 0.0 then
+          count(sums, at, id, weight)
+          count(sums, at, id, rest)
 
   /** Identifiers by falling coverage, each with its coverage. */
   private[film] final class Ranked(tally: Tally) extends Statistic(tally):

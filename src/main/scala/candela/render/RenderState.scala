@@ -49,3 +49,6 @@ abstract class Keeper:
 
   /** Called if due, and at the end; no sample is taken meanwhile. */
   def save(state: RenderState): Unit
+
+  /** Called after each `save`, while sampling goes on: what may take longer. */
+  def finish(): Unit

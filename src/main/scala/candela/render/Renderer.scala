@@ -45,19 +45,28 @@ object Renderer:
     onStart(live)
     def tick() =
       progress()
-      for k <- keeper if k.isDue do board.paused(k.save(state))
+      for k <- keeper if k.isDue do
+        board.paused(k.save(state))
+        k.finish()
     def isEnough = witness.exists(_.isEnough)
-    for end <- ends(schedule, witness) if !board.isStopped && !isEnough do
+    val earlier = state.samplesDone
+    witness.foreach(_.begins(earlier, job.film))
+    def isNew(end: Int) = schedule.firstSample(end) > earlier
+    for end <- ends(schedule, witness).filter(isNew) if !board.isStopped && !isEnough do
       board.openUntil(end)
       val begin = seconds
       Workers.run(workers, board)(() => tick())
       for w <- witness if !board.isStopped do
-        val pass = Pass(schedule.firstSample(end), begin, seconds, workers.map(_.seconds))
+        val isLast = end == schedule.waves
+        val busy = workers.map(_.seconds)
+        val pass = Pass(schedule.firstSample(end), begin, seconds, busy, isLast)
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
     progress()
-    keeper.foreach(_.save(state))
+    for k <- keeper do
+      k.save(state)
+      k.finish()
 
     val result = live.rendering
     if isEnough then result.copy(samplesPerPixel = result.samplesDone) else result

@@ -64,8 +64,15 @@ final class RenderFailure(val x: Int, val y: Int, val sample: Int, cause: Throwa
   * @param samples samples per pixel so far
   * @param begin   seconds since the start of rendering, without the observer's time
   * @param workers busy time of each worker, in seconds
+  * @param isLast  whether it completes the rendering
   */
-final case class Pass(samples: Int, begin: Double, end: Double, workers: Vector[Double])
+final case class Pass(
+    samples: Int,
+    begin: Double,
+    end: Double,
+    workers: Vector[Double],
+    isLast: Boolean = false
+)
 
 /** An image observer, called after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
@@ -77,6 +84,12 @@ abstract class Witness:
   /** Called in the caller's thread; no sample is added meanwhile. Not called for a cancelled pass.
     */
   def passed(pass: Pass, film: Film): Unit
+
+  /** Called before the first pass.
+    *
+    * @param samples samples per pixel of an earlier rendering that is continued
+    */
+  def begins(samples: Int, film: Film): Unit = ()
 
   /** Whether the image is good enough: the rendering then ends. */
   def isEnough: Boolean = false

@@ -14,6 +14,7 @@ package candela.sampling
   * Source: Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */
 final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
+  override def isProgressive: Boolean = true
   private var counter = 0L // the same for all samples of a pixel
   private var reversedIndex = 0
 

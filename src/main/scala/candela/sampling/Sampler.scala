@@ -10,6 +10,9 @@ abstract class Sampler:
   /** Samples per pixel; some samplers round the request up, e.g. to a power of two. */
   def samplesPerPixel: Int
 
+  /** Whether sample k is the same for any number of samples per pixel above k. */
+  def isProgressive: Boolean = false
+
   /** Starts at dimension 0 of sample `sample` of the pixel. */
   def start(x: Int, y: Int, sample: Int): Unit
 
@@ -29,6 +32,7 @@ abstract class Sampler:
   * In pbrt: `independent` (v4), `random` (v2, v3).
   */
 final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
+  override def isProgressive: Boolean = true
   private var counter = 0L
 
   def start(x: Int, y: Int, sample: Int): Unit =

@@ -23,6 +23,7 @@ private[scenefile] final class ParserRun(
   private val scene = SceneWriter(folder, evidence, () => isV4, problems.add)
   private val misplaced = Problems()
 
+  private var sources = file.toVector
   private var lost = Set.empty[NameKind]
 
   /** Whether the rest of the file is ignored. */
@@ -49,7 +50,7 @@ private[scenefile] final class ParserRun(
     val all = Excerpts.fill(problems.result(), open)
     if scene.worldBegin.isEmpty then throw SceneError(all)
     val (errors, warnings) = all.partition(_.severity == Severity.Error)
-    scene.description(dialect, warnings).copy(errors = errors, lost = lost)
+    scene.description(dialect, warnings).copy(errors = errors, lost = lost, sources = sources)
 
   /** Checks possible only at the end of the file. */
   private def finish(dialect: Dialect): Unit =
@@ -169,6 +170,7 @@ private[scenefile] final class ParserRun(
         refuseCircles(path, name, files, fail)
         Source.read(path) match
           case Right(source) =>
+            if !sources.contains(path) then sources :+= path
             parameters.within(from)(statements(source, Some(at), path :: files))
           case Left(why) => missing(s"can't include `$name`: $why")
 

@@ -3,6 +3,8 @@ package candela.scenefile
 import candela.base.{Problem, SourcePos}
 import candela.math.Transform
 
+import java.nio.file.Path
+
 /** Object-to-world transform at shutter open and close; usually the same object twice. */
 final case class AnimatedTransform(start: Transform, end: Transform):
   def isAnimated: Boolean = start != end
@@ -74,6 +76,7 @@ final case class TextureDescription(
   * @param errors errors of statements that could not be parsed: the rest can be checked, but not
   *   rendered
   * @param lost kinds of names that those statements may have defined
+  * @param sources the scene file and the files that it includes
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -99,7 +102,8 @@ final case class SceneDescription(
     transformTimes: (Float, Float) = (0f, 1f),
     warnings: Vector[Problem] = Vector.empty,
     errors: Vector[Problem] = Vector.empty,
-    lost: Set[NameKind] = Set.empty
+    lost: Set[NameKind] = Set.empty,
+    sources: Vector[Path] = Vector.empty
 )
 
 /** Kinds of names that statements define. */

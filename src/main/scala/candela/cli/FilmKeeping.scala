@@ -1,0 +1,105 @@
+package candela.cli
+
+import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmWriter}
+
+import java.nio.file.{Files, Path}
+
+/** The film file of one rendering.
+  *
+  * @param header of the rendering; its number of samples done is not used
+  * @param start  the saved rendering to continue, if any
+  */
+private[cli] final class FilmKeeping(
+    val path: Path,
+    header: FilmHeader,
+    val start: Option[FilmFile],
+    mayEndEarly: Boolean,
+    options: Options,
+    report: Report
+):
+  /** Whether there is nothing left to render. */
+  def isDone: Boolean = start.exists(f => f.header.isComplete && f.header.samples == header.samples)
+
+  /** Samples that every pixel has already. */
+  def samplesDone: Int = start.fold(0)(_.header.done)
+
+  /** @param isEnough whether the rendering ended because its goal was reached */
+  def keeper(isEnough: () => Boolean): Checkpoints =
+    def of(done: Int) =
+      val planned = if mayEndEarly && isEnough() then done else header.samples
+      header.copy(done = done, samples = planned)
+    // A damaged file must not replace its previous copy.
+    val writer = FilmWriter(path, isGood = start.forall(_.damage.isEmpty))
+    Checkpoints(writer, of, start, options.film.every, warn)
+
+  private def warn(why: String): Unit =
+    val message = s"can't write the film file `$path`: $why"
+    report.warnings(Vector(Problem(Severity.Warning, None, message)), all = true)
+
+private[cli] object FilmKeeping:
+
+  /** The film file of a rendering, if one was asked for. An existing one is continued.
+    *
+    * @param outfiles as asked for
+    * @param images   image files to write
+    * @param resumed  the saved rendering of `resume`
+    * @throws SceneError if the file is of another rendering
+    */
+  def of(
+      options: Options,
+      report: Report,
+      scene: String,
+      loaded: LoadedScene,
+      outfiles: Vector[String],
+      images: Vector[Path],
+      resumed: Option[FilmFile]
+  ): Option[FilmKeeping] =
+    def named = outfiles.find(FilmOptions.isFilm).orElse(options.film.checkpoint.filter(_.nonEmpty))
+    def beside = options.film.checkpoint.flatMap: _ =>
+      images.headOption.map(FileName.withSuffix(_, FilmFile.Suffix))
+    for path <- resumed.map(_.path).orElse(named.map(OutputFiles.path)).orElse(beside) yield
+      val now = FilmHeaders.of(options, scene, loaded, path, images)
+      resumed match
+        case Some(film) => resume(film, now, loaded, options, report)
+        case None =>
+          val start = existing(path, now, report)
+          FilmKeeping(path, now, start, now.obstacle(loaded.plan).isEmpty, options, report)
+
+  private def resume(
+      film: FilmFile,
+      now: FilmHeader,
+      loaded: LoadedScene,
+      options: Options,
+      report: Report
+  ): FilmKeeping =
+    FilmInput.verify(film, now.copy(count = film.header.count))
+    val header = film.header
+    val obstacle = header.obstacle(loaded.plan)
+    if now.samples != header.samples then
+      for why <- obstacle do
+        FilmInput.fail(
+          s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
+          "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
+        )
+    if now.samples < header.done then
+      FilmInput.fail(s"`${film.path}` has ${header.done} samples per pixel already")
+    val next = header.copy(samples = now.samples)
+    FilmKeeping(film.path, next, Some(film), obstacle.isEmpty, options, report)
+
+  /** The saved rendering at `path`, if there is one. */
+  private def existing(path: Path, now: FilmHeader, report: Report): Option[FilmFile] =
+    val folder = path.toAbsolutePath.getParent
+    if !Files.isDirectory(folder) then
+      FilmInput.fail(s"can't write `$path`: no such folder: `$folder`")
+    Option.when(Files.exists(path) || Files.exists(FilmFile.previous(path))):
+      val film =
+        try FilmInput.open(path.toString, report)
+        catch case e: SceneError => FilmInput.fail(e.problems.head.message, Remove)
+      for difference <- film.header.difference(now) do
+        FilmInput.fail(s"`$path` is of another rendering: it has $difference", Remove)
+      if film.header.shards != now.shards then
+        FilmInput.fail(s"`$path` is of another shard: ${film.header.part}", Remove)
+      film
+
+  private val Remove = "remove it, or name another file"

@@ -1,0 +1,132 @@
+package candela.cli
+
+import candela.base.FileName
+import candela.render.Shard
+import candela.render.storage.FilmFile
+
+import java.nio.file.{InvalidPathException, Path}
+
+import scopt.{OParser, Read}
+
+/** Options of saved renderings.
+  *
+  * @param checkpoint film file to save to; empty: beside the image
+  * @param every      seconds between two checkpoints
+  * @param shard      part of the samples to take
+  * @param time       seconds after which the rendering ends
+  * @param error      relative MSE at which the rendering ends
+  * @param partial    whether to merge although shards are missing
+  * @param frames     numbers for the scene's name
+  * @param skipDone   whether to skip scenes whose images exist already
+  */
+final case class FilmOptions(
+    checkpoint: Option[String] = None,
+    every: Option[Double] = None,
+    shard: Shard = Shard.Whole,
+    time: Option[Double] = None,
+    error: Option[Double] = None,
+    partial: Boolean = false,
+    frames: Option[Range] = None,
+    skipDone: Boolean = false
+)
+
+object FilmOptions:
+  def isFilm(name: String): Boolean =
+    try FileName.suffix(Path.of(name)) == FilmFile.Suffix
+    catch case _: InvalidPathException => false
+
+  /** Gives `--checkpoint` an empty value if no film file follows it. */
+  def withValues(args: Seq[String]): Seq[String] =
+    args.zipWithIndex.flatMap: (word, i) =>
+      val isAlone = word == "--checkpoint" && !args.lift(i + 1).exists(isFilm)
+      if isAlone then Seq(word, "") else Seq(word)
+
+/** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
+private[cli] object FilmTable:
+  private type Row = OParser[?, Options]
+
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private final case class Seconds(value: Double)
+
+  private given Read[Seconds] = Read.reads: text =>
+    val unit = text.takeRight(1)
+    val scale = Map("s" -> 1.0, "m" -> 60.0, "h" -> 3600.0).get(unit)
+    val number = if scale.isDefined then text.dropRight(1) else text
+    val seconds = number.toDoubleOption.map(_ * scale.getOrElse(1.0))
+    seconds.filter(s => s > 0 && s < 1e9).map(Seconds(_)).getOrElse:
+      throw IllegalArgumentException("expected a duration, e.g. 90s, 10m or 2h")
+
+  private given Read[Shard] = Read.reads: text =>
+    text.split("/", -1).map(_.trim.toIntOption) match
+      case Array(Some(i), Some(n)) if i >= 0 && i < n => Shard(i, n)
+      case _ => throw IllegalArgumentException("expected i/n with 0 <= i < n, e.g. 0/4")
+
+  private given Read[Range] = Read.reads: text =>
+    text.split("-", -1).map(_.trim.toIntOption) match
+      case Array(Some(a), Some(b)) if a >= 0 && a <= b => a to b
+      case Array(Some(a)) if a >= 0 => a to a
+      case _ => throw IllegalArgumentException("expected first-last, e.g. 1-250")
+
+  private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
+
+  private def every: Row = opt[Seconds]("checkpoint-every").valueName("TIME")
+    .text("time between two checkpoints, e.g. 10s or 5m (default 60s)")
+    .action((s, o) => change(o)(_.copy(every = Some(s.value))))
+
+  private def goals: Vector[Row] = Vector(
+    opt[Seconds]("time").valueName("TIME")
+      .text("end after this time, e.g. 10m, when all pixels have equally many samples")
+      .action((s, o) => change(o)(_.copy(time = Some(s.value)))),
+    opt[Double]("error").valueName("X")
+      .text("end when the relative MSE, estimated from the noise, is below X")
+      .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
+      .action((x, o) => change(o)(_.copy(error = Some(x))))
+  )
+
+  def render: Vector[Row] = Vector(
+    opt[String]("checkpoint").valueName("[FILE.film]")
+      .text("save the rendering every 60 s, by default beside the image; see resume")
+      .validate: f =>
+        if f.isEmpty || FilmOptions.isFilm(f) then success
+        else failure(s"--checkpoint needs a name that ends with .film, found `$f`")
+      .action((f, o) => change(o)(_.copy(checkpoint = Some(f)))),
+    every,
+    opt[Shard]("shard").valueName("I/N")
+      .text("take the I-th of N parts of the samples, 0 <= I < N; needs --outfile FILE.film")
+      .action((s, o) => change(o)(_.copy(shard = s))),
+    opt[Range]("frames").valueName("FIRST-LAST")
+      .text("render a sequence: the scene's name has %d, or %04d, for the number")
+      .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
+    opt[Unit]("skip-done")
+      .text("skip scenes whose images exist and are of this scene and these options")
+      .action((_, o) => change(o)(_.copy(skipDone = true)))
+  ) ++ goals
+
+  def resume: Vector[Row] = every +: goals
+
+  def merge: Vector[Row] = Vector(
+    opt[Unit]("partial")
+      .text("merge although shards are missing or unfinished")
+      .action((_, o) => change(o)(_.copy(partial = true)))
+  )
+
+  /** What is wrong with the options of `render`, if anything. */
+  def problem(o: Options): Option[String] =
+    val films = o.outfiles.filter(FilmOptions.isFilm)
+    val film = o.film
+    if films.size > 1 then Some("a single .film file can be written")
+    else if !film.shard.isWhole && (films.isEmpty || o.outfiles.size > 1) then
+      Some("--shard needs --outfile FILE.film, and nothing else")
+    else if films.nonEmpty && film.checkpoint.isDefined then
+      Some("--outfile FILE.film is the checkpoint: omit --checkpoint")
+    else if film.checkpoint.exists(_.nonEmpty) && o.files.size > 1 then
+      Some("--checkpoint FILE needs a single scene, found several")
+    else if film.frames.isDefined && o.files.size != 1 then
+      Some("--frames needs a single scene name, with %d for the number")
+    else if film.frames.isDefined && !(o.files ++ o.outfiles).forall(Sequence.hasNumber) then
+      Some("--frames: write %d, or %04d, for the number in the names of scene and output files")
+    else if !film.shard.isWhole && (film.time.isDefined || film.error.isDefined) then
+      Some("--shard can't end by --time or --error: all shards need the same samples")
+    else None

@@ -1,0 +1,70 @@
+package candela.cli
+
+import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.file.{Files, Path}
+
+import scala.util.{Try, Using}
+
+/** A scene of a sequence, and the output files asked for. */
+private[cli] final case class Frame(scene: String, outfiles: Vector[String])
+
+/** The scenes of a command line, and what became of them. */
+private[cli] final class Sequence(options: Options):
+  private var worst = ExitCode.Done
+  private var skipped, rendered = Vector.empty[String]
+  private var failed = Vector.empty[String]
+
+  val frames: Vector[Frame] = options.film.frames match
+    case None => options.files.map(Frame(_, options.outfiles))
+    case Some(numbers) =>
+      numbers.toVector.map: n =>
+        Frame(
+          Sequence.numbered(options.files.head, n),
+          options.outfiles.map(Sequence.numbered(_, n))
+        )
+
+  def code: ExitCode = worst
+
+  /** Notes that a scene is done already. */
+  def skip(scene: String): Unit = skipped :+= scene
+
+  def ended(scene: String)(render: => ExitCode): Unit =
+    val code = render
+    worst = worst.worseOf(code)
+    if code != ExitCode.Done then failed :+= scene
+    else if !skipped.contains(scene) then rendered :+= scene
+
+  /** `4 scenes: 2 rendered, 1 skipped (done already), 1 failed: b.pbrt`; of several scenes only. */
+  def summary: Option[String] =
+    Option.when(frames.size > 1 || skipped.nonEmpty):
+      def part(names: Vector[String], what: String) =
+        Option.when(names.nonEmpty)(s"${names.size} $what")
+      val missing = frames.size - failed.size - rendered.size - skipped.size
+      val parts = part(rendered, "rendered") ++ part(skipped, "skipped (done already)") ++
+        part(failed, failed.mkString("failed (", ", ", ")")) ++
+        Option.when(missing > 0)(s"$missing not begun")
+      s"${Figures.count(frames.size, "scene")}: ${parts.mkString(", ")}"
+
+private[cli] object Sequence:
+  /** Name of the metadata that identify a complete rendering. */
+  val Digest = "rendering"
+
+  private val Number = "%(0(\\d))?d".r
+
+  /** Whether the name has a place for a number. */
+  def hasNumber(name: String): Boolean = Number.findFirstIn(name).isDefined
+
+  /** The name with a number in place of `%d` or `%04d`. */
+  def numbered(name: String, n: Int): String =
+    Number.replaceAllIn(name, m => n.toString.reverse.padTo(digits(m.group(2)), '0').reverse)
+
+  private def digits(group: String | Null): Int = if group == null then 1 else group.toInt
+
+  /** Whether the images exist, and are of the rendering with this digest. */
+  def isDone(images: Vector[Path], digest: String): Boolean =
+    images.nonEmpty && images.forall(Files.isRegularFile(_)) && holds(images.head, digest)
+
+  /** Whether the file's metadata, which precede the pixels, contain the text. */
+  private def holds(file: Path, text: String): Boolean =
+    Try(Using.resource(Files.newInputStream(file))(_.readNBytes(1 << 16))).toOption.exists: bytes =>
+      String(bytes, ISO_8859_1).contains(text)

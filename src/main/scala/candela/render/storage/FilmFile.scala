@@ -1,0 +1,91 @@
+package candela.render.storage
+
+import candela.base.CheckedFile
+import candela.render.RenderState
+
+import java.io.IOException
+import java.nio.file.{AtomicMoveNotSupportedException, Files, Path}
+import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
+
+/** A saved rendering.
+  *
+  * @param path   as it was asked for
+  * @param source the file that was read: `path` or its previous copy
+  * @param damage what is wrong with `path`, if it is the previous copy
+  */
+final class FilmFile private (
+    val path: Path,
+    val header: FilmHeader,
+    source: Path,
+    val damage: Option[String]
+):
+  /** Adds the saved state to `state`. */
+  def load(state: RenderState): Unit =
+    CheckedFile.read(source, FilmFile.Mark): in =>
+      val _ = FilmHeader.load(in)
+      state.load(in)
+
+object FilmFile:
+  private[storage] val Mark = "Candela film 1\n"
+
+  /** File extension. */
+  val Suffix = "film"
+
+  /** Where the previous copy is kept. */
+  def previous(path: Path): Path = path.resolveSibling(s"${path.getFileName}.previous")
+
+  /** Opens a film file, or its previous copy if it is damaged or missing.
+    *
+    * @throws IOException if neither can be read; the message names the file
+    */
+  def open(path: Path): FilmFile =
+    header(path) match
+      case Right(header) => FilmFile(path, header, path, None)
+      case Left(why) =>
+        val copy = previous(path)
+        header(copy) match
+          case Right(header) => FilmFile(path, header, copy, Some(why))
+          case Left(_) if !Files.exists(copy) => throw IOException(s"can't read `$path`: $why")
+          case Left(other) =>
+            throw IOException(s"can't read `$path`: $why; nor its previous copy: $other")
+
+  private def header(path: Path): Either[String, FilmHeader] =
+    try
+      if !Files.exists(path) then Left("no such file")
+      else if Files.isDirectory(path) then Left("it is a folder")
+      else Right(CheckedFile.read(path, Mark)(FilmHeader.load))
+    catch case e: IOException => Left(Option(e.getMessage).getOrElse(e.getClass.getSimpleName))
+
+/** Writes a rendering to a film file, again and again, such that a good copy exists at any moment.
+  *
+  * @param isGood whether `path` is a good copy, if it exists
+  */
+final class FilmWriter(path: Path, private var isGood: Boolean = true):
+  // One name, so that interrupted runs leave one file at most
+  private val next = path.resolveSibling(s".${path.getFileName}.next")
+
+  /** Writes the next copy. */
+  def write(header: FilmHeader, state: RenderState): Unit =
+    try
+      CheckedFile.write(next, FilmFile.Mark): out =>
+        header.save(out)
+        state.save(out)
+    catch
+      case e: IOException =>
+        val _ = Files.deleteIfExists(next)
+        throw e
+
+  /** Replaces the file by the copy written last, once the device has it. */
+  def commit(): Unit =
+    CheckedFile.force(next)
+    if isGood && Files.exists(path) then move(path, FilmFile.previous(path))
+    move(next, path)
+    isGood = true
+    CheckedFile.force(path.toAbsolutePath.getParent)
+
+  private def move(from: Path, to: Path): Unit =
+    try
+      val _ = Files.move(from, to, ATOMIC_MOVE)
+    catch
+      case _: AtomicMoveNotSupportedException =>
+        val _ = Files.move(from, to, REPLACE_EXISTING)

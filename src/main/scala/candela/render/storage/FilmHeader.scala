@@ -1,0 +1,92 @@
+package candela.render.storage
+
+import candela.base.{CheckedInput, CheckedOutput}
+import candela.render.RenderPlan
+
+/** What a saved rendering is a rendering of.
+  *
+  * @param version  of the program
+  * @param scene    the scene file, as it was named
+  * @param folder   the folder that file names are relative to: itself relative to the film file
+  * @param words    command line options that shape the image, without the samples per pixel
+  * @param outfiles image files to write; none if it is a part of an image
+  * @param files    SHA-256 of each file of the scene, by name
+  * @param size     of the image, and which part of it
+  * @param samples  planned samples per pixel
+  * @param done     samples that every pixel has, of those of the shards
+  * @param footprint size of a sample's footprint, in pixels; 0: not used
+  * @param shards   numbers of the parts, of `count`
+  */
+final case class FilmHeader(
+    version: String,
+    scene: String,
+    folder: String,
+    words: Vector[String],
+    outfiles: Vector[String],
+    files: Vector[(String, String)],
+    size: String,
+    samples: Int,
+    done: Int,
+    footprint: Float,
+    shards: Set[Int],
+    count: Int
+):
+  def isWhole: Boolean = shards.size == count
+  def isComplete: Boolean = done >= samples
+
+  /** `shard 3/16`, or all of several. */
+  def part: String = shards.toVector.sorted.map(i => s"$i/$count").mkString(", ")
+
+  /** The first difference between this rendering and another, in words; the part and the number of
+    * samples done may differ.
+    */
+  def difference(other: FilmHeader): Option[String] =
+    def differ(what: String, mine: Any, others: Any) =
+      Option.when(mine != others)(s"$what $others instead of $mine")
+    val changed = files.toMap.keySet ++ other.files.toMap.keySet
+    val file = changed.toVector.sorted.find(f => files.toMap.get(f) != other.files.toMap.get(f))
+    differ("version", version, other.version)
+      .orElse(file.map(f => s"another `$f`"))
+      .orElse(differ("options", s"`${words.mkString(" ")}`", s"`${other.words.mkString(" ")}`"))
+      .orElse(differ("size", size, other.size))
+      .orElse(differ("samples per pixel", samples, other.samples))
+      .orElse(differ("number of shards", count, other.count))
+
+  /** Why no samples can be added, beyond the planned ones: the image would not be that of so many
+    * samples at once.
+    *
+    * @param plan with more samples
+    */
+  def obstacle(plan: RenderPlan): Option[String] =
+    if !plan.method.takesCameraSamples then
+      Some("Metropolis light transport distributes its mutations in advance")
+    else if !plan.sampler.isProgressive then
+      Some("its sampler's points depend on their number (scrambled Sobol' points don't)")
+    else if plan.differentialScale != footprint then
+      Some("its textures are filtered according to the number of samples")
+    else None
+
+  private[storage] def save(to: CheckedOutput): Unit =
+    Vector(version, scene, folder, size).foreach(to.text)
+    for list <- Vector(words, outfiles, files.flatMap((f, digest) => Vector(f, digest))) do
+      to.int(list.size)
+      list.foreach(to.text)
+    to.int(samples)
+    to.int(done)
+    to.float(footprint)
+    to.int(count)
+    to.int(shards.size)
+    shards.toVector.sorted.foreach(to.int)
+
+object FilmHeader:
+  private[storage] def load(from: CheckedInput): FilmHeader =
+    def texts() = Vector.fill(from.int())(from.text())
+    val Vector(version, scene, folder, size) = Vector.fill(4)(from.text()): @unchecked
+    val (words, outfiles, files) = (texts(), texts(), texts())
+    val (samples, done, footprint, count) = (from.int(), from.int(), from.float(), from.int())
+    val shards = Vector.fill(from.int())(from.int()).toSet
+    val digests = files.grouped(2).map(pair => (pair(0), pair(1))).toVector
+    FilmHeader(
+      version, scene, folder, words, outfiles, digests, size, samples, done, footprint, shards,
+      count
+    )

@@ -1,0 +1,37 @@
+package candela.scenefile
+
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
+
+/** The files that a scene consists of. */
+object SceneFiles:
+
+  /** The scene file, what it includes, and every file that a parameter names, except the image to
+    * write; without duplicates.
+    */
+  def of(scene: SceneDescription): Vector[Path] =
+    val named =
+      for
+        declaration <- declarations(scene)
+        param <- declaration.params
+        text <- param.strings
+        file <- file(declaration.folder, text)
+      yield file
+    (scene.sources ++ named).distinctBy(_.toAbsolutePath.normalize)
+
+  private def declarations(s: SceneDescription): Vector[Declaration] =
+    val single = Vector(s.camera, s.sampler, s.filter, s.integrator, s.accelerator, s.renderer)
+    val shapes = s.shapes ++ s.objects.values.flatten
+    (single :+ s.volumeIntegrator).flatten ++
+      s.textures.map(_.texture) ++
+      s.namedMaterials.map(_._2) ++
+      shapes.map(_.material).distinct.collect { case MaterialRef.Inline(d) => d } ++
+      shapes.map(_.shape) ++
+      shapes.flatMap(_.areaLight).distinct ++
+      (s.lights ++ s.volumes).map(_.light) ++
+      s.media.map(_.medium)
+
+  private def file(folder: Path, name: String): Option[Path] =
+    Option.when(name.nonEmpty)(name).flatMap: text =>
+      Try(folder.resolve(text.replace('\\', '/'))).toOption.filter(Files.isRegularFile(_))

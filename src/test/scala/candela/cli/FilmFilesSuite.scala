@@ -1,0 +1,242 @@
+package candela.cli
+
+import candela.film.Layer
+import candela.image.ImageFiles
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** From a scene's text over film files to images. */
+class FilmFilesSuite extends AnyFunSuite:
+  import FilmFilesSuite.*
+
+  private def withScene[A](integrator: String = Paths, sampler: String = "independent")(
+      body: Folder => A
+  ): A =
+    TempFolder.use: folder =>
+      val scene = Files.writeString(folder.resolve("s.pbrt"), text(integrator, sampler))
+      val _ = Files.writeString(folder.resolve("part.pbrt"), "Shape \"disk\" \"float radius\" 3\n")
+      body(Folder(folder, scene))
+
+  private val methods = Map(
+    "paths, splatted" -> Paths,
+    "bidirectional paths" -> "\"bdpt\" \"integer maxdepth\" 3",
+    "photons" -> "\"sppm\" \"integer maxdepth\" 3 \"float radius\" 0.3",
+    "Markov chains" -> "\"mlt\" \"integer maxdepth\" 3 \"integer bootstrapsamples\" 500"
+  )
+
+  test("shards add up to the image of one machine, file for file, in any number and order"):
+    for
+      (name, integrator) <- methods
+      count <- Vector(2, 3, 13)
+    do
+      withScene(integrator): f =>
+        f.render("--spp", "6", "--outfile", f("one.exr"))
+        f.render("--spp", "6", "--outfile", f("one.film"))
+        val shards = (0 until count).map(i => f(s"$i.film"))
+        for i <- 0 until count do
+          f.render("--spp", "6", "--shard", s"$i/$count", "--outfile", shards(i), "-j", "2")
+        f.run(Vector("merge", "--outfile", f("all.exr")) ++ shards)
+        assert(f.bytes("all.exr") == f.bytes("one.exr"), s"$name, $count shards")
+        f.run(Vector("merge", "--outfile", f("all.film")) ++ shards.reverse)
+        assert(f.bytes("all.film") == f.bytes("one.film"), s"$name, $count shards")
+
+  test("layers are merged, too"):
+    withScene(): f =>
+      val layers = Vector("--spp", "5", "--aov", Layer.values.map(_.word).mkString(","))
+      f.render(layers ++ Vector("--outfile", f("one.exr"))*)
+      for i <- 0 until 3 do
+        f.render(layers ++ Vector("--shard", s"$i/3", "--outfile", f(s"$i.film"))*)
+      f.run(Vector("merge", f("2.film"), f("0.film"), f("1.film"), "--outfile", f("all.exr")))
+      assert(f.bytes("all.exr") == f.bytes("one.exr"))
+      assert(f.image("all.exr").channelNames.size > 20)
+
+  test("missing, doubled and foreign shards are named, and fewer are merged on request"):
+    withScene(): f =>
+      for i <- 0 until 4 do f.render("--shard", s"$i/4", "--outfile", f(s"$i.film"))
+      def merge(words: String*) =
+        f.fail(Vector("merge", "--outfile", f("x.exr")) ++ words).linesIterator.next
+      assert(merge(f("0.film"), f("2.film")) == "error: shards 1/4, 3/4 are missing")
+      val twice = merge((0 to 3).map(i => f(s"$i.film")) :+ f("1.film")*)
+      assert(twice == s"error: shard 1/4 is there twice: `${f("1.film")}`, `${f("1.film")}`")
+      f.render("--shard", "3/4", "--seed", "5", "--outfile", f("seed.film"))
+      assert(merge(f("0.film"), f("seed.film")).endsWith("options `--seed 5` instead of ``"))
+      f.render("--shard", "3/5", "--outfile", f("five.film"))
+      assert(merge(f("0.film"), f("five.film")).endsWith("number of shards 5 instead of 4"))
+      assert(!Files.exists(Path.of(f("x.exr"))))
+      val out =
+        f.run(Vector("merge", "--partial", f("0.film"), f("2.film"), "--outfile", f("x.exr")))
+      assert(out.startsWith(s"wrote ${f("x.exr")}  24x16, 2 spp"))
+      assert(f.image("x.exr").data.exists(_ > 0.2f))
+
+  test("more samples on a finished film are as many samples at once"):
+    for sampler <- Vector("independent", "paddedsobol") do
+      withScene(sampler = sampler): f =>
+        f.render("--spp", "3", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+        f.render("--spp", "11", "--outfile", f("b.exr"))
+        val short = f.bytes("a.exr")
+        f.run(Vector("resume", f("a.film"), "--spp", "11"))
+        assert(f.bytes("a.exr") != short)
+        assert(f.bytes("a.exr") == f.bytes("b.exr"))
+        f.run(Vector("resume", f("a.film"), "--time", "0.01s"))
+        val reached = ImageSamples.of(f.bytes("a.exr"))
+        assert(reached > 11)
+        f.render("--spp", s"$reached", "--outfile", f("b.exr"))
+        assert(f.bytes("a.exr") == f.bytes("b.exr"))
+        val less = f.fail(Vector("resume", f("a.film"), "--spp", "5"))
+        assert(less == s"error: `${f("a.film")}` has $reached samples per pixel already\n")
+
+  test("an error ends a rendering, and a lower one continues it"):
+    withScene(): f =>
+      f.render("--spp", "4096", "--error", "0.05", "--outfile", f("a.exr"), "--checkpoint")
+      val few = ImageSamples.of(f.bytes("a.exr"))
+      f.run(Vector("resume", f("a.film"), "--error", "0.01"))
+      val many = ImageSamples.of(f.bytes("a.exr"))
+      assert(few >= 2 && few < many && many < 4096, s"$few, $many")
+      f.render("--spp", s"$many", "--outfile", f("b.exr"))
+      assert(f.bytes("a.exr") == f.bytes("b.exr"))
+
+  test("samples that depend on their number can't be added, and the reason is given"):
+    for (sampler, integrator) <-
+        Vector("zsobol" -> Paths, "halton" -> Paths, "independent" -> methods("Markov chains"))
+    do
+      withScene(integrator, sampler): f =>
+        f.render("--spp", "4", "--outfile", f("a.exr"), "--checkpoint")
+        val why = f.fail(Vector("resume", f("a.film"), "--spp", "64"))
+        assert(why.startsWith(s"error: can't change the 4 samples per pixel of `${f("a.film")}`: "))
+        assert(why.endsWith("--checkpoint, N being the most you may want, and --time or --error\n"))
+
+  test("an existing film is continued, and one of another rendering is not overwritten"):
+    withScene(): f =>
+      f.render("--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      val image = f.bytes("a.exr")
+      assert(f.render("--checkpoint", f("a.film"), "--outfile", f("a.exr")).contains("continuing"))
+      assert(f.bytes("a.exr") == image)
+      val other =
+        f.fail(Vector(f.scene, "--seed", "1", "--checkpoint", f("a.film"), "--outfile", f("a.exr")))
+      assert(other.contains("is of another rendering: it has options `--seed 1` instead of ``"))
+
+  test("a scene that has changed is refused, by the name of the file"):
+    withScene(): f =>
+      f.render("--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      val _ = Files.writeString(f.folder.resolve("part.pbrt"), "Shape \"disk\"\n")
+      for command <- Vector(Vector("resume"), Vector("merge", "--outfile", f("b.exr"))) do
+        val why = f.fail(command :+ f("a.film"))
+        assert(
+          why.startsWith(s"error: the scene of `${f("a.film")}` has changed: another `part.pbrt`")
+        )
+
+  test("a damaged film is replaced by its previous copy; without one it is refused"):
+    withScene(): f =>
+      f.render("--spp", "3", "--checkpoint", f("a.film"), "--outfile", f("a.exr"))
+      f.run(Vector("resume", f("a.film"), "--spp", "9"))
+      val image = f.bytes("a.exr")
+      def damage(name: String) =
+        val bytes = Files.readAllBytes(Path.of(f(name)))
+        bytes(bytes.length / 2) = (bytes(bytes.length / 2) + 1).toByte
+        val _ = Files.write(Path.of(f(name)), bytes)
+      damage("a.film")
+      val (code, captured) = f.captured(Vector("resume", f("a.film"), "--spp", "9"))
+      assert(
+        code == 0 && captured.err.contains("damaged: its checksum is wrong; using its previous")
+      )
+      assert(f.bytes("a.exr") == image)
+      damage("a.film")
+      damage("a.film.previous")
+      assert(f.fail(Vector("resume", f("a.film"))).contains("nor its previous copy: it is damaged"))
+
+  test("a film that can't be written is a warning and an exit code; the image is written"):
+    withScene(): f =>
+      val _ = Files.createDirectories(f.folder.resolve(".a.film.next").resolve("full"))
+      val (code, captured) = f.captured(Vector(f.scene, "--checkpoint", "--outfile", f("a.exr")))
+      assert(code == 1 && captured.err.contains(s"can't write the film file `${f("a.film")}`"))
+      assert(f.image("a.exr").width == 24)
+
+  test("a sequence goes on after a failing scene, and skips what is done on the next run"):
+    withScene(): f =>
+      for n <- Vector(1, 2, 4) do
+        val _ = Files.copy(f.folder.resolve("s.pbrt"), f.folder.resolve(s"s00$n.pbrt"))
+      val words = Vector(f("s%03d.pbrt"), "--frames", "1-4", "--outfile", f("out%d.exr"))
+      val (code, first) = f.captured(words)
+      assert(code == 1)
+      assert(first.out.endsWith(s"\n4 scenes: 3 rendered, 1 failed (${f("s003.pbrt")})\n"))
+      assert(f.image("out4.exr").width == 24)
+      val _ = Files.writeString(f.folder.resolve("s003.pbrt"), text(Paths, "independent"))
+      val _ = Files.writeString(f.folder.resolve("s004.pbrt"), text(Paths, "halton"))
+      val (again, second) = f.captured(words)
+      assert(again == 0, second.err)
+      assert(second.out.endsWith("\n4 scenes: 2 rendered, 2 skipped (done already)\n"))
+      assert(f.run(words :+ "--spp" :+ "3").endsWith("4 scenes: 4 rendered\n"))
+
+  test("options that contradict each other are refused"):
+    withScene(): f =>
+      def usage(words: String*) =
+        val (code, captured) = f.captured(f.scene +: words)
+        assert(code == 2, captured.err)
+        captured.err.linesIterator.next
+      assert(usage("--shard", "0/2").startsWith("error: --shard needs --outfile FILE.film"))
+      assert(usage(
+        "--shard",
+        "2/2",
+        "--outfile",
+        "a.film"
+      ).contains("expected i/n with 0 <= i < n"))
+      assert(usage(
+        "--frames",
+        "1-2"
+      ).startsWith("error: --frames: write %d, or %04d, for the number"))
+      assert(usage("--checkpoint-every", "soon").contains("expected a duration, e.g. 90s"))
+      assert(usage("--checkpoint", "--outfile", "a.film").contains("omit --checkpoint"))
+
+private object FilmFilesSuite:
+  val Paths = "\"path\" \"integer maxdepth\" 3"
+
+  /** A scene of two files. */
+  def text(integrator: String, sampler: String): String =
+    s"""LookAt 0 0 -4  0 0 0  0 1 0
+       |Camera "perspective" "float fov" 40
+       |Film "rgb" "integer xresolution" 24 "integer yresolution" 16 "string filename" "sphere.exr"
+       |Sampler "$sampler" ${if sampler == "stratified" then "" else "\"integer pixelsamples\" 4"}
+       |Integrator $integrator
+       |WorldBegin
+       |LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
+       |LightSource "point" "point3 from" [ 3 4 -5 ] "rgb I" [ 40 40 40 ]
+       |Material "diffuse" "rgb reflectance" [ 0.8 0.4 0.2 ]
+       |Shape "sphere" "float radius" 1
+       |Translate 0 -1 0
+       |Include "part.pbrt"
+       |""".stripMargin
+
+  /** A folder with a scene, and commands in it. */
+  final class Folder(val folder: Path, file: Path):
+    val scene: String = file.toString
+    def apply(name: String): String = folder.resolve(name).toString
+    def bytes(name: String): Vector[Byte] = Files.readAllBytes(folder.resolve(name)).toVector
+    def image(name: String) = ImageFiles.read(folder.resolve(name))
+
+    def captured(words: Seq[String]): (Int, Captured) =
+      val captured = Captured()
+      (Main.run(words, captured.terminal.out, captured.terminal.err), captured)
+
+    /** Output and messages of a command that must succeed. */
+    def run(words: Seq[String]): String =
+      val (code, captured) = this.captured(words)
+      assert(code == 0, captured.err)
+      captured.err + captured.out
+
+    def render(words: String*): String = run(scene +: words)
+
+    /** Messages of a command that must fail because of its input. */
+    def fail(words: Seq[String]): String =
+      val (code, captured) = this.captured(words)
+      assert(code == 1, captured.err)
+      captured.err
+
+/** The samples per pixel in an image's metadata. */
+private object ImageSamples:
+  def of(file: Vector[Byte]): Int =
+    val text = String(file.toArray, "ISO-8859-1")
+    "samplesPerPixel\u0000string\u0000....(\\d+)".r.findFirstMatchIn(text.replace('\n', '.')) match
+      case Some(m) => m.group(1).toInt
+      case None => throw AssertionError("no samplesPerPixel")

@@ -1,0 +1,45 @@
+package candela.cli
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class FilmHeadersSuite extends AnyFunSuite:
+
+  /** Options of `render` that shape the image, with examples. */
+  private val shaping: Map[String, Vector[String]] = Map(
+    "seed" -> Vector("7", "-3"),
+    "quick" -> Vector(""),
+    "cropwindow" -> Vector("0,0.5,0.25,1", "0.00001,1,0,1"),
+    "aov" -> Vector("depth", "albedo,normal", "depth:half,albedo,normal:float"),
+    "film" -> Vector("gbuffer"),
+    "dialect" -> Vector("v3"),
+    "keep-going" -> Vector(""),
+    "store-time" -> Vector(""),
+    "tonemap" -> Vector("filmic", "aces"),
+    "exposure" -> Vector("auto", "-2", "1.5"),
+    "falsecolor" -> Vector(""),
+    "bits" -> Vector("16"),
+    "dither" -> Vector("")
+  )
+
+  /** Saved by themselves, or without an effect on the image. */
+  private val others = Set("spp", "outfile", "shard") ++
+    Set(
+      "nthreads", "pixel", "sample", "debug", "report", "reference", "explain", "quiet", "verbose"
+    ) ++
+    Set("checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error", "thumbnail",
+      "watch", "watch-after")
+
+  test("every option of render is known to shape the image or not to"):
+    assert(OptionTable.names("render").toSet == shaping.keySet ++ others)
+
+  test("the options that shape the image are saved, and read again as they were"):
+    for (name, values) <- shaping; value <- values do
+      val words = Vector("render", s"--$name") ++ Option(value).filter(_.nonEmpty) :+ "s.pbrt"
+      val options = CommandLine.parse(words).toOption.get
+      val saved = FilmHeaders.words(options)
+      assert(saved.nonEmpty, words)
+      val read = CommandLine.parse("render" +: saved :+ "s.pbrt").toOption.get
+      assert(read == options, words)
+
+  test("without options nothing is saved"):
+    assert(FilmHeaders.words(Options()).isEmpty)
