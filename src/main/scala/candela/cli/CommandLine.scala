@@ -91,6 +91,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param reference reference image for reports
   * @param reports report files
   * @param watch address of the live page
+  * @param displayServer host and port of an image viewer
   * @param watchAfter whether the page stays when rendering has ended
   * @param bench options of `bench`
   * @param compare options of `compare`
@@ -123,13 +124,15 @@ final case class Options(
     reports: Vector[String] = Vector.empty,
     watch: Option[WatchAddress] = None,
     watchAfter: Boolean = false,
+    displayServer: Option[(String, Int)] = None,
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
     markdown: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None
 ):
-  def isWatched: Boolean = watch.isDefined
+  /** Whether anything follows the rendering. */
+  def isWatched: Boolean = watch.isDefined || displayServer.isDefined
 
   /** The requested number of threads, or else the number of processors. */
   def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

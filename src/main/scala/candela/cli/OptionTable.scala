@@ -4,7 +4,7 @@ import candela.base.Version
 import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
-import candela.watch.WatchAddress
+import candela.watch.{TevDisplay, WatchAddress}
 
 import scopt.{OParser, Read}
 
@@ -34,6 +34,10 @@ private[cli] object OptionTable:
         throw IllegalArgumentException(
           "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
         )
+
+  private given Read[(String, Int)] = Read.reads: text =>
+    WatchAddresses.display(text)
+      .getOrElse(throw IllegalArgumentException("expected HOST:PORT, e.g. localhost:14158"))
 
   private given Read[WatchAddress] = Read.reads: text =>
     WatchAddresses.parse(text)
@@ -152,6 +156,9 @@ private[cli] object OptionTable:
     opt[Unit]("watch-after")
       .text("keep the live page when rendering has ended, until Ctrl-C or its button `end`")
       .action((_, o) => o.copy(watchAfter = true)),
+    opt[(String, Int)]("display-server").valueName("HOST[:PORT]")
+      .text(s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})")
+      .action((a, o) => o.copy(displayServer = Some(a))),
     parsedAs,
     keepGoing,
     explain,
@@ -296,7 +303,8 @@ private[cli] object OptionTable:
         o.watch.isEmpty
       then failure("--reference needs --report FILE or --watch")
       else if o.isWatched && o.files.size > 1 then
-        failure("--watch needs a single scene, found several")
+        val name = if o.watch.isDefined then "watch" else "display-server"
+        failure(s"--$name needs a single scene, found several")
       else if o.watchAfter && o.watch.isEmpty then failure("--watch-after needs --watch")
       else success
   )

@@ -6,9 +6,9 @@ import java.net.UnknownHostException
 import candela.base.{Problem, SceneError}
 import candela.image.Image
 import candela.render.{Cancellation, Live, Rendering, RenderPlan}
-import candela.watch.{LiveView, Observer, Viewers, WatchAddress}
+import candela.watch.{LiveView, Observer, TevDisplay, Viewers, WatchAddress}
 
-/** Everything that follows a rendering from outside: the live page.
+/** Everything that follows a rendering from outside: the live page, an image viewer.
   *
   * @param save writes the image so far, and returns the files
   */
@@ -24,12 +24,15 @@ final class Watching(
   private val viewers = Viewers()
   private var observer: Option[Observer] = None
   private var view: Option[LiveView] = None
+  @volatile private var display: Option[TevDisplay] = None
 
   /** Begins to follow a rendering. */
   def start(live: Live): Unit =
-    val observer =
-      Observer(plan, reference, options.threadCount, live, () => viewers.count > 0)
+    def isWatched = viewers.count > 0 || display.exists(_.isConnected)
+    val observer = Observer(plan, reference, options.threadCount, live, () => isWatched)
     this.observer = Some(observer)
+    display = options.displayServer.map: (host, port) =>
+      TevDisplay(host, port, scene, observer, e => cannotReach(host, port, e))
     view = options.watch.map(serve(observer, _))
 
   private def serve(observer: Observer, address: WatchAddress): LiveView =
@@ -50,9 +53,11 @@ final class Watching(
         terminal.err.println(s"watch at ${view.link}")
       view
     catch
-      case e: UnknownHostException =>
-        throw cannotServe(address, s"no such address: ${e.getMessage}")
-      case e: IOException => throw cannotServe(address, e.getMessage)
+      case e: IOException => throw cannotServe(address, Watching.reason(e))
+
+  private def cannotReach(host: String, port: Int, cause: IOException): Unit =
+    if !options.quiet then
+      terminal.err.println(s"warning: no viewer at $host:$port yet: ${Watching.reason(cause)}")
 
   private def cannotServe(address: WatchAddress, cause: String): SceneError =
     val place = (address.host ++ address.port.map(_.toString)).mkString(":")
@@ -63,8 +68,16 @@ final class Watching(
   def end(rendering: Rendering): Unit =
     observer.foreach(_.end(rendering))
 
-  def await(): Unit = view.foreach(_.await())
+  def await(): Unit =
+    display.foreach(_.await())
+    view.foreach(_.await())
 
   def close(): Unit =
+    display.foreach(_.close())
     observer.foreach(_.close())
     view.foreach(_.close())
+
+private object Watching:
+  def reason(e: IOException): String = e match
+    case unknown: UnknownHostException => s"no such host: ${unknown.getMessage}"
+    case other => other.getMessage

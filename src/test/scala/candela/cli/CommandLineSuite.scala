@@ -49,6 +49,9 @@ class CommandLineSuite extends AnyFunSuite:
     "--watch 0.0.0.0:80 a.pbrt" ->
       one.copy(watch = Some(WatchAddress(Some("0.0.0.0"), Some(80)))),
     "--watch=[::1]:80 a.pbrt" -> one.copy(watch = Some(WatchAddress(Some("::1"), Some(80)))),
+    "a.pbrt --display-server localhost" ->
+      one.copy(displayServer = Some(("localhost", 14158))),
+    "a.pbrt --display-server 10.0.0.2:99" -> one.copy(displayServer = Some(("10.0.0.2", 99))),
     "bench s.conf --samples 4,1 --seeds 5 --programs a,b --scenes c --report x.html" ->
       Options(
         command = Command.Bench,
@@ -109,6 +112,8 @@ class CommandLineSuite extends AnyFunSuite:
     "--watch a.pbrt b.pbrt" -> "--watch needs a single scene",
     "--watch=no a.pbrt" -> "expected PORT or ADDRESS:PORT",
     "--watch-after a.pbrt" -> "--watch-after needs --watch",
+    "--display-server localhost: a.pbrt" -> "expected HOST:PORT",
+    "--display-server x a.pbrt b.pbrt" -> "--display-server needs a single scene",
     "bench s.conf --seeds 0" -> "--seeds must be at least 1, found `0`",
     "compare a.exr" -> "reference",
     "compare a.exr b.exr c.exr" -> "c.exr",
