@@ -82,6 +82,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
   * @param display how pictures show linear light
+  * @param denoise whether to add a denoised image
   * @param thumbnail how to show the image in the terminal
   * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
@@ -116,6 +117,7 @@ final case class Options(
     layers: Vector[Layer] = Vector.empty,
     precisions: Vector[(Layer, Boolean)] = Vector.empty,
     display: DisplayTransform = DisplayTransform.Plain,
+    denoise: Boolean = false,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
     film: FilmOptions = FilmOptions(),

@@ -133,6 +133,12 @@ private[cli] object OptionTable:
         val precisions = l.collect { case (layer, Some(isHalf)) => layer -> isHalf }
         o.copy(layers = o.layers ++ l.map(_._1), precisions = o.precisions ++ precisions)
     ,
+    opt[Unit]("denoise")
+      .text(
+        "add the image denoised by Open Image Denoise; .png and .jpg show it " +
+          s"(layers ${Denoising.Layers.map(_.word).mkString(" and ")} are added, too)"
+      )
+      .action((_, o) => o.copy(denoise = true, layers = (o.layers ++ Denoising.Layers).distinct)),
     opt[String]("film").valueName("gbuffer")
       .text("add all AOVs of pbrt-v4's gbuffer film")
       .validate: f =>
@@ -145,7 +151,10 @@ private[cli] object OptionTable:
       .text("write error over time as .html, .json or .csv; the image is unaffected")
       .action((f, o) => o.copy(reports = o.reports ++ f)),
     opt[String]("reference").valueName("FILE")
-      .text("reference for --report and --watch (default: the error is estimated from the noise)")
+      .text(
+        "reference for --report, --watch (default: the error is estimated from the noise) and " +
+          "--denoise"
+      )
       .action((f, o) => o.copy(reference = Some(f))),
     opt[Option[WatchAddress]]("watch").valueName("[PORT]")
       .text(
@@ -300,8 +309,8 @@ private[cli] object OptionTable:
       else if o.command == Command.Render && FilmTable.problem(o).isDefined then
         failure(FilmTable.problem(o).mkString)
       else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty &&
-        o.watch.isEmpty
-      then failure("--reference needs --report FILE or --watch")
+        o.watch.isEmpty && !o.denoise
+      then failure("--reference needs --report FILE, --watch or --denoise")
       else if o.isWatched && o.files.size > 1 then
         val name = if o.watch.isDefined then "watch" else "display-server"
         failure(s"--$name needs a single scene, found several")

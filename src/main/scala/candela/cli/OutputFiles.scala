@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.image.{Contents, OutputFormat}
+import candela.render.RenderPlan
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
@@ -25,6 +26,11 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       throw SceneError(Problem.general(message, Some(help)))
 
 object OutputFiles:
+
+  /** Whether a file must store layers; those that only guide the denoiser need none. */
+  def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
+    val guides = if denoises then Denoising.Layers else Vector.empty
+    plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
 
   /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =

@@ -7,7 +7,7 @@ import scala.util.{Failure, Success, Try}
 
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
-import candela.image.{Contents, ImageError, ImageFiles, OutputFormat, WriteOptions}
+import candela.image.*
 import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
@@ -26,6 +26,8 @@ final class RenderCommand(
   private val cancellation = Cancellation()
   private val threads = options.threadCount
   private val goals = options.film
+  private lazy val denoising =
+    Option.when(options.denoise)(Denoising(Oidn.load(terminal.environment), threads))
 
   def run(): ExitCode =
     val sequence = Sequence(options)
@@ -38,8 +40,8 @@ final class RenderCommand(
           else
             val files = outputs(loaded.plan.filename, outfiles)
             val plan = loaded.plan
-            val hasLayers = plan.layers.nonEmpty || plan.development.bands.nonEmpty
-            if hasLayers && files.paths.nonEmpty then files.checkLayers()
+            if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
+              files.checkLayers()
             for path <- files.paths.map(_.toAbsolutePath.normalize) do
               taken.get(path).foreach(other => throw overwrite(path, scene, other))
               taken += path -> scene
@@ -53,6 +55,7 @@ final class RenderCommand(
     // Warns before parsing, which may take long.
     OutputFiles.asked(outfiles).check()
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
+    denoising.foreach(identity)
     val loaded = loader.load(scene, options)
     report.warnings(loaded.warnings, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
@@ -104,6 +107,8 @@ final class RenderCommand(
     def recorder = Option.when(goals.error.isDefined)(RenderRecorder.of(loaded.plan, None))
     val goal = Option.when(goals.time.isDefined || goals.error.isDefined):
       Goal(goals, reporting.map(_.recorder).orElse(recorder))
+    val reference = options.reference.filter(_ => options.denoise)
+      .map(RenderRecorder.fitting(loaded.plan, _))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
       val show: Progress => Unit = if options.quiet then _ => () else progress.update
@@ -126,7 +131,8 @@ final class RenderCommand(
         watching.foreach(_.end(rendering))
         val started = System.nanoTime
         val facts = about.filter((name, _) => name != Sequence.Digest || rendering.isComplete)
-        val written = write(paths, loaded, rendering, facts)
+        val image = finished(loaded, rendering)
+        val written = write(paths, loaded, rendering, image, facts)
         val writeSeconds = (System.nanoTime - started) * 1e-9
         val films =
           keeping.map(_.path).filter(_ => paths.isEmpty && keeper.forall(_.failure.isEmpty))
@@ -134,9 +140,9 @@ final class RenderCommand(
         for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
           if !options.quiet then terminal.out.println(s"wrote $path")
         terminal.out.flush()
+        for r <- reference do terminal.out.println(Denoising.errors(image, r))
         for kind <- options.thumbnail do
-          val picture = rendering.image(loaded.plan.development)
-          terminal.out.print(Thumbnail.of(picture, options.display, kind, terminal))
+          terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await())
         if written.size < paths.size || keeper.exists(_.failure.nonEmpty) then ExitCode.BadInput
@@ -151,7 +157,8 @@ final class RenderCommand(
       about: Vector[(String, String)]
   ): Watching =
     val reference = options.reference.map(RenderRecorder.fitting(loaded.plan, _))
-    def save(rendering: Rendering) = write(paths, loaded, rendering, about).mkString(", ")
+    def save(rendering: Rendering) =
+      write(paths, loaded, rendering, finished(loaded, rendering), about).mkString(", ")
     Watching(options, scene, loaded.plan, reference, cancellation, terminal, save)
 
   /** Writes the image of a rendering that was put together from film files. */
@@ -161,28 +168,37 @@ final class RenderCommand(
       paths: Vector[Path],
       rendering: Rendering
   ): ExitCode =
-    val written = write(paths, loaded, rendering, metadata(scene, loaded))
+    val image = finished(loaded, rendering)
+    val written = write(paths, loaded, rendering, image, metadata(scene, loaded))
     summarise(written, loaded, rendering, 0)
     if written.size < paths.size then ExitCode.BadInput else ExitCode.Done
+
+  /** The image, denoised too if asked. */
+  private def finished(loaded: LoadedScene, rendering: Rendering): Image =
+    val noisy = rendering.image(loaded.plan.development)
+    denoising.fold(noisy)(_(noisy))
 
   /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */
   private def write(
       paths: Vector[Path],
       loaded: LoadedScene,
       rendering: Rendering,
+      image: Image,
       facts: Vector[(String, String)]
   ): Vector[Path] = synchronized:
     val development = loaded.plan.development
-    val image = rendering.image(development)
+    val picture = Denoising.shown(image)
     val time = Option.when(options.storeTime):
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time
+    val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++
+      denoising.fold(Vector.empty)(_.metadata)
     val how = WriteOptions(development.isHalf, precisions(loaded.plan), options.display)
-    def texts(path: Path) =
-      val isShown = OutputFormat.of(path).exists(_.contents == Contents.Display)
-      if isShown then about ++ options.display.describe(image)
-      else about ++ loaded.plan.layers.fold(Vector.empty)(_.metadata(image))
-    def write(path: Path) = Try(ImageFiles.write(path, image, texts(path), how))
+    def write(path: Path) = Try:
+      if OutputFormat.of(path).exists(_.contents == Contents.Display) then
+        ImageFiles.write(path, picture, about ++ options.display.describe(picture), how)
+      else
+        val legends = loaded.plan.layers.fold(Vector.empty)(_.metadata(image))
+        ImageFiles.write(path, image, about ++ legends, how)
     val attempts = paths.map(path => path -> write(path))
     val failures = attempts.collect:
       case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)

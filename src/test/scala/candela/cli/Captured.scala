@@ -4,7 +4,11 @@ import java.io.{ByteArrayOutputStream, PrintStream}
 import java.nio.charset.StandardCharsets.UTF_8
 
 /** A terminal that remembers what was printed. */
-final class Captured(isInteractive: Boolean = false, interrupts: Interrupts = Interrupts.Ignored):
+final class Captured(
+    isInteractive: Boolean = false,
+    interrupts: Interrupts = Interrupts.Ignored,
+    environment: Map[String, String] = Map.empty
+):
   private val outBytes = ByteArrayOutputStream()
   private val errBytes = ByteArrayOutputStream()
 
@@ -12,7 +16,8 @@ final class Captured(isInteractive: Boolean = false, interrupts: Interrupts = In
     PrintStream(outBytes, true, UTF_8),
     PrintStream(errBytes, true, UTF_8),
     isInteractive,
-    interrupts
+    interrupts,
+    environment = environment
   )
 
   def out: String = outBytes.toString(UTF_8)

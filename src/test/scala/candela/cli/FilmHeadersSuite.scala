@@ -18,7 +18,8 @@ class FilmHeadersSuite extends AnyFunSuite:
     "exposure" -> Vector("auto", "-2", "1.5"),
     "falsecolor" -> Vector(""),
     "bits" -> Vector("16"),
-    "dither" -> Vector("")
+    "dither" -> Vector(""),
+    "denoise" -> Vector("")
   )
 
   /** Saved by themselves, or without an effect on the image. */

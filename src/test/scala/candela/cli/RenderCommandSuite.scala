@@ -117,6 +117,57 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(legend.contains("{\"sphere " + scene) && legend.contains("MurmurHash3_32"))
       assert(isExact(image("depth:float")._1, "Z") && !isExact(image("depth:half")._1, "Z"))
 
+  test("--denoise adds a layer, marks it as biased, and pictures show it"):
+    try candela.image.Oidn.load(): Unit
+    catch
+      case e: candela.image.ImageError =>
+        println(s"RenderCommandSuite: skipped: ${e.getMessage}")
+        cancel(e.getMessage)
+    TempFolder.use: folder =>
+      val scene = folder.resolve("s.pbrt")
+      val film = "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 32"
+      val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\""
+      val lamp = "AttributeBegin Translate 2 3 0 AreaLightSource \"diffuse\" " +
+        "Shape \"sphere\" \"float radius\" .2 AttributeEnd"
+      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin\n$lamp Shape \"sphere\"")
+      def run(args: String*) =
+        val captured = Captured(environment = sys.env)
+        assert(Main.run(scene.toString +: args, captured.terminal) == 0)
+        captured.out
+      val _ = run("--spp", "512", "--outfile", s"$folder/r.exr", "--quiet")
+      val said = run(
+        "--spp",
+        "4",
+        "--denoise",
+        "--outfile",
+        s"$folder/a.exr,$folder/a.png",
+        "--reference",
+        s"$folder/r.exr"
+      )
+      val exr = ImageFiles.read(folder.resolve("a.exr"))
+      val layers = Denoising.Layers.flatMap(_.channels)
+      val channels = candela.image.Image.RgbNames ++ layers ++ Denoising.Channels
+      assert(exr.channelNames.toSet == channels.toSet)
+      val Array(before, after) =
+        "relative MSE +(\\S+) noisy, (\\S+) denoised".r.findFirstMatchIn(said).get.subgroups
+          .map(_.toDouble).toArray: @unchecked
+      assert(after < before / 3, said)
+      val png = ImageFiles.read(folder.resolve("a.png")).linear
+      val shown = Denoising.shown(exr)
+      assert(png.data.indices.forall(i => Math.abs(png.data(i) - shown.data(i).min(1f)) < 0.01f))
+      val text =
+        Files.readString(folder.resolve("a.exr"), java.nio.charset.StandardCharsets.ISO_8859_1)
+      assert(text.contains("Open Image Denoise 2") && text.contains("Denoised.R, Denoised.G"))
+      // A picture alone needs no EXR for the layers
+      val _ = run("--spp", "1", "--denoise", "--outfile", s"$folder/b.png")
+
+  test("--denoise without the library fails before anything is loaded"):
+    TempFolder.use: folder =>
+      val captured = Captured(environment = Map("CANDELA_OIDN" -> folder.toString))
+      val loader = Known("s.pbrt" -> plan(folder.resolve("x.exr")))
+      assert(run(captured, loader, "s.pbrt", "--denoise") == 1)
+      assert(loader.loaded.isEmpty && captured.err.contains("pip install pyoidn"))
+
   test("the EXR says of what it is an image"):
     TempFolder.use: folder =>
       val file = folder.resolve("a.exr")

@@ -1,0 +1,60 @@
+package candela.cli
+
+import candela.film.Layer
+import candela.image.{Image, Oidn}
+import candela.measure.Metrics
+
+/** `candela render --denoise`: a denoised image beside the noisy one.
+  *
+  * @param denoiser the library
+  */
+private[cli] final class Denoising(denoiser: Oidn, threads: Int):
+  import Denoising.*
+
+  /** The image with a layer of denoised colours behind the others. */
+  def apply(image: Image): Image =
+    def found(layer: Layer) =
+      image.indicesOf(layer.channels).map(selected(image, _))
+    val (albedo, normal) = (found(Layer.DenoisingAlbedo), found(Layer.DenoisingNormal))
+    val colors = denoiser.denoise(image.toRgb, albedo, normal, threads)
+    val names = image.channelNames ++ Channels
+    val data = new Array[Float](names.size * image.width * image.height)
+    for pixel <- 0 until image.width * image.height do
+      System.arraycopy(
+        image.data,
+        image.channels * pixel,
+        data,
+        names.size * pixel,
+        image.channels
+      )
+      System.arraycopy(colors.data, 3 * pixel, data, names.size * pixel + image.channels, 3)
+    Image(image.width, image.height, names, data)
+
+  /** For image files: denoising trades noise for bias. */
+  def metadata: Vector[(String, String)] = Vector(
+    "denoiser" -> s"Open Image Denoise ${denoiser.version}, prefiltered albedo and normals",
+    "biased" -> Channels.mkString(", ")
+  )
+
+private[cli] object Denoising:
+  /** What it needs, in addition to the colours. */
+  val Layers: Vector[Layer] = Vector(Layer.DenoisingAlbedo, Layer.DenoisingNormal)
+
+  /** Its result. */
+  val Channels: Vector[String] = Vector("Denoised.R", "Denoised.G", "Denoised.B")
+
+  /** Errors of the noisy and the denoised image. */
+  def errors(image: Image, reference: Image): String =
+    def error(of: Image) = Figures.scientific(Metrics.compare(of, reference).relativeMse)
+    s"relative MSE  ${error(image.toRgb)} noisy, ${error(shown(image))} denoised"
+
+  /** What pictures show: the denoised colours, if there are any. */
+  def shown(image: Image): Image =
+    image.indicesOf(Channels).fold(image)(selected(image, _))
+
+  /** Three channels as R, G and B. */
+  private def selected(image: Image, channels: Vector[Int]): Image =
+    val picked = Image.rgb(image.width, image.height)
+    for pixel <- 0 until image.width * image.height; c <- 0 until 3 do
+      picked.data(3 * pixel + c) = image.data(image.channels * pixel + channels(c))
+    picked
