@@ -3,7 +3,9 @@ package candela.build
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.build.settings.{OptionRecipe, SceneSettings}
-import candela.film.{FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface}
+import candela.film.{
+  Development, FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface
+}
 import candela.math.{Motion, Still, Transform}
 import candela.render.{LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.IndependentSampler
@@ -14,6 +16,8 @@ import candela.scenefile.SceneDescription
   *
   * @param spp        samples per pixel, overrides the scene
   * @param quick      if true, renders a sixteenth of the pixels with one sample each
+  * @param preview    if true, reduces the image and shades it by a headlight, whatever the scene's
+  *                   integrator, lights and film
   * @param cropWindow x0, x1, y0, y1 as fractions of the image, overrides the scene
   * @param keepGoing  if true, replaces missing items
   * @param layers     requested AOVs, in addition to the scene's
@@ -23,6 +27,7 @@ final case class BuildOptions(
     spp: Option[Int] = None,
     seed: Int = 0,
     quick: Boolean = false,
+    preview: Boolean = false,
     cropWindow: Option[(Float, Float, Float, Float)] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
@@ -42,7 +47,8 @@ object SceneBuilder:
     val context = BuildContext(description, options)
     val settings = sceneSettings(context)
     val image = ImageSetup.of(context, options)
-    val integrator = integratorPlan(context)
+    val integrator =
+      if options.preview then Preview.integrator(context) else integratorPlan(context)
     val sampling = SamplingSetup.of(context, options, settings.seed, image, integrator)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
@@ -122,8 +128,10 @@ object SceneBuilder:
         else IndependentSampler(sampling.samples.getOrElse(1), options.seed),
       method = method,
       basis = context.resources.basis,
-      limit = film.limit(exposure),
-      development = film.development.copy(scale = film.development.scale * exposure),
+      limit = if options.preview then None else film.limit(exposure),
+      development =
+        if options.preview then Development()
+        else film.development.copy(scale = film.development.scale * exposure),
       filename = film.filename,
       features = Vector(
         "dialect" -> context.dialect.toString.toLowerCase,

@@ -62,7 +62,10 @@ private[build] object ImageSetup:
     val film = context.made(context.description.film, Films.all, context.defaults.film)
     val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
     val layers = (film.layers ++ options.layers).distinct
-    val part = if options.quick then 4 else 1
+    val part =
+      if options.preview then Preview.reduction(film.width, film.height)
+      else if options.quick then 4
+      else 1
     ImageSetup(
       film,
       Math.max(1, film.width / part),

@@ -68,6 +68,7 @@ enum Command(val word: String):
   case Describe extends Command("describe")
   case Convert extends Command("convert")
   case View extends Command("view")
+  case Preview extends Command("preview")
 
 /** Part of the image to render, in fractions [0, 1] of width and height. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
@@ -105,6 +106,7 @@ final case class Options(
     spp: Option[Int] = None,
     seed: Int = 0,
     quick: Boolean = false,
+    preview: Boolean = false,
     quiet: Boolean = false,
     verbose: Boolean = false,
     explain: Boolean = false,

@@ -37,6 +37,7 @@ object Main:
           case Command.Compare => CompareCommand(options, terminal, report).run()
           case Command.Bench => BenchCommand(options, terminal, report).run()
           case Command.Describe => DescribeCommand(options, terminal, report).run()
+          case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
           case Command.View => ViewCommand(options, terminal, report).run()
           case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number

@@ -97,6 +97,10 @@ private[cli] object OptionTable:
     .validate(atLeast("spp", 1))
     .action((n, o) => o.copy(spp = Some(n)))
 
+  private def crop: Row = opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
+    .text("render only this window, in fractions of width and height")
+    .action((w, o) => o.copy(cropWindow = Some(w)))
+
   private def layers: String = Layer.values.map(_.word).mkString(", ")
 
   private val renderOptions: Vector[Row] = Vector(
@@ -109,11 +113,9 @@ private[cli] object OptionTable:
       .text("random seed (default 0)")
       .action((n, o) => o.copy(seed = n)),
     opt[Unit]("quick")
-      .text("preview: a quarter of the width and height, one sample per pixel")
+      .text("draft: a quarter of the width and height, one sample per pixel")
       .action((_, o) => o.copy(quick = true)),
-    opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
-      .text("render only this window, in fractions of width and height")
-      .action((w, o) => o.copy(cropWindow = Some(w))),
+    crop,
     opt[(Int, Int)]("pixel").valueName("x,y")
       .text("the pixel of --debug, from 0,0 at the top left")
       .action((p, o) => o.copy(pixel = Some(p))),
@@ -228,6 +230,18 @@ private[cli] object OptionTable:
     quiet
   ) ++ DisplayTable.options
 
+  private val previewOptions: Vector[Row] = Vector[Row](
+    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+      .text("picture to write (default: the scene's name with -preview.png, in this folder)")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    threads,
+    crop,
+    parsedAs,
+    explain,
+    quiet,
+    verbose("")
+  ) ++ DisplayTable.options
+
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
@@ -240,6 +254,7 @@ private[cli] object OptionTable:
       case Some(Command.Describe) => describeOptions
       case Some(Command.Convert) => convertOptions
       case Some(Command.View) => viewOptions
+      case Some(Command.Preview) => previewOptions
       case None => Vector.empty
     rows.flatMap(_.toList).map(_.name)
 
@@ -285,6 +300,10 @@ private[cli] object OptionTable:
     note(""),
     command(Command.Convert, "convert a scene to another dialect")(
       file("scene.pbrt", "the scene to convert") +: convertOptions
+    ),
+    note(""),
+    command(Command.Preview, "show scenes within seconds: small, shaded by a headlight")(
+      file("scene.pbrt...", "scene files").unbounded() +: previewOptions
     ),
     note(""),
     command(Command.View, "show images, or write them as a picture; several: a contact sheet")(

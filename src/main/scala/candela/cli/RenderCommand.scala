@@ -57,7 +57,10 @@ final class RenderCommand(
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
     val loaded = loader.load(scene, options)
-    report.warnings(loaded.warnings, all = options.verbose)
+    // A first look ignores most of what warnings are about.
+    val isBrief = options.preview && !options.verbose
+    val told = if isBrief then loaded.warnings.filter(_.standIn.nonEmpty) else loaded.warnings
+    report.warnings(told, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
     loaded
 

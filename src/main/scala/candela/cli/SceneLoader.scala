@@ -45,7 +45,9 @@ object SceneLoader:
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
-    BuildOptions(o.spp, o.seed, o.quick, crop, o.keepGoing, o.layers, Crew(o.threadCount))
+    BuildOptions(
+      o.spp, o.seed, o.quick, o.preview, crop, o.keepGoing, o.layers, Crew(o.threadCount)
+    )
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =

@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.bsdf.Bsdf
+import candela.bsdf.{Bsdf, DirectionalAlbedo}
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
@@ -55,7 +55,7 @@ private[film] final class SpecularView(scene: Scene):
           if !bsdf.isSpecular then
             goesOn = false
             found = true
-            color = color * VisibleSurface.albedo(bsdf, at.frame.toLocal(wo))
+            color = color * DirectionalAlbedo(bsdf, at.frame.toLocal(wo))
             normal = at.frame.n.facing(wo)
 
 private object SpecularView:

@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.bsdf.Bsdf
+import candela.bsdf.{Bsdf, DirectionalAlbedo}
 import candela.color.{ColorBasis, Rgb}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
@@ -81,7 +81,7 @@ final class VisibleSurface(
   def albedo: Rgb =
     val scattering = bsdf
     if scattering == null then Rgb.Black
-    else basis.toSrgb(VisibleSurface.albedo(scattering, at.frame.toLocal(wo)))
+    else basis.toSrgb(DirectionalAlbedo(scattering, at.frame.toLocal(wo)))
 
   /** Radiance emitted towards the camera, in linear sRGB. */
   def emitted: Rgb =
@@ -142,30 +142,3 @@ final class VisibleSurface(
     (map(13) * n.x + map(17) * n.y + map(21) * n.z).toFloat,
     (map(14) * n.x + map(18) * n.y + map(22) * n.z).toFloat
   ).normalized
-
-object VisibleSurface:
-  /** Mean weight of samples of the BSDF, in the scene's basis. */
-  private[film] def albedo(bsdf: Bsdf, wo: Vec3): Rgb =
-    var sum = Rgb.Black
-    var i = 0
-    while i < Samples do
-      val k = 3 * i
-      sum += bsdf.sample(wo, points(k), points(k + 1), points(k + 2)).weight
-      i += 1
-    sum * (1f / Samples)
-
-  /** Number of BSDF samples, as in pbrt-v4. */
-  private val Samples = 16
-
-  /** Quasi-random points of the unit cube, the same for every surface, so that the albedo has no
-    * noise.
-    *
-    * Source: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: multiples of
-    * powers of the root of x⁴ = x + 1.
-    */
-  private val points: Array[Float] =
-    val root = 1.2207440846057596
-    Array.tabulate(3 * Samples): i =>
-      val step = Math.pow(root, -(i % 3 + 1.0))
-      val x = 0.5 + (i / 3 + 1) * step
-      (x - Math.floor(x)).toFloat

@@ -28,7 +28,7 @@ class FilmHeadersSuite extends AnyFunSuite:
       "nthreads", "pixel", "sample", "debug", "report", "reference", "explain", "quiet", "verbose"
     ) ++
     Set("checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error", "thumbnail",
-      "watch", "watch-after")
+      "watch", "watch-after", "display-server")
 
   test("every option of render is known to shape the image or not to"):
     assert(OptionTable.names("render").toSet == shaping.keySet ++ others)

@@ -1,0 +1,43 @@
+package candela.cli
+
+import candela.base.FileName
+import candela.image.OutputFormat
+
+/** `candela preview`: a first look at scenes, within seconds: few pixels, headlight shading, and
+  * placeholders for what is missing.
+  */
+final class PreviewCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  import PreviewCommand.*
+
+  def run(): ExitCode =
+    val codes = options.files.map: scene =>
+      report.guarded(RenderCommand(asked(scene), terminal, report, loader).run())
+    codes.foldLeft(ExitCode.Done)(_ worseOf _)
+
+  private def asked(scene: String): Options =
+    val picture =
+      FileName.withSuffix(OutputFiles.path(scene).getFileName, OutputFormat.preview.suffix)
+    val known = Option.when(terminal.isInteractive)(Thumbnail.kindOf(terminal.environment)).flatten
+    options.copy(
+      files = Vector(scene),
+      outfiles =
+        if options.outfiles.nonEmpty then options.outfiles
+        else Vector(s"${FileName.stem(picture)}-preview.${OutputFormat.preview.suffix}"),
+      preview = true,
+      keepGoing = true,
+      spp = Some(Samples),
+      film = options.film.copy(time = Some(Seconds)),
+      thumbnail = options.thumbnail.orElse(known)
+    )
+
+object PreviewCommand:
+  /** Samples per pixel, if there is time. */
+  private val Samples = 16
+
+  /** Leaves time to write the picture. */
+  private val Seconds = 1.2

@@ -1,0 +1,55 @@
+package candela.integrators
+
+import candela.bsdf.DirectionalAlbedo
+import candela.color.Rgb
+import candela.geometry.{Hit, Ray}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Shades by the angle to the camera, as if its light were the only one, without shadows. Needs few
+  * rays, whatever the lights, and has no noise. Media are ignored, but their boundaries show.
+  *
+  * @param white of the scene's colours
+  */
+final class Headlight(scene: Scene, white: Rgb) extends SceneIntegrator(scene):
+  private val hit = Hit()
+  private val at = scene.newPoint()
+  private var rays = 0L
+
+  protected def over(scene: Scene): Headlight = Headlight(scene, white)
+  def raysTraced: Long = rays
+  override def lastMaterial: Int = at.material
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    val wo = -ray.direction
+    rays += 1
+    var found = scene.closest(ray, hit)
+    if found then scene.surface(ray, hit, at)
+    // Seen where nothing is behind them: they may enclose a cloud.
+    var mist = 0f
+    while found && scene.isInterface(at) do
+      mist = Math.max(mist, Headlight.Mist * facing(wo))
+      scene.passThrough(ray, at)
+      rays += 1
+      found = scene.closest(ray, hit)
+      if found then scene.surface(ray, hit, at)
+    if found then shade(wo) else white * (Headlight.Background + mist)
+
+  private def shade(wo: Vec3): Rgb =
+    if at.areaLight >= 0 && !scene.surfaceLight(at).radiance(at, wo).isBlack then white
+    else
+      val albedo = DirectionalAlbedo(scene.bsdf(at), at.frame.toLocal(wo), Headlight.Samples)
+      albedo * lerp(facing(wo), Headlight.Grazing, 1f)
+
+  private def facing(wo: Vec3): Float = Math.abs(at.frame.n dot wo)
+
+object Headlight:
+  private val Background = 0.05f
+  private val Mist = 0.3f
+
+  /** Brightness of surfaces seen from the side. */
+  private val Grazing = 0.2f
+
+  /** Enough for a first look. */
+  private val Samples = 4
