@@ -36,17 +36,29 @@ private[cli] final class Denoising(denoiser: Oidn, threads: Int):
     "biased" -> Channels.mkString(", ")
   )
 
+/** A denoised image, and the time that denoising took.
+  *
+  * @param image with the noisy colours
+  */
+private[cli] final case class Denoised(image: Image, renderSeconds: Double, seconds: Double):
+
+  /** Relative MSE of the noisy and of the denoised image; between them that of the noisy image if
+    * the time had been spent on samples, whose error falls as 1/time.
+    */
+  def errors(reference: Image): String =
+    def error(of: Image) = Metrics.compare(of, reference).relativeMse
+    val noisy = error(image.toRgb)
+    val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
+    val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image)))
+    val names = Vector("noisy", "noisy in the same time", "denoised")
+    figures.map(Figures.scientific).zip(names).map((e, name) => s"$e $name").mkString(", ")
+
 private[cli] object Denoising:
   /** What it needs, in addition to the colours. */
   val Layers: Vector[Layer] = Vector(Layer.DenoisingAlbedo, Layer.DenoisingNormal)
 
   /** Its result. */
   val Channels: Vector[String] = Vector("Denoised.R", "Denoised.G", "Denoised.B")
-
-  /** Errors of the noisy and the denoised image. */
-  def errors(image: Image, reference: Image): String =
-    def error(of: Image) = Figures.scientific(Metrics.compare(of, reference).relativeMse)
-    s"relative MSE  ${error(image.toRgb)} noisy, ${error(shown(image))} denoised"
 
   /** What pictures show: the denoised colours, if there are any. */
   def shown(image: Image): Image =

@@ -135,15 +135,20 @@ final class RenderCommand(
         val started = System.nanoTime
         val facts = about.filter((name, _) => name != Sequence.Digest || rendering.isComplete)
         val image = finished(loaded, rendering)
+        val finishedAt = System.nanoTime
+        val denoised = Option.when(options.denoise):
+          Denoised(image, rendering.seconds, (finishedAt - started) * 1e-9)
         val written = write(paths, loaded, rendering, image, facts)
-        val writeSeconds = (System.nanoTime - started) * 1e-9
+        val writeSeconds = (System.nanoTime - finishedAt) * 1e-9
         val films =
           keeping.map(_.path).filter(_ => paths.isEmpty && keeper.forall(_.failure.isEmpty))
         summarise(written ++ films, loaded, rendering, writeSeconds)
-        for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds)) do
+        for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
+        do
           if !options.quiet then terminal.out.println(s"wrote $path")
         terminal.out.flush()
-        for r <- reference do terminal.out.println(Denoising.errors(image, r))
+        for r <- reference; d <- denoised if !options.quiet do
+          terminal.out.println(s"relative MSE  ${d.errors(r)}")
         for kind <- options.thumbnail do
           terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
         terminal.out.flush()

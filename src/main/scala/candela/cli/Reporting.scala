@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 
 import candela.base.{FileName, Problem, SceneError, Version}
 import candela.render.Rendering
-import candela.report.{Machine, RenderData, RenderPage, RenderReport, Span}
+import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
 
 /** Report about one rendering: checked before rendering starts, written when it ends. */
 final class Reporting(options: Options, scene: String, loaded: LoadedScene):
@@ -15,35 +15,53 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
   val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
 
   /** Writes the reports and returns their paths; writes none if no pass completed. */
-  def write(rendering: Rendering, threads: Int, writeSeconds: Double): Vector[Path] =
+  def write(
+      rendering: Rendering,
+      threads: Int,
+      writeSeconds: Double,
+      denoised: Option[Denoised] = None
+  ): Vector[Path] =
     if recorder.pictures.forall(_.isReference) then Vector.empty
     else
-      ReportFiles.write(paths, report(rendering, threads, writeSeconds))
+      ReportFiles.write(paths, report(rendering, threads, writeSeconds, denoised))
       paths
 
-  private def report(rendering: Rendering, threads: Int, writeSeconds: Double): RenderReport =
+  private def report(
+      rendering: Rendering,
+      threads: Int,
+      writeSeconds: Double,
+      denoised: Option[Denoised]
+  ): RenderReport =
+    val (last, others) = recorder.pictures.splitAt(1)
+    val reference = recorder.pictures.find(_.isReference)
+    val errors = for d <- denoised; r <- reference yield "relative MSE" -> d.errors(r.image)
+    val clean = denoised.map: d =>
+      Picture(s"${last.map(_.name).mkString}, denoised", Denoising.shown(d.image))
     RenderReport(
       scene,
       Version.current,
       machine,
-      rows(rendering, threads),
+      rows(rendering, threads) ++ errors,
       loaded.plan.features,
       options.reference,
       recorder.points,
-      phases(rendering, writeSeconds),
+      phases(rendering, writeSeconds, denoised),
       recorder.passes,
-      recorder.pictures,
+      last ++ clean ++ others,
       rendering.rays
     )
 
-  private def phases(rendering: Rendering, writeSeconds: Double): Vector[Span] =
+  private def phases(
+      rendering: Rendering,
+      writeSeconds: Double,
+      denoised: Option[Denoised]
+  ): Vector[Span] =
     val phases = Vector(
       "parse" -> loaded.parseSeconds,
       "build" -> loaded.buildSeconds,
       "render" -> rendering.seconds,
-      "measure errors" -> recorder.seconds,
-      "write" -> writeSeconds
-    )
+      "measure errors" -> recorder.seconds
+    ) ++ denoised.map("denoise" -> _.seconds) :+ ("write" -> writeSeconds)
     val begins = phases.map(_._2).scanLeft(0.0)(_ + _)
     phases.zip(begins).map:
       case ((name, seconds), begin) => Span(name, begin, begin + seconds)

@@ -142,16 +142,22 @@ class RenderCommandSuite extends AnyFunSuite:
         "--outfile",
         s"$folder/a.exr,$folder/a.png",
         "--reference",
-        s"$folder/r.exr"
+        s"$folder/r.exr",
+        "--report",
+        s"$folder/r.json,$folder/r.html"
       )
       val exr = ImageFiles.read(folder.resolve("a.exr"))
       val layers = Denoising.Layers.flatMap(_.channels)
       val channels = candela.image.Image.RgbNames ++ layers ++ Denoising.Channels
       assert(exr.channelNames.toSet == channels.toSet)
-      val Array(before, after) =
-        "relative MSE +(\\S+) noisy, (\\S+) denoised".r.findFirstMatchIn(said).get.subgroups
-          .map(_.toDouble).toArray: @unchecked
-      assert(after < before / 3, said)
+      val line = "relative MSE  (\\S+) noisy, (\\S+) noisy in the same time, (\\S+) denoised".r
+      val errors = line.findFirstMatchIn(said).get
+      val Vector(before, sameTime, after) = errors.subgroups.map(_.toDouble).toVector: @unchecked
+      assert(after < before / 3 && sameTime < before && sameTime > 0, said)
+      val report = Files.readString(folder.resolve("r.json"))
+      assert(report.contains(errors.matched.drop("relative MSE  ".length)))
+      assert(report.contains("\"name\": \"denoise\""))
+      assert(Files.readString(folder.resolve("r.html")).contains("4 samples, denoised"))
       val png = ImageFiles.read(folder.resolve("a.png")).linear
       val shown = Denoising.shown(exr)
       assert(png.data.indices.forall(i => Math.abs(png.data(i) - shown.data(i).min(1f)) < 0.01f))
