@@ -16,19 +16,21 @@ final class CameraSensor(curves: Vector[Spectrum]):
     ColorResponse(curves.map: curve =>
       Detector(grid, grid.map(nm => (scale * curve(nm) * Colorimetry.D65(nm)).toFloat)))
 
-  /** Matrix from sensor response to linear sRGB, for photographs taken in daylight of this colour
-    * temperature: nine numbers in row order, with the least error over a colour chart.
+  /** Matrix from sensor response to a colour space, for photographs taken in daylight of this
+    * colour temperature: nine numbers in row order, with the least error over a colour chart under
+    * the space's illuminant.
     */
-  def toSrgb(kelvin: Float): Array[Float] = (Colorimetry.rgbOfXyz * toXyz(kelvin)).toFloats
+  def toRgb(kelvin: Float, space: ColorSpace = ColorSpace.Srgb): Array[Float] =
+    (space.rgbOfXyz * toXyz(kelvin, space.illuminant)).toFloats
 
-  private def toXyz(kelvin: Float): Matrix3 =
+  private def toXyz(kelvin: Float, shown: Spectrum): Matrix3 =
     val light = Daylight.spectrum(kelvin)
     val observers = Colorimetry.observers
     val whiteY = CameraSensor.integral(nm => light(nm) * observers(1)(nm))
     val whiteG = CameraSensor.integral(nm => light(nm) * curves(1)(nm))
     val seen = CameraSensor.chart.map(projected(_, light, curves))
     val wanted = CameraSensor.chart.map: patch =>
-      projected(patch, Colorimetry.D65, observers).map(_ * whiteY / whiteG)
+      projected(patch, shown, observers).map(_ * whiteY / whiteG)
     // Linear least squares, by the normal equations
     def products(a: Vector[Vector[Double]], b: Vector[Vector[Double]]) =
       Matrix3.tabulate((r, c) => a.lazyZip(b).map((x, y) => x(r) * y(c)).sum)
@@ -68,15 +70,12 @@ object CameraSensor:
   private def integral(f: Float => Float): Double =
     (360 to 830).map(nm => f(nm.toFloat).toDouble).sum
 
-/** White balance by chromatic adaptation to the white of sRGB.
+/** White balance by chromatic adaptation.
   *
   * Source: Lam, "Metamerism and Colour Constancy", PhD thesis, University of Bradford 1985, whose
   * cone responses are scaled as von Kries proposed; CIE 15:2004, §3.1, for daylight.
   */
 object WhiteBalance:
-
-  /** D65, the white of sRGB, as x and y of CIE 1931. */
-  private val Target = (0.3127, 0.3290)
 
   private val ToResponse = Matrix3(
     Vector(
@@ -86,15 +85,19 @@ object WhiteBalance:
     )
   )
 
-  /** Matrix on linear sRGB, nine numbers in row order, that maps daylight of the colour temperature
-    * `kelvin` to white.
+  /** Matrix from linear sRGB to a colour space, nine numbers in row order, that maps daylight of the
+    * colour temperature `kelvin` to its white.
     */
-  def ofDaylight(kelvin: Float): Array[Float] =
-    val from = response(chromaticity(Daylight.correlated(kelvin)))
-    val to = response(Target)
-    val scale = Matrix3.tabulate((r, c) => if r == c then to(r) / from(r) else 0.0)
-    val ofXyz = ToResponse.inverse * scale * ToResponse
-    (Colorimetry.rgbOfXyz * ofXyz * Colorimetry.xyzOfRgb).toFloats
+  def ofDaylight(kelvin: Float, space: ColorSpace = ColorSpace.Srgb): Array[Float] =
+    val from = chromaticity(Daylight.correlated(kelvin))
+    val ofXyz = adaptation(from, space.primaries.white)
+    (space.rgbOfXyz * ofXyz * Colorimetry.xyzOfRgb).toFloats
+
+  /** Matrix on X, Y and Z that maps one white, by chromaticity, to another. */
+  private[color] def adaptation(from: (Double, Double), to: (Double, Double)): Matrix3 =
+    val (seen, wanted) = (response(from), response(to))
+    val scale = Matrix3.tabulate((r, c) => if r == c then wanted(r) / seen(r) else 0.0)
+    ToResponse.inverse * scale * ToResponse
 
   /** Chromaticity of daylight; below 4000 K, where daylight is undefined, of a black body. */
   private[color] def chromaticity(kelvin: Double): (Double, Double) =

@@ -12,6 +12,10 @@ final class Matrix3(rows: Vector[Double]):
   def *(v: Vector[Double]): Vector[Double] =
     Vector.tabulate(3)(r => (0 until 3).map(i => this(r, i) * v(i)).sum)
 
+  def *(c: Rgb): Rgb =
+    val v = this * Vector(c.r.toDouble, c.g.toDouble, c.b.toDouble)
+    Rgb(v(0).toFloat, v(1).toFloat, v(2).toFloat)
+
   def transposed: Matrix3 = Matrix3.tabulate((r, c) => this(c, r))
 
   /** Cramer's rule, for well-conditioned matrices. */

@@ -1,7 +1,7 @@
 package candela.film
 
 import candela.base.loop
-import candela.color.ColorResponse
+import candela.color.{ColorResponse, ColorSpace}
 import candela.image.Image
 
 /** Post-processing from pixel averages to image values.
@@ -14,6 +14,7 @@ import candela.image.Image
   *                      written as 0, as in pbrt-v2 and v3
   * @param isHalf        whether values are written with 16 bits instead of 32
   * @param bands         wavelength bands written as additional channels, if any
+  * @param space         colour space of the output values
   */
 final case class Development(
     scale: Float = 1f,
@@ -21,7 +22,8 @@ final case class Development(
     balance: Option[Array[Float]] = None,
     clipsNegative: Boolean = false,
     isHalf: Boolean = false,
-    bands: Option[SpectralBands] = None
+    bands: Option[SpectralBands] = None,
+    space: ColorSpace = ColorSpace.Srgb
 ):
 
   def apply(film: Film): Image =
@@ -37,4 +39,5 @@ final case class Development(
         val b = image.data(at + 2)
         loop(3)(c => image.data(at + c) = m(3 * c) * r + m(3 * c + 1) * g + m(3 * c + 2) * b)
     if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))
-    image
+    if space.isSrgb then image
+    else Image(image.width, image.height, image.channelNames, image.data, colorSpace = space)

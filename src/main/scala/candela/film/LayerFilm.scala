@@ -69,7 +69,7 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
         val values = layer.statistic(tallyOf(layer, stride * pixel, scale))
         loop(values.length)(i => data(to + i) = values(i).toFloat)
         to += values.length
-    Image(width, height, names, data)
+    Image(width, height, names, data, colorSpace = image.colorSpace)
 
   private def tallyOf(layer: Layer, pixel: Int, scale: Float): PixelTally =
     val tally = layer.statistic.tally

@@ -43,7 +43,8 @@ final class SpectralBands(count: Int, from: Float, to: Float):
       val at = 3 * pixel
       val c = colors.data
       response(c(at), c(at + 1), c(at + 2), data, width * pixel + image.channels)
-    Image(image.width, image.height, image.channelNames ++ channels, data)
+    val names = image.channelNames ++ channels
+    Image(image.width, image.height, names, data, colorSpace = image.colorSpace)
 
 object SpectralBands:
   /** Attributes that the layout requires. */

@@ -23,7 +23,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     val order = first ++ inFile.indices.filterNot(first.contains)
     val data = new Array[Float](part.width * part.height * order.size)
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
-    Image(part.width, part.height, order.map(inFile), data)
+    Image(part.width, part.height, order.map(inFile), data, colorSpace = part.colorSpace)
 
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =

@@ -1,6 +1,7 @@
 package candela.image
 
 import candela.base.loop
+import candela.color.ColorSpace
 
 import org.lwjgl.PointerBuffer
 import org.lwjgl.system.MemoryStack.stackPush
@@ -9,7 +10,7 @@ import org.lwjgl.system.{MemoryStack, MemoryUtil}
 import org.lwjgl.util.tinyexr.*
 import org.lwjgl.util.tinyexr.TinyEXR.*
 
-import java.nio.FloatBuffer
+import java.nio.{ByteBuffer, ByteOrder, FloatBuffer}
 import java.nio.charset.StandardCharsets.UTF_8
 
 /** Calls the native encoder. */
@@ -33,8 +34,9 @@ private[image] object ExrEncoder:
     val channels = EXRChannelInfo.calloc(order.size)
     val types = MemoryUtil.memCallocInt(order.size)
     val stored = MemoryUtil.memCallocInt(order.size)
-    val attributes = EXRAttribute.calloc(Math.max(1, metadata.size))
-    val texts = metadata.map((_, text) => MemoryUtil.memUTF8(text, false))
+    val stated = metadata.map((name, text) => (name, "string", MemoryUtil.memUTF8(text, false))) ++
+      chromaticities(image.colorSpace)
+    val attributes = EXRAttribute.calloc(Math.max(1, stated.size))
     val stack = stackPush()
     try
       loop(order.size): i =>
@@ -44,10 +46,11 @@ private[image] object ExrEncoder:
         val _ = types.put(i, TINYEXR_PIXELTYPE_FLOAT)
         val kind = if halves(i) then TINYEXR_PIXELTYPE_HALF else TINYEXR_PIXELTYPE_FLOAT
         val _ = stored.put(i, kind)
-      loop(metadata.size): i =>
-        put(attributes.get(i).name, metadata(i)(0))
-        put(attributes.get(i).`type`, "string")
-        val _ = attributes.get(i).value(texts(i))
+      loop(stated.size): i =>
+        val (name, typeName, value) = stated(i)
+        put(attributes.get(i).name, name)
+        put(attributes.get(i).`type`, typeName)
+        val _ = attributes.get(i).value(value)
       val header = EXRHeader.calloc(stack)
       InitEXRHeader(header)
       header
@@ -56,17 +59,24 @@ private[image] object ExrEncoder:
         .pixel_types(types)
         .requested_pixel_types(stored)
         .compression_type(TINYEXR_COMPRESSIONTYPE_ZIP)
-      if metadata.nonEmpty then
-        val _ = header.num_custom_attributes(metadata.size).custom_attributes(attributes)
+      if stated.nonEmpty then
+        val _ = header.num_custom_attributes(stated.size).custom_attributes(attributes)
       save(image, header, planes, stack)
     finally
       planes.foreach(MemoryUtil.memFree(_))
-      texts.foreach(MemoryUtil.memFree(_))
+      stated.foreach(a => MemoryUtil.memFree(a(2)))
       channels.free()
       attributes.free()
       MemoryUtil.memFree(types)
       MemoryUtil.memFree(stored)
       stack.close()
+
+  /** Omitted for sRGB, which is the default. */
+  private def chromaticities(space: ColorSpace): Option[(String, String, ByteBuffer)] =
+    Option.when(!space.isSrgb):
+      val value = MemoryUtil.memAlloc(32).order(ByteOrder.LITTLE_ENDIAN)
+      space.primaries.toFloats.zipWithIndex.foreach((v, i) => value.putFloat(4 * i, v))
+      ("chromaticities", "chromaticities", value)
 
   private def save(
       image: Image,
@@ -103,5 +113,5 @@ private[image] object ExrEncoder:
     values
 
   /** Writes into a zeroed array of 256 bytes. */
-  private def put(field: java.nio.ByteBuffer, text: String): Unit =
+  private def put(field: ByteBuffer, text: String): Unit =
     val _ = field.put(text.getBytes(UTF_8))

@@ -1,5 +1,7 @@
 package candela.image
 
+import candela.color.{ColorSpace, Primaries}
+
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.{ByteBuffer, ByteOrder}
 import scala.collection.mutable
@@ -22,7 +24,8 @@ private[image] final case class ExrPart(
     compression: Int,
     width: Int,
     height: Int,
-    tiling: Option[ExrTiling]
+    tiling: Option[ExrTiling],
+    colorSpace: ColorSpace
 ):
   /** Uncompressed size of the finest level. */
   def storedBytes: Long =
@@ -132,7 +135,8 @@ private[image] object ExrHeader:
     if width < 1 || height < 1 then throw ImageError("the data window is empty")
     checkSize(width, height, channels.size, tiling)
     checkCoding(compression, channels)
-    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling)
+    val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
+    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling, space)
     // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
       throw ImageError("attribute `chunkCount` is damaged")
@@ -142,6 +146,11 @@ private[image] object ExrHeader:
     val (width, height, mode) = (data.getInt(), data.getInt(), data.get() & 0xff)
     if (mode & 15) > 2 || mode >> 4 > 1 then throw ImageError("attribute `tiles` is damaged")
     ExrTiling(width, height, mode & 15, mode >> 4 == 1)
+
+  private def spaceOf(data: ByteBuffer): ColorSpace =
+    val primaries = Primaries.ofFloats(Array.fill(8)(data.getFloat()))
+    ColorSpace.of(primaries)
+      .getOrElse(throw ImageError("attribute `chromaticities` is damaged"))
 
   private def checkSize(w: Long, h: Long, channels: Int, tiling: Option[ExrTiling]): Unit =
     val fits = w <= Int.MaxValue && h <= Int.MaxValue && w * h <= (Int.MaxValue - 8) / channels

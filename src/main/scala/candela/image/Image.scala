@@ -1,7 +1,7 @@
 package candela.image
 
 import candela.base.loop
-import candela.color.Encoding
+import candela.color.{ColorSpace, Encoding, Matrix3, Rgb}
 
 /** An image can't be read or written: cause and cure on one line. Not a bug, so without a stack
   * trace.
@@ -17,6 +17,9 @@ sealed abstract class StoredImage:
 
   /** Transfer function of the stored numbers. */
   def encoding: Encoding
+
+  /** Colour space of R, G and B. */
+  def colorSpace: ColorSpace
   def toImage: Image
 
   final def channels: Int = channelNames.size
@@ -41,7 +44,8 @@ final class Image(
     val height: Int,
     val channelNames: Vector[String],
     val data: Array[Float],
-    val encoding: Encoding = Encoding.Linear
+    val encoding: Encoding = Encoding.Linear,
+    val colorSpace: ColorSpace = ColorSpace.Srgb
 ) extends StoredImage:
   require(data.length == width.toLong * height * channels, s"$width×$height×$channels")
 
@@ -57,28 +61,46 @@ final class Image(
       val decoded = new Array[Float](data.length)
       loop(data.length): i =>
         decoded(i) = if isColor(i % channels) then encoding.decode(data(i)) else data(i)
-      Image(width, height, channelNames, decoded)
+      Image(width, height, channelNames, decoded, colorSpace = colorSpace)
 
-  /** Linear R, G and B; grey images become three equal channels, all other channels are dropped.
+  /** Linear sRGB; grey images become three equal channels, all other channels are dropped.
     *
     * @throws ImageError if it has neither R, G, B nor Y
     */
   def toRgb: Image =
-    if encoding == Encoding.Linear && channelNames == Image.RgbNames then this
-    else
-      val sources = colorChannels
-      val picked = Image.rgb(width, height)
-      loop(width * height): pixel =>
-        loop(3): c =>
-          picked.data(3 * pixel + c) = encoding.decode(data(pixel * channels + sources(c)))
-      picked
+    if encoding == Encoding.Linear && colorSpace.isSrgb && channelNames == Image.RgbNames then this
+    else inSrgb(colorSpace.toSrgb)
+
+  /** As `toRgb`, of reflectances: white stays white. */
+  def toReflectances: Image = inSrgb(colorSpace.toSrgbAdapted)
+
+  private def inSrgb(matrix: => Matrix3): Image =
+    val sources = colorChannels
+    val picked = Image.rgb(width, height)
+    loop(width * height): pixel =>
+      loop(3): c =>
+        picked.data(3 * pixel + c) = encoding.decode(data(pixel * channels + sources(c)))
+    val isGray = sources.distinct.size == 1
+    if colorSpace.isSrgb || isGray then picked else picked.mapped(matrix * _)
+
+  /** Other colours in its place; it has the channels R, G and B only. */
+  def mapped(change: Rgb => Rgb): Image =
+    require(channelNames == Image.RgbNames, channelNames)
+    val changed = new Array[Float](data.length)
+    loop(width * height): pixel =>
+      val at = 3 * pixel
+      val c = change(Rgb(data(at), data(at + 1), data(at + 2)))
+      changed(at) = c.r
+      changed(at + 1) = c.g
+      changed(at + 2) = c.b
+    Image(width, height, channelNames, changed)
 
 object Image:
   val RgbNames: Vector[String] = Vector("R", "G", "B")
   def rgb(width: Int, height: Int): Image =
     Image(width, height, RgbNames, new Array[Float](width * height * 3))
 
-/** An 8-bit image; value 255 stands for 1. */
+/** An 8-bit image of sRGB colours; value 255 stands for 1. */
 final class ByteImage(
     val width: Int,
     val height: Int,
@@ -86,6 +108,7 @@ final class ByteImage(
     val bytes: Array[Byte],
     val encoding: Encoding
 ) extends StoredImage:
+  def colorSpace: ColorSpace = ColorSpace.Srgb
   require(bytes.length == width.toLong * height * channels, s"$width×$height×$channels")
 
   /** The values in [0, 1], still encoded. */

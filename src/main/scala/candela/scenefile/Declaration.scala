@@ -42,6 +42,7 @@ enum ParamType(val spelling: String):
   * @param valuesAt position of the first value
   * @param floats values of numeric types except `integer`, otherwise empty; `bools`, `ints` and
   *   `strings` hold the values of their types
+  * @param colorSpace name of its colour space, if not that of the declaration
   * @param isDefault whether it comes from an `Attribute` statement, which applies to many
   *   declarations, not all of which know it
   */
@@ -54,12 +55,15 @@ final class Param(
     val ints: Array[Int] = Array.emptyIntArray,
     val bools: Vector[Boolean] = Vector.empty,
     val strings: Vector[String] = Vector.empty,
-    val isDefault: Boolean = false
+    val isDefault: Boolean = false,
+    val colorSpace: Option[String] = None
 ):
   def withStrings(values: Vector[String]): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault)
+    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace)
 
-  def asDefault: Param = Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true)
+  /** As given by an `Attribute` statement in a colour space. */
+  def asDefault(space: String): Param =
+    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, Some(space))
 
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *
@@ -77,3 +81,6 @@ final case class Declaration(
     colorSpace: String = "srgb"
 ):
   def param(name: String): Option[Param] = params.find(_.name == name)
+
+  /** Name of the colour space of a parameter. */
+  def colorSpaceOf(p: Param): String = p.colorSpace.getOrElse(colorSpace)

@@ -151,6 +151,9 @@ object Directives:
       val help = Suggest.help(written, List("float", "spectrum", "color"))
       throw SceneError(Problem.error(at, s"unknown texture value type `$written`", help))
 
+  /** Names of colour spaces, in lower case. */
+  private[candela] val ColorSpaces: List[String] = List("srgb", "dci-p3", "rec2020", "aces2065-1")
+
   private val others: List[Directive] = List(
     Directive("Attribute", "\"target\" parameters", Anywhere): (in, scene) =>
       val from = in.named("a target")
@@ -158,10 +161,10 @@ object Directives:
     ,
     Directive("ColorSpace", "\"name\"", Anywhere): (in, scene) =>
       val (name, at) = in.quoted("a name")
-      scene.colorSpace(name)
-      if name != "srgb" then
-        val message = s"colour space `$name` is not supported; using sRGB"
-        in.report(Problem.warning(at, message))
+      if ColorSpaces.contains(name.toLowerCase) then scene.colorSpace(name.toLowerCase)
+      else
+        val help = Suggest.help(name, ColorSpaces)
+        in.report(Problem.error(at, s"unknown colour space `$name`", help))
     ,
     Directive("Import", "\"file\"", World): (in, scene) =>
       val (file, at) = in.quoted("a file name")

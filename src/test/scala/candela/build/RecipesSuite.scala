@@ -86,4 +86,4 @@ final class OptionRecipesSuite extends RecipeLaws[SceneSettings](OptionStatement
 final class AcceleratorRecipesSuite
     extends RecipeLaws[AcceleratorPlan](Accelerators.all)
 
-final class ColorSpaceRecipesSuite extends RecipeLaws[Unit](ColorSpaces.all)
+final class ColorSpaceRecipesSuite extends RecipeLaws[ColorSpace](ColorSpaces.all)

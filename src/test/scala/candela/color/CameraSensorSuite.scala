@@ -7,7 +7,7 @@ final class CameraSensorSuite extends AnyFunSuite:
   private def photographed(sensor: CameraSensor, kelvin: Float, c: Rgb): Vector[Double] =
     val cells = new Array[Float](3)
     sensor.response(c.r, c.g, c.b, cells, 0)
-    Matrix3(sensor.toSrgb(kelvin).map(_.toDouble).toVector) * cells.toVector.map(_.toDouble)
+    Matrix3(sensor.toRgb(kelvin).map(_.toDouble).toVector) * cells.toVector.map(_.toDouble)
 
   test("every sensor is measured, and sees what the observer does, more or less"):
     for name <- CameraSensor.names do
@@ -26,7 +26,7 @@ final class CameraSensorSuite extends AnyFunSuite:
     val expected = Vector(
       1.81486, 0.04281, 0.20199, 0.69371, 0.97814, -0.33713, 0.14910, -0.40997, 1.96807
     )
-    val rows = CameraSensor.named("canon_eos_100d").get.toSrgb(6500f).map(_.toDouble).toVector
+    val rows = CameraSensor.named("canon_eos_100d").get.toRgb(6500f).map(_.toDouble).toVector
     val found = Colorimetry.xyzOfRgb * Matrix3(rows)
     for i <- 0 until 9 do
       // 2e-4 of the largest number is lost with the chart's lesser components, and the observer's

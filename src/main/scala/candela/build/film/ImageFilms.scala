@@ -74,7 +74,7 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
 
   protected def make()(using site: Site): FilmSettings =
     if white() < 0f then site.error(s"`whitebalance` must not be below 0 K, found ${white()}")
-    val development = Development(iso() / 100f, clipsNegative = false, isHalf = half())
+    val development = Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
     val kelvin = Math.max(white(), 0f)
     camera() match
       case Some(found) =>
@@ -82,12 +82,15 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
         settings(
           development.copy(
             sensor = Some(found.response),
-            balance = Some(found.toSrgb(balanced))
+            balance = Some(found.toRgb(balanced, site.colorSpace))
           ),
-          exposure => SampleLimit.camera(largest(exposure), found.toSrgb(SensorFilmRecipe.White))
+          exposure => SampleLimit.camera(largest(exposure), found.toRgb(SensorFilmRecipe.White))
         )
       case None =>
-        val balance = Option.when(kelvin > 0f)(WhiteBalance.ofDaylight(kelvin))
+        val space = site.colorSpace
+        val balance =
+          if kelvin > 0f then Some(WhiteBalance.ofDaylight(kelvin, space))
+          else Option.when(!space.isSrgb)(space.ofSrgb.toFloats)
         settings(
           development.copy(balance = balance),
           exposure => SampleLimit.sensor(largest(exposure))

@@ -90,7 +90,8 @@ final class DiffuseLightRecipe(
       site.error("`L` and `filename` of a diffuse area light are mutually exclusive")
     val image = if isPicture then LightImages.read("filename") else None
     val picture = image.map(Picture(_, PictureLookup.Smooth))
-    val emitted = radiance() * colored() * scale()
+    val unit = if isPicture then Rgb.White else radiance()
+    val emitted = unit * colored() * scale()
     val perUnit = picture.fold(1f)(DiffuseLightRecipe.luminance(_, site.resources.basis))
     if isPicture && picture.isEmpty then None
     else if !(emitted.isFinite && emitted.max > 0f && perUnit > 0f) then

@@ -38,7 +38,8 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
         case Some(image) =>
-          val l = scaled(radiance(), illuminance(), if octahedral then onThePlane(image) else 1f)
+          val unit = if octahedral then Rgb.White else radiance()
+          val l = scaled(unit, illuminance(), if octahedral then onThePlane(image) else 1f)
           val layout = if octahedral then EqualAreaMap else LatLongMap
           around(l, SphereImage(image, layout, l, smooth = !octahedral))
     else

@@ -60,16 +60,7 @@ private[build] object LightImages:
 
   /** Replaces the components of each pixel by their mean. */
   def gray(image: Image): Image =
-    mapped(image)(c => Rgb.gray(c.average))
+    image.mapped(c => Rgb.gray(c.average))
 
   private def rebased(image: Image, basis: ColorBasis): Image =
-    if basis.isSrgb then image else mapped(image)(basis.fromSrgb)
-
-  private def mapped(image: Image)(f: Rgb => Rgb): Image =
-    val data = new Array[Float](image.data.length)
-    loop(data.length / 3): i =>
-      val c = f(Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2)))
-      data(3 * i) = c.r
-      data(3 * i + 1) = c.g
-      data(3 * i + 2) = c.b
-    Image(image.width, image.height, image.channelNames, data)
+    if basis.isSrgb then image else image.mapped(basis.fromSrgb)

@@ -44,7 +44,7 @@ private[build] object Indices:
 
   def spectrum(v: SpectralValue): Float => Float = v match
     case SpectralValue.Wavelengths(s) => s(_)
-    case SpectralValue.Color(c) => Upsampling.unbounded(c)
+    case SpectralValue.Color(c, space) => Upsampling.unbounded(c, space)
 
   /** Spectral reflectance of a colour; constant for a grey. */
   def reflectance(c: Rgb): Float => Float =
@@ -70,7 +70,7 @@ private[build] object Indices:
     if index == 0f then 1f else index
 
   private def named(v: SpectralValue)(using site: Site): Float = v match
-    case SpectralValue.Color(c) => c.average
+    case SpectralValue.Color(c, _) => c.average
     case SpectralValue.Wavelengths(s) =>
       if s.values.distinct.length > 1 then
         val name = site.declaration.name

@@ -98,7 +98,7 @@ object MetalRecipe
   private val index = metalIndex()
   protected def make()(using site: Site): Material =
     def rgb(v: SpectralValue): Rgb = v match
-      case SpectralValue.Color(c) => c
+      case SpectralValue.Color(c, space) => space.reflectance(c)
       case SpectralValue.Wavelengths(s) =>
         Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
     val eta = SpectrumSource.textured(index.eta())(rgb)

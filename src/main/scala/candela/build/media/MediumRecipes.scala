@@ -106,7 +106,11 @@ object RgbGridRecipe
   private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
 
   protected def make()(using site: Site): Option[Medium] =
-    val (a, s, le) = (colors(sigmaA()), colors(sigmaS()), colors(emitted()))
+    val (a, s, le) = (
+      colors(sigmaA(), SpectrumRole.Reflectance),
+      colors(sigmaS(), SpectrumRole.Reflectance),
+      colors(emitted(), SpectrumRole.Emission)
+    )
     if a.isEmpty && s.isEmpty then
       site.error("an \"rgbgrid\" needs `sigma_a`, `sigma_s` or both")
       None
@@ -134,11 +138,11 @@ object RgbGridRecipe
         phase()
       )
 
-  private def colors(values: Array[Float])(using site: Site): Array[Float] =
+  private def colors(values: Array[Float], role: SpectrumRole)(using site: Site): Array[Float] =
     values.grouped(3).flatMap { v =>
       if v.length < 3 then v
       else
-        val c = site.resources.basis.fromSrgb(Rgb(v(0), v(1), v(2)))
+        val c = Spectra.ofMany(Rgb(v(0), v(1), v(2)), role, site)
         Array(c.r, c.g, c.b)
     }.toArray
 

@@ -11,7 +11,7 @@ import candela.scenefile.{Dialect, Param}
   * @param default  default value, per dialect
   * @param shown    default as text, per dialect
   */
-final class Field[T](
+class Field[T](
     val name: String,
     val typeName: String,
     val doc: String,
@@ -59,5 +59,5 @@ private[build] object DefaultText:
     else s"${number(c.r)} ${number(c.g)} ${number(c.b)}"
 
   def spectrum(v: SpectralValue): String = v match
-    case SpectralValue.Color(c) => color(c)
+    case SpectralValue.Color(c, _) => color(c)
     case SpectralValue.Wavelengths(_) => "a spectrum"

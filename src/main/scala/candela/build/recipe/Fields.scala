@@ -144,7 +144,9 @@ trait Fields:
       if p.paramType == ParamType.String then Some(p.strings)
       else wrong(p, site, "strings", "string")
 
-  /** A colour that can't be textured: emission or an index of refraction. */
+  /** A colour that can't be textured: emission or an index of refraction. The default of emission
+    * is in the colour space of the statement: 1 is the space's illuminant.
+    */
   protected final def color(
       name: String,
       doc: String,
@@ -153,8 +155,13 @@ trait Fields:
       unit: String = "",
       shown: String = ""
   )(default: Dialect ?=> Rgb): Field[Rgb] =
-    field(name, "spectrum", doc, in, unit, shown, default)(DefaultText.color)(
-      Spectra.rgb(_, role, _)
+    val written = (d: Dialect) =>
+      if shown.nonEmpty then shown else DefaultText.color(default(using d))
+    val of = (d: Dialect) => default(using d)
+    register(
+      new Field(name, "spectrum", doc, in, unit, of, written, Spectra.rgb(_, role, _)):
+        override def apply()(using site: Site): Rgb =
+          given_().getOrElse(Spectra.default(of(site.dialect), role, site))
     )
 
   /** A function of wavelength, or a colour. */

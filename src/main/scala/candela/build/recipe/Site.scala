@@ -4,10 +4,10 @@ import scala.collection.mutable
 
 import candela.base.{Problem, SceneError, Severity, SourcePos}
 import candela.bsdf.{DiffuseMaterial, Material}
-import candela.color.{ColorBasis, Rgb}
+import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}
 import candela.math.Transform
-import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind}
+import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind, Param}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** Context of a recipe: the statement, the dialect and the scene's resources so far.
@@ -21,6 +21,14 @@ final class Site(
     val problems: Findings,
     val toWorld: Transform = Transform.Identity
 ):
+  /** Colour space of a parameter. */
+  def colorSpaceOf(p: Param): ColorSpace = space(declaration.colorSpaceOf(p))
+
+  /** Colour space of the statement. */
+  def colorSpace: ColorSpace = space(declaration.colorSpace)
+
+  private def space(name: String) = ColorSpace.named(name).getOrElse(ColorSpace.Srgb)
+
   def in(other: Dialect): Site = Site(declaration, other, resources, problems, toWorld)
 
   def warn(message: String, help: Option[String] = None): Unit =

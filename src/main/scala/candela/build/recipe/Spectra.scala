@@ -6,7 +6,7 @@ import java.nio.file.Files
 import scala.util.Try
 
 import candela.base.Suggest
-import candela.color.{ColorBasis, Colorimetry, NamedSpectra, Rgb, Spectrum}
+import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantRgb, RgbTexture}
@@ -15,9 +15,9 @@ import candela.textures.{ConstantRgb, RgbTexture}
 enum SpectrumRole:
   case Reflectance, Emission
 
-/** Value of a spectrum parameter: a linear sRGB colour or a function of wavelength. */
+/** Value of a spectrum parameter: a linear colour or a function of wavelength. */
 enum SpectralValue:
-  case Color(rgb: Rgb)
+  case Color(rgb: Rgb, space: ColorSpace = ColorSpace.Srgb)
   case Wavelengths(spectrum: Spectrum)
 
 /** Reads spectrum parameters in all their notations. */
@@ -27,6 +27,11 @@ object Spectra:
   def rgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     srgb(p, role, site).map(site.resources.basis.fromSrgb)
 
+  /** The default of a colour parameter, in the scene's basis. */
+  def default(c: Rgb, role: SpectrumRole, site: Site): Rgb =
+    if role == SpectrumRole.Reflectance || site.colorSpace.isSrgb then c
+    else site.resources.basis.fromSrgb(site.colorSpace.light(c))
+
   private def srgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     p.paramType match
       case ParamType.Blackbody => blackbody(p, role, site)
@@ -35,8 +40,27 @@ object Spectra:
         Some(found.fold(StandIns.Magenta)(toRgb(_, role, site.dialect)))
       case _ =>
         value(p, site).map:
-          case SpectralValue.Color(c) => c
+          case SpectralValue.Color(c, space) => inSrgb(c, space, role, site)
           case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
+
+  /** A colour of any space in linear sRGB. Three components can't be negative reflectances. */
+  private def inSrgb(c: Rgb, space: ColorSpace, role: SpectrumRole, site: Site): Rgb =
+    role match
+      case SpectrumRole.Emission => space.light(c)
+      case SpectrumRole.Reflectance if space.isSrgb => c
+      case SpectrumRole.Reflectance => nonNegative(space.reflectance(c), site.resources.basis)
+
+  private def nonNegative(c: Rgb, basis: ColorBasis): Rgb =
+    basis.toSrgb(basis.fromSrgb(c).map(Math.max(_, 0f)))
+
+  /** One of many colours in the colour space of the statement, in the scene's basis: the spectra of
+    * reflectances are not fitted.
+    */
+  def ofMany(c: Rgb, role: SpectrumRole, site: Site): Rgb =
+    val (space, basis) = (site.colorSpace, site.resources.basis)
+    if space.isSrgb then basis.fromSrgb(c)
+    else if role == SpectrumRole.Emission then basis.fromSrgb(space.light(c))
+    else basis.fromSrgb(space.toSrgbAdapted * c).map(Math.max(_, 0f))
 
   /** pbrt-v2 and v3 weight all wavelengths equally; v4 views reflectances under D65 and normalises
     * emission to luminance 1.
@@ -54,7 +78,9 @@ object Spectra:
   def value(p: Param, site: Site): Option[SpectralValue] =
     p.paramType match
       case ParamType.Rgb if p.floats.length == 3 =>
-        Some(SpectralValue.Color(Rgb(p.floats(0), p.floats(1), p.floats(2))))
+        Some(
+          SpectralValue.Color(Rgb(p.floats(0), p.floats(1), p.floats(2)), site.colorSpaceOf(p))
+        )
       case ParamType.Xyz if p.floats.length == 3 =>
         val Array(x, y, z) = p.floats.map(_.toDouble): @unchecked
         Some(SpectralValue.Color(Colorimetry.fromXyz(x, y, z)))

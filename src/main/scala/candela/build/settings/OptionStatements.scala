@@ -1,6 +1,7 @@
 package candela.build.settings
 
 import candela.build.recipe.*
+import candela.color.ColorSpace
 
 /** Settings of all of v4's `Option` statements. */
 final case class SceneSettings(seed: Int)
@@ -43,18 +44,11 @@ object OptionStatements:
 
 /** Colour spaces of v4's `ColorSpace`. */
 object ColorSpaces:
-  val all: Recipes[Unit] = Recipes(
+  val all: Recipes[ColorSpace] = Recipes(
     "color space",
-    Vector(
-      ColorSpaceRecipe("srgb", "sRGB: primaries of ITU-R BT.709, white D65"),
-      WideSpaceRecipe("dci-p3", "primaries of DCI P3, white D65"),
-      WideSpaceRecipe("rec2020", "primaries of ITU-R BT.2020, white D65"),
-      WideSpaceRecipe("aces2065-1", "primaries AP0 of SMPTE ST 2065-1, white near D60")
-    )
+    ColorSpace.all.map(ColorSpaceRecipe(_))
   )
 
-class ColorSpaceRecipe(name: String, meaning: String) extends Recipe[Unit](name, meaning, onlyV4):
-  protected def make()(using Site): Unit = ()
-
-final class WideSpaceRecipe(name: String, meaning: String) extends ColorSpaceRecipe(name, meaning):
-  override def pending: Option[String] = Some("treating colours as sRGB")
+final class ColorSpaceRecipe(space: ColorSpace)
+    extends Recipe[ColorSpace](space.name, space.meaning, onlyV4):
+  protected def make()(using Site): ColorSpace = space

@@ -113,9 +113,14 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
-    lookup(Texels.color).fold(StandIns.color(basis)): found =>
+    lookup(inSrgb).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis)
+
+  /** pbrt-v4 alone knows other colour spaces. */
+  private def inSrgb(image: StoredImage, decode: Float => Float)(using site: Site): Texels =
+    val isConverted = site.dialect == Dialect.V4 && !image.colorSpace.isSrgb
+    Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 
 private object ImageMapRecipe:
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
