@@ -85,8 +85,8 @@ object WhiteBalance:
     )
   )
 
-  /** Matrix from linear sRGB to a colour space, nine numbers in row order, that maps daylight of the
-    * colour temperature `kelvin` to its white.
+  /** Matrix from linear sRGB to a colour space that maps daylight of the colour temperature
+    * `kelvin` to its white: nine numbers in row order.
     */
   def ofDaylight(kelvin: Float, space: ColorSpace = ColorSpace.Srgb): Array[Float] =
     val from = chromaticity(Daylight.correlated(kelvin))

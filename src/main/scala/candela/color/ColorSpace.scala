@@ -7,15 +7,19 @@ final case class Primaries(
     blue: (Double, Double),
     white: (Double, Double)
 ):
-  /** X, Y and Z of the components; white has Y = 1. Not invertible if the primaries are collinear.
+  /** X, Y and Z of the components, given those of white. Not invertible if the primaries are
+    * collinear.
     *
     * Source: SMPTE RP 177-1993, "Derivation of Basic Television Color Equations".
     */
-  private[color] def toXyz: Matrix3 =
+  private[color] def toXyz(whiteXyz: Vector[Double]): Matrix3 =
     val columns = Vector(red, green, blue).map(Primaries.xyz)
     val shape = Matrix3.tabulate((r, c) => columns(c)(r))
-    val scale = shape.inverse * Primaries.xyz(white).map(_ / white._2)
+    val scale = shape.inverse * whiteXyz
     Matrix3.tabulate((r, c) => shape(r, c) * scale(c))
+
+  /** X, Y and Z of white. */
+  private[color] def whiteXyz: Vector[Double] = Primaries.xyz(white).map(_ / white._2)
 
   /** As stored in OpenEXR files: x and y of red, green, blue and white. */
   def toFloats: Array[Float] =
@@ -23,7 +27,9 @@ final case class Primaries(
 
   /** Within a thousandth, as in pbrt-v4. */
   def isNear(other: Primaries): Boolean =
-    toFloats.lazyZip(other.toFloats).forall((a, b) => Math.abs(a - b) <= 1e-3f * Math.abs(b) + 1e-6f)
+    toFloats.lazyZip(other.toFloats).forall((a, b) =>
+      Math.abs(a - b) <= 1e-3f * Math.abs(b) + 1e-6f
+    )
 
 object Primaries:
   private def xyz(xy: (Double, Double)): Vector[Double] = Vector(xy._1, xy._2, 1 - xy._1 - xy._2)
@@ -69,7 +75,11 @@ final class ColorSpace private (
   lazy val ofSrgbAdapted: Matrix3 = toSrgbAdapted.inverse
 
   private def adaptation: Matrix3 =
-    WhiteBalance.adaptation(primaries.white, ColorSpace.Srgb.primaries.white)
+    WhiteBalance.adaptation(white, ColorSpace.Srgb.white)
+
+  private def white: (Double, Double) =
+    val xyz = xyzOfRgb * Vector(1.0, 1.0, 1.0)
+    (xyz(0) / xyz.sum, xyz(1) / xyz.sum)
 
   /** Light of this space's colour `c`, in linear sRGB. */
   def light(c: Rgb): Rgb = if isSrgb then c else toSrgb * c
@@ -77,7 +87,7 @@ final class ColorSpace private (
   /** Linear sRGB under D65 of the reflectance that pbrt-v4 assigns to `c`. */
   def reflectance(c: Rgb): Rgb =
     if isSrgb || (c.r == c.g && c.g == c.b) then c
-    else if primaries.white == ColorSpace.Srgb.primaries.white then toSrgb * c
+    else if illuminant eq ColorSpace.Srgb.illuminant then toSrgb * c
     else Colorimetry.rgb(Upsampling.unbounded(c, this), Colorimetry.White.D65)
 
   /** X, Y and Z by wavelength (in nm, first) of the illuminant, over the Y of white. */
@@ -109,14 +119,20 @@ object ColorSpace:
       blue: (Double, Double)
   ) = apply(name, meaning, Primaries(red, green, blue, D65), Colorimetry.D65)
 
+  /** With exactly the white of [[Srgb]], whose published matrix has other digits, if it is D65. */
   private def apply(name: String, meaning: String, primaries: Primaries, illuminant: Spectrum) =
-    val toXyz = primaries.toXyz
+    val isD65 = illuminant eq Colorimetry.D65
+    val whiteXyz = if isD65 then Srgb.xyzOfRgb * Vector(1.0, 1.0, 1.0) else primaries.whiteXyz
+    val toXyz = primaries.toXyz(whiteXyz)
     new ColorSpace(name, meaning, primaries, illuminant, toXyz, toXyz.inverse)
 
   /** The spaces of pbrt-v4. */
   val all: Vector[ColorSpace] = Vector(
     Srgb,
-    ofD65("dci-p3", "primaries of DCI P3, white D65")((0.680, 0.320), (0.265, 0.690), (0.150, 0.060)),
+    ofD65(
+      "dci-p3",
+      "primaries of DCI P3, white D65"
+    )((0.680, 0.320), (0.265, 0.690), (0.150, 0.060)),
     ofD65("rec2020", "primaries of ITU-R BT.2020, white D65")(
       (0.708, 0.292),
       (0.170, 0.797),
@@ -132,14 +148,16 @@ object ColorSpace:
 
   def named(name: String): Option[ColorSpace] = all.find(_.name == name)
 
-  /** The space of the primaries: pbrt-v4's, if they are near, else one with the illuminant that has
-    * the nearest white. None if no colours can be made of them.
+  /** The space of the primaries: pbrt-v4's, if they are near, else one of its own, with the
+    * illuminant of the nearest white. None if no colours can be made of them.
     */
   def of(primaries: Primaries): Option[ColorSpace] =
     all.find(_.primaries.isNear(primaries)).orElse:
-      val values = primaries.toXyz.toFloats ++ primaries.toXyz.inverse.toFloats
+      val toXyz = primaries.toXyz(primaries.whiteXyz)
+      val values = toXyz.toFloats ++ toXyz.inverse.toFloats
       Option.when(values.forall(v => Math.abs(v) < 1e3f)):
         val (x, y) = primaries.white
         def distance(s: ColorSpace) =
           Math.hypot(s.primaries.white._1 - x, s.primaries.white._2 - y)
-        apply("custom", "", primaries, all.minBy(distance).illuminant)
+        val illuminant = all.minBy(distance).illuminant
+        new ColorSpace("custom", "", primaries, illuminant, toXyz, toXyz.inverse)

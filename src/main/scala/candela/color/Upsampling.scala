@@ -3,8 +3,8 @@ package candela.color
 import candela.math.clamp
 
 /** Spectral upsampling: a smooth spectrum between 0 and 1 with the colour of a given reflectance
-  * under its space's illuminant, namely a logistic function of a parabola over wavelength, as pbrt-v4 assigns to every
-  * RGB colour.
+  * under its space's illuminant, namely a logistic function of a parabola over wavelength, as
+  * pbrt-v4 assigns to every RGB colour.
   *
   * Source: Jakob and Hanika, "A Low-Dimensional Function Space for Efficient Spectral Upsampling",
   * Eurographics 2019. Fitted here by Newton's method, stepping from grey to the colour.

@@ -33,7 +33,8 @@ object Converter:
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
     val files = SideFiles(folder)
     val moved = Declarations.map(scene)(FileNames(folder).moved)
-    val start = Converted(moved, Vector.empty)
+    val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
+    val start = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
     val done = passes(scene.dialect, to).foldLeft(start): (before, pass) =>
       val run = PassRun(pass, before.scene, files)
       val result = run.result()

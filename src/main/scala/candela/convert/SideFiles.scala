@@ -3,6 +3,8 @@ package candela.convert
 import java.nio.file.{Files, InvalidPathException, Path}
 import java.security.MessageDigest
 
+import scala.util.Try
+
 import candela.base.{loop, Problem, SceneError, WholeFile}
 import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
@@ -41,9 +43,19 @@ object RewrittenImages:
     val image = Image(1, 1, Image.RgbNames, Array(color.r, color.g, color.b))
     s.run.files.add("image", "exr", ImageFiles.exr(image))
 
-  /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel. */
+  /** Whether v3, which takes all colours for sRGB, would misread the image. */
+  def hasOtherPrimaries(s: Statement, p: Param): Boolean =
+    Try(!ImageFiles.read(place(s, p)).colorSpace.isSrgb).getOrElse(false)
+
+  private def place(s: Statement, p: Param): Path =
+    s.declaration.folder.resolve(p.strings.head.replace('\\', '/'))
+
+  /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel,
+    * in sRGB.
+    */
   def baked(s: Statement, p: Param)(change: (Float, Int) => Float): String =
-    written(s, p): image =>
+    written(s, p): stored =>
+      val image = if stored.colorSpace.isSrgb then stored else stored.toReflectances
       val sources = image.colorChannels.toArray
       val made = Image.rgb(image.width, image.height)
       loop(image.width * image.height): i =>
@@ -58,7 +70,7 @@ object RewrittenImages:
       s.warn(p.at, s"can't read the image, leaving it unchanged: $why")
       name
     try
-      val image = ImageFiles.read(s.declaration.folder.resolve(name.replace('\\', '/')))
+      val image = ImageFiles.read(place(s, p))
       s.run.files.add("image", "exr", ImageFiles.exr(change(image)))
     catch
       case e: ImageError => failed(e.getMessage)

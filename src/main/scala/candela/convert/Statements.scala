@@ -30,17 +30,22 @@ final class Statements(out: Writer, dialect: Dialect):
   /** `Attribute` statements: parameters that may apply to none of their targets. */
   def defaults(target: String, d: Declaration): Unit =
     val params = d.params.filter(_.isDefault)
-    if params.nonEmpty then statement("Attribute", Vector(target), params)
+    for space <- params.map(d.colorSpaceOf).distinct do
+      in(space)
+      statement("Attribute", Vector(target), params.filter(d.colorSpaceOf(_) == space))
 
   def declaration(directive: String, d: Declaration): Unit =
     declaration(directive, Vector(d.name), d)
 
   /** @param names quoted names after the directive */
   def declaration(directive: String, names: Vector[String], d: Declaration): Unit =
-    if d.colorSpace != colorSpace then
-      colorSpace = d.colorSpace
-      line(s"ColorSpace ${Statements.quoted(colorSpace)}")
+    in(d.colorSpace)
     statement(directive, names, d.params.filterNot(_.isDefault))
+
+  private def in(space: String): Unit =
+    if space != colorSpace then
+      colorSpace = space
+      line(s"ColorSpace ${Statements.quoted(space)}")
 
   /** Writes a short statement on one line, a longer one with a line per parameter. */
   def statement(directive: String, names: Vector[String], params: Vector[Param]): Unit =

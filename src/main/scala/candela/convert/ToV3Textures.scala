@@ -25,7 +25,9 @@ object ToV3Textures:
           case Array("linear") if isPng => identity
           case Array("gamma", g) if isPng && g.toFloatOption.nonEmpty => pow(_, g.toFloat)
           case _ => Srgb.decode(_)
-        if isKnown && !inverts && (!isPng || !encoding.startsWith("gamma")) then
+        val isBaked = isPng && encoding.startsWith("gamma") ||
+          name.endsWith(".exr") && RewrittenImages.hasOtherPrimaries(s, p)
+        if isKnown && !inverts && !isBaked then
           s.add("filename", p)
           if isPng && encoding == "linear" then s.addBool("gamma", false)
         else

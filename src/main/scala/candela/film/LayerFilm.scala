@@ -1,7 +1,7 @@
 package candela.film
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
-import candela.color.Rgb
+import candela.color.{ColorSpace, Rgb}
 import candela.image.Image
 
 /** Accumulators of the requested AOVs, in addition to [[Film]]. Not synchronised either: one worker
@@ -66,10 +66,14 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
       System.arraycopy(image.data, from, data, to, image.channels)
       to += image.channels
       for layer <- layers do
-        val values = layer.statistic(tallyOf(layer, stride * pixel, scale))
+        val own = layer.statistic(tallyOf(layer, stride * pixel, scale))
+        val values = if layer == Layer.Albedo then reflectance(own, image.colorSpace) else own
         loop(values.length)(i => data(to + i) = values(i).toFloat)
         to += values.length
     Image(width, height, names, data, colorSpace = image.colorSpace)
+
+  private def reflectance(srgb: Array[Double], space: ColorSpace): Array[Double] =
+    if space.isSrgb then srgb else (space.ofSrgbAdapted * srgb.toVector).toArray
 
   private def tallyOf(layer: Layer, pixel: Int, scale: Float): PixelTally =
     val tally = layer.statistic.tally

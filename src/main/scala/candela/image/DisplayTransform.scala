@@ -1,7 +1,7 @@
 package candela.image
 
 import candela.base.loop
-import candela.color.{Encoding, Magma, Rgb, ToneCurve}
+import candela.color.{Encoding, Gamut, Magma, Rgb, ToneCurve}
 
 /** Scale of the light before its tone curve. */
 enum Exposure:
@@ -34,9 +34,9 @@ final case class DisplayTransform(
 
   /** Display-referred colours. */
   def apply(image: Image): Image =
-    if isPlain then image
+    if isPlain then DisplayTransform.displayable(image)
     else
-      val light = image.toRgb
+      val light = DisplayTransform.displayable(image.toRgb)
       val scale = scaleOf(light)
       val data = new Array[Float](light.data.length)
       loop(light.width * light.height): pixel =>
@@ -85,6 +85,16 @@ object DisplayTransform:
 
   /** Reflectance of a photographer's grey card. */
   val Grey = 0.18f
+
+  /** In sRGB, without negative components; images without such colours are kept. */
+  private def displayable(image: Image): Image =
+    val isLight = image.encoding == Encoding.Linear && image.indicesOf(Image.RgbNames).isDefined
+    if !isLight then image
+    else
+      val light = image.toRgb
+      if light.data.exists(_ < 0f) then light.mapped(Gamut.within)
+      else if image.colorSpace.isSrgb then image
+      else light
 
   /** Half the range of the false-colour view. */
   private val Stops = 6.0

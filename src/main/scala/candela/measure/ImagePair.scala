@@ -19,10 +19,10 @@ final case class PixelWindow(x0: Int, x1: Int, y0: Int, y1: Int):
     loop(y1 - y0): y =>
       val from = ((y + y0) * image.width + x0) * image.channels
       System.arraycopy(image.data, from, data, y * row, row)
-    Image(x1 - x0, y1 - y0, image.channelNames, data, image.encoding)
+    Image(x1 - x0, y1 - y0, image.channelNames, data, image.encoding, image.colorSpace)
 
-/** An image and its reference, of equal size, in linear values. Both have exactly `channels`, in
-  * this order.
+/** An image and its reference, of equal size, in linear values, colours in sRGB. Both have
+  * exactly `channels`, in this order.
   */
 final class ImagePair private (val image: Image, val reference: Image):
   def width: Int = image.width
@@ -73,7 +73,8 @@ object ImagePair:
       throw ImageError(s"image channels differ: ${list(image)} and ${list(reference)}")
 
   private def picked(image: Image, names: Vector[String]): Image =
-    val linear = image.linear
+    val isConverted = names == Image.RgbNames && !image.colorSpace.isSrgb
+    val linear = if isConverted then image.toRgb else image.linear
     if linear.channelNames == names then linear
     else
       val missing = names.filterNot(linear.channelNames.contains)

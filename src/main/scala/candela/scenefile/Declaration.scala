@@ -61,9 +61,14 @@ final class Param(
   def withStrings(values: Vector[String]): Param =
     Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace)
 
+  /** In the colour space of the declaration. */
+  def withFloats(values: Array[Float]): Param =
+    Param(paramType, name, at, valuesAt, values, ints, bools, strings, isDefault)
+
   /** As given by an `Attribute` statement in a colour space. */
   def asDefault(space: String): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, Some(space))
+    val own = Option.when(paramType == ParamType.Rgb)(space)
+    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, own)
 
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *

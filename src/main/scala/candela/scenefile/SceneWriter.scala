@@ -190,7 +190,9 @@ final class SceneWriter(
       val help = Suggest.help(target, SceneWriter.Targets)
       fail(at, s"unknown Attribute target `$target`", help)
     val earlier = state.defaults.getOrElse(target, Vector.empty)
-    val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(_.asDefault(state.colorSpace))
+    val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
+      _.asDefault(state.colorSpace)
+    )
     change(s => s.copy(defaults = s.defaults.updated(target, all)))
 
   def colorSpace(name: String): Unit = change(_.copy(colorSpace = name))

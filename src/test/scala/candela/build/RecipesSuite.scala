@@ -15,10 +15,12 @@ import candela.build.settings.{
 }
 import candela.build.shapes.{ShapePlan, Shapes}
 import candela.build.textures.Textures
+import candela.color.ColorSpace
 import candela.film.Filter
 import candela.math.Transform
 import candela.media.{Medium, Region}
 import candela.sampling.Sampler
+import candela.scenefile.Directives
 import candela.textures.{FloatTexture, RgbTexture}
 
 final class FilmRecipesSuite extends RecipeLaws[FilmSettings](Films.all)
@@ -86,4 +88,7 @@ final class OptionRecipesSuite extends RecipeLaws[SceneSettings](OptionStatement
 final class AcceleratorRecipesSuite
     extends RecipeLaws[AcceleratorPlan](Accelerators.all)
 
-final class ColorSpaceRecipesSuite extends RecipeLaws[ColorSpace](ColorSpaces.all)
+final class ColorSpaceRecipesSuite extends RecipeLaws[ColorSpace](ColorSpaces.all):
+
+  test("the parser knows the same names"):
+    assert(Directives.ColorSpaces.sorted == ColorSpace.all.map(_.name).sorted)

@@ -3,6 +3,7 @@ package candela.build
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.SceneError
+import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
 import candela.render.{RenderMethod, RenderPlan}
@@ -92,6 +93,22 @@ final class SceneBuilderSuite extends AnyFunSuite:
 
   private val triangle =
     """Shape "trianglemesh" "integer indices" [0 1 2] "point P" [0 0 0 1 0 0 0 1 0]"""
+
+  test("the image is in the colour space of the film; the world may use another"):
+    val film = "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2 " +
+      "Sampler \"independent\" \"integer pixelsamples\" 1 Camera \"perspective\" WorldBegin "
+    val light = "LightSource \"infinite\" \"rgb L\" [.5 1 .25]"
+    def close(c: Rgb, wanted: Rgb) = (c - wanted).map(Math.abs).max < 1e-4f
+    for space <- ColorSpace.all do
+      val own = SceneTexts.mean(s"ColorSpace \"$space\" $film $light", Dialect.V4)
+      assert(close(own, Rgb(.5f, 1f, .25f)), s"$space: $own")
+      val inSrgb = SceneTexts.mean(s"$film ColorSpace \"$space\" $light", Dialect.V4)
+      assert(close(inSrgb, space.light(Rgb(.5f, 1f, .25f))), s"$space: $inSrgb")
+      val white = SceneTexts.mean(
+        s"ColorSpace \"$space\" $film LightSource \"infinite\"",
+        Dialect.V4
+      )
+      assert(close(white, Rgb.White), s"$space: $white")
 
   test("shapes of an object appear where its instances are, and only there"):
     val scene = s"""WorldBegin

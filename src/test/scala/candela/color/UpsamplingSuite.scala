@@ -24,6 +24,12 @@ final class UpsamplingSuite extends AnyFunSuite:
       // 1e-3 by the clamp, 1e-3 as above
       assertSame(Colorimetry.rgb(Upsampling.spectrum(c), White.D65), c, 2e-3f)
 
+  test("colours that no smooth spectrum has are approached on the way from grey"):
+    val wide = ColorSpace.named("rec2020").get
+    val red = wide.ofSrgb * Colorimetry.rgb(Upsampling.spectrum(Rgb(0.5f, 0f, 0f), wide), White.D65)
+    assert(Math.abs(red.g - red.b) < 1e-3f) // white, as above
+    assert(red.r > 0.49f && red.r < 0.51f && red.g > 0.005f && red.g < 0.05f, red)
+
   test("values above 1 are scaled down and up again"):
     val wanted = Rgb(2.5f, 1.5f, 0.5f)
     // 1e-3 as above, times the scale of 5

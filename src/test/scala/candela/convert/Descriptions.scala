@@ -57,7 +57,8 @@ object Descriptions:
 
   private def fact(p: Param): String =
     val numbers = p.floats.toVector.map(java.lang.Float.floatToRawIntBits)
-    s"${p.paramType} ${p.name} $numbers ${p.ints.toVector} ${p.bools} ${p.strings} ${p.isDefault}"
+    s"${p.paramType} ${p.name} $numbers ${p.ints.toVector} ${p.bools} ${p.strings} " +
+      s"${p.isDefault} ${p.colorSpace}"
 
   private def matrix(t: AnimatedTransform): String =
     if t.isAnimated then s"${t.start} ${t.end}" else t.start.toString

@@ -46,6 +46,17 @@ class MeaningSuite extends AnyFunSuite:
       )
     do assertSameLight(s"LightSource \"infinite\" $light", Dialect.V4, Dialect.V3)
 
+  test("colours of other spaces become sRGB's, the white of a light too"):
+    for light <- Vector(
+        "ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [1 .8 .9]",
+        "ColorSpace \"aces2065-1\" LightSource \"infinite\"",
+        "ColorSpace \"dci-p3\" Attribute \"light\" \"rgb L\" [1 .8 .9] " +
+          "ColorSpace \"srgb\" LightSource \"infinite\""
+      )
+    do assertSameLight(light, Dialect.V4, Dialect.V3)
+    val deep = "ColorSpace \"rec2020\" LightSource \"infinite\" \"rgb L\" [0 1 0]"
+    assert(converted(deep, Dialect.V4, Dialect.V3).warnings.exists(_.message.contains("gamut")))
+
   private def material(world: String, from: Dialect, to: Dialect): Declaration =
     converted(s"$world Shape \"sphere\"", from, to).scene.shapes.head.material match
       case MaterialRef.Inline(d) => d

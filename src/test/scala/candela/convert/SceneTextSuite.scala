@@ -50,7 +50,8 @@ class SceneTextSuite extends AnyFunSuite:
           |Camera "perspective" WorldBegin Attribute "shape" "float alpha" .5
           |Attribute "material" "float roughness" .25 Attribute "light" "float scale" 2
           |Material "coateddiffuse" AreaLightSource "diffuse" Shape "sphere"
-          |AttributeBegin ColorSpace "srgb" Attribute "shape" "float radius" 3
+          |ColorSpace "rec2020" Attribute "material" "rgb reflectance" [.1 .2 .3]
+          |AttributeBegin ColorSpace "dci-p3" Attribute "shape" "float radius" 3 Material "diffuse"
           |Shape "disk" "float alpha" 1 AttributeEnd LightSource "infinite" """.stripMargin,
         Dialect.V4
       ),

@@ -2,7 +2,7 @@ package candela.film
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.color.{Rgb, WhiteBalance}
+import candela.color.{ColorSpace, Rgb, WhiteBalance}
 
 final class DevelopmentSuite extends AnyFunSuite:
 
@@ -26,6 +26,17 @@ final class DevelopmentSuite extends AnyFunSuite:
     assert(near.forall(v => Math.abs(v - 1f) < 2e-3f), near)
     val cold = developed(Rgb.White, Development(balance = Some(WhiteBalance.ofDaylight(4500f))))
     assert(cold(2) > 1.2f && cold(0) < 1f)
+
+  test("balanced for a space's own white, that stays white there"):
+    val aces = ColorSpace.named("aces2065-1").get
+    val white = aces.light(Rgb.White)
+    val balanced =
+      developed(
+        white,
+        Development(balance = Some(WhiteBalance.ofDaylight(6000f, aces)), space = aces)
+      )
+    // Daylight of nominally 6000 K differs from ACES' white in the fourth digit
+    assert(balanced.forall(v => Math.abs(v - 1f) < 2e-3f), balanced)
 
   test("the luminance of pbrt-v3 is limited, and colours keep their hue"):
     val limit = SampleLimit.luminance(1f).get

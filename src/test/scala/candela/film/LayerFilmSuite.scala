@@ -4,7 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Lambert
 import candela.build.BuildOptions
-import candela.color.Rgb
+import candela.color.{ColorSpace, Rgb}
 import candela.geometry.{Frame, Ray}
 import candela.image.Image
 import candela.math.Vec3
@@ -51,6 +51,16 @@ final class LayerFilmSuite extends AnyFunSuite:
     assert(names.mkString(" ") == "R G B Albedo.R Albedo.G Albedo.B P.X P.Y P.Z dzdx dzdy " +
       "N.X N.Y N.Z Ns.X Ns.Y Ns.Z u v Variance.R Variance.G Variance.B " +
       "RelativeVariance.R RelativeVariance.G RelativeVariance.B")
+
+  test("albedos are in the image's colour space, where white is 1"):
+    val space = ColorSpace.named("aces2065-1").get
+    val film = LayerFilm(0, 0, 1, 1, Vector(Layer.Albedo))
+    film.add(0, 0, Rgb.Black, 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
+    val empty = Image(1, 1, Image.RgbNames, Array(0f, 0f, 0f), colorSpace = space)
+    val image = film.behind(empty, 1f)
+    val wanted = space.ofSrgbAdapted * Rgb(0.5f, 0f, 1f)
+    assert(image.colorSpace eq space)
+    assert(value(image, "Albedo.R") == wanted.r && value(image, "Albedo.G") == wanted.g)
 
   test("means are weighted: of places over what was met, of albedos over all samples"):
     val image = filled(Layer.values.toVector)

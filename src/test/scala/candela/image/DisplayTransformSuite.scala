@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.color.{Magma, Srgb, ToneCurve}
+import candela.color.{ColorSpace, Gamut, Magma, Rgb, Srgb, ToneCurve}
 import org.scalatest.funsuite.AnyFunSuite
 
 class DisplayTransformSuite extends AnyFunSuite:
@@ -15,6 +15,20 @@ class DisplayTransformSuite extends AnyFunSuite:
     val image = gray(0.5f, 7f)
     assert(DisplayTransform.Plain(image) eq image)
     assert(DisplayTransform.Plain.describe(image).isEmpty)
+
+  test("deep colours are shown without negative components"):
+    val image = Image(1, 1, Image.RgbNames, Array(-0.2f, 0.8f, 0.3f))
+    val wanted = Gamut.within(Rgb(-0.2f, 0.8f, 0.3f))
+    for display <- Seq(DisplayTransform.Plain, DisplayTransform(exposure = Exposure.Stops(0f))) do
+      assert(display(image).data.sameElements(Array(wanted.r, wanted.g, wanted.b)))
+    val brighter = DisplayTransform(exposure = Exposure.Stops(1f))(image).data
+    assert(brighter.sameElements(Array(0f, 2 * wanted.g, 2 * wanted.b)))
+
+  test("colours of other spaces are shown in sRGB"):
+    val space = ColorSpace.named("dci-p3").get
+    val image = Image(1, 1, Image.RgbNames, Array(0.5f, 0.4f, 0.3f), colorSpace = space)
+    val c = space.toSrgb * Rgb(0.5f, 0.4f, 0.3f)
+    assert(DisplayTransform.Plain(image).data.sameElements(Array(c.r, c.g, c.b)))
 
   test("a stop doubles the light, before the tone curve"):
     val brighter = DisplayTransform(exposure = Exposure.Stops(1f))

@@ -1,5 +1,6 @@
 package candela.image
 
+import candela.color.{ColorSpace, Rgb}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
@@ -88,6 +89,29 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val image = Image.rgb(1, 1)
     assert(Samples.attempt { Exr.write(image, Vector("" -> "x")); image }.isLeft)
     assert(Samples.attempt { Exr.write(image, Vector("x" * 256 -> "x")); image }.isLeft)
+
+  test("primaries come back with the colours, by name if they have one"):
+    val colors = Array(0.5f, 1f, -0.25f)
+    def stored(space: ColorSpace) =
+      Exr.write(Image(1, 1, Image.RgbNames, colors, colorSpace = space), Vector.empty)
+    for space <- ColorSpace.all do
+      val image = Exr.read(stored(space))
+      assert((image.colorSpace eq space) && image.data.sameElements(colors))
+    // Deep: negative in sRGB, and not clipped
+    val rec2020 = ColorSpace.named("rec2020").get
+    val srgb = Exr.read(stored(rec2020)).toRgb
+    val wanted = rec2020.toSrgb * Rgb(0.5f, 1f, -0.25f)
+    assert(srgb.colorSpace.isSrgb && srgb(0, 0, 2) == wanted.b && wanted.b < 0f)
+
+  test("primaries that make no colours are refused"):
+    val space = ColorSpace.named("rec2020").get
+    val file =
+      Exr.write(Image(1, 1, Image.RgbNames, Array(1f, 1f, 1f), colorSpace = space), Vector.empty)
+    val text = String(file, java.nio.charset.StandardCharsets.ISO_8859_1)
+    val at = text.indexOf("chromaticities", text.indexOf("chromaticities") + 1) + 15 + 4
+    java.util.Arrays.fill(file, at, at + 32, 0.toByte)
+    val message = intercept[ImageError](Exr.read(file)).getMessage
+    assert(message == "attribute `chromaticities` is damaged")
 
   test("damaged files are read or refused, never anything else"):
     val names =

@@ -74,7 +74,8 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
 
   protected def make()(using site: Site): FilmSettings =
     if white() < 0f then site.error(s"`whitebalance` must not be below 0 K, found ${white()}")
-    val development = Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
+    val development =
+      Development(iso() / 100f, clipsNegative = false, isHalf = half(), space = site.colorSpace)
     val kelvin = Math.max(white(), 0f)
     camera() match
       case Some(found) =>

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.color.{ColorBasis, Rgb, Spectrum}
+import candela.color.{ColorBasis, ColorSpace, Rgb, Spectrum}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -23,6 +23,34 @@ final class SpectraSuite extends AnyFunSuite:
     assert(emission(written, Dialect.V3).contains(Rgb(0.2f, 0.4f, 0.8f)))
     val v4 = emission(written, Dialect.V4).get
     assert(close(ColorBasis.Sharp.toSrgb(v4), Rgb(0.2f, 0.4f, 0.8f), 1e-6f)) // rounding
+
+  test("a colour is converted from its space; that of an attribute is its own"):
+    val rec2020 = ColorSpace.named("rec2020").get
+    def read(text: String, name: String) =
+      val light = SceneTexts.parse(text, Dialect.V4).lights.head.light
+      val site = Site(light, Dialect.V4, Resources(ColorBasis.Srgb), Findings())
+      Spectra.rgb(light.param(name).get, SpectrumRole.Emission, site).get
+    val wanted = rec2020.light(Rgb(0.5f, 1f, 0.5f))
+    val own = "\"rgb I\" [0.5 1 0.5]"
+    val light = s"ColorSpace \"Rec2020\" WorldBegin LightSource \"point\" $own"
+    assert(close(read(light, "I"), wanted, 1e-6f) && wanted.r < 0.4f)
+    val attribute =
+      s"ColorSpace \"rec2020\" WorldBegin Attribute \"light\" $own " +
+        "ColorSpace \"srgb\" LightSource \"point\""
+    assert(close(read(attribute, "I"), wanted, 1e-6f))
+
+  test("reflectances keep white, and light that is not given has the white of its space"):
+    val text = "ColorSpace \"aces2065-1\" WorldBegin LightSource \"point\""
+    val site =
+      Site(
+        SceneTexts.parse(text, Dialect.V4).lights.head.light,
+        Dialect.V4,
+        Resources(ColorBasis.Srgb),
+        Findings()
+      )
+    val aces = ColorSpace.named("aces2065-1").get
+    assert(Spectra.default(Rgb.White, SpectrumRole.Emission, site) == aces.light(Rgb.White))
+    assert(Spectra.default(Rgb.White, SpectrumRole.Reflectance, site) == Rgb.White)
 
   test("xyz is turned into sRGB: the white point of D65 is white"):
     // Four digits of the white point
