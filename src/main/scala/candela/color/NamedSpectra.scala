@@ -24,6 +24,12 @@ object NamedSpectra:
 
   val names: Vector[String] = places.map(_._1)
 
+  /** The names, with long families in short. */
+  def inWords: String =
+    val short =
+      names.filterNot(n => byName(n).file == "fluorescent" || byName(n).file.startsWith("camera"))
+    short.sorted.mkString("", ", ", ", stdillum-F1 to -F12, sensors' curves such as canon_eos_5d_r")
+
   private val byName = places.toMap
 
   /** The tabulated function, constant outside its range. */

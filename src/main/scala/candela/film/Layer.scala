@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.color.Rgb
+import candela.color.{ColorSpace, Matrix3, Rgb}
 import candela.math.Vec3
 
 import Statistic.*
@@ -107,6 +107,12 @@ enum Layer(
         Cryptomatte.Ranked(Cryptomatte.tally(_.materialId)),
         needsFloat = true
       )
+
+  /** Matrix from linear sRGB to the colour space of the image, for layers of colours. */
+  private[film] def to(space: ColorSpace): Option[Matrix3] = this match
+    case Albedo | DenoisingAlbedo => Some(space.ofSrgbAdapted)
+    case Emission => Some(space.ofSrgb)
+    case _ => None
 
 object Layer:
   /** The AOVs of pbrt-v4's film "gbuffer". */

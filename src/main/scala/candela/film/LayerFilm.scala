@@ -1,7 +1,7 @@
 package candela.film
 
 import candela.base.{CheckedInput, CheckedOutput, loop}
-import candela.color.{ColorSpace, Rgb}
+import candela.color.Rgb
 import candela.image.Image
 
 /** Accumulators of the requested AOVs, in addition to [[Film]]. Not synchronised either: one worker
@@ -60,20 +60,19 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
     require(image.width == width && image.height == height)
     val names = image.channelNames ++ layers.flatMap(_.channels)
     val data = new Array[Float](names.size * width * height)
+    val space = image.colorSpace
+    val converted = layers.map(layer => layer -> (if space.isSrgb then None else layer.to(space)))
     loop(width * height): pixel =>
       val from = image.channels * pixel
       var to = names.size * pixel
       System.arraycopy(image.data, from, data, to, image.channels)
       to += image.channels
-      for layer <- layers do
+      for (layer, matrix) <- converted do
         val own = layer.statistic(tallyOf(layer, stride * pixel, scale))
-        val values = if layer == Layer.Albedo then reflectance(own, image.colorSpace) else own
+        val values = matrix.fold(own)(m => (m * own.toVector).toArray)
         loop(values.length)(i => data(to + i) = values(i).toFloat)
         to += values.length
-    Image(width, height, names, data, colorSpace = image.colorSpace)
-
-  private def reflectance(srgb: Array[Double], space: ColorSpace): Array[Double] =
-    if space.isSrgb then srgb else (space.ofSrgbAdapted * srgb.toVector).toArray
+    Image(width, height, names, data, colorSpace = space)
 
   private def tallyOf(layer: Layer, pixel: Int, scale: Float): PixelTally =
     val tally = layer.statistic.tally

@@ -134,7 +134,7 @@ object Spectra:
           p.valuesAt,
           s"`$name` is neither a named spectrum nor a file",
           standIn,
-          near.orElse(Suggest.file(file)).orElse(Suggest.help(name, NamedSpectra.names))
+          near.orElse(Suggest.file(file)).orElse(Some(s"known: ${NamedSpectra.inWords}"))
         )
         None
       else
