@@ -179,7 +179,9 @@ function figures(state) {
   byId("error").textContent = state.error === null ? "–" : short(state.error);
   const isOver = state.stage === "done" || state.stage === "stopped";
   byId("stop").disabled = state.stage !== "rendering";
-  byId("save").disabled = byId("end").disabled = false;
+  byId("keep").hidden = state.keepsOn === null;
+  byId("keep").setAttribute("aria-pressed", state.keepsOn === true);
+  byId("keep").disabled = byId("save").disabled = byId("end").disabled = false;
   byId("end").hidden = !(isOver && state.stays);
   live.dataset.stage = state.stage;
 }
@@ -204,7 +206,7 @@ async function poll() {
   } catch (e) {
     const isOver = ["done", "stopped"].includes(live.dataset.stage);
     byId("stage").textContent = isOver ? `${live.dataset.stage}; the program has ended` : "no connection to the program";
-    for (const b of ["stop", "save", "end"]) byId(b).disabled = true;
+    for (const b of ["stop", "keep", "save", "end"]) byId(b).disabled = true;
     live.dataset.lost = "yes";
     pause = 2000;
   }
@@ -212,7 +214,7 @@ async function poll() {
   timer = setTimeout(poll, document.hidden ? Math.max(2000, pause) : view && view.s.stale ? 0 : pause);
 }
 
-for (const action of ["stop", "save", "end"])
+for (const action of ["stop", "keep", "save", "end"])
   byId(action).addEventListener("click", async () => {
     await fetch(action, { method: "POST" }).catch(() => {});
     poll();

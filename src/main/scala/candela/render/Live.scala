@@ -5,7 +5,8 @@ import candela.film.PixelBounds
 /** A rendering in progress, for observers in other threads. Reading it costs the workers nothing:
   * they go on meanwhile, and pixels may be read between two of their samples.
   *
-  * @param total samples to take, in all pixels
+  * @param planned   samples to take, in all pixels
+  * @param canKeepOn whether it may go on beyond them
   */
 final class Live private[render] (
     plan: RenderPlan,
@@ -13,14 +14,25 @@ final class Live private[render] (
     board: Board,
     workers: Vector[Worker],
     state: RenderState,
-    total: Long,
+    planned: Long,
+    val canKeepOn: Boolean,
     elapsed: () => Double
 ):
-  def progress: Progress = Progress(board.samplesTaken.sum, total, elapsed())
+  @volatile private var wantsMore = false
+  @volatile private var further = 0
+
+  /** Whether to go on when the planned samples are taken, until cancelled or no longer wanted. */
+  def keepsOn: Boolean = canKeepOn && wantsMore
+  def keepOn(wanted: Boolean): Unit = wantsMore = wanted
+
+  private[render] def extend(samples: Int): Unit = further += samples
+
+  def progress: Progress =
+    Progress(board.samplesTaken.sum, planned + further * plan.sampled.pixels, elapsed())
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =
-    Renderer.rendering(state, job, workers, plan.sampler.samplesPerPixel)
+    Renderer.rendering(state, job, workers, plan.sampler.samplesPerPixel + further)
       .copy(samplesTaken = board.samplesTaken.sum, seconds = elapsed())
 
   /** The tiles that workers render at the moment; none for methods without tiles. */

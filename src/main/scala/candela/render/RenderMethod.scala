@@ -35,6 +35,11 @@ enum RenderMethod:
     case Tiles(_) => true
     case _ => false
 
+  /** Whether samples can be added beyond the planned number. */
+  def canKeepOn: Boolean = this match
+    case Tiles(_) | SplattedTiles(_) => true
+    case _ => false
+
   /** Whether light paths connect to the camera. */
   def seesLightPaths: Boolean = this match
     case SplattedTiles(_) | Chains(_, _) => true

@@ -40,7 +40,8 @@ object Renderer:
     val state = RenderState(job, board, workers)
     keeper.foreach(_.restore(state))
     val total = plan.sampled.pixels * (samplesPerPixel - state.samplesDone) / shard.count
-    val live = Live(plan, job, board, workers, state, total, () => seconds)
+    val canKeepOn = plan.method.canKeepOn && shard.isWhole && keeper.isEmpty
+    val live = Live(plan, job, board, workers, state, total, canKeepOn, () => seconds)
     def progress() = onProgress(live.progress)
     onStart(live)
     def tick() =
@@ -52,24 +53,33 @@ object Renderer:
     val earlier = state.samplesDone
     witness.foreach(_.begins(earlier, job.film))
     def isNew(end: Int) = schedule.firstSample(end) > earlier
-    for end <- ends(schedule, witness).filter(isNew) if !board.isStopped && !isEnough do
+    def run(end: Int): Unit =
       board.openUntil(end)
       val begin = seconds
       Workers.run(workers, board)(() => tick())
       for w <- witness if !board.isStopped do
-        val isLast = end == schedule.waves
+        val isLast = end >= schedule.waves
         val busy = workers.map(_.seconds)
         val pass = Pass(schedule.firstSample(end), begin, seconds, busy, isLast)
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
+    for end <- ends(schedule, witness).filter(isNew) if !board.isStopped && !isEnough do run(end)
+    var wave = schedule.waves
+    while live.keepsOn && !board.isStopped && !isEnough do
+      // A third of all samples is new: seldom enough for the workers to wait for each other
+      val done = schedule.firstSample(wave)
+      wave += Math.max(1, done / 2 / Schedule.LargestWave)
+      live.extend(schedule.firstSample(wave) - done)
+      run(wave)
     progress()
     for k <- keeper do
       k.save(state)
       k.finish()
 
     val result = live.rendering
-    if isEnough then result.copy(samplesPerPixel = result.samplesDone) else result
+    val hasAll = result.samplesDone >= samplesPerPixel
+    if isEnough || hasAll then result.copy(samplesPerPixel = result.samplesDone) else result
 
   /** The image of a saved state, or of several that add up to one.
     *

@@ -38,10 +38,12 @@ private[render] abstract class Schedule(
   final def samplesDone(progress: AtomicLongArray): Int =
     (0 until pieces).map(i => samplesOf(i, progress.get(i))).min
 
-  def firstSample(wave: Int): Int = waveStarts(wave)
+  /** Waves beyond the planned ones are of equal size. */
+  def firstSample(wave: Int): Int =
+    if wave <= waves then waveStarts(wave) else samplesPerPixel + (wave - waves) * largestWave
 
   /** One more than the last sample of the wave. */
-  def endSample(wave: Int): Int = waveStarts(wave + 1)
+  def endSample(wave: Int): Int = firstSample(wave + 1)
 
   /** Waves after which every pixel has 1, 2, 4, 8, … samples, and the last wave. */
   def passes: Vector[Int] = (1 to waves).toVector.filter: end =>

@@ -23,6 +23,7 @@ private[render] final class TileWorker(
 ) extends Worker(schedule, board):
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
+  private val planned = sampler.samplesPerPixel
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
   private val ray = rays.ray
   private val weighs = camera.weighs
@@ -90,7 +91,7 @@ private[render] final class TileWorker(
   private def takeSample(): Unit =
     val shared = shares
     if shared == null then
-      sampler.start(x, y, sample)
+      start(x, y)
       sampler.next2D()
       filterSampler.sample(sampler.x, sampler.y)
       filmX = x + 0.5f + filterSampler.dx
@@ -98,11 +99,22 @@ private[render] final class TileWorker(
       follow()
     else
       // Samplers cover the image only; pixels outside wrap around to the opposite side
-      sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)
+      start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height))
       sampler.next2D()
       filmX = x + sampler.x
       filmY = y + sampler.y
       if shared.reaches(filmX, filmY) then follow()
+
+  /** Starts the sample. Beyond the planned ones, samplers whose points depend on their number have
+    * none: those of other pixels take their place, which are independent of the pixel's own.
+    */
+  private def start(x: Int, y: Int): Unit =
+    if sample < planned || sampler.isProgressive then sampler.start(x, y, sample)
+    else
+      val round = sample / planned
+      val shiftedX = (x + round * TileWorker.ShiftX) % plan.width
+      val shiftedY = (y + round * TileWorker.ShiftY) % plan.height
+      sampler.start(shiftedX, shiftedY, sample % planned)
 
   /** Traces the camera ray at the sampled film position. */
   private def follow(): Unit =
@@ -139,3 +151,8 @@ private[render] final class TileWorker(
       refusedSample = sample
       refusedMaterial = integrator.lastMaterial
     refusedCount += 1
+
+private object TileWorker:
+  // Distances in pixels: beyond a tile, and prime to most sizes of images
+  val ShiftX = 37
+  val ShiftY = 101

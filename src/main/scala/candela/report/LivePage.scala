@@ -20,6 +20,7 @@ object LivePage:
       div(
         cls := "choice",
         button(id := "stop", "stop"),
+        button(id := "keep", attr("aria-pressed") := "false", "keep on"),
         button(id := "save", "save"),
         button(id := "end", attr("hidden") := "", "end"),
         span(cls := "bar", attr("role") := "progressbar", i(id := "done"))

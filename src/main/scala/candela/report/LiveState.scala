@@ -23,6 +23,7 @@ enum Stage(val word: String):
   * @param rate    camera samples per second
   * @param tiles   that workers render at the moment
   * @param points  of the error curve so far
+  * @param keepsOn whether it goes on beyond the planned samples; None: it can't
   * @param stays   whether the page remains when rendering has ended
   * @param saved   files written on request, most recently
   */
@@ -41,6 +42,7 @@ final case class LiveState(
     tiles: Vector[Frame],
     points: Vector[CurvePoint],
     viewers: Int,
+    keepsOn: Option[Boolean],
     stays: Boolean,
     saved: Option[String]
 )
@@ -70,6 +72,7 @@ object LiveData:
           RenderData.number(p.errors.relativeMse),
         "points" -> s.points.size,
         "viewers" -> s.viewers,
+        "keepsOn" -> s.keepsOn.fold(ujson.Null: ujson.Value)(ujson.Bool(_)),
         "stays" -> s.stays,
         "saved" -> s.saved.fold(ujson.Null: ujson.Value)(ujson.Str(_))
       )

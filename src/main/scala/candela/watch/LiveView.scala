@@ -41,6 +41,7 @@ final class LiveView(
 
   private val actions: Map[String, () => Unit] = Map(
     "stop" -> (() => cancellation.request()),
+    "keep" -> (() => observer.keepsOn.foreach(keeps => observer.keepOn(!keeps))),
     "save" -> (() => saved = Some(save(observer.rendering))),
     "end" -> (() => ended.countDown())
   )
@@ -102,6 +103,7 @@ final class LiveView(
       observer.tiles.map(t => Frame(t.x0, t.y0, t.x1, t.y1)),
       observer.points,
       viewers.count,
+      observer.keepsOn,
       stays,
       saved
     )

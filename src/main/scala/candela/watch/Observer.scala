@@ -49,6 +49,11 @@ final class Observer(
 
   def isEnded: Boolean = result.isDefined
 
+  /** Whether the rendering goes on beyond the planned samples; None: it can't, or has ended. */
+  def keepsOn: Option[Boolean] = Option.when(live.canKeepOn && !isEnded)(live.keepsOn)
+
+  def keepOn(wanted: Boolean): Unit = live.keepOn(wanted)
+
   /** The tiles that are being rendered. */
   def tiles: Vector[PixelBounds] = if isEnded then Vector.empty else live.tiles
 

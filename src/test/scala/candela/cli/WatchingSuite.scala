@@ -90,6 +90,27 @@ class WatchingSuite extends AnyFunSuite:
       assert(WebClient.get(s"${running.link}nonsense").code == 404)
       assert(WebClient.get(s"${running.link}pixel?x=40&y=0").code == 404)
 
+  test("keep on goes on beyond the planned samples, until it is stopped"):
+    TempFolder.use: folder =>
+      val gate = CountDownLatch(1)
+      val endless = TinyPlan(spp = 16, filename = folder.resolve("a.exr").toString): (where, _) =>
+        if where == Where(0, 0, 8) then gate.await()
+        Rgb.White
+      val running = Watched(endless, "--watch", "0")
+      def state = ujson.read(WebClient.get(s"${running.link}state?viewer=a&shown=0").text)
+      assert(state("keepsOn").bool == false)
+      val _ = WebClient.post(s"${running.link}keep")
+      assert(state("keepsOn").bool)
+      gate.countDown()
+      val later = candela.testing.Chromium.eventually("more samples"):
+        Some(state).filter(_("samples").num >= 160)
+      assert(later("stage").str == "rendering" && later("planned").num > 160)
+      assert(later("part").num <= 1)
+      val _ = WebClient.post(s"${running.link}stop")
+      assert(running.ended == 0)
+      val samples = raw", (\d+) spp, ".r.findFirstMatchIn(running.out).get.group(1)
+      assert(samples.toInt >= 160)
+
   test("the page needs nothing but its server"):
     stays("--watch", "0"): (running, _) =>
       val page = WebClient.get(running.link).text
