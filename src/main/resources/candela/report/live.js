@@ -33,14 +33,18 @@ function liveView(size) {
     layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
   const pixels = Object.assign(document.createElement("canvas"), { width, height });
   const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);
-  let data = null, channels = 3, codes = codesOf(s.curve), asking = null;
+  let data = null, channels = 3, matrix = null, codes = codesOf(s.curve), asking = null;
 
   function paint() {
     if (!data) return;
     const gain = Math.pow(2, s.ev), n = width * height, last = channels - 1;
     for (let i = 0, o = 0; i < n; i++, o += 4) {
       for (let k = 0; k < 3; k++) {
-        const v = data[i * channels + (k < last ? k : last)] * gain;
+        const at = i * channels, m = 3 * k;
+        const light = matrix
+          ? matrix[m] * data[at] + matrix[m + 1] * data[at + 1] + matrix[m + 2] * data[at + 2]
+          : data[at + (k < last ? k : last)];
+        const v = light * gain;
         out.data[o + k] = v > 0 ? codes[v === Infinity ? 8192 : 8192 * v / (1 + v) | 0] : 0;
       }
       out.data[o + 3] = 255;
@@ -91,6 +95,8 @@ function liveView(size) {
     const answer = await fetch(`image?layer=${encodeURIComponent(s.layer)}`);
     if (!answer.ok) return;
     channels = +answer.headers.get("X-Channels");
+    const toSrgb = answer.headers.get("X-To-Srgb");
+    matrix = toSrgb && toSrgb.split(",").map(Number);
     data = new Float32Array(await answer.arrayBuffer());
     s.version = +answer.headers.get("X-Version");
     paint(); readOut();

@@ -91,7 +91,8 @@ private[watch] final class LiveServer(
           "application/octet-stream",
           bytes.data,
           Vector("X-Version" -> snapshot.version, "X-Channels" -> bytes.channels)
-            .map((key, value) => key -> value.toString)
+            .map((key, value) => key -> value.toString) ++
+            bytes.toSrgb.map(matrix => "X-To-Srgb" -> matrix.mkString(","))
         )
       case "pixel" =>
         for

@@ -27,7 +27,9 @@ final class Snapshot(val version: Int, val image: Image, val noise: Option[Image
         layer,
         name =>
           val (from, channels) = sourceOf(name)
-          LayerBytes(channels.size, pack(from, channels))
+          val matrix = Option.when(name == Color && !from.colorSpace.isSrgb):
+            from.colorSpace.toSrgb.toFloats.toVector
+          LayerBytes(channels.size, pack(from, channels), matrix)
       )
 
   /** Every layer's channels at a pixel of the image. */
@@ -70,5 +72,8 @@ object Snapshot:
         floats.put(image.data(pixel * image.channels + c))
     bytes.array
 
-/** A layer's values as little-endian Floats, channels interleaved. */
-final case class LayerBytes(channels: Int, data: Array[Byte])
+/** A layer's values as little-endian Floats, channels interleaved.
+  *
+  * @param toSrgb matrix to linear sRGB, row by row, if the values are of another colour space
+  */
+final case class LayerBytes(channels: Int, data: Array[Byte], toSrgb: Option[Vector[Float]])

@@ -1,6 +1,7 @@
 package candela.cli
 
-import candela.color.Rgb
+import candela.color.{ColorSpace, Rgb}
+import candela.film.Development
 import candela.image.ImageFiles
 import candela.render.TinyPlan
 import candela.testing.{Chromium, OpenPage}
@@ -72,6 +73,29 @@ class LivePageSuite extends AnyFunSuite:
       finally
         val _ = WebClient.post(s"${running.link}stop")
       assert(running.ended == 130)
+
+  test("the page shows colours of other spaces as sRGB, and reads out those of the file"):
+    TempFolder.use: folder =>
+      val space = ColorSpace.named("rec2020").get
+      val file = folder.resolve("a.exr")
+      val gray = TinyPlan(filename = file.toString, development = Development(space = space)):
+        (_, _) => Rgb(0.2f, 0.4f, 0.6f)
+      val running = Watched(gray, "--watch", "0", "--watch-after")
+      Chromium.use(browser, s"${running.link}#x=20&y=13"): page =>
+        page.until("document.querySelector('#live').dataset.stage == 'done'")
+        page.until("(document.querySelector('#live').dataset.pixel || '').includes('color')")
+        val read = ujson.read(data(page, "pixel"))("rows")(0)("values").arr.map(_.num.toFloat)
+        assert(read == (0 to 2).map(ImageFiles.read(file)(20, 13, _)))
+        val shown = page.value(
+          "(c => [...c.getContext('2d').getImageData(5, 5, 1, 1).data])" +
+            "(document.querySelector('canvas'))"
+        ).arr.map(_.num.toInt)
+        val srgb = space.light(Rgb(0.2f, 0.4f, 0.6f))
+        val wanted = Vector(srgb.r, srgb.g, srgb.b).map: v =>
+          if v <= 0 then 0.0 else 255 * (1.055 * Math.pow(v, 1 / 2.4) - 0.055)
+        for (a, b) <- shown.zip(wanted) do assert(Math.abs(a - b) <= 1, s"$shown, $wanted")
+        click(page, "end")
+        assert(running.ended == 0)
 
   test("with --watch-after the page stays, for reloads and several viewers, until it is ended"):
     TempFolder.use: folder =>

@@ -23,7 +23,8 @@ object TinyPlan:
       limit: Option[SampleLimit] = None,
       filename: String = "pbrt.exr",
       filter: Filter = BoxFilter(0.5f, 0.5f),
-      sharesSamples: Boolean = false
+      sharesSamples: Boolean = false,
+      development: Development = Development()
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
     RenderPlan(
@@ -36,7 +37,7 @@ object TinyPlan:
       RenderMethod.Tiles(Formula(radiance)),
       candela.color.ColorBasis.Srgb,
       limit,
-      Development(),
+      development,
       filename,
       Vector("integrator" -> "formula"),
       sharesSamples = sharesSamples
