@@ -5,7 +5,7 @@ import java.nio.ByteBuffer
 import java.nio.ByteOrder.LITTLE_ENDIAN
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Files, Path, StandardOpenOption}
+import java.nio.file.{Path, StandardOpenOption}
 import java.util.zip.CRC32C
 
 import scala.util.Using
@@ -24,10 +24,13 @@ object CheckedFile:
       body(out)
       out.end()
 
-  /** Waits until the device has the file, or a folder's entries. */
+  /** Waits until the device has the file. */
   def force(path: Path): Unit =
-    val mode = if Files.isDirectory(path) then StandardOpenOption.READ else StandardOpenOption.WRITE
-    Using.resource(FileChannel.open(path, mode))(_.force(true))
+    Using.resource(FileChannel.open(path, StandardOpenOption.WRITE))(_.force(true))
+
+  /** Waits until the device has the folder's entries, where the system can do so. */
+  def forceFolder(path: Path): Unit =
+    val _ = Using(FileChannel.open(path, StandardOpenOption.READ))(_.force(true))
 
   /** Verifies the file, then reads it from its start.
     *

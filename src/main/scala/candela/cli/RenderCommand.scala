@@ -288,9 +288,9 @@ object Summary:
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel$missing"
 
-  /** `continuing x.film: 12 of 64 samples per pixel` */
+  /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =
-    s"continuing ${film.path}: ${film.header.done} of ${film.header.samples} samples per pixel"
+    s"continuing ${film.path} at ${film.header.done} samples per pixel"
 
   def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
     Vector(

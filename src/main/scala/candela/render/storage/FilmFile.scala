@@ -81,7 +81,7 @@ final class FilmWriter(path: Path, private var isGood: Boolean = true):
     if isGood && Files.exists(path) then move(path, FilmFile.previous(path))
     move(next, path)
     isGood = true
-    CheckedFile.force(path.toAbsolutePath.getParent)
+    CheckedFile.forceFolder(path.toAbsolutePath.getParent)
 
   private def move(from: Path, to: Path): Unit =
     try
