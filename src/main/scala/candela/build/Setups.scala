@@ -61,7 +61,8 @@ private[build] object ImageSetup:
   def of(context: BuildContext, options: BuildOptions): ImageSetup =
     val film = context.made(context.description.film, Films.all, context.defaults.film)
     val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
-    val layers = (film.layers ++ options.layers).distinct
+    val layers =
+      if options.preview then Vector.empty else (film.layers ++ options.layers).distinct
     val part =
       if options.preview then Preview.reduction(film.width, film.height)
       else if options.quick then 4

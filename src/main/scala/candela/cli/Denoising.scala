@@ -15,8 +15,9 @@ private[cli] final class Denoising(denoiser: Oidn, threads: Int):
   def apply(image: Image): Image =
     def found(layer: Layer) =
       image.indicesOf(layer.channels).map(selected(image, _))
+    val noisy = selected(image, image.colorChannels)
     val (albedo, normal) = (found(Layer.DenoisingAlbedo), found(Layer.DenoisingNormal))
-    val colors = denoiser.denoise(image.toRgb, albedo, normal, threads)
+    val colors = denoiser.denoise(noisy, albedo, normal, threads)
     val names = image.channelNames ++ Channels
     val data = new Array[Float](names.size * image.width * image.height)
     for pixel <- 0 until image.width * image.height do
@@ -28,7 +29,7 @@ private[cli] final class Denoising(denoiser: Oidn, threads: Int):
         image.channels
       )
       System.arraycopy(colors.data, 3 * pixel, data, names.size * pixel + image.channels, 3)
-    Image(image.width, image.height, names, data)
+    Image(image.width, image.height, names, data, colorSpace = image.colorSpace)
 
   /** For image files: denoising trades noise for bias. */
   def metadata: Vector[(String, String)] = Vector(
@@ -49,7 +50,7 @@ private[cli] final case class Denoised(image: Image, renderSeconds: Double, seco
     def error(of: Image) = Metrics.compare(of, reference).relativeMse
     val noisy = error(image.toRgb)
     val atEqualTime = noisy * renderSeconds / (renderSeconds + seconds)
-    val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image)))
+    val figures = Vector(noisy, atEqualTime, error(Denoising.shown(image).toRgb))
     val names = Vector("noisy", "noisy in the same time", "denoised")
     figures.map(Figures.scientific).zip(names).map((e, name) => s"$e $name").mkString(", ")
 
@@ -64,9 +65,9 @@ private[cli] object Denoising:
   def shown(image: Image): Image =
     image.indicesOf(Channels).fold(image)(selected(image, _))
 
-  /** Three channels as R, G and B. */
+  /** Three channels as R, G and B, in the colour space of the image. */
   private def selected(image: Image, channels: Vector[Int]): Image =
-    val picked = Image.rgb(image.width, image.height)
+    val data = new Array[Float](3 * image.width * image.height)
     for pixel <- 0 until image.width * image.height; c <- 0 until 3 do
-      picked.data(3 * pixel + c) = image.data(image.channels * pixel + channels(c))
-    picked
+      data(3 * pixel + c) = image.data(image.channels * pixel + channels(c))
+    Image(image.width, image.height, Image.RgbNames, data, colorSpace = image.colorSpace)

@@ -117,12 +117,40 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(legend.contains("{\"sphere " + scene) && legend.contains("MurmurHash3_32"))
       assert(isExact(image("depth:float")._1, "Z") && !isExact(image("depth:half")._1, "Z"))
 
-  test("--denoise adds a layer, marks it as biased, and pictures show it"):
+  private def needsDenoiser(): Unit =
     try candela.image.Oidn.load(): Unit
     catch
       case e: candela.image.ImageError =>
         println(s"RenderCommandSuite: skipped: ${e.getMessage}")
         cancel(e.getMessage)
+
+  test("--denoise keeps the colour space of the image"):
+    needsDenoiser()
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val scene = folder.resolve("s.pbrt")
+      val _ = Files.writeString(
+        scene,
+        """ColorSpace "rec2020"
+        Film "rgb" "integer xresolution" 16 "integer yresolution" 16
+        Camera "perspective" WorldBegin
+        LightSource "infinite" "rgb L" [.9 .1 .1] """
+      )
+      val words = Seq(scene.toString, "--spp", "1", "--denoise", "--outfile", file.toString)
+      assert(Main.run(words, Captured(environment = sys.env).terminal) == 0)
+      val image = ImageFiles.read(file)
+      assert(!image.colorSpace.isSrgb)
+      for (c, i) <- Vector("R", "G", "B").zipWithIndex do
+        val (noisy, denoised) = (
+          image.channelNames.indexOf(c),
+          image.channelNames.indexOf(
+            Denoising.Channels(i)
+          )
+        )
+        assert(Math.abs(image(8, 8, denoised) - image(8, 8, noisy)) < 0.02f, c)
+
+  test("--denoise adds a layer, marks it as biased, and pictures show it"):
+    needsDenoiser()
     TempFolder.use: folder =>
       val scene = folder.resolve("s.pbrt")
       val film = "Film \"rgb\" \"integer xresolution\" 48 \"integer yresolution\" 32"

@@ -62,3 +62,9 @@ class HeadlightSuite extends AnyFunSuite:
     assert(size(400, 400) == (400, 400))
     assert(size(401, 400) == (200, 200))
     assert(size(3840, 2160) == (480, 270))
+
+  test("films of layers and of wavelengths show a plain image"):
+    for film <- Vector("gbuffer", "spectral") do
+      val plan = SceneTexts.plan(s"$head Film \"$film\" WorldBegin", Dialect.V4, asked)
+      val image = Renderer.render(plan, threads = 1).image(plan.development)
+      assert(image.channelNames == Image.RgbNames)
