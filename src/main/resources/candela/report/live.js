@@ -4,17 +4,17 @@
 const byId = id => document.getElementById(id), live = byId("live");
 const me = Math.random().toString(36).slice(2);
 
-const ToneCurves = {
-  srgb: v => encode(Math.min(1, v)),
-  // Narkowicz, "ACES filmic tone mapping curve", 2015
-  filmic: v => encode(Math.min(1, v * (2.51 * v + 0.03) / (v * (2.43 * v + 0.59) + 0.14))),
-  // Reinhard et al., "Photographic tone reproduction for digital images", 2002, eq. 3, per channel
-  reinhard: v => encode(v / (1 + v)),
-};
+// By name, at the places √(v / (1 + v)) of the values v
+const ToneCurves = JSON.parse(byId("curves").textContent);
 
 // Display code of v, at the place v / (1 + v) of 8192
-const codesOf = curve => Uint8ClampedArray.from({ length: 8193 },
-  (_, i) => i === 8192 ? 255 : 255 * ToneCurves[curve](i / (8192 - i)) + 0.5);
+function codesOf(curve) {
+  const table = ToneCurves[curve], n = table.length - 1;
+  return Uint8ClampedArray.from({ length: 8193 }, (_, i) => {
+    const place = Math.sqrt(i / 8192) * n, at = Math.min(n - 1, place | 0);
+    return 255 * encode(table[at] + (table[at + 1] - table[at]) * (place - at)) + 0.5;
+  });
+}
 
 const clock = seconds => {
   const s = Math.round(seconds), two = n => String(n).padStart(2, "0");
@@ -29,7 +29,7 @@ function liveView(size) {
   const stage = live.querySelector(".stage"), readout = live.querySelector(".readout");
   const number = (key, other) => asked.has(key) ? +asked.get(key) : other;
   const s = { zoom: 1, left: 0, top: 0, x: number("x", -1), y: number("y", -1), held: null,
-    ev: number("ev", 0), curve: asked.get("curve") in ToneCurves ? asked.get("curve") : "srgb",
+    ev: number("ev", 0), curve: asked.get("curve") in ToneCurves ? asked.get("curve") : "linear",
     layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
   const pixels = Object.assign(document.createElement("canvas"), { width, height });
   const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);

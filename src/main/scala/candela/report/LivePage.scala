@@ -1,5 +1,7 @@
 package candela.report
 
+import candela.color.{Rgb, ToneCurve}
+
 import scalatags.Text.all.*
 
 /** Page that follows a rendering; its script asks the server for state, image and charts. */
@@ -37,7 +39,10 @@ object LivePage:
         div(
           cls := "choice",
           label("layer ", select(id := "layer")),
-          label("tone curve ", select(id := "curve", curves)),
+          label(
+            "tone curve ",
+            select(id := "curve", curves.map(c => option(value := c.word, c.word)))
+          ),
           label("exposure ", exposure, span(id := "evtext")),
           button(id := "whole", "whole image"),
           label(input(tpe := "checkbox", id := "showtiles", checked), "tiles in progress")
@@ -46,15 +51,26 @@ object LivePage:
         div(cls := "readout", attr("aria-live") := "polite"),
         p(cls := "soft", keys)
       ),
+      tables,
       h2("Error"),
       div(id := "charts", p(cls := "soft", "No estimate before the second sample.")),
       h2("Scene"),
       Page.facts(plan)
     )
 
-  private def curves: Vector[Frag] =
-    Vector("srgb" -> "sRGB", "filmic" -> "filmic", "reinhard" -> "Reinhard")
-      .map((key, words) => option(value := key, words))
+  /** Those that act on each channel by itself. */
+  private val curves = Vector(ToneCurve.Linear, ToneCurve.Filmic)
+
+  /** Each curve at the places √(v / (1 + v)) of the values v, which the page interpolates. */
+  private def tables: Frag =
+    def table(curve: ToneCurve) = Vector.tabulate(TableSize + 1): i =>
+      val place = Math.min(i.toFloat / TableSize, 0.9999f)
+      val value = place * place / (1 - place * place)
+      Math.min(1f, curve(Rgb.gray(value)).r)
+    val all = curves.map(c => c.word -> ujson.Arr.from(table(c).map(v => ujson.Num(v.toDouble))))
+    script(tpe := "application/json", id := "curves", raw(ujson.write(ujson.Obj.from(all))))
+
+  private val TableSize = 1024
 
   private def exposure: Frag =
     input(

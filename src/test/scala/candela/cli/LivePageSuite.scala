@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.color.{ColorSpace, Rgb}
+import candela.color.{ColorSpace, Rgb, ToneCurve}
 import candela.film.Development
 import candela.image.ImageFiles
 import candela.render.TinyPlan
@@ -86,14 +86,18 @@ class LivePageSuite extends AnyFunSuite:
         page.until("(document.querySelector('#live').dataset.pixel || '').includes('color')")
         val read = ujson.read(data(page, "pixel"))("rows")(0)("values").arr.map(_.num.toFloat)
         assert(read == (0 to 2).map(ImageFiles.read(file)(20, 13, _)))
-        val shown = page.value(
-          "(c => [...c.getContext('2d').getImageData(5, 5, 1, 1).data])" +
-            "(document.querySelector('canvas'))"
-        ).arr.map(_.num.toInt)
-        val srgb = space.light(Rgb(0.2f, 0.4f, 0.6f))
-        val wanted = Vector(srgb.r, srgb.g, srgb.b).map: v =>
-          if v <= 0 then 0.0 else 255 * (1.055 * Math.pow(v, 1 / 2.4) - 0.055)
-        for (a, b) <- shown.zip(wanted) do assert(Math.abs(a - b) <= 1, s"$shown, $wanted")
+        val light = space.light(Rgb(0.2f, 0.4f, 0.6f))
+        for curve <- Vector(ToneCurve.Linear, ToneCurve.Filmic) do
+          val shown = page.value(
+            "(c => [...c.getContext('2d').getImageData(5, 5, 1, 1).data])" +
+              "(document.querySelector('canvas'))"
+          ).arr.map(_.num.toInt)
+          val srgb = curve(light)
+          val wanted = Vector(srgb.r, srgb.g, srgb.b).map: v =>
+            if v <= 0 then 0.0 else 255 * (1.055 * Math.pow(v, 1 / 2.4) - 0.055)
+          for (a, b) <- shown.zip(wanted) do
+            assert(Math.abs(a - b) <= 1, s"${curve.word}: $shown, $wanted")
+          page.press("c", "c")
         click(page, "end")
         assert(running.ended == 0)
 

@@ -29,7 +29,7 @@ final class Watched(plan: RenderPlan, args: String*):
 
   /** The exit code, once it has ended. */
   def ended: Int =
-    thread.join(60_000)
+    thread.join(120_000)
     code.get.getOrElse(throw IllegalStateException("it doesn't end"))
 
   def isRunning: Boolean = thread.isAlive

@@ -62,15 +62,15 @@ object Chromium:
         ujson.read(in.readAllBytes())
       list.arr.find(_("type").str == "page").map(p => URI(p("webSocketDebuggerUrl").str))
 
-  /** The first result, tried again and again for a minute. */
+  /** The first result, tried again and again for two minutes. */
   def eventually[A](what: String)(found: => Option[A]): A =
     val tries = Iterator.continually:
       val result = found
       if result.isEmpty then Thread.sleep(50)
       result
-    val end = System.nanoTime + 60_000_000_000L
+    val end = System.nanoTime + 120_000_000_000L
     tries.takeWhile(_ => System.nanoTime < end).flatten.nextOption
-      .getOrElse(throw IllegalStateException(s"no $what within a minute"))
+      .getOrElse(throw IllegalStateException(s"no $what within two minutes"))
 
 /** A page, open in a browser. */
 final class OpenPage(address: URI) extends AutoCloseable:
