@@ -18,7 +18,8 @@ object KilledRenderings:
     val kills = options.get("--kills").fold(50)(_.toInt)
     val seed = options.get("--seed").fold(1)(_.toInt)
     val each = Math.max(1, kills / integrators.size)
-    for (integrator, i) <- integrators.zipWithIndex do
+    val only = options.get("--method")
+    for (integrator, i) <- integrators.zipWithIndex if only.forall(integrator.contains) do
       val count = if i == 0 then kills - each * (integrators.size - 1) else each
       TempFolder.use: folder =>
         val result = run(folder, integrator, count, Random(seed + i), samples = 2000 * (count + 3))
@@ -28,7 +29,8 @@ object KilledRenderings:
   val integrators: Vector[String] = Vector(
     "\"path\" \"integer maxdepth\" 3",
     "\"bdpt\" \"integer maxdepth\" 3",
-    "\"mlt\" \"integer maxdepth\" 3 \"integer bootstrapsamples\" 500"
+    "\"mlt\" \"integer maxdepth\" 3 \"integer bootstrapsamples\" 500",
+    "\"sppm\" \"integer maxdepth\" 3 \"float radius\" 0.3"
   )
 
   /** @param kills of renderings that were still running
