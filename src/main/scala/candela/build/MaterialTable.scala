@@ -74,7 +74,7 @@ private[build] object MaterialTable:
 
   private def name(ref: MaterialRef): String = ref match
     case MaterialRef.Default => "default"
-    case MaterialRef.Inline(d) => s"${d.name} ${d.at}"
+    case MaterialRef.Inline(d) => StatementName(d)
     case MaterialRef.Named(name, _) => name
 
   private def material(context: BuildContext, ref: MaterialRef): Material = ref match

@@ -10,7 +10,7 @@ import candela.film.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
-import candela.scenefile.{Declaration, LightDescription, ShapeDescription}
+import candela.scenefile.{LightDescription, ShapeDescription}
 
 /** The world, ready to render, with a description of its features. */
 private[build] final class World(
@@ -106,12 +106,14 @@ private[build] final class WorldBuilder(
 
   /** Of the world's shapes, then of instances: static ones come first. */
   private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =
-    def named(d: Declaration) = s"${d.name} ${d.at}"
     val places = objects.flatMap: o =>
       o.places.zipWithIndex.map: (motion, i) =>
-        (motion.moves, if o.name.isEmpty then named(o.shapes.head.shape) else s"${o.name}.${i + 1}")
+        (
+          motion.moves,
+          if o.name.isEmpty then StatementName(o.shapes.head.shape) else s"${o.name}.${i + 1}"
+        )
     val (moving, still) = places.partition(_._1)
-    world.statements.map(named) ++ (still ++ moving).map(_._2)
+    world.statements.map(StatementName(_)) ++ (still ++ moving).map(_._2)
 
   private def lightPlan(l: LightDescription): Option[LightPlan] =
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))

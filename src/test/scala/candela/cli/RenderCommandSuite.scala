@@ -114,7 +114,7 @@ class RenderCommandSuite extends AnyFunSuite:
           (bits & 0x1fff) != 0
       val (plain, legend) = image("depth,cryptoobject")
       assert(!isExact(plain, "Z") && isExact(plain, "CryptoObject00.R"))
-      assert(legend.contains("{\"sphere " + scene) && legend.contains("MurmurHash3_32"))
+      assert(legend.contains("{\"sphere s.pbrt:3:") && legend.contains("MurmurHash3_32"))
       assert(isExact(image("depth:float")._1, "Z") && !isExact(image("depth:half")._1, "Z"))
 
   private def needsDenoiser(): Unit =

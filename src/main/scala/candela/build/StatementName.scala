@@ -1,0 +1,18 @@
+package candela.build
+
+import candela.scenefile.Declaration
+
+import java.nio.file.Path
+
+import scala.util.Try
+
+/** Names statements for legends: type and place, such as `sphere scene.pbrt:12:7`. */
+private[build] object StatementName:
+
+  /** Files are named relative to the scene's folder, so that the name does not depend on where it
+    * is, or is rendered from.
+    */
+  def apply(d: Declaration): String =
+    val file = Path.of(d.at.file)
+    val within = Try(d.folder.relativize(file)).getOrElse(file.getFileName)
+    s"${d.name} ${within.toString.replace('\\', '/')}:${d.at.line}:${d.at.column}"
