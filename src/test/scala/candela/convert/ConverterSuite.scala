@@ -141,7 +141,8 @@ object ConverterSuite:
   private def image(scene: SceneDescription, seed: Int): Image =
     val options = BuildOptions(spp = Some(32), seed = seed, quick = true)
     val (plan, _) = SceneBuilder.build(scene, options)
-    Renderer.render(plan, 2).image(plan.development)
+    val made = Renderer.render(plan, 2).image(plan.development)
+    if made.colorSpace.isSrgb then made else made.toRgb
 
   /** The largest difference of the means of `parts` × `parts` blocks, in any channel, in parts of
     * the darker one; what is darker than a tenth of the image counts as that bright.
