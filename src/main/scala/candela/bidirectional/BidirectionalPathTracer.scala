@@ -34,7 +34,8 @@ final class BidirectionalPathTracer(
     rouletteAfter: Int,
     compresses: Boolean,
     regularizes: Boolean = false
-) extends SceneIntegrator(scene):
+) extends SceneIntegrator(scene)
+    with ChainPaths:
   import PartialWeights.mis
 
   private val lightPaths =
@@ -64,11 +65,13 @@ final class BidirectionalPathTracer(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
 
-  /** @param light  samples the light subpath and its connections to the camera
+  /** As [[radiance]], with separate samplers.
+    *
+    * @param light  samples the light subpath and its connections to the camera
     * @param joins  samples the connections of camera vertices to lights
     * @param onward samples the continuation of the camera subpath
     */
-  private[bidirectional] def radiance(
+  def radiance(
       ray: Ray,
       light: Sampler,
       joins: Sampler,
@@ -115,6 +118,7 @@ final class BidirectionalPathTracer(
     var found = Rgb.Black
     path.throughput = Rgb.White
     path.isSpecularSoFar = true
+    path.isAlone = false
     path.weights.near = 0.0
     path.weights.far = 0.0
     var edges = 0
@@ -152,6 +156,7 @@ final class BidirectionalPathTracer(
         if alive then
           vertex.edges = edges
           vertex.evaluate(regularizes && !path.isSpecularSoFar)
+          if scene.isDispersive then path.disperse(vertex)
           if !vertex.bsdf.isSpecular then
             found += path.throughput * (direct(joins) + connected())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
@@ -237,7 +242,9 @@ final class BidirectionalPathTracer(
         val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
           lit.weights.sum(toLit, lit.reversePdf(back).toDouble)
         val cosines = vertex.shadingCosine(wi) * lit.sentCosine(back)
-        val weight = (cosines / (distance2 * (1 + others))).toFloat
+        // If both subpaths carry their hero alone, each stands for all three wavelengths
+        val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
+        val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
         val light = f * g * lit.throughput * weight
         if light.isBlack || isHidden(lit.at, wi, there) then Rgb.Black else light
 

@@ -12,6 +12,7 @@ import candela.scene.Scene
   * @param weighsAll   whether MIS includes camera subpaths that hit lights; if so, no path starts
   *                    at a light whose emission those see on another side
   * @param regularizes as in [[candela.integrators.PathTracer]]
+  * @param startsAlone whether the hero wavelength alone is of interest from the start
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
@@ -19,7 +20,8 @@ private[bidirectional] final class LightPaths(
     rouletteAfter: Int,
     compresses: Boolean,
     weighsAll: Boolean,
-    regularizes: Boolean = false
+    regularizes: Boolean = false,
+    startsAlone: Boolean = false
 ):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
@@ -64,6 +66,7 @@ private[bidirectional] final class LightPaths(
 
   private def walk(light: Int, sampler: Sampler): Unit =
     path.isSpecularSoFar = true
+    path.isAlone = startsAlone
     var edges = 0
     var alive = true
     while alive do
@@ -78,6 +81,7 @@ private[bidirectional] final class LightPaths(
           vertex.passThrough(ray)
         else
           vertex.evaluate(regularizes && !path.isSpecularSoFar)
+          if scene.isDispersive then path.disperse(vertex)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)
           if edges == 1 then begin(light, vertex, cosine)
@@ -87,6 +91,7 @@ private[bidirectional] final class LightPaths(
             if !vertex.bsdf.isSpecular then
               vertex.throughput = path.throughput
               vertex.isSpecularSoFar = path.isSpecularSoFar
+              vertex.isAlone = path.isAlone
               vertex.weights.set(path.weights)
               used += 1
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)

@@ -33,7 +33,7 @@ final case class MetropolisSettings(
   * @param tracer creates the path tracer, given the receiver of its splats
   */
 final class MarkovChains(
-    tracer: Splats => BidirectionalPathTracer,
+    tracer: Splats => ChainPaths,
     settings: MetropolisSettings,
     view: View
 ) extends SharedChains:

@@ -15,7 +15,7 @@ import candela.integrators.ChainWalker
   * than without chains.
   */
 private[bidirectional] final class MarkovWalker(
-    tracer: Splats => BidirectionalPathTracer,
+    tracer: Splats => ChainPaths,
     settings: MetropolisSettings,
     view: View,
     chains: MarkovChains

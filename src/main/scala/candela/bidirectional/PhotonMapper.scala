@@ -43,6 +43,8 @@ private[bidirectional] final class PhotonMapper(
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     val vertex = walk.vertex
     walk.begin(ray, sampler)
+    // Photons of dispersive scenes have one wavelength
+    if scene.isDispersive then walk.keepHero()
     while walk.goesOn do
       if !walk.intersect() then walk.addEnvironment()
       else
@@ -50,7 +52,7 @@ private[bidirectional] final class PhotonMapper(
         if vertex.isInterface then walk.passThrough()
         else if walk.depth == maxDepth then walk.end()
         else
-          walk.evaluate(sampler)
+          walk.evaluate()
           addOneLight(sampler)
           if !vertex.bsdf.isSpecular then walk.add(photons.gather(vertex, Sharp))
           walk.scatter(sampler)

@@ -31,7 +31,14 @@ final case class PhotonSettings(
 /** Traces the photons of a pass. Mutable, one per worker. */
 private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSettings):
   private val paths =
-    LightPaths(scene, settings.maxEdges, rouletteAfter = 1, settings.compresses, weighsAll = false)
+    LightPaths(
+      scene,
+      settings.maxEdges,
+      rouletteAfter = 1,
+      settings.compresses,
+      weighsAll = false,
+      startsAlone = scene.isDispersive
+    )
   private val sampler = IndependentSampler(1, settings.seed)
 
   def raysTraced: Long = paths.raysTraced
@@ -80,6 +87,10 @@ final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, 
     val pass = find(number)
     if pass.map.isEmpty then pass.help(tracer, shutter)
     pass.map.get
+
+  def release(pass: Int): Unit = synchronized:
+    val at = pass % recent.length
+    if recent(at) != null && recent(at).number == pass then recent(at) = null
 
   private def find(number: Int): Pass = synchronized:
     val at = number % recent.length

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.SurfaceVertex
+import candela.integrators.{LightTransport, SurfaceVertex}
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -21,7 +21,16 @@ private[bidirectional] final class Subpath(
 ):
   var throughput: Rgb = Rgb.White
   var isSpecularSoFar: Boolean = true
+
+  /** Whether it carries its hero wavelength only. */
+  var isAlone: Boolean = false
   val weights: PartialWeights = PartialWeights()
+
+  /** Ends the companions of the hero wavelength where `vertex` is dispersive. */
+  def disperse(vertex: PathVertex): Unit =
+    if !isAlone && vertex.bsdf.isDispersive then
+      isAlone = true
+      throughput = throughput * LightTransport.Hero
 
   /** Scatters the path at `vertex`; false if it ends there. */
   def scatter(vertex: PathVertex, ray: Ray, sampler: Sampler): Boolean =
@@ -65,6 +74,9 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
 
   /** Whether all earlier vertices are specular. */
   var isSpecularSoFar: Boolean = true
+
+  /** As [[Subpath.isAlone]]. */
+  var isAlone: Boolean = false
   val weights: PartialWeights = PartialWeights()
 
   /** Cosine factor for light scattered to `wi`, with the correction for shading normals, which make

@@ -44,16 +44,12 @@ abstract class Bsdf:
     */
   def regularized: Bsdf = this
 
-  /** Whether scattering depends on the wavelength (dispersion). */
+  /** Whether light of other wavelengths is scattered to other directions (dispersion). Only the
+    * first component of its values, that of the hero wavelength, is right.
+    */
   def isDispersive: Boolean = false
 
-  /** The BSDF at a single wavelength, in nm. A dispersive BSDF otherwise uses the index of
-    * refraction at a representative wavelength.
-    */
-  def atWavelength(nm: Float): Bsdf = this
-
-/** Delegates to `inner`. A subclass that changes the value must also override `regularized` and
-  * `atWavelength`.
+/** Delegates to `inner`. A subclass that changes the value must also override `regularized`.
   */
 abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi)
@@ -64,7 +60,6 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   def isTransmissive: Boolean = inner.isTransmissive
   override def regularized: Bsdf
   override def isDispersive: Boolean = inner.isDispersive
-  override def atWavelength(nm: Float): Bsdf
 
 /** @param weight f·|cos θi|/pdf
   * @param pdf    with respect to solid angle; for a specular direction the probability of its

@@ -76,7 +76,6 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
   override def isDispersive: Boolean = lobes.exists(_.isDispersive)
-  override def atWavelength(nm: Float): Bsdf = Lobes(lobes.map(_.atWavelength(nm)), probabilities)
 
 object Lobes:
 
@@ -122,7 +121,6 @@ final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
     BsdfSample(s.wi, s.weight * scale, s.pdf, s.isSpecular, s.eta)
 
   override def regularized: Bsdf = Scaled(inner.regularized, scale)
-  override def atWavelength(nm: Float): Bsdf = Scaled(inner.atWavelength(nm), scale)
 
 /** Transmits what `reflection` would reflect.
   *
@@ -138,4 +136,3 @@ final class SentThrough(reflection: Bsdf) extends WrappedBsdf(reflection):
 
   override def isTransmissive: Boolean = true
   override def regularized: Bsdf = SentThrough(reflection.regularized)
-  override def atWavelength(nm: Float): Bsdf = SentThrough(reflection.atWavelength(nm))

@@ -21,6 +21,10 @@ private[build] final class BuildContext(
   def isV4: Boolean = dialect == Dialect.V4
   def defaults: Defaults = Defaults(dialect)
 
+  /** The same scene in another colour basis. */
+  def in(basis: ColorBasis): BuildContext =
+    new BuildContext(description, resources.in(basis), problems)
+
   def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
     Site(d, dialect, resources, problems, toWorld)
 
@@ -50,7 +54,9 @@ private[build] object BuildContext:
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
-    new BuildContext(description, Resources(basis, options.crew, options.seed), problems)
+    val mode = ColorPlan.mode(options.color, description.dialect)
+    val resources = new Resources(basis, options.crew, options.seed, mode != ColorMode.Rgb)
+    new BuildContext(description, resources, problems)
 
 /** Default types of each dialect. */
 private[build] final case class Defaults(

@@ -29,8 +29,12 @@ private[build] final class MaterialTable private (
     val borders: Array[MediumBorder],
     val touchesMedia: Boolean,
     val names: Vector[String],
+    make: BuildContext => Array[Material],
     dressed: ShapeDescription => DressedShape
 ):
+  /** The materials in another colour basis, in the same order. */
+  def in(context: BuildContext): Array[Material] = make(context)
+
   def dress(shape: ShapeDescription): DressedShape = dressed(shape)
 
   def needsTangents: Boolean = materials.exists(_.isAnisotropic)
@@ -53,20 +57,23 @@ private[build] object MaterialTable:
       shapes: Vector[ShapeDescription]
   ): MaterialTable =
     val named = context.description.namedMaterials
-    for (name, d) <- named do
-      context.resources.materials.define(name, () => Materials.build(context.site(d)))
     val shapeMaterials = ShapeMaterials(context.dialect, named.toMap)
     def split(s: ShapeDescription) = shapeMaterials.split(s.shape, s.material)
 
     val borders = shapes.map(media.border)
     val worn = shapes.zip(borders).map((s, b) => (split(s)._2, media.seen(b))).distinct
     val number = worn.zipWithIndex.toMap
-    val made = mutable.HashMap.empty[MaterialRef, Material]
+    def make(context: BuildContext): Array[Material] =
+      for (name, d) <- named do
+        context.resources.materials.define(name, () => Materials.build(context.site(d)))
+      val made = mutable.HashMap.empty[MaterialRef, Material]
+      worn.map((ref, _) => made.getOrElseUpdate(ref, material(context, ref))).toArray
     new MaterialTable(
-      worn.map((ref, _) => made.getOrElseUpdate(ref, material(context, ref))).toArray,
+      make(context),
       worn.map(_._2).toArray,
       borders.exists(b => b.inside >= 0 || b.outside >= 0),
       worn.map((ref, _) => name(ref)),
+      make,
       s =>
         val (declared, ref) = split(s)
         DressedShape(s, declared, number((ref, media.seen(media.border(s)))))

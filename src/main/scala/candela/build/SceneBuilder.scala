@@ -2,6 +2,7 @@ package candela.build
 
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
+import candela.color.ColorBasis
 import candela.build.settings.{OptionRecipe, SceneSettings}
 import candela.film.{
   Development, FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface
@@ -21,6 +22,7 @@ import candela.scenefile.SceneDescription
   * @param cropWindow x0, x1, y0, y1 as fractions of the image, overrides the scene
   * @param keepGoing  if true, replaces missing items
   * @param layers     requested AOVs, in addition to the scene's
+  * @param color      whether rendering is spectral
   * @param crew       executes divisible work
   */
 final case class BuildOptions(
@@ -31,6 +33,7 @@ final case class BuildOptions(
     cropWindow: Option[(Float, Float, Float, Float)] = None,
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
+    color: ColorMode = ColorMode.Auto,
     crew: Parallel = Parallel.Alone
 )
 
@@ -58,7 +61,10 @@ object SceneBuilder:
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, options)
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
-    val world = WorldBuilder(context, integrator, camera.shutter, samples).build(footprints)
+    val world =
+      WorldBuilder(
+        context, integratorPlan, camera.shutter, samples, options.color, image.film.camera
+      ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
     context.problems.stopAtErrors()
     val made = plan(context, options, image, crop, integrator, sampling, camera, world)
@@ -107,13 +113,16 @@ object SceneBuilder:
       camera: CameraSetup,
       world: World
   ): RenderPlan =
-    val film = image.film
     val method = world.method
     // pbrt-v4 scales images by the shutter time
     val exposure = if context.isV4 then camera.shutter.duration else 1f
+    val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
+    val bands = film.development.bands.filter(_ => world.color.isSpectral && method.hasWavelengths)
     // AOVs belong to the pixel of the camera sample
     val shares =
-      image.layers.isEmpty && method.canShareSamples && FilterReach.isUseful(image.filter)
+      image.layers.isEmpty && bands.isEmpty && method.canShareSamples && FilterReach.isUseful(
+        image.filter
+      )
     val usesSampler = method.takesCameraSamples
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
@@ -127,7 +136,7 @@ object SceneBuilder:
         if usesSampler then sampling.sampler
         else IndependentSampler(sampling.samples.getOrElse(1), options.seed),
       method = method,
-      basis = context.resources.basis,
+      basis = if world.color.isSpectral then ColorBasis.Srgb else context.resources.basis,
       limit = if options.preview then None else film.limit(exposure),
       development =
         if options.preview then Development()
@@ -149,7 +158,8 @@ object SceneBuilder:
         val space = if film.layersInWorld then Still(Transform.Identity) else camera.fromWorld
         layerPlan(context, image, camera, world, space)
       ,
-      sharesSamples = shares
+      sharesSamples = shares,
+      bands = bands
     )
 
   private def layerPlan(

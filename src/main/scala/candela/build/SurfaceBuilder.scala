@@ -18,12 +18,14 @@ private[build] final case class SampledLight(light: Light, samples: Int)
 /** Surfaces and their area lights, in the order of their indices.
   *
   * @param statements of the meshes, then of the other shapes
+  * @param lit        makes the lights, in the colour basis of a context
   */
-private[build] final case class LitSurfaces(
-    surfaces: Surfaces,
-    lights: Vector[SampledLight],
-    statements: Vector[Declaration]
-)
+private[build] final class LitSurfaces(
+    val surfaces: Surfaces,
+    val statements: Vector[Declaration],
+    lit: BuildContext => Vector[SampledLight]
+):
+  def lights(context: BuildContext): Vector[SampledLight] = lit(context)
 
 /** Collects the surfaces of the world or of an instanced object. */
 private[build] final class SurfaceBuilder(context: BuildContext, materials: MaterialTable):
@@ -34,18 +36,25 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
   private val meshStatements, solidStatements = ArrayBuffer.empty[Declaration]
 
   /** Creates the area lights from all triangles, in the order of their indices. */
-  private val lights = ArrayBuffer.empty[TriangleSoup => Vector[SampledLight]]
+  private val lights = ArrayBuffer.empty[(BuildContext, TriangleSoup) => Vector[SampledLight]]
   private var lightCount = 0
 
-  private def addLights(count: Int, samples: Int)(make: TriangleSoup => Vector[Light]): Unit =
-    lights += (soup => make(soup).map(SampledLight(_, samples)))
+  private def addLights(count: Int, statement: Declaration)(
+      make: (AreaLightPlan, TriangleSoup) => Vector[Light]
+  ): Unit =
+    lights += { (context, soup) =>
+      emission(statement, context).toVector.flatMap: plan =>
+        make(plan, soup).map(SampledLight(_, plan.samples))
+    }
     lightCount += count
+
+  private def emission(statement: Declaration, context: BuildContext): Option[AreaLightPlan] =
+    AreaLights.all.build(context.site(statement)).flatten
 
   def add(dressed: DressedShape): Unit =
     val here = context.site(dressed.declared)
     for plan <- Shapes.all.build(here).flatten do
-      val lamp =
-        dressed.shape.areaLight.flatMap(d => AreaLights.all.build(context.site(d)).flatten)
+      val lamp = dressed.shape.areaLight.filter(emission(_, context).isDefined)
       if lamp.isDefined || !isNothing(dressed.material) then
         Placement(dressed, here, plan, lamp).place(plan.geometry)
 
@@ -58,8 +67,8 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
     LitSurfaces(
       Surfaces(triangles, solids.toArray, masks),
-      lights.iterator.flatMap(_(triangles)).toVector,
-      (meshStatements ++ solidStatements).toVector
+      (meshStatements ++ solidStatements).toVector,
+      context => lights.iterator.flatMap(_(context, triangles)).toVector
     )
 
   /** A shape being placed in the world. */
@@ -67,7 +76,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       dressed: DressedShape,
       here: Site,
       plan: ShapePlan,
-      lamp: Option[AreaLightPlan]
+      lamp: Option[Declaration]
   ):
     private val toWorld = dressed.shape.objectToWorld.start
     private val isReversed = dressed.shape.reverseOrientation
@@ -90,14 +99,14 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
 
     private def addSolid(
         shape: Shape,
-        lamp: Option[AreaLightPlan],
+        lamp: Option[Declaration],
         isInverted: Boolean
     ): Unit =
       val lit = lamp.filter(_ => hasArea(shape))
       val light = lit.fold(-1)(_ => lightCount)
       for lamp <- lit do
-        val made = plan.holes.light(lamp.ofShape(shape, isInverted), shape)
-        addLights(1, lamp.samples)(_ => Vector(made))
+        addLights(1, lamp): (emitted, _) =>
+          Vector(plan.holes.light(emitted.ofShape(shape, isInverted), shape))
       solids += ShapeInstance(shape, dressed.material, light, isInverted)
       solidMasks += plan.mask
       solidStatements += dressed.declared
@@ -120,7 +129,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         meshMasks += plan.mask
         meshStatements += dressed.declared
         for lamp <- lamp do
-          addLights(count, lamp.samples)(MeshLights(lamp, plan.holes, first, count, here).of)
+          addLights(count, lamp)(MeshLights(plan.holes, first, count, here).of)
 
     private def bumps: BumpTangents = context.dialect match
       case Dialect.V4 => BumpTangents.Along

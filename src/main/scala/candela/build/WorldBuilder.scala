@@ -1,11 +1,12 @@
 package candela.build
 
 import candela.accel.{Accelerator, Instances, Primitives}
-import candela.build.integrators.{Dispersions, IntegratorPlan}
+import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{LightPlan, Lights}
 import candela.build.settings.{Accelerators, BvhRecipe}
 import candela.build.textures.Textures
 import candela.cameras.Shutter
+import candela.color.{CameraSensor, ColorBasis}
 import candela.film.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
@@ -16,6 +17,7 @@ import candela.scenefile.{LightDescription, ShapeDescription}
 private[build] final class World(
     val scene: Scene,
     val method: RenderMethod,
+    val color: ColorPlan,
     val features: Vector[(String, String)],
     val moves: Boolean,
     names: () => SurfaceNames
@@ -37,20 +39,25 @@ private[build] final class Structure(
 /** Builds the world of a description in stages: materials, surfaces, lights, acceleration
   * structures, scene, and render method.
   *
-  * @param samples maximum number of camera samples
+  * @param integratorIn the integrator, in the colour basis of a context
+  * @param samples      maximum number of camera samples
+  * @param mode         as asked for
+  * @param sensor       the camera's, unless it is the standard observer
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
-    integrator: IntegratorPlan,
+    integratorIn: BuildContext => IntegratorPlan,
     shutter: Shutter,
-    samples: Long
+    samples: Long,
+    mode: ColorMode,
+    sensor: Option[CameraSensor]
 ):
+  private val integrator = integratorIn(context)
   import context.{description, problems}
 
   /** @param footprints evaluated only if a texture or a material needs ray differentials */
   def build(footprints: => Footprints): World =
-    for t <- description.textures do
-      Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
+    defineTextures(context)
     val uses = ObjectUses(description, problems)
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
@@ -62,11 +69,12 @@ private[build] final class WorldBuilder(
       builder
     val world = collected(uses.world)
     val objects = uses.shared.map(o => collected(o.shapes))
-    val lightPlans = description.lights.map(l => l -> lightPlan(l))
+    val lightPlans = description.lights.map(l => l -> lightPlan(l, context))
     problems.stopAtErrors()
 
     val lit = world.result()
-    val lights = lit.lights ++ lightPlans.flatMap(light)
+    val shining = lightPlans.flatMap((l, plan) => light(l, plan).map(l -> _))
+    val lights = lit.lights(context) ++ shining.map(_._2)
     val placed = structure(lit.surfaces, objects.map(_.result().surfaces), uses.shared)
     val all = lights.map(_.light).toArray
     val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds)
@@ -82,11 +90,23 @@ private[build] final class WorldBuilder(
     )
     warnOfDarkness(scene)
     val reach = 2f * placed.accelerator.bounds.radius
-    val (method, inMedia) =
-      media.method(scene, lights.map(_.samples).toArray, materials, reach)
+    val samples = lights.map(_.samples).toArray
+    val (plain, inMedia) = media.method(scene, samples, materials, reach)
+    def recolored(basis: ColorBasis): RenderMethod =
+      val other = context.in(basis)
+      defineTextures(other)
+      val otherLights = lit.lights(other) ++
+        shining.flatMap((l, _) => light(l, lightPlan(l, other)))
+      val otherScene = scene.recolored(materials.in(other), otherLights.map(_.light).toArray)
+      MediaBuilder(other, integratorIn(other)).method(otherScene, samples, materials, reach)._1
+    val color = ColorPlan.of(context, mode, sensor)
+    val method =
+      if !color.isSpectral then plain
+      else SpectralMethod(color.bases.map(basis => basis -> recolored(basis)))
     World(
       scene,
       method,
+      color,
       Vector(
         "accelerator" -> placed.accelerator.describe,
         "triangles" -> placed.surfaces.soup.count.toString,
@@ -94,8 +114,8 @@ private[build] final class WorldBuilder(
         "instances" -> placed.instanced.describe,
         "masks" -> placed.describeMasks,
         "materials" -> materials.describe,
+        "color" -> color.describe,
         "subsurface" -> materials.describeSubsurface(integrator),
-        "dispersion" -> Dispersions.describe(scene, method, description, problems),
         "ray differentials" -> context.resources.footprintsInWords,
         "media" -> inMedia,
         "lights" -> (if all.isEmpty then "none" else selection.describe)
@@ -103,6 +123,10 @@ private[build] final class WorldBuilder(
       placed.instanced.instances.moving > 0,
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
     )
+
+  private def defineTextures(context: BuildContext): Unit =
+    for t <- description.textures do
+      Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
 
   /** Of the world's shapes, then of instances: static ones come first. */
   private def objectNames(world: LitSurfaces, objects: Vector[PlacedObject]): Vector[String] =
@@ -115,7 +139,7 @@ private[build] final class WorldBuilder(
     val (moving, still) = places.partition(_._1)
     world.statements.map(StatementName(_)) ++ (still ++ moving).map(_._2)
 
-  private def lightPlan(l: LightDescription): Option[LightPlan] =
+  private def lightPlan(l: LightDescription, context: BuildContext): Option[LightPlan] =
     Lights.all.build(context.stillSite(l.light, l.lightToWorld, "a light"))
 
   private def light(l: LightDescription, plan: Option[LightPlan]): Option[SampledLight] =

@@ -3,6 +3,7 @@ package candela.cli
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.Suggest
+import candela.build.ColorMode
 import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
@@ -82,6 +83,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param markdown whether `describe` prints the whole reference
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
+  * @param color whether rendering is spectral
   * @param display how pictures show linear light
   * @param denoise whether to add a denoised image
   * @param thumbnail how to show the image in the terminal
@@ -116,6 +118,7 @@ final case class Options(
     debug: Boolean = false,
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
+    color: ColorMode = ColorMode.Auto,
     layers: Vector[Layer] = Vector.empty,
     precisions: Vector[(Layer, Boolean)] = Vector.empty,
     display: DisplayTransform = DisplayTransform.Plain,

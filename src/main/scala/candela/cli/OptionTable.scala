@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Version
+import candela.build.ColorMode
 import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
@@ -54,6 +55,11 @@ private[cli] object OptionTable:
       .getOrElse(throw IllegalArgumentException(s"expected one or more of $layers"))
     (layer, precision)
 
+  private given Read[ColorMode] = Read.reads: text =>
+    ColorMode.values
+      .find(_.toString.equalsIgnoreCase(text))
+      .getOrElse(throw IllegalArgumentException("expected auto, rgb or spectral"))
+
   private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
     if number.gteq(n, number.fromInt(least)) then success
     else failure(s"--$name must be at least $least, found `$n`")
@@ -75,6 +81,10 @@ private[cli] object OptionTable:
   private def keepGoing: Row = opt[Unit]("keep-going")
     .text("replace missing files and types with placeholders, with a warning each")
     .action((_, o) => o.copy(keepGoing = true))
+
+  private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
+    .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
+    .action((mode, o) => o.copy(color = mode))
 
   private def explain: Row = opt[Unit]("explain")
     .text("print what the scene is built from and what was ignored")
@@ -172,6 +182,7 @@ private[cli] object OptionTable:
       .action((a, o) => o.copy(displayServer = Some(a))),
     parsedAs,
     keepGoing,
+    color,
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
@@ -189,7 +200,7 @@ private[cli] object OptionTable:
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
 
   private val checkOptions: Vector[Row] =
-    Vector(parsedAs, keepGoing, explain, quiet, verbose(", and what --explain prints"))
+    Vector(parsedAs, keepGoing, color, explain, quiet, verbose(", and what --explain prints"))
 
   private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 

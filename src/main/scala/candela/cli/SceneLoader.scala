@@ -46,7 +46,7 @@ object SceneLoader:
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
     BuildOptions(
-      o.spp, o.seed, o.quick, o.preview, crop, o.keepGoing, o.layers, Crew(o.threadCount)
+      o.spp, o.seed, o.quick, o.preview, crop, o.keepGoing, o.layers, o.color, Crew(o.threadCount)
     )
 
   /** The path of an existing scene file. */

@@ -9,6 +9,9 @@ package candela.color
   */
 final class CameraSensor(curves: Vector[Spectrum]):
 
+  /** Responses of the channels to light of a wavelength in nm. */
+  def responses(nm: Float): Array[Double] = curves.map(_(nm).toDouble).toArray
+
   /** Response of the channels to a colour, in units in which the observer's y yields luminance. */
   lazy val response: ColorResponse =
     val grid = Array.tabulate(95)(i => 360f + 5f * i)

@@ -12,6 +12,7 @@ import java.util.Arrays
   *
   * @param splats accumulates light path splats, if any
   * @param shares if defined, accumulates the samples instead, each contributing to several pixels
+  * @param bands  also accumulates light by wavelength, if wanted; [[copy]] and [[since]] do not
   */
 final class Film(
     val x0: Int,
@@ -19,7 +20,8 @@ final class Film(
     val x1: Int,
     val y1: Int,
     val splats: Option[SplatFilm] = None,
-    val shares: Option[SampleShares] = None
+    val shares: Option[SampleShares] = None,
+    val bands: Option[BandFilm] = None
 ):
   require(x1 > x0 && y1 > y0, s"film must not be empty, found [$x0, $x1) × [$y0, $y1)")
 
@@ -64,11 +66,13 @@ final class Film(
   def save(to: CheckedOutput): Unit =
     shares.fold(sums.save(to))(_.save(to))
     splats.foreach(_.save(to))
+    bands.foreach(_.save(to))
 
   /** Adds what was saved by a film of the same size and kind. */
   def load(from: CheckedInput): Unit =
     shares.fold(sums.load(from))(_.load(from))
     splats.foreach(_.load(from))
+    bands.foreach(_.load(from))
 
   /** For each pixel, row by row, the sum of its samples' weights. Without camera samples: the
     * number of light paths, in all pixels.

@@ -36,5 +36,9 @@ object SampleLimit:
   def camera(most: Float, toSrgb: Array[Float]): Option[SampleLimit] =
     limit(most, Matrix3(toSrgb.map(_.toDouble).toVector).inverse.toFloats)
 
+  /** Limits the largest of three channels. */
+  def channels(most: Float): Option[SampleLimit] =
+    limit(most, Array(1f, 0f, 0f, 0f, 1f, 0f, 0f, 0f, 1f))
+
   private def limit(most: Float, weights: Array[Float]): Option[SampleLimit] =
     Option.when(most < Float.PositiveInfinity)(SampleLimit(most, weights))

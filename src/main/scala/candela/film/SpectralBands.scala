@@ -24,6 +24,11 @@ final class SpectralBands(count: Int, from: Float, to: Float):
     val middle = lerp((band + 0.5f) / count, from, to)
     s"S0.${String.format(Locale.ROOT, "%.3f", middle).replace('.', ',')}nm"
 
+  /** The band of a wavelength in nm; −1: none. */
+  def at(nm: Float): Int =
+    if nm < from || nm >= to then -1
+    else Math.min(((nm - from) / (to - from) * count).toInt, count - 1)
+
   def describe: String = s"$count from $from to $to nm"
 
   private lazy val response = ColorResponse(Vector.tabulate(count): band =>

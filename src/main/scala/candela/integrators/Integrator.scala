@@ -1,7 +1,7 @@
 package candela.integrators
 
 import candela.base.{CheckedInput, CheckedOutput}
-import candela.color.Rgb
+import candela.color.{Rgb, Wavelengths}
 import candela.geometry.Ray
 import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
@@ -13,8 +13,9 @@ abstract class Integrator:
   def radiance(ray: Ray, sampler: Sampler): Rgb
   def copy(): Integrator
 
-  /** Do its paths keep one wavelength where a surface disperses light? */
-  def splitsLight: Boolean = false
+  /** Wavelengths of the last radiance, and the radiance at these; null: it has none. */
+  def lastWavelengths: Wavelengths | Null = null
+  def lastComponents: Rgb = Rgb.Black
 
   /** Rays traced so far by this worker, for the statistics. */
   def raysTraced: Long
@@ -37,6 +38,9 @@ abstract class SceneIntegrator(scene: Scene) extends Integrator:
 abstract class SharedPasses:
   /** The integrator of one worker, reporting its path if a report is given. */
   def integrator(report: Option[PathReport]): PassIntegrator
+
+  /** Forgets a pass that no worker uses any more. */
+  def release(pass: Int): Unit
 
 object SharedPasses:
   /** The current pass and the next, so that no worker waits at the end of a pass. */

@@ -13,6 +13,9 @@ object LightTransport:
     */
   inline val RouletteAfter = 4
 
+  /** Weight of a path whose companion wavelengths end: its hero stands for all three. */
+  val Hero: Rgb = Rgb(3f, 0f, 0f)
+
   /** Multiple importance sampling: weight of a sample of density `a` that a second technique draws
     * with density `b`.
     *

@@ -44,7 +44,6 @@ final class PathTracer(
   protected def over(scene: Scene): PathTracer =
     PathTracer(scene, limits, options, VolumeMarch.copy(volumes))
 
-  override def splitsLight: Boolean = options.wavelengths.isDefined
   def raysTraced: Long = walk.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
 
@@ -60,7 +59,7 @@ final class PathTracer(
         if walk.vertex.isInterface then walk.passThrough()
         else if walk.depth == maxDepth then walk.end()
         else
-          walk.evaluate(sampler)
+          walk.evaluate()
           addOneLight(
             sampler,
             isBoundary = seesThrough && scene.isSubsurface(walk.vertex.at.material)

@@ -40,7 +40,7 @@ abstract class SpecularWalk(
         walk.addEmission()
         if walk.vertex.isInterface then walk.passThrough()
         else
-          walk.evaluate(sampler)
+          walk.evaluate()
           walk.add(gathered(walk.vertex, sampler))
           if walk.depth == maxDepth then walk.end() else walk.leaveSpecularly(sampler)
     walk.radiance.toRgb

@@ -12,8 +12,6 @@ import candela.scene.Scene
   * [[VolumePathTracer]] is made. As [[Walk]], but the throughput and the densities of sampling are
   * kept for each colour, since media scatter colours with different densities
   * ([[candela.media.PathWeights]]). Mutable, one per worker.
-  *
-  * @param options `wavelengths` are not supported
   */
 final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   /** Light found so far, but for what media emit. */
@@ -54,6 +52,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   private var rays = 0L
   private val visibility = MediumVisibility(scene, media, work)
   private val regularizes = options.regularizes
+  private val disperses = scene.isDispersive
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
 
@@ -160,6 +159,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   def evaluate(): Unit =
     depth += 1
     vertex.evaluate(isSpread)
+    if disperses && !weights.isAlone && vertex.bsdf.isDispersive then weights.keepHero()
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
   def sampleOneLight(sampler: Sampler): Boolean =

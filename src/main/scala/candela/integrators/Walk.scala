@@ -4,19 +4,16 @@ import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
-import candela.sampling.{Sampler, Wavelengths}
+import candela.sampling.Sampler
 import candela.scene.Scene
 
 /** Which optional steps a path takes.
   *
   * @param regularizes roughen BSDFs after the first non-specular bounce
-  * @param wavelengths where a surface disperses light: the path keeps one wavelength from the first
-  *                    such surface on
   * @param subsurface  does light travel beneath surfaces?
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
-    wavelengths: Option[Wavelengths] = None,
     subsurface: Boolean = false
 )
 
@@ -67,7 +64,10 @@ final class Walk(
   private val hit = Hit()
   private var rays = 0L
   private val regularizes = options.regularizes
-  private val dispersion: Dispersion | Null = options.wavelengths.map(Dispersion(_)).orNull
+  private val disperses = scene.isDispersive
+
+  /** Does the path carry its hero wavelength only? */
+  private var isAlone = false
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
 
@@ -88,8 +88,7 @@ final class Walk(
     isSpread = false
     goesOn = true
     light.begin(ray.time)
-    val wavelength = dispersion
-    if wavelength != null then wavelength.begin()
+    isAlone = false
     val march = volumes
     if march != null then march.start(ray, sampler)
 
@@ -147,14 +146,18 @@ final class Walk(
   /** Continues through an interface. Shadow rays pass it, too: light sampling keeps competing. */
   def passThrough(): Unit = vertex.passThrough(ray)
 
-  /** Evaluates the BSDF of the vertex: a scattering event. */
-  def evaluate(sampler: Sampler): Unit =
+  /** Evaluates the BSDF of the vertex: a scattering event. A dispersive one ends the companions of
+    * the hero wavelength.
+    */
+  def evaluate(): Unit =
     depth += 1
     vertex.evaluate(isSpread)
-    val wavelength = dispersion
-    if wavelength != null then
-      vertex.scatterBy(wavelength.choose(vertex.bsdf, sampler))
-      throughput.scale(wavelength.weight)
+    if disperses && !isAlone && vertex.bsdf.isDispersive then keepHero()
+
+  /** Goes on with the hero wavelength only, in place of all three. */
+  def keepHero(): Unit =
+    isAlone = true
+    throughput.scale(LightTransport.Hero)
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. Takes no random
     * numbers where the BSDF is specular or the scene has no lights.

@@ -23,26 +23,14 @@ final class ConstantEnvironment(emitted: Rgb, complete: Boolean) extends Environ
 
 /** Infinite light with an environment map.
   *
-  * @param complete whether `sample` must reach every non-black pixel; if false, pixels darker than
-  *   the mean are left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
-  *   Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
+  * @param distribution of its directions, over the image
   */
-final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Boolean)
-    extends EnvironmentLight:
+final class ImageEnvironment(
+    frame: LightFrame,
+    image: SphereImage,
+    distribution: Distribution2D
+) extends EnvironmentLight:
   private val layout = image.layout
-
-  private val distribution: Distribution2D =
-    // Weight of a pixel: its mean radiance times its solid angle
-    val width = image.width
-    val height = image.height
-    val shares = Array.tabulate(height)(y => layout.stretch((y + 0.5f) / height))
-    def weights(least: Float): Array[Float] =
-      Array.tabulate(width * height): i =>
-        Math.max(0f, image.brightness(i % width, i / width) - least) * shares(i / width)
-    val all = weights(least = 0f)
-    val mean = (all.foldLeft(0.0)(_ + _) / (shares.foldLeft(0.0)(_ + _) * width)).toFloat
-    val above = if complete then all else weights(mean)
-    Distribution2D(if above.exists(_ > 0f) then above else all, width, height)
 
   override def isSampled: Boolean = distribution.integral > 0.0
   protected def total: Float = distribution.integral.toFloat
@@ -62,3 +50,26 @@ final class ImageEnvironment(frame: LightFrame, image: SphereImage, complete: Bo
     out.radiance = if image.smooth then radiance(from, out.wi) else image.at(place)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true
+
+object ImageEnvironment:
+  /** @param complete see [[distribution]] */
+  def apply(frame: LightFrame, image: SphereImage, complete: Boolean): ImageEnvironment =
+    new ImageEnvironment(frame, image, distribution(image, complete))
+
+  /** Weight of a pixel: its mean radiance times its solid angle.
+    *
+    * @param complete whether `sample` must reach every non-black pixel; if false, pixels darker
+    *   than the mean are left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
+    *   Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
+    */
+  def distribution(image: SphereImage, complete: Boolean): Distribution2D =
+    val width = image.width
+    val height = image.height
+    val shares = Array.tabulate(height)(y => image.layout.stretch((y + 0.5f) / height))
+    def weights(least: Float): Array[Float] =
+      Array.tabulate(width * height): i =>
+        Math.max(0f, image.brightness(i % width, i / width) - least) * shares(i / width)
+    val all = weights(least = 0f)
+    val mean = (all.foldLeft(0.0)(_ + _) / (shares.foldLeft(0.0)(_ + _) * width)).toFloat
+    val above = if complete then all else weights(mean)
+    Distribution2D(if above.exists(_ > 0f) then above else all, width, height)

@@ -18,9 +18,11 @@ enum PictureLookup:
 
 /** A flat image emitted by a light; (x, y) in [0, 1], y down from the top.
   *
-  * @param image red, green, blue, linear
+  * @param image  red, green, blue, linear
+  * @param colors converts the image's colours, if they are not those of the scene's basis
   */
-final class Picture(image: Image, lookup: PictureLookup):
+final class Picture(image: Image, lookup: PictureLookup, colors: Option[Rgb => Rgb] = None):
+  private val convert: (Rgb => Rgb) | Null = colors.orNull
   private val width = image.width
   private val height = image.height
   private val data = image.data
@@ -31,11 +33,18 @@ final class Picture(image: Image, lookup: PictureLookup):
     if lookup == PictureLookup.Nearest then
       val i =
         pixel(clamp((x * width).toInt, 0, width - 1), clamp((y * height).toInt, 0, height - 1))
-      Rgb(data(i), data(i + 1), data(i + 2))
+      converted(Rgb(data(i), data(i + 1), data(i + 2)))
     else
       val fx = x * width - 0.5f
       val fy = y * height - 0.5f
-      Bilinear(data, fx, fy)((i, j) => pixel(wrapped(i, width), wrapped(j, height)))
+      converted(Bilinear(data, fx, fy)((i, j) => pixel(wrapped(i, width), wrapped(j, height))))
+
+  private def converted(c: Rgb): Rgb =
+    val conversion = convert
+    if conversion == null then c else conversion(c)
+
+  /** The same image with converted colours. */
+  def converted(colors: Rgb => Rgb): Picture = Picture(image, lookup, Some(colors))
 
   private def pixel(x: Int, y: Int): Int = 3 * (y * width + x)
 
@@ -50,7 +59,7 @@ final class Picture(image: Image, lookup: PictureLookup):
       loop(width): x =>
         val i = pixel(x, y)
         sum += f(
-          Rgb(data(i), data(i + 1), data(i + 2)),
+          converted(Rgb(data(i), data(i + 1), data(i + 2))),
           (x + 0.5f) / width,
           (y + 0.5f) / height
         )

@@ -15,55 +15,31 @@ import candela.sampling.WindowedDistribution2D
   * Source: Bitterli, Novák, Jarosz, "Portal-Masked Environment Map Sampling", CGF 34(4), 2015; PBRT
   * 4th ed., §12.5.3.
   *
-  * @param frame    orientation of the image
-  * @param corner   a corner of the portal, in world space
-  * @param opposite the opposite corner
-  * @param window   the portal's frame, with sides along `s` and `t`; the light is on the side of
-  *   `n`
+  * @param corner       a corner of the portal, in world space
+  * @param opposite     the opposite corner
+  * @param window       the portal's frame, with sides along `s` and `t`; the light is on the side
+  *                     of `n`
+  * @param rectified    the rectified environment map
+  * @param distribution of its positions
   */
-final class PortalEnvironment(
-    frame: LightFrame,
-    image: SphereImage,
+final class PortalEnvironment private (
     corner: Vec3,
     opposite: Vec3,
-    window: Frame
+    window: Frame,
+    rectified: Picture,
+    distribution: WindowedDistribution2D
 ) extends EnvironmentLight:
-  private val width = image.width
-  private val height = image.height
+  import PortalEnvironment.{density, direction}
 
-  /** The rectified environment map: one colour per pixel. */
-  private val rectified: Picture =
-    val drawn = Image.rgb(width, height)
-    loop(width * height): i =>
-      val d = frame.toLight(direction((i % width + 0.5f) / width, (i / width + 0.5f) / height))
-      val c = image.between(image.layout.toImage(d))
-      drawn.data(3 * i) = Math.max(0f, c.r)
-      drawn.data(3 * i + 1) = Math.max(0f, c.g)
-      drawn.data(3 * i + 2) = Math.max(0f, c.b)
-    Picture(drawn, PictureLookup.Nearest)
-
-  private val distribution: WindowedDistribution2D =
-    val weights = Array.tabulate(width * height): i =>
-      val x = (i % width + 0.5f) / width
-      val y = (i / width + 0.5f) / height
-      rectified(x, y).average / density(window.toLocal(direction(x, y)))
-    WindowedDistribution2D(weights, width, height)
+  /** The same light with converted colours. */
+  def converted(colors: Rgb => Rgb): PortalEnvironment =
+    new PortalEnvironment(corner, opposite, window, rectified.converted(colors), distribution)
 
   override def isSampled: Boolean = distribution.integral(0f, 0f, 1f, 1f) > 0
 
   /** The power admitted depends on the receiving point. */
   protected def total: Float = 0f
   override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
-
-  /** World direction of a position in the rectified image. */
-  private def direction(x: Float, y: Float): Vec3 =
-    val a = Math.tan((x - 0.5) * Math.PI).toFloat
-    val b = Math.tan((y - 0.5) * Math.PI).toFloat
-    window.toWorld(Vec3(a, b, 1f).normalized)
-
-  /** Image area per steradian at the direction `w` of the portal's frame. */
-  private def density(w: Vec3): Float =
-    InvPi * InvPi * w.z / ((1f - w.x * w.x) * (1f - w.y * w.y))
 
   private def place(along: Float, z: Float): Float =
     clamp(Math.atan2(along.toDouble, z.toDouble).toFloat * InvPi + 0.5f, 0f, 1f)
@@ -108,6 +84,43 @@ final class PortalEnvironment(
     val at = seen(from, Vec3.Zero): (x0, y0, x1, y1) =>
       distribution.sample(u1, u2, x0, y0, x1, y1)
     if at.z > 0f then
-      out.wi = direction(at.x, at.y)
+      out.wi = direction(window, at.x, at.y)
       out.radiance = rectified(at.x, at.y)
       out.pdf = at.z * density(window.toLocal(out.wi))
+
+object PortalEnvironment:
+
+  /** @param frame orientation of the image */
+  def apply(
+      frame: LightFrame,
+      image: SphereImage,
+      corner: Vec3,
+      opposite: Vec3,
+      window: Frame
+  ): PortalEnvironment =
+    val width = image.width
+    val height = image.height
+    val drawn = Image.rgb(width, height)
+    loop(width * height): i =>
+      val towards = direction(window, (i % width + 0.5f) / width, (i / width + 0.5f) / height)
+      val c = image.between(image.layout.toImage(frame.toLight(towards)))
+      drawn.data(3 * i) = Math.max(0f, c.r)
+      drawn.data(3 * i + 1) = Math.max(0f, c.g)
+      drawn.data(3 * i + 2) = Math.max(0f, c.b)
+    val rectified = Picture(drawn, PictureLookup.Nearest)
+    val weights = Array.tabulate(width * height): i =>
+      val x = (i % width + 0.5f) / width
+      val y = (i / width + 0.5f) / height
+      rectified(x, y).average / density(window.toLocal(direction(window, x, y)))
+    val distribution = WindowedDistribution2D(weights, width, height)
+    new PortalEnvironment(corner, opposite, window, rectified, distribution)
+
+  /** World direction of a position in the rectified image. */
+  private def direction(window: Frame, x: Float, y: Float): Vec3 =
+    val a = Math.tan((x - 0.5) * Math.PI).toFloat
+    val b = Math.tan((y - 0.5) * Math.PI).toFloat
+    window.toWorld(Vec3(a, b, 1f).normalized)
+
+  /** Image area per steradian at the direction `w` of the portal's frame. */
+  private def density(w: Vec3): Float =
+    InvPi * InvPi * w.z / ((1f - w.x * w.x) * (1f - w.y * w.y))

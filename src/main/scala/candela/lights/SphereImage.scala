@@ -10,18 +10,29 @@ import candela.math.*
   * @param image  red, green, blue, linear
   * @param factor scale of the image's values
   * @param smooth whether lookups are bilinear (pbrt-v2, v3) or nearest-pixel (v4)
+  * @param colors converts the image's colours, if they are not those of the scene's basis
   */
-final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val smooth: Boolean):
+final class SphereImage(
+    image: Image,
+    val layout: SphereMap,
+    factor: Rgb,
+    val smooth: Boolean,
+    colors: Option[Rgb => Rgb] = None
+):
   val width: Int = image.width
   val height: Int = image.height
 
+  private val convert: (Rgb => Rgb) | Null = colors.orNull
+
   private val data: Array[Float] =
-    val d = image.data.clone()
-    loop(width * height): i =>
-      d(3 * i) *= factor.r
-      d(3 * i + 1) *= factor.g
-      d(3 * i + 2) *= factor.b
-    d
+    if colors.isDefined then image.data
+    else
+      val d = image.data.clone()
+      loop(width * height): i =>
+        d(3 * i) *= factor.r
+        d(3 * i + 1) *= factor.g
+        d(3 * i + 2) *= factor.b
+      d
 
   /** Colour in the unit direction `d` of light space. */
   def apply(d: Vec3): Rgb = at(layout.toImage(d))
@@ -32,13 +43,17 @@ final class SphereImage(image: Image, val layout: SphereMap, factor: Rgb, val sm
     else
       val x = Math.min((place.x * width).toInt, width - 1)
       val first = 3 * (Math.min((place.y * height).toInt, height - 1) * width + x)
-      Rgb(data(first), data(first + 1), data(first + 2))
+      converted(Rgb(data(first), data(first + 1), data(first + 2)))
+
+  private def converted(c: Rgb): Rgb =
+    val conversion = convert
+    if conversion == null then c else conversion(c) * factor
 
   /** Bilinear lookup, regardless of `smooth`. */
   def between(place: Vec3): Rgb =
     val fx = place.x * width - 0.5f
     val fy = place.y * height - 0.5f
-    Bilinear(data, fx, fy)(pixel)
+    converted(Bilinear(data, fx, fy)(pixel))
 
   private def pixel(x: Int, y: Int): Int =
     3 * (layout.wrapY(x, y, width, height) * width + layout.wrapX(x, y, width, height))

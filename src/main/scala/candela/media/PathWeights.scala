@@ -29,8 +29,12 @@ final class PathWeights:
     */
   var lr, lg, lb = 0f
 
+  /** Does the path carry the first colour only? */
+  var isAlone: Boolean = false
+
   def start(colour: Int, lightDensity: Float): Unit =
     hero = colour
+    isAlone = false
     r = 1f
     g = 1f
     b = 1f
@@ -48,6 +52,22 @@ final class PathWeights:
   def throughput: Rgb = Rgb(r, g, b)
   def brightest: Float = Math.max(r, Math.max(g, b))
   def lightDensity: Float = (lr + lg + lb) * (1f / 3f)
+
+  /** Goes on with the first colour, a hero wavelength, in place of all three. Whichever drove
+    * sampling so far, from here on the first does.
+    */
+  def keepHero(): Unit =
+    isAlone = true
+    hero = 0
+    r *= 3f
+    g = 0f
+    b = 0f
+    ur += ug + ub
+    ug = 0f
+    ub = 0f
+    lr += lg + lb
+    lg = 0f
+    lb = 0f
 
   def scale(c: Rgb): Unit =
     r *= c.r

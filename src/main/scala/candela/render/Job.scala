@@ -40,9 +40,10 @@ private[render] object Job:
         tiles.job: board =>
           val integrator = passes.integrator(None)
           tiles.worker(integrator, board, integrator.begin)
-      case RenderMethod.Chains(make, _) =>
+      case RenderMethod.Chains(paths, make, _) =>
         val splats = splatFilm(plan)
-        val chains = make(plan.view(splats))
+        val view = plan.view(splats)
+        val chains = make(view, paths(view, _))
         val schedule = ChainSchedule(chains.count, plan.crop.pixels, samples, shard)
         val film = filmOf(plan.crop, Some(splats))
         def worker(board: Board) =
@@ -59,7 +60,7 @@ private[render] object Job:
     val worker = plan.method match
       case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), board)
       case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), board)
-      case RenderMethod.Chains(_, make) => tiles.worker(make(view).reported(report), board)
+      case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), board)
       case RenderMethod.Passes(make) =>
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, board, integrator.begin)
@@ -68,8 +69,9 @@ private[render] object Job:
   private def filmOf(
       b: PixelBounds,
       splats: Option[SplatFilm],
-      shares: Option[SampleShares] = None
-  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares)
+      shares: Option[SampleShares] = None,
+      bands: Option[BandFilm] = None
+  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares, bands)
 
   private def splatFilm(plan: RenderPlan): SplatFilm =
     val PixelBounds(x0, y0, x1, y1) = plan.crop
@@ -90,6 +92,8 @@ private[render] object Job:
       splats,
       Option.when(plan.sharesSamples):
         SampleShares(x0, y0, x1, y1, FilterReach(plan.filter), schedule.tiles)
+      ,
+      plan.bands.map(BandFilm(_, x0, y0, x1, y1))
     )
     private val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
     private val filterSampler = new FilterSampler(plan.filter)

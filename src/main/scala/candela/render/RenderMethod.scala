@@ -1,6 +1,7 @@
 package candela.render
 
-import candela.film.View
+import candela.bidirectional.ChainPaths
+import candela.film.{Splats, View}
 import candela.integrators.{Integrator, SharedChains, SharedPasses}
 
 /** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
@@ -19,13 +20,19 @@ enum RenderMethod:
 
   /** Markov chains, which choose film positions themselves.
     *
+    * @param paths      the paths that they explore, with their splats
+    * @param chains     the chains of such paths
     * @param integrator evaluates a single camera sample without chains
     */
-  case Chains(chains: View => SharedChains, integrator: View => Integrator)
+  case Chains(
+      paths: (View, Splats) => ChainPaths,
+      chains: (View, Splats => ChainPaths) => SharedChains,
+      integrator: View => Integrator
+  )
 
   /** Whether the sampler places the camera samples; required for AOVs. */
   def takesCameraSamples: Boolean = this match
-    case Chains(_, _) => false
+    case Chains(_, _, _) => false
     case _ => true
 
   /** Whether samples may contribute to all pixels within the filter's radius. Light paths and
@@ -40,11 +47,12 @@ enum RenderMethod:
     case Tiles(_) | SplattedTiles(_) => true
     case _ => false
 
-  /** Whether light paths connect to the camera. */
-  def seesLightPaths: Boolean = this match
-    case SplattedTiles(_) | Chains(_, _) => true
+  /** Whether all light comes with the wavelengths of its camera sample, not by splats. */
+  def hasWavelengths: Boolean = this match
+    case Tiles(_) | Passes(_) => true
     case _ => false
 
-  def splitsLight: Boolean = this match
-    case Tiles(integrator) => integrator.splitsLight
+  /** Whether light paths connect to the camera. */
+  def seesLightPaths: Boolean = this match
+    case SplattedTiles(_) | Chains(_, _, _) => true
     case _ => false

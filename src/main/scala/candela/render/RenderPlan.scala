@@ -24,6 +24,7 @@ import candela.scene.SurfaceNames
   * @param layers            requested AOVs, if any
   * @param sharesSamples     if true, a sample contributes to all pixels within the filter's radius;
   *                          otherwise to one, by filter importance sampling
+  * @param bands             wavelength bands to accumulate, if rendering is spectral
   */
 final class RenderPlan(
     val width: Int,
@@ -42,7 +43,8 @@ final class RenderPlan(
     val shutter: Option[Shutter] = None,
     val weighsFirst: Boolean = true,
     val layers: Option[LayerPlan] = None,
-    val sharesSamples: Boolean = false
+    val sharesSamples: Boolean = false,
+    val bands: Option[SpectralBands] = None
 ):
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =

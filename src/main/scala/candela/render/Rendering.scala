@@ -51,7 +51,8 @@ final case class Rendering(
   def image(development: Development): Image =
     val colors = development(film)
     val layered = layers.fold(colors)(_.behind(colors, development.scale))
-    development.bands.fold(layered)(_.behind(layered, film.toImage(1f)))
+    development.bands.fold(layered): bands =>
+      film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered))
 
   def isComplete: Boolean = samplesDone == samplesPerPixel
 

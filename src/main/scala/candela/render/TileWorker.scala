@@ -30,6 +30,7 @@ private[render] final class TileWorker(
   private val weighsLast = weighs && !plan.weighsFirst
   private val limit: SampleLimit | Null = plan.limit.orNull
   private val layerFilm: LayerFilm | Null = layers.orNull
+  private val bands: BandFilm | Null = film.bands.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
 
   // Accumulators of samples shared by several pixels
@@ -129,9 +130,16 @@ private[render] final class TileWorker(
       val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
       if light.isFinite then
         add(light)
+        if bands != null then addTo(bands, weight)
         if layerFilm != null && visible != null then
           layerFilm.add(x, y, light, filterSampler.weight, visible)
       else refuse()
+
+  private def addTo(bands: BandFilm, weight: Float): Unit =
+    val basis = integrator.lastWavelengths
+    if basis != null then
+      val light = integrator.lastComponents
+      bands.add(x, y, basis, if weighs then light * weight else light, filterSampler.weight)
 
   private def add(light: Rgb): Unit =
     val shared = shares

@@ -1,7 +1,7 @@
 package candela.scene
 
 import candela.bsdf.{Bsdf, BsdfSample, WrappedBsdf}
-import candela.color.Rgb
+import candela.color.{Rgb, Wavelengths}
 import candela.geometry.ShadingPoint
 import candela.lights.LightSample
 import candela.math.Vec3
@@ -14,6 +14,11 @@ import candela.math.Vec3
 final class PathReport(say: String => Unit):
   private var vertices = 0
   private var throughput = Rgb.White
+
+  /** Reports what the three components of all following colours are. */
+  def takes(basis: Wavelengths): Unit =
+    val nm = basis.nm.map(w => Math.round(w * 10) / 10f)
+    say(s"colours are at ${nm(0)}, ${nm(1)} and ${nm(2)} nm: the first is the hero")
 
   /** Reports a scattering vertex; returns a BSDF that also reports its evaluations. */
   def scatters(at: ShadingPoint, bsdf: Bsdf): Bsdf =
@@ -73,4 +78,3 @@ private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Wrapped
     sample
 
   override def regularized: Bsdf = report.sees(bsdf.regularized, "regularized")
-  override def atWavelength(nm: Float): Bsdf = report.sees(bsdf.atWavelength(nm), s"at $nm nm")

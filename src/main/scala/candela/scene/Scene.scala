@@ -127,6 +127,14 @@ final class Scene(
     val report = pathReport
     if report == null then made else report.scatters(at, made)
 
+  /** The same geometry with other materials and lights, in the same order; light sampling keeps its
+    * probabilities.
+    */
+  def recolored(materials: Array[Material], lights: Array[Light]): Scene =
+    Scene(
+      surfaces, instanced, accelerator, materials, lights, selection, sidesByGeometry, footprints
+    )
+
   /** Returns the same scene, reporting one path. */
   def reported(report: PathReport): Scene =
     val reportedLights = lights.zipWithIndex.map((l, i) => ReportedLights.of(l, i, report))

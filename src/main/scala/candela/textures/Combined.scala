@@ -67,4 +67,4 @@ object MixRgb:
 
 /** A texture of linear sRGB colours, converted to another basis. */
 final class RebasedTexture(texture: RgbTexture, basis: ColorBasis) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = basis.fromSrgb(texture(at))
+  def apply(at: ShadingPoint): Rgb = basis.lookUp(texture(at))

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
+import candela.build.{BuildOptions, ColorMode}
 import candela.color.Rgb
 import candela.film.Layer
 import candela.render.{Cancellation, Renderer}
@@ -49,7 +49,7 @@ final class MetropolisSuite extends AnyFunSuite:
         "\"integer chains\" 20"
 
   private def image(text: String, dialect: Dialect, threads: Int = 2, seed: Int = 1) =
-    val plan = SceneTexts.plan(text, dialect, BuildOptions(seed = seed))
+    val plan = SceneTexts.plan(text, dialect, BuildOptions(seed = seed, color = ColorMode.Rgb))
     Renderer.render(plan, threads).image(plan.development).data
 
   for dialect <- Seq(Dialect.V2, Dialect.V3, Dialect.V4) do

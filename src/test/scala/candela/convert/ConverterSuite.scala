@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{BuildOptions, ColorMode, SceneBuilder}
 import candela.cli.TempFolder
 import candela.image.Image
 import candela.render.{ReferenceScenes, Renderer}
@@ -139,7 +139,9 @@ object ConverterSuite:
       inV4.map((name, most) => (name, Dialect.V4) -> most)
 
   private def image(scene: SceneDescription, seed: Int): Image =
-    val options = BuildOptions(spp = Some(32), seed = seed, quick = true)
+    // Colours of v2 and v3 are three numbers
+    val options =
+      BuildOptions(spp = Some(32), seed = seed, quick = true, color = ColorMode.Rgb)
     val (plan, _) = SceneBuilder.build(scene, options)
     val made = Renderer.render(plan, 2).image(plan.development)
     if made.colorSpace.isSrgb then made else made.toRgb

@@ -24,9 +24,10 @@ object SceneTexts:
   def problems(
       text: String,
       dialect: Dialect = Dialect.V3,
-      folder: Path = Path.of("")
+      folder: Path = Path.of(""),
+      options: BuildOptions = BuildOptions()
   ): Vector[Problem] =
-    try SceneBuilder.build(parse(text, dialect, folder), BuildOptions())._2
+    try SceneBuilder.build(parse(text, dialect, folder), options)._2
     catch case e: SceneError => e.problems
 
   /** The mean of all pixels, in linear sRGB. */

@@ -254,7 +254,7 @@ enum Pigment extends Varying:
     case Melanin(eu, pheo, basis) =>
       val e = Math.max(eu(at), 0f)
       val p = Math.max(pheo(at), 0f)
-      basis.fromSrgb(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
+      basis.lookUp(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
 
   def isConstant: Boolean = this match
     case Absorption(t) => t.isConstant

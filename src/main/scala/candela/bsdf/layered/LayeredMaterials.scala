@@ -103,7 +103,6 @@ final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Ma
 
 private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBsdf(mirror):
   override def regularized: Bsdf = walked.regularized
-  override def atWavelength(nm: Float): Bsdf = this
 
 object CoatedConductorMaterial:
 

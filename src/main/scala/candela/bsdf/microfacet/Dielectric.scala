@@ -184,26 +184,14 @@ object DielectricMaterial:
 
   private val White = ConstantRgb(Rgb.White)
 
-/** A dispersive BSDF.
-  *
-  * @param usual  BSDF of paths that carry all wavelengths
-  * @param single BSDF at one wavelength, in nm
-  */
-final class Dispersive(usual: Bsdf, single: Float => Bsdf) extends WrappedBsdf(usual):
+/** A BSDF at one wavelength, whose light of other wavelengths is scattered to other directions. */
+final class Dispersive(inner: Bsdf) extends WrappedBsdf(inner):
   override def isDispersive: Boolean = true
-  override def atWavelength(nm: Float): Bsdf = single(nm)
-  override def regularized: Bsdf = Dispersive(usual.regularized, nm => single(nm).regularized)
+  override def regularized: Bsdf = Dispersive(inner.regularized)
 
-/** Dispersive glass.
-  *
-  * @param eta   index of refraction inside over that outside, by wavelength in nm
-  * @param usual index for paths that carry all wavelengths
-  */
-final class DispersiveMaterial(eta: Float => Float, usual: Float, roughness: Roughness)
-    extends Material,
-      Textured(roughness):
+/** A material whose scattering depends on the wavelength; `inner` is that for the hero's. */
+final class DispersiveMaterial(inner: Material) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = Dispersive(inner.bsdf(at))
+  override def isConstant: Boolean = inner.isConstant
+  override def isAnisotropic: Boolean = inner.isAnisotropic
   override def isDispersive: Boolean = true
-
-  def bsdf(at: ShadingPoint): Bsdf =
-    val distribution = roughness(at)
-    Dispersive(Dielectric(distribution, usual), nm => Dielectric(distribution, eta(nm)))

@@ -1,6 +1,7 @@
 package candela.build.film
 
 import candela.build.recipe.*
+import candela.color.CameraSensor
 import candela.film.{Development, Layer, SampleLimit}
 import candela.scenefile.Dialect
 
@@ -17,6 +18,7 @@ object Films:
   * @param diagonal     diagonal of the film, in metres
   * @param layers       requested AOVs
   * @param layersInWorld whether AOVs are in world space, instead of camera space
+  * @param camera       the sensor, unless it is the standard observer
   */
 final case class FilmSettings(
     width: Int,
@@ -28,8 +30,15 @@ final case class FilmSettings(
     limit: Float => Option[SampleLimit],
     diagonal: Float,
     layers: Vector[Layer] = Vector.empty,
-    layersInWorld: Boolean = false
-)
+    layersInWorld: Boolean = false,
+    camera: Option[CameraSensor] = None
+):
+  /** Of spectral rendering, whose samples are the sensor's own responses. */
+  def spectral(exposure: Float): FilmSettings = camera.fold(this): _ =>
+    copy(
+      development = development.copy(sensor = None),
+      limit = _ => limit(exposure).flatMap(l => SampleLimit.channels(l.most))
+    )
 
 /** Base of film recipes. */
 abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])

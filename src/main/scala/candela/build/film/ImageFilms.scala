@@ -45,10 +45,12 @@ object SpectralFilmRecipe
     if buckets() < 1 then site.error(s"`nbuckets` must be at least 1, found ${buckets()}")
     if !(from >= 360f && from < to && to <= 830f) then
       site.error(s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to")
-    site.warn(
-      "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
-        "colour"
-    )
+    site.resources.census.addBands(Math.max(buckets(), 1))
+    if !site.resources.mayBeSpectral then
+      site.warn(
+        "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
+          "colour"
+      )
     val made = super.make()
     val bands = SpectralBands(Math.max(buckets(), 1), from, to)
     made.copy(development = made.development.copy(bands = Some(bands)))
@@ -86,7 +88,7 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
             balance = Some(found.toRgb(balanced, site.colorSpace))
           ),
           exposure => SampleLimit.camera(largest(exposure), found.toRgb(SensorFilmRecipe.White))
-        )
+        ).copy(camera = Some(found))
       case None =>
         val space = site.colorSpace
         val balance =
@@ -104,10 +106,12 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
     val name = sensor()
     val found = CameraSensor.named(name)
     if found.isDefined then
-      site.warn(
-        s"rendering is RGB, not spectral; sensor \"$name\" responds to a smooth spectrum fitted " +
-          "to each pixel's colour"
-      )
+      site.resources.census.addDetector(s"the sensor \"$name\" responds to spectra")
+      if !site.resources.mayBeSpectral then
+        site.warn(
+          s"rendering is RGB, not spectral; sensor \"$name\" responds to a smooth spectrum " +
+            "fitted to each pixel's colour"
+        )
     else if name != "cie1931" then
       site.missing(
         s"unknown sensor \"$name\"",

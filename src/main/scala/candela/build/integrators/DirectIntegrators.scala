@@ -72,7 +72,7 @@ object AmbientOcclusionRecipe
   private val NearV2 = 0.01f
 
   protected def make()(using site: Site): IntegratorPlan =
-    val white = site.resources.basis.fromSrgb(Rgb.White)
+    val white = site.resources.basis.ofLight(Rgb.White)
     val rule = site.dialect match
       case Dialect.V2 =>
         Occlusion(

@@ -6,9 +6,8 @@ import candela.integrators.*
 import candela.lights.LightStrategy
 import candela.media.SceneMedia
 import candela.render.RenderMethod
-import candela.sampling.Wavelengths
 import candela.scene.Scene
-import candela.scenefile.{Dialect, SceneDescription}
+import candela.scenefile.Dialect
 
 /** Recipes of integrators; v2 calls them surface integrators. */
 object Integrators:
@@ -133,10 +132,7 @@ trait PathInstead extends Recipe[IntegratorPlan]:
     val limits =
       PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
     IntegratorPlan(
-      (scene, _) =>
-        val wavelengths = Dispersions.wavelengths(scene)
-        RenderMethod.Tiles(PathTracer(scene, limits, WalkOptions(wavelengths = wavelengths)))
-      ,
+      (scene, _) => RenderMethod.Tiles(PathTracer(scene, limits)),
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,
@@ -147,27 +143,3 @@ trait PathInstead extends Recipe[IntegratorPlan]:
       throughVolumes =
         Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
     )
-
-/** Support for dispersion. */
-private[build] object Dispersions:
-
-  /** Wavelength sampling for paths, if the scene has dispersive materials. */
-  def wavelengths(scene: Scene)(using site: Site): Option[Wavelengths] =
-    Option.when(scene.isDispersive)(Wavelengths(site.resources.basis))
-
-  /** Describes the support for dispersion. Warns if the integrator has none. */
-  def describe(
-      scene: Scene,
-      method: RenderMethod,
-      description: SceneDescription,
-      problems: Findings
-  ): String =
-    if !scene.isDispersive then "none"
-    else if method.splitsLight then "one wavelength sampled per path at dispersive surfaces"
-    else
-      for d <- description.integrator.orElse(description.camera) do
-        problems.warn(
-          d.at,
-          "this integrator does not support dispersion yet; using the index of refraction at 589 nm"
-        )
-      "ignored: one index of refraction for all wavelengths"

@@ -165,7 +165,8 @@ private[build] object BidirectionalPlans:
     plan(name, depth, regularizes).copy(
       method = (scene, _) =>
         RenderMethod.Chains(
-          v => MarkovChains(tracer(scene, v, most, regularizes), seeded, v),
+          (view, splats) => tracer(scene, view, most, regularizes)(splats),
+          (view, paths) => MarkovChains(paths, seeded, view),
           v => tracer(scene, v, most, regularizes)(v.splats)
         ),
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",

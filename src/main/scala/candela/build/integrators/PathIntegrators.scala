@@ -22,10 +22,9 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
-        val wavelengths = Dispersions.wavelengths(scene)
         val subsurface = goesBeneath && scene.hasSubsurface
         RenderMethod.Tiles(
-          PathTracer(scene, limits, WalkOptions(regularizes, wavelengths, subsurface))
+          PathTracer(scene, limits, WalkOptions(regularizes, subsurface))
         )
       ,
       samplesBsdf = true,

@@ -40,8 +40,8 @@ final class AreaLightPlan(
     else emitted
 
   /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4. */
-  def ofTriangle(triangle: TriangleSampler): SurfaceLight =
-    light(triangle, Bounds3.of(triangle.vertices), triangle.normal, 1f, contrary = false)
+  def ofTriangle(triangle: TriangleSampler, box: Bounds3): SurfaceLight =
+    light(triangle, box, triangle.normal, 1f, contrary = false)
 
   /** @param contrary see [[candela.lights.Light.isContrary]] */
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
@@ -89,12 +89,15 @@ final class DiffuseLightRecipe(
     if isPicture && radiance.given_().isDefined then
       site.error("`L` and `filename` of a diffuse area light are mutually exclusive")
     val image = if isPicture then LightImages.read("filename") else None
-    val picture = image.map(Picture(_, PictureLookup.Smooth))
-    val unit = if isPicture then Rgb.White else radiance()
+    val picture = image.map(Picture(_, PictureLookup.Smooth, LightImages.conversion))
+    val unit = if isPicture then Spectra.white else radiance()
     val emitted = unit * colored() * scale()
-    val perUnit = picture.fold(1f)(DiffuseLightRecipe.luminance(_, site.resources.basis))
+    val perUnit = picture.fold(1f): p =>
+      site.resources.once(site.declaration, "luminance"):
+        DiffuseLightRecipe.luminance(p, site.resources.basis)
+    val shines = site.resources.basis.isSpectral || (emitted.isFinite && emitted.max > 0f)
     if isPicture && picture.isEmpty then None
-    else if !(emitted.isFinite && emitted.max > 0f && perUnit > 0f) then
+    else if !(shines && perUnit > 0f) then
       site.warn("this area light emits nothing; it is ignored")
       None
     else Some(AreaLightPlan(emitted, picture, perUnit, power(), twoSided(), sampleCount()))
@@ -107,16 +110,15 @@ private object DiffuseLightRecipe:
   *
   * @param first index of its first triangle
   */
-private[build] final case class MeshLights(
-    plan: AreaLightPlan,
-    holes: EmitterHoles,
-    first: Int,
-    count: Int,
-    site: Site
-):
-  def of(triangles: TriangleSoup): Vector[Light] =
-    val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
-    val flat = samplers.count(s => !(s.area > 0f))
-    if flat > 0 then
-      site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
-    samplers.map(s => holes.light(plan.ofTriangle(s), s))
+private[build] final class MeshLights(holes: EmitterHoles, first: Int, count: Int, site: Site):
+  // The geometry, which all colour bases share
+  private var emitters = Vector.empty[(TriangleSampler, Bounds3)]
+
+  def of(plan: AreaLightPlan, triangles: TriangleSoup): Vector[Light] =
+    if emitters.isEmpty then
+      val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
+      val flat = samplers.count(s => !(s.area > 0f))
+      if flat > 0 then
+        site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
+      emitters = samplers.map(s => (s, Bounds3.of(s.vertices)))
+    emitters.map((s, box) => holes.light(plan.ofTriangle(s, box), s))

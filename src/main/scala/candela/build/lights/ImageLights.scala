@@ -2,6 +2,7 @@ package candela.build.lights
 
 import candela.build.recipe.*
 import candela.color.Rgb
+import candela.image.Image
 import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
@@ -22,10 +23,11 @@ object GoniometricLightRecipe
       LightImages.read("filename").filter(LightImages.isSquare) match
         case None => LightPlan.nothing
         case Some(image) =>
-          val gray = LightImages.gray(image)
+          val once = site.resources.once[Image](site.declaration, _)
+          val gray = once("gray")(LightImages.gray(image))
           val mean = gray.data.foldLeft(0.0)(_ + _) / gray.data.length
           val i = scaled(intensity(), power(), 4f * Pi * mean.toFloat)
-          shining(i, SphereImage(gray, EqualAreaMap, i, smooth = false))
+          shining(i, sphere(gray, EqualAreaMap, i, smooth = false))
     else
       val i = scaled(intensity())
       if mapname().isEmpty then
@@ -35,10 +37,14 @@ object GoniometricLightRecipe
       else
         LightImages.read("mapname") match
           case None => LightPlan.nothing
-          case Some(image) => shining(i, SphereImage(image, LatLongMap, i, smooth = true))
+          case Some(image) => shining(i, sphere(image, LatLongMap, i, smooth = true))
 
-  private def shining(i: Rgb, image: SphereImage)(using Site): LightPlan =
-    if !shines(i) || !(image.meanOfMax > 0f) then LightPlan.leftOut(LightPlan.Black)
+  private def sphere(image: Image, layout: SphereMap, scale: Rgb, smooth: Boolean)(using Site) =
+    SphereImage(image, layout, scale, smooth, LightImages.conversion)
+
+  private def shining(i: Rgb, image: SphereImage)(using site: Site): LightPlan =
+    val isLit = site.resources.basis.isSpectral || image.meanOfMax > 0f
+    if !shines(i) || !isLit then LightPlan.leftOut(LightPlan.Black)
     else
       LightPlan(
         (toWorld, _) => Some(GoniometricLight(LightFrame(toWorld), image)),
@@ -62,13 +68,16 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val image = if given_.isEmpty then None else LightImages.read(name)
     val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
-    val slide = image.map(Picture(_, lookup))
+    val slide = image.map(Picture(_, lookup, LightImages.conversion))
     val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat
-    val perUnit =
-      slide.fold(1f)(ProjectionLight.power(_, tanHalf, site.resources.basis.toSrgb(_).luminance))
+    val basis = site.resources.basis
+    val perUnit = slide.fold(1f): s =>
+      site.resources.once(site.declaration, "power"):
+        ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
+    def isBlack = slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f))
     val all = scaled(intensity(), power(), perUnit)
     if isLost then LightPlan.nothing
-    else if !shines(all) || slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f)) then
+    else if !shines(all) || (!basis.isSpectral && isBlack) then
       LightPlan.leftOut(LightPlan.Black)
     else if !(fov() > 0f && fov() < 180f) then
       LightPlan.leftOut(

@@ -38,10 +38,13 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
         case Some(image) =>
-          val unit = if octahedral then Rgb.White else radiance()
-          val l = scaled(unit, illuminance(), if octahedral then onThePlane(image) else 1f)
+          val unit = if octahedral then Spectra.white else radiance()
+          val perUnit =
+            if octahedral then site.resources.once(site.declaration, "perUnit")(onThePlane(image))
+            else 1f
+          val l = scaled(unit, illuminance(), perUnit)
           val layout = if octahedral then EqualAreaMap else LatLongMap
-          around(l, SphereImage(image, layout, l, smooth = !octahedral))
+          around(l, SphereImage(image, layout, l, smooth = !octahedral, LightImages.conversion))
     else
       val l = scaled(radiance(), illuminance(), Pi)
       if portal().nonEmpty then
@@ -50,25 +53,32 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
       else LightPlan((_, complete) => Some(ConstantEnvironment(l, complete)), sampleCount())
 
-  private def around(l: Rgb, image: SphereImage)(using Site): LightPlan =
-    if !shines(l) || !(image.meanOfMax > 0f) then LightPlan.leftOut(LightPlan.Black)
+  private def around(l: Rgb, image: SphereImage)(using site: Site): LightPlan =
+    val resources = site.resources
+    val isLit = resources.basis.isSpectral || image.meanOfMax > 0f
+    if !shines(l) || !isLit then LightPlan.leftOut(LightPlan.Black)
     else
       val p = portal()
       if p.isEmpty then
-        LightPlan(
-          (toWorld, complete) => Some(ImageEnvironment(LightFrame(toWorld), image, complete)),
-          sampleCount()
-        )
+        def light(toWorld: Transform, complete: Boolean) =
+          val distribution = resources.once(site.declaration, s"distribution, $complete"):
+            ImageEnvironment.distribution(image, complete)
+          Some(new ImageEnvironment(LightFrame(toWorld), image, distribution))
+        LightPlan(light, sampleCount())
       else
         window(p) match
           case None => LightPlan.nothing
           case Some(frame) =>
             val (corner, opposite) = (Vec3(p(0), p(1), p(2)), Vec3(p(6), p(7), p(8)))
-            LightPlan(
-              (toWorld, _) =>
-                Some(PortalEnvironment(LightFrame(toWorld), image, corner, opposite, frame)),
-              sampleCount()
-            )
+            def light(toWorld: Transform) =
+              val plain = resources.once(site.declaration, "portal"):
+                PortalEnvironment(LightFrame(toWorld), image, corner, opposite, frame)
+              val basis = resources.basis
+              if !basis.isSpectral then plain
+              else
+                val day = basis.ofLight(Rgb.White)
+                plain.converted(c => basis.lookUp(resources.plainBasis.toSrgb(c)) * day)
+            LightPlan((toWorld, _) => Some(light(toWorld)), sampleCount())
 
   /** Frame of the portal, which must be a rectangle. */
   private def window(p: Array[Float])(using site: Site): Option[Frame] =

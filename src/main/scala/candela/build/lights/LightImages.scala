@@ -16,13 +16,28 @@ private[build] object LightImages:
     * of TGA files bottom-up.
     */
   def read(name: String)(using site: Site): Option[Image] =
+    // Each basis has its own copy, but lookups convert the colours of sRGB to wavelengths
+    val basis = site.resources.basis
+    if basis.isSpectral then site.resources.once(site.declaration, name)(loaded(name))
+    else loaded(name)
+
+  private def loaded(name: String)(using site: Site): Option[Image] =
     for
       p <- site.declaration.param(name)
       stored = site.resources.image(p, site.declaration, site.problems).getOrElse(StandIns.picture)
       image <- usable(stored.toImage, m => site.problems.error(p.valuesAt, m))
     yield
       val isFromBelow = site.dialect == Dialect.V2 && isTga(p.strings.headOption.getOrElse(""))
+      if !site.resources.basis.isSpectral then
+        val pixels = image.data.length / 3
+        val step = Math.max(1, pixels / ColorsInCensus)
+        val some = 0.until(pixels, step).map: i =>
+          Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
+        site.resources.census.addColors(some, SpectrumRole.Emission)
       rebased(if isFromBelow then upsideDown(image) else image, site.resources.basis)
+
+  /** Pixels that stand for the colours of an image. */
+  private val ColorsInCensus = 1000
 
   private def isTga(file: String): Boolean = file.toLowerCase.endsWith(".tga")
 
@@ -63,4 +78,9 @@ private[build] object LightImages:
     image.mapped(c => Rgb.gray(c.average))
 
   private def rebased(image: Image, basis: ColorBasis): Image =
-    if basis.isSrgb then image else image.mapped(basis.fromSrgb)
+    if basis.isSrgb || basis.isSpectral then image else image.mapped(basis.fromSrgb)
+
+  /** Conversion of the colours that lookups return, if it can't be done once for the image. */
+  def conversion(using site: Site): Option[Rgb => Rgb] =
+    val basis = site.resources.basis
+    Option.when(basis.isSpectral)(basis.lookUp)

@@ -52,7 +52,9 @@ abstract class LightRecipe(name: String, meaning: String, dialects: Set[Dialect]
   protected def scaled(c: Rgb, total: Float, perUnit: Float)(using Site): Rgb =
     scaled(c) * (if total > 0f then total / perUnit else 1f)
 
-  protected def shines(c: Rgb): Boolean = c.isFinite && c.max > 0f
+  /** At three wavelengths, a light may be black. */
+  protected def shines(c: Rgb)(using site: Site): Boolean =
+    site.resources.basis.isSpectral || (c.isFinite && c.max > 0f)
 
 /** Number of samples of a light in v2's and v3's direct lighting. */
 trait SampleCounts extends Fields:

@@ -4,7 +4,7 @@ import candela.bsdf.{Fresnel, Material}
 import candela.bsdf.layered.{CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium}
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
-import candela.color.{Colorimetry, Rgb, Upsampling}
+import candela.color.Rgb
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture}
 
@@ -41,12 +41,12 @@ object CoatedDiffuseRecipe
     val basis = site.resources.basis
     // The spectral reflectance of a constant colour is precomputed
     val bySpectrum = reflectance().constant.map: color =>
-      val base = Upsampling.spectrum(basis.toSrgb(color))
-      (f: Float => Float) =>
-        basis.fromSrgb(Colorimetry.rgb(nm => f(base(nm)), Colorimetry.White.D65))
+      val base = basis.reflectance(color)
+      (f: Float => Float) => basis.ofReflectance(nm => f(base(nm)))
     val index = Indices.one(eta())
     val medium = layers.medium
-    CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
+    Indices.disperse(eta()):
+      CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)
@@ -79,14 +79,15 @@ object CoatedConductorRecipe
   protected def make()(using Site): Material =
     val outside = Indices.one(eta())
     val medium = layers.medium
-    CoatedConductorMaterial(
-      metal(index, outside),
-      conductor(),
-      interface(),
-      outside,
-      medium,
-      spectral(index, outside).flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
-    )
+    Indices.disperse(eta()):
+      CoatedConductorMaterial(
+        metal(index, outside),
+        conductor(),
+        interface(),
+        outside,
+        medium,
+        spectral(index, outside).flatMap(mirrored(_, outside, medium)).map(Spectra.underWhite(_))
+      )
 
   /** Reflectance of a smooth conductor under a smooth coating that at most absorbs: the geometric
     * series of internal reflections.

@@ -5,7 +5,7 @@ import candela.bsdf.microfacet.{
   DielectricMaterial, DispersiveMaterial, Roughness, RoughnessModel, ThinDielectric
 }
 import candela.build.recipe.*
-import candela.color.{Rgb, Upsampling}
+import candela.color.{Rgb, Upsampling, Wavelengths}
 import candela.scenefile.Dialect
 
 object GlassRecipe
@@ -29,14 +29,13 @@ object DielectricRecipe
     extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
-    Indices.dispersive(eta()) match
-      case Some((byWavelength, usual)) => DispersiveMaterial(byWavelength, usual, roughness())
-      case None => DielectricMaterial(Indices.one(eta()), roughness())
+    Indices.disperse(eta())(DielectricMaterial(Indices.one(eta()), roughness()))
 
 object ThinDielectricRecipe
     extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4):
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
-  protected def make()(using Site): Material = ConstantMaterial(ThinDielectric(Indices.one(eta())))
+  protected def make()(using Site): Material =
+    Indices.disperse(eta())(ConstantMaterial(ThinDielectric(Indices.one(eta()))))
 
 /** Indices of refraction given as numbers or spectra. */
 private[build] object Indices:
@@ -51,30 +50,39 @@ private[build] object Indices:
     val isGrey = (c - Rgb.gray(c.g)).map(Math.abs(_)).max <= 1e-5f * c.g
     if isGrey then _ => c.g else Upsampling.spectrum(c)
 
-  /** The index by wavelength and at [[Usual]], if it depends on wavelength. */
-  def dispersive(v: SpectralValue): Option[(Float => Float, Float)] = v match
-    case SpectralValue.Wavelengths(s) if s.values.distinct.length > 1 =>
-      Some((nm => positive(s(nm)), positive(s(Usual))))
-    case _ => None
-
-  private def positive(index: Float): Float = if index > 0f then index else 1f
-
-  /** The sodium line in nm, at which indices of glass are specified. */
-  private inline val Usual = 589.3f
-
-  /** One index for all wavelengths: that at the sodium line, for materials without dispersion. 0
-    * means 1, as in pbrt-v4.
+  /** `material`, made for the index [[one]]; dispersive if that depends on the wavelength and
+    * wavelengths are rendered.
     */
-  def one(v: SpectralValue)(using Site): Float =
-    val index = named(v)
+  def disperse(v: SpectralValue)(material: Material)(using site: Site): Material =
+    if !varies(v) then material
+    else if site.resources.basis.isSpectral then DispersiveMaterial(material)
+    else
+      site.resources.census.addDispersion()
+      material
+
+  private def varies(v: SpectralValue): Boolean = v match
+    case SpectralValue.Wavelengths(s) => s.values.distinct.length > 1
+    case SpectralValue.Color(c, _) => c.r != c.g || c.g != c.b
+
+  /** The index at the hero wavelength; of three-number colours at the sodium line, for which
+    * indices of glass are specified. 0 means 1, as in pbrt-v4.
+    */
+  def one(v: SpectralValue)(using site: Site): Float =
+    val index = site.resources.basis match
+      case wavelengths: Wavelengths => spectrum(v)(wavelengths.nm(0))
+      case _ => usual(v)
     if index == 0f then 1f else index
 
-  private def named(v: SpectralValue)(using site: Site): Float = v match
-    case SpectralValue.Color(c, _) => c.average
-    case SpectralValue.Wavelengths(s) =>
-      if s.values.distinct.length > 1 then
-        val name = site.declaration.name
-        site.warn(
-          s"dispersion of \"$name\" is not supported; using the index of refraction at 589 nm"
-        )
-      s(Usual)
+  private def usual(v: SpectralValue)(using site: Site): Float =
+    if varies(v) && !site.resources.mayBeSpectral then
+      val name = site.declaration.name
+      site.warn(
+        s"dispersion of \"$name\" needs spectral colour; using the index of refraction at 589 nm",
+        Some("render with `--color spectral`")
+      )
+    v match
+      case SpectralValue.Color(c, _) => c.average
+      case SpectralValue.Wavelengths(s) => s(Sodium)
+
+  /** The sodium line in nm. */
+  private inline val Sodium = 589.3f

@@ -11,7 +11,8 @@ object HairRecipe
     "sigma_a",
     "absorption coefficient of the fibre",
     unit = "1/width",
-    shown = "of eumelanin 1.3"
+    shown = "of eumelanin 1.3",
+    role = SpectrumRole.Unbounded
   )(Rgb.Black)
   private val color =
     rgbTexture("color", "hair colour, instead of `sigma_a`", shown = "none")(Rgb.Black)

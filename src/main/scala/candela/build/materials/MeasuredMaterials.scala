@@ -37,7 +37,7 @@ abstract class MeasuredRecipe(
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
             bsdf <- read(
               path,
-              s => basis.fromSrgb(Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect))
+              s => Spectra.inBasis(SpectralValue.Wavelengths(s), SpectrumRole.Reflectance, site)
             ) match
               case Right(b) => Some(b)
               case Left(why) =>

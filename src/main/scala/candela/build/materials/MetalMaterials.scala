@@ -6,7 +6,7 @@ import candela.bsdf.microfacet.{
   UniformMetal
 }
 import candela.build.recipe.*
-import candela.color.{Colorimetry, NamedSpectra, Rgb}
+import candela.color.{NamedSpectra, Rgb}
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.textures.RgbTexture
@@ -55,12 +55,13 @@ private[build] trait MetalFields extends SpectrumFields:
       site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
     (spectral(index, outside), tint) match
       case (Some(reflected), _) =>
+        if !site.resources.basis.isSpectral then
+          site.resources.census.addReflectance(site.declaration, reflected(1f))
         UniformMetal(TabulatedReflectance.of(128)(Spectra.underWhite(reflected)))
       case (None, Some(reflectance)) => TintedMetal(reflectance, outside)
       case (None, None) =>
         def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>
-          val color = Colorimetry.rgb(Indices.spectrum(value), Colorimetry.White.D65)
-          site.resources.basis.fromSrgb(color)
+          site.resources.basis.ofReflectance(Indices.spectrum(value))
         IndexedMetal(varying(index.eta()), varying(index.k()), outside)
 
   /** Reflectance by cosine and wavelength; None if it is textured. */
@@ -70,7 +71,9 @@ private[build] trait MetalFields extends SpectrumFields:
     index.reflectance.flatMap(_.given_()) match
       case Some(texture) =>
         for c <- texture.constant yield
-          val reflectance = Indices.reflectance(site.resources.basis.toSrgb(c))
+          val basis = site.resources.basis
+          val reflectance =
+            if basis.isSpectral then basis.reflectance(c) else Indices.reflectance(basis.toSrgb(c))
           cosTheta =>
             nm =>
               val r = clamp(reflectance(nm), 0f, 0.9999f)
@@ -97,10 +100,7 @@ object MetalRecipe
     with MetalFields:
   private val index = metalIndex()
   protected def make()(using site: Site): Material =
-    def rgb(v: SpectralValue): Rgb = v match
-      case SpectralValue.Color(c, space) => space.reflectance(c)
-      case SpectralValue.Wavelengths(s) =>
-        Spectra.toRgb(s, SpectrumRole.Reflectance, site.dialect)
+    def rgb(v: SpectralValue): Rgb = Spectra.inBasis(v, SpectrumRole.Unbounded, site)
     val eta = SpectrumSource.textured(index.eta())(rgb)
     val k = SpectrumSource.textured(index.k())(rgb)
     // pbrt-v2 uses the approximation for strong absorption

@@ -61,11 +61,19 @@ object SubsurfaceRecipe
   private val measuredName =
     string("name", "name of a measured material, instead of the coefficients", shown = "none")("")
   private val sigmaA =
-    rgbTexture("sigma_a", "absorption coefficient", unit = "1/mm")(Milk.absorption)
+    rgbTexture(
+      "sigma_a",
+      "absorption coefficient",
+      unit = "1/mm",
+      role = SpectrumRole.Unbounded
+    )(Milk.absorption)
   private val reduced =
-    rgbTexture("sigma_prime_s", "reduced scattering coefficient", onlyV2, "1/mm")(Milk.scattering)
+    rgbTexture("sigma_prime_s", "reduced scattering coefficient", onlyV2, "1/mm",
+      role = SpectrumRole.Unbounded)(Milk.scattering)
   private val sigmaS =
-    rgbTexture("sigma_s", "scattering coefficient", sinceV3, "1/mm")(Milk.scattering)
+    rgbTexture(
+      "sigma_s", "scattering coefficient", sinceV3, "1/mm", role = SpectrumRole.Unbounded
+    )(Milk.scattering)
   private val scale = float("scale", "scale of the coefficients")(1f)
   private val reflectance =
     rgbTexture(
@@ -75,7 +83,9 @@ object SubsurfaceRecipe
       shown = "none"
     )(Rgb.Black)
   private val meanFreePath =
-    rgbTexture("mfp", "mean free path, with `reflectance`", onlyV4, "mm")(Rgb.White)
+    rgbTexture(
+      "mfp", "mean free path, with `reflectance`", onlyV4, "mm", role = SpectrumRole.Unbounded
+    )(Rgb.White)
 
   /** Whole milk, pbrt's default. */
   private def Milk = MeasuredMedia.find("Wholemilk", Dialect.V4).get
@@ -133,7 +143,7 @@ object SubsurfaceRecipe
   )
 
   private def color(c: Rgb)(using site: Site): RgbTexture =
-    ConstantRgb(site.resources.basis.fromSrgb(c))
+    ConstantRgb(site.resources.basis.unbounded(c))
 
   private def coefficients(a: RgbTexture, s: RgbTexture, asymmetry: Float)(using Site): Interior =
     CoefficientInterior(table(asymmetry), a, s, scale(), eta())

@@ -52,11 +52,11 @@ abstract class MediumRecipe(name: String, meaning: String, dialects: Set[Dialect
 /** Coefficients of a homogeneous medium, or scales of a density. */
 trait HasCoefficients extends Scatters:
   private val sigmaA =
-    color("sigma_a", "absorption coefficient", SpectrumRole.Reflectance, unit = PerUnit)(
+    color("sigma_a", "absorption coefficient", SpectrumRole.Unbounded, unit = PerUnit)(
       if v4 then Rgb.White else Rgb(0.0011f, 0.0024f, 0.014f)
     )
   private val sigmaS =
-    color("sigma_s", "scattering coefficient", SpectrumRole.Reflectance, unit = PerUnit)(
+    color("sigma_s", "scattering coefficient", SpectrumRole.Unbounded, unit = PerUnit)(
       if v4 then Rgb.White else Rgb(2.55f, 3.21f, 3.77f)
     )
 
@@ -95,7 +95,7 @@ trait HasPreset extends HasCoefficients:
         Suggest.help(name, MeasuredMedia.names(site.dialect))
       )
     val basis = site.resources.basis
-    found.map(m => MediumCoefficients(basis.fromSrgb(m.absorption), basis.fromSrgb(m.scattering)))
+    found.map(m => MediumCoefficients(basis.unbounded(m.absorption), basis.unbounded(m.scattering)))
 
 /** Bounding box of a medium, in its own space. */
 trait HasBox extends Fields:
@@ -131,6 +131,11 @@ trait HasGrid extends Fields:
 
   /** Samples with `channels` values each. Reports a wrong number of values and returns None. */
   protected def samples(name: String, values: Array[Float], channels: Int = 1)(using
+      site: Site
+  ): Option[Vector[SampledGrid]] =
+    site.resources.once(site.declaration, name)(grids(name, values, channels))
+
+  protected def grids(name: String, values: Array[Float], channels: Int)(using
       site: Site
   ): Option[Vector[SampledGrid]] =
     val Vector(nx, ny, nz) = sizes.map(_()): @unchecked

@@ -107,8 +107,8 @@ object RgbGridRecipe
 
   protected def make()(using site: Site): Option[Medium] =
     val (a, s, le) = (
-      colors(sigmaA(), SpectrumRole.Reflectance),
-      colors(sigmaS(), SpectrumRole.Reflectance),
+      colors(sigmaA(), SpectrumRole.Unbounded),
+      colors(sigmaS(), SpectrumRole.Unbounded),
       colors(emitted(), SpectrumRole.Emission)
     )
     if a.isEmpty && s.isEmpty then
@@ -149,7 +149,7 @@ object RgbGridRecipe
   /** The grid, if any. Returns None after an error. */
   private def grid(name: String, values: Array[Float])(using Site): Option[Option[ColorGrid]] =
     if values.isEmpty then Some(None)
-    else samples(name, values, channels = 3).map(g => Some(ColorGrid(g(0), g(1), g(2))))
+    else grids(name, values, channels = 3).map(g => Some(ColorGrid(g(0), g(1), g(2))))
 
 object CloudRecipe
     extends MediumRecipe("cloud", "procedural cloud of noise", onlyV4)
@@ -209,6 +209,7 @@ private[build] object Thermal:
     ThermalColors(
       hottest,
       kelvin =>
-        val c = Colorimetry.rgb(Spectrum.blackbody(kelvin)(_), White.EqualEnergy)
-        site.resources.basis.fromSrgb(c * LuminousIntegral): Rgb
+        val body = Spectrum.blackbody(kelvin)
+        val c = Colorimetry.rgb(body(_), White.EqualEnergy)
+        site.resources.basis.ofLight(body(_), c * LuminousIntegral): Rgb
     )

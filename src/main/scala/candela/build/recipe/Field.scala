@@ -10,6 +10,7 @@ import candela.scenefile.{Dialect, Param}
   * @param unit     unit of the values, or empty
   * @param default  default value, per dialect
   * @param shown    default as text, per dialect
+  * @param adapt    the default for a site
   */
 class Field[T](
     val name: String,
@@ -19,10 +20,12 @@ class Field[T](
     val unit: String,
     val default: Dialect => T,
     val shown: Dialect => String,
-    read: (Param, Site) => Option[T]
+    read: (Param, Site) => Option[T],
+    adapt: (T, Site) => T
 ):
   /** Returns the value given at the site, else the default. Reports values of the wrong type. */
-  def apply()(using site: Site): T = given_().getOrElse(default(site.dialect))
+  def apply()(using site: Site): T =
+    given_().getOrElse(adapt(default(site.dialect), site))
 
   /** Returns the value given by the scene file, if any. */
   def given_()(using site: Site): Option[T] =

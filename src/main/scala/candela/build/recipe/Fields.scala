@@ -155,14 +155,10 @@ trait Fields:
       unit: String = "",
       shown: String = ""
   )(default: Dialect ?=> Rgb): Field[Rgb] =
-    val written = (d: Dialect) =>
-      if shown.nonEmpty then shown else DefaultText.color(default(using d))
-    val of = (d: Dialect) => default(using d)
-    register(
-      new Field(name, "spectrum", doc, in, unit, of, written, Spectra.rgb(_, role, _)):
-        override def apply()(using site: Site): Rgb =
-          given_().getOrElse(Spectra.default(of(site.dialect), role, site))
-    )
+    adapted(name, "spectrum", doc, in, unit, shown, default)(
+      DefaultText.color,
+      (c, site) => Spectra.default(c, role, site)
+    )(Spectra.rgb(_, role, _))
 
   /** A function of wavelength, or a colour. */
   protected final def spectrum(
@@ -184,24 +180,29 @@ trait Fields:
       unit: String = "",
       shown: String = ""
   )(default: Dialect ?=> Float): Field[FloatTexture] =
-    val text = (d: Dialect) => DefaultText.number(default(using d))
-    textured(name, "float texture", doc, in, unit, shown, text, ConstantFloat(default)):
-      (p, site) =>
-        if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
-        else floats(1, p, site).map(v => ConstantFloat(v(0)))
+    field[FloatTexture](name, "float texture", doc, in, unit, shown, ConstantFloat(default))(
+      _.constant.fold("")(DefaultText.number)
+    ): (p, site) =>
+      if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
+      else floats(1, p, site).map(v => ConstantFloat(v(0)))
 
   protected final def rgbTexture(
       name: String,
       doc: String,
       in: Set[Dialect] = every,
       unit: String = "",
-      shown: String = ""
+      shown: String = "",
+      role: SpectrumRole = SpectrumRole.Reflectance
   )(default: Dialect ?=> Rgb): Field[RgbTexture] =
-    val text = (d: Dialect) => DefaultText.color(default(using d))
-    textured(name, "spectrum texture", doc, in, unit, shown, text, ConstantRgb(default)):
-      (p, site) =>
-        if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
-        else Spectra.rgb(p, SpectrumRole.Reflectance, site).map(ConstantRgb(_))
+    def read(p: Param, site: Site): Option[RgbTexture] =
+      if p.paramType == ParamType.Texture then site.resources.rgbTexture(p, site.problems)
+      else Spectra.rgb(p, role, site).map(ConstantRgb(_))
+    def forSite(texture: RgbTexture, site: Site) =
+      texture.constant.fold(texture)(c => ConstantRgb(Spectra.default(c, role, site)))
+    adapted[RgbTexture](name, "spectrum texture", doc, in, unit, shown, ConstantRgb(default))(
+      _.constant.fold("")(DefaultText.color),
+      forSite
+    )(read)
 
   private def floats(count: Int, p: Param, site: Site): Option[Array[Float]] =
     val values =
@@ -232,21 +233,20 @@ trait Fields:
       shown: String,
       default: Dialect ?=> T
   )(text: T => String)(read: (Param, Site) => Option[T]): Field[T] =
-    val written = (d: Dialect) => if shown.nonEmpty then shown else text(default(using d))
-    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
+    adapted(name, typeName, doc, in, unit, shown, default)(text, (value, _) => value)(read)
 
-  private def textured[T](
+  /** As above, with a default that depends on the site. */
+  private def adapted[T](
       name: String,
       typeName: String,
       doc: String,
       in: Set[Dialect],
       unit: String,
       shown: String,
-      text: Dialect => String,
       default: Dialect ?=> T
-  )(read: (Param, Site) => Option[T]): Field[T] =
-    val written = (d: Dialect) => if shown.nonEmpty then shown else text(d)
-    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read))
+  )(text: T => String, adapt: (T, Site) => T)(read: (Param, Site) => Option[T]): Field[T] =
+    val written = (d: Dialect) => if shown.nonEmpty then shown else text(default(using d))
+    register(Field(name, typeName, doc, in, unit, d => default(using d), written, read, adapt))
 
 object Fields:
   private[build] val numeric: Set[ParamType] = Set(

@@ -1,16 +1,10 @@
 package candela.build.recipe
 
-import java.nio.file.{Files, Path}
-
 import scala.collection.mutable
-import scala.util.Try
 
 import candela.base.{Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
-import candela.bsdf.layered.Coats
-import candela.bsdf.subsurface.ProfileTables
 import candela.color.ColorBasis
-import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
@@ -19,36 +13,31 @@ import candela.textures.{FloatTexture, RgbTexture}
   * @param basis colour basis of the runtime scene
   * @param crew  executes divisible work
   * @param seed  random seed, except of samplers
+  * @param plainBasis the three numbers of the scene, from which what all bases share is made
   */
-final class Resources(
+final class Resources private (
     val basis: ColorBasis,
-    val crew: Parallel = Parallel.Alone,
-    val seed: Int = 0
+    val crew: Parallel,
+    val seed: Int,
+    shared: SharedResources,
+    val plainBasis: ColorBasis
 ):
+  def this(
+      basis: ColorBasis,
+      crew: Parallel = Parallel.Alone,
+      seed: Int = 0,
+      mayBeSpectral: Boolean = false
+  ) = this(basis, crew, seed, SharedResources(basis, mayBeSpectral), basis)
+
+  /** The same files and tables, for another basis; names are yet to be defined. */
+  def in(other: ColorBasis): Resources = new Resources(other, crew, seed, shared, plainBasis)
+
+  export shared.*
+
   val materials = NamedMaterials()
-
-  /** Tables of coated materials, shared by materials with equal parameters. */
-  val coats = Coats()
-
-  /** BSSRDF profile tables, shared by materials with equal parameters. */
-  val profiles = ProfileTables()
-
-  private var footprints = Vector.empty[String]
-
-  /** Features that need ray differentials, for messages; initially empty. */
-  def footprintUses: Vector[String] = footprints
-
-  def footprintsInWords: String =
-    if footprints.isEmpty then "none: no texture needs them"
-    else footprints.mkString("for ", ", ", "")
-
-  /** Requests ray differentials or partial derivatives for a feature. */
-  def askForFootprints(what: String): Unit =
-    if !footprints.contains(what) then footprints :+= what
 
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
-  private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
 
   def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
   def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
@@ -81,39 +70,6 @@ final class Resources(
       problems.unnamed(NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }
-
-  /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
-    * file and returns None.
-    *
-    * @param standIn replacement if the user chose to keep going
-    */
-  def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
-    val name = p.strings.headOption.getOrElse("")
-    def path = from.folder.resolve(name.replace('\\', '/'))
-    // some names are not valid paths, e.g. with a zero byte
-    val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
-    if found.isEmpty then
-      problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
-    found
-
-  /** Loads the image that a parameter names; images are cached. */
-  def image(
-      p: Param,
-      from: Declaration,
-      problems: Findings,
-      standIn: String = StandIns.Magentas
-  ): Option[StoredImage] =
-    file(p, from, problems, standIn).flatMap: path =>
-      val read = images.getOrElseUpdate(
-        path.toAbsolutePath.normalize,
-        try Right(ImageFiles.load(path))
-        catch case e: ImageError => Left(e.getMessage)
-      )
-      read match
-        case Right(image) => Some(image)
-        case Left(message) =>
-          problems.missing(p.valuesAt, message, standIn)
-          None
 
 /** Materials by the names that `MakeNamedMaterial` gave them, each built on first use. */
 final class NamedMaterials:

@@ -6,14 +6,15 @@ import java.nio.file.Files
 import scala.util.Try
 
 import candela.base.Suggest
-import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum}
+import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum, Upsampling}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
 import candela.textures.{ConstantRgb, RgbTexture}
 
 /** Quantity that a spectrum describes, which determines its conversion to a colour. */
 enum SpectrumRole:
-  case Reflectance, Emission
+  /** `Unbounded`: not negative, such as an index of refraction or a coefficient. */
+  case Reflectance, Unbounded, Emission
 
 /** Value of a spectrum parameter: a linear colour or a function of wavelength. */
 enum SpectralValue:
@@ -25,30 +26,67 @@ object Spectra:
 
   /** Reads a colour in the scene's basis. Returns None after reporting a problem. */
   def rgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
-    srgb(p, role, site).map(site.resources.basis.fromSrgb)
-
-  /** The default of a colour parameter, in the scene's basis. */
-  def default(c: Rgb, role: SpectrumRole, site: Site): Rgb =
-    if role == SpectrumRole.Reflectance || site.colorSpace.isSrgb then c
-    else site.resources.basis.fromSrgb(site.colorSpace.light(c))
-
-  private def srgb(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
     p.paramType match
-      case ParamType.Blackbody => blackbody(p, role, site)
+      case ParamType.Blackbody =>
+        blackbody(p, site).map((body, scale) => inBasis(body, role, site) * scale)
       case ParamType.Spectrum if p.strings.nonEmpty =>
-        val found = named(p, site, StandIns.Magentas)
-        Some(found.fold(StandIns.Magenta)(toRgb(_, role, site.dialect)))
-      case _ =>
-        value(p, site).map:
-          case SpectralValue.Color(c, space) => inSrgb(c, space, role, site)
-          case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
+        val found = named(p, site, StandIns.Magentas).map(SpectralValue.Wavelengths(_))
+        Some(inBasis(found.getOrElse(SpectralValue.Color(StandIns.Magenta)), role, site))
+      case _ => value(p, site).map(inBasis(_, role, site))
+
+  /** The value in the scene's basis. */
+  def inBasis(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =
+    val basis = site.resources.basis
+    if basis.isSpectral then atWavelengths(value, role, site)
+    else
+      val components = inThree(value, role, site)
+      site.resources.census.add(value, role, components)
+      components
+
+  private def inThree(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =
+    val basis = site.resources.basis
+    val color = value match
+      case SpectralValue.Color(c, space) => inSrgb(c, space, role, basis)
+      case SpectralValue.Wavelengths(s) => toRgb(s, role, site.dialect)
+    basis.fromSrgb(color)
+
+  private def atWavelengths(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =
+    val basis = site.resources.basis
+    (value, role) match
+      case (SpectralValue.Color(c, space), SpectrumRole.Emission) if space.isSrgb =>
+        basis.ofLight(c)
+      case (SpectralValue.Color(c, space), SpectrumRole.Emission) =>
+        val filter = Upsampling.unbounded(c, space)
+        basis.ofLight(nm => filter(nm) * space.illuminant(nm), space.light(c))
+      case (SpectralValue.Color(c, space), SpectrumRole.Reflectance) if space.isSrgb =>
+        basis.fromSrgb(c)
+      case (SpectralValue.Color(c, space), SpectrumRole.Reflectance) if c.max <= 1f =>
+        basis.ofReflectance(Upsampling.spectrum(c, space))
+      case (SpectralValue.Color(c, space), _) if space.isSrgb => basis.unbounded(c)
+      case (SpectralValue.Color(c, space), _) => basis.ofReflectance(Upsampling.unbounded(c, space))
+      case (SpectralValue.Wavelengths(s), SpectrumRole.Emission) =>
+        basis.ofLight(s(_), toRgb(s, role, site.dialect))
+      case (SpectralValue.Wavelengths(s), _) => basis.ofReflectance(s(_))
+
+  /** Light of white, 1 in three numbers: of images, which have colours of their own. */
+  def white(using site: Site): Rgb =
+    val basis = site.resources.basis
+    if basis.isSpectral then basis.ofLight(Rgb.White) else Rgb.White
+
+  /** A default, given as a colour of the statement's space. Three-number bases take reflectances,
+    * and light in sRGB, as they are.
+    */
+  def default(c: Rgb, role: SpectrumRole, site: Site): Rgb =
+    val isLight = role == SpectrumRole.Emission
+    if site.resources.basis.isSpectral || (isLight && !site.colorSpace.isSrgb) then
+      inBasis(SpectralValue.Color(c, site.colorSpace), role, site)
+    else c
 
   /** A colour of any space in linear sRGB. Three components can't be negative reflectances. */
-  private def inSrgb(c: Rgb, space: ColorSpace, role: SpectrumRole, site: Site): Rgb =
-    role match
-      case SpectrumRole.Emission => space.light(c)
-      case SpectrumRole.Reflectance if space.isSrgb => c
-      case SpectrumRole.Reflectance => nonNegative(space.reflectance(c), site.resources.basis)
+  private def inSrgb(c: Rgb, space: ColorSpace, role: SpectrumRole, basis: ColorBasis): Rgb =
+    if role == SpectrumRole.Emission then space.light(c)
+    else if space.isSrgb then c
+    else nonNegative(space.reflectance(c), basis)
 
   private def nonNegative(c: Rgb, basis: ColorBasis): Rgb =
     basis.toSrgb(basis.fromSrgb(c).map(Math.max(_, 0f)))
@@ -58,9 +96,9 @@ object Spectra:
     */
   def ofMany(c: Rgb, role: SpectrumRole, site: Site): Rgb =
     val (space, basis) = (site.colorSpace, site.resources.basis)
-    if space.isSrgb then basis.fromSrgb(c)
-    else if role == SpectrumRole.Emission then basis.fromSrgb(space.light(c))
-    else basis.fromSrgb(space.toSrgbAdapted * c).map(Math.max(_, 0f))
+    if role == SpectrumRole.Emission then basis.ofLight(space.light(c))
+    else if space.isSrgb then basis.unbounded(c)
+    else basis.unbounded(space.toSrgbAdapted * c).map(Math.max(_, 0f))
 
   /** pbrt-v2 and v3 weight all wavelengths equally; v4 views reflectances under D65 and normalises
     * emission to luminance 1.
@@ -73,7 +111,7 @@ object Spectra:
   /** Colour under D65 of a reflectance given by cosine and wavelength. */
   def underWhite(reflected: Float => Float => Float)(using site: Site): Float => Rgb =
     cosTheta =>
-      site.resources.basis.fromSrgb(Colorimetry.rgb(reflected(cosTheta), White.D65))
+      site.resources.basis.ofReflectance(reflected(cosTheta))
 
   def value(p: Param, site: Site): Option[SpectralValue] =
     p.paramType match
@@ -100,7 +138,8 @@ object Spectra:
         )
         None
 
-  private def blackbody(p: Param, role: SpectrumRole, site: Site): Option[Rgb] =
+  /** The spectrum and its scale. */
+  private def blackbody(p: Param, site: Site): Option[(SpectralValue, Float)] =
     val scale = if p.floats.length >= 2 && site.dialect != Dialect.V4 then p.floats(1) else 1f
     if p.floats.length == 0 || !(p.floats(0) > 0f) then
       site.problems.error(p.valuesAt, s"`${p.name}` must be a temperature above 0 K")
@@ -110,7 +149,7 @@ object Spectra:
       val body =
         if site.dialect == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
         else Spectrum.blackbody(p.floats(0))
-      Some(toRgb(body, role, site.dialect) * scale)
+      Some((SpectralValue.Wavelengths(body), scale))
 
   private def pairs(numbers: Array[Float], p: Param, site: Site): Option[Spectrum] =
     val sorted = numbers.grouped(2).map(a => (a(0), a(1))).toArray.sortBy(_._1)
@@ -183,11 +222,10 @@ trait SpectrumFields extends Fields:
         if p.paramType == ParamType.Texture then
           site.resources.rgbTexture(p, site.problems).map: texture =>
             texture.constant match
-              case Some(c) => SpectrumSource.Uniform(uniform(c, site.resources.basis))
-              case None => SpectrumSource.Varying(texture)
-        else Spectra.value(p, site).map(SpectrumSource.Uniform(_))
+              case Some(c) if !site.resources.basis.isSpectral =>
+                SpectrumSource.Uniform(SpectralValue.Color(site.resources.basis.toSrgb(c)))
+              case _ => SpectrumSource.Varying(texture)
+        else Spectra.value(p, site).map(SpectrumSource.Uniform(_)),
+      (source, _) => source
     )
     register(field)
-
-  private def uniform(color: candela.color.Rgb, basis: ColorBasis) =
-    SpectralValue.Color(basis.toSrgb(color))

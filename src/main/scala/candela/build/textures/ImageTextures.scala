@@ -1,7 +1,7 @@
 package candela.build.textures
 
 import candela.build.recipe.*
-import candela.color.Encoding
+import candela.color.{Encoding, Rgb}
 import candela.image.{ByteImage, Image, StoredImage}
 import candela.math.*
 import candela.scenefile.{Dialect, ParamType}
@@ -47,7 +47,8 @@ abstract class ImageMapRecipe[A](standIn: String)
             case "clamp" => Wrap.Clamp
             case "octahedralsphere" => Wrap.OctahedralSphere
             case _ => Wrap.Repeat
-          filtered(texels(stored, decoding(stored)), wrapping, stored)
+          site.resources.once(site.declaration, "pyramid"):
+            filtered(texels(stored, decoding(stored)), wrapping, stored)
 
   private def filtered(texels: Texels, wrap: Wrap, stored: StoredImage)(using
       site: Site
@@ -113,7 +114,17 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
-    lookup(inSrgb).fold(StandIns.color(basis)): found =>
+    def texels(stored: StoredImage, decode: Float => Float): Texels =
+      val made = inSrgb(stored, decode)
+      if !basis.isSpectral && made.channels == 3 then
+        val step = Math.max(1, made.width * made.height / ImageMapRecipe.ColorsInCensus)
+        val some = 0.until(made.width * made.height, step)
+        site.resources.census.addColors(
+          some.map(i => Rgb(made(i, 0), made(i, 1), made(i, 2))),
+          SpectrumRole.Reflectance
+        )
+      made
+    lookup(texels).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis)
 
@@ -123,6 +134,9 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
     Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 
 private object ImageMapRecipe:
+  /** Texels that stand for the colours of an image. */
+  val ColorsInCensus = 1000
+
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 

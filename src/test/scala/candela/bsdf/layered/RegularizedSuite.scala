@@ -37,7 +37,7 @@ class RegularizedSuite extends AnyFunSuite:
     (name, make) <- Seq[(String, TrowbridgeReitz => Bsdf)](
       "a metal" -> (Conductor(_, copper)),
       "glass" -> (Dielectric(_, 1.5f, gray)),
-      "glass that splits light" -> (t => Dispersive(Dielectric(t, 1.5f), _ => Lambert(gray))),
+      "glass that splits light" -> (t => Dispersive(Dielectric(t, 1.5f))),
       "a coated diffuse surface" -> coated,
       "a coated diffuse surface of varying roughness" -> varying,
       "a coated metal" -> (t => layered(t, t)),

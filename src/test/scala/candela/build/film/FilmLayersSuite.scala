@@ -4,7 +4,7 @@ import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{BuildOptions, ColorMode, SceneBuilder}
 import candela.film.{Cryptomatte, Layer}
 import candela.image.{Image, ImageFiles}
 import candela.math.square
@@ -84,7 +84,9 @@ final class FilmLayersSuite extends AnyFunSuite:
 
   /** Renders with these layers. */
   private def layered(text: String, layers: Layer*): Image =
-    render(s"PixelFilter \"box\"\n$text", BuildOptions(layers = layers.toVector))
+    // Few samples: no noise of wavelengths
+    val options = BuildOptions(layers = layers.toVector, color = ColorMode.Rgb)
+    render(s"PixelFilter \"box\"\n$text", options)
 
   // A unit at distance 4 is this many pixels wide
   private val unit = (10 / (4 * Math.tan(Math.toRadians(20)))).toFloat
@@ -209,16 +211,25 @@ final class FilmLayersSuite extends AnyFunSuite:
     assert(!shares(wide, film("rgb"), "bdpt") && !shares(wide, film("rgb"), "sppm"))
 
   test("the sensors of cameras are known by name, and what they see is said"):
-    def said(name: String) =
-      val sensor = s"\"string sensor\" \"$name\""
-      SceneTexts.problems(s"$view\n${film("rgb")} $sensor\n$world", Dialect.V4).map(_.message)
-    assert(said("cie1931").isEmpty)
-    assert(said("nikon_d850").exists(_.contains("responds to a smooth spectrum")))
+    def text(name: String) = s"$view\n${film("rgb")} \"string sensor\" \"$name\"\n$world"
+    def said(name: String, color: ColorMode = ColorMode.Auto) =
+      SceneTexts.problems(text(name), Dialect.V4, options = BuildOptions(color = color))
+        .map(_.message)
+    assert(said("cie1931").isEmpty && said("nikon_d850").isEmpty)
+    val features = SceneTexts.plan(text("nikon_d850"), Dialect.V4).features.toMap
+    assert(features("color").endsWith("the sensor \"nikon_d850\" responds to spectra"))
+    val three = said("nikon_d850", ColorMode.Rgb)
+    assert(three.exists(_.contains("responds to a smooth spectrum")))
     assert(said("nikon").exists(_.contains("unknown sensor \"nikon\"")))
 
   test("spectral images have bands of wavelengths, and say how they were found"):
-    val said = SceneTexts.problems(s"$view\n${film("spectral")}\n$world", Dialect.V4)
-    assert(said.exists(_.message.contains("RGB, not spectral")))
+    def said(color: ColorMode) = SceneTexts.problems(
+      s"$view\n${film("spectral")}\n$world",
+      Dialect.V4,
+      options = BuildOptions(color = color)
+    )
+    assert(said(ColorMode.Auto).isEmpty)
+    assert(said(ColorMode.Rgb).exists(_.message.contains("RGB, not spectral")))
     val image = render(s"$view\n${film("spectral")} \"integer nbuckets\" 5\n$world")
     assert(image.channelNames.take(4) == Image.RgbNames :+ "S0.407,000nm" && image.channels == 8)
     // Half of light of luminance 1, in the sky

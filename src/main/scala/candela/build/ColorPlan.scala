@@ -1,0 +1,69 @@
+package candela.build
+
+import java.util.Locale
+
+import candela.color.{CameraSensor, ColorError, SmoothSpectra, Wavelengths}
+import candela.scenefile.Dialect
+
+/** What paths carry: three numbers, or light at three wavelengths; the scene decides if `Auto`. */
+enum ColorMode:
+  case Auto, Rgb, Spectral
+
+/** What the paths of a scene carry, and why.
+  *
+  * @param bases of spectral rendering; none: three numbers
+  */
+private[build] final case class ColorPlan(bases: Vector[Wavelengths], describe: String):
+  def isSpectral: Boolean = bases.nonEmpty
+
+private[build] object ColorPlan:
+
+  /** pbrt-v2 and v3 multiply three numbers. */
+  def mode(asked: ColorMode, dialect: Dialect): ColorMode =
+    if asked == ColorMode.Auto && dialect != Dialect.V4 then ColorMode.Rgb else asked
+
+  /** Decides once the scene is built in three numbers.
+    *
+    * @param camera the sensor, unless it is the standard observer
+    */
+  def of(context: BuildContext, asked: ColorMode, camera: Option[CameraSensor]): ColorPlan =
+    val census = context.resources.census
+    val (least, uniform) = census.bands.fold((Usual, Wavelengths.Uniform))(n => (4 * n, 1.0))
+    def spectral(why: String) =
+      val count = Math.max(if census.isDispersive then Many else Usual, least)
+      ColorPlan(
+        Wavelengths.covering(
+          count,
+          SmoothSpectra(context.resources.crew),
+          camera.fold(Wavelengths.Observer)(_.responses),
+          uniform
+        ),
+        s"spectral, three of ${3 * count} wavelengths a path: $why"
+      )
+    mode(asked, context.dialect) match
+      case ColorMode.Spectral => spectral("as asked for")
+      case ColorMode.Rgb if asked == ColorMode.Rgb =>
+        ColorPlan(Vector.empty, "three numbers: as asked for")
+      case ColorMode.Rgb =>
+        val program = s"pbrt-${context.dialect.toString.toLowerCase}"
+        ColorPlan(Vector.empty, s"three numbers: as in $program")
+      case ColorMode.Auto if census.isDispersive => spectral("glass disperses light")
+      case ColorMode.Auto if census.detectors.isDefined => spectral(census.detectors.get)
+      case ColorMode.Auto =>
+        val basis = context.resources.plainBasis
+        val error = ColorError.bound(census.lights, census.surfaces, basis, Bounces)
+        val shown = String.format(Locale.ROOT, "%.1f", error * 100)
+        if error < Tolerance then ColorPlan(Vector.empty, s"three numbers: off by $shown % at most")
+        else spectral(s"three numbers may be off by $shown %")
+
+  /** Error of a channel above which rendering is spectral. */
+  private val Tolerance = 0.005
+
+  /** Scattering events of a path that matter for its colour. */
+  private val Bounces = 12
+
+  /** Sets of three wavelengths. */
+  private val Usual = 64
+
+  /** … where each hero wavelength goes its own way. */
+  private val Many = 256

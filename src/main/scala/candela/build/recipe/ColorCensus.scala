@@ -1,0 +1,126 @@
+package candela.build.recipe
+
+import scala.collection.mutable
+
+import candela.color.{ColorBasis, ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
+
+/** The spectra that a scene is built from, collected as recipes read them, to decide whether three
+  * numbers render its colours.
+  *
+  * @param basis the three numbers
+  */
+final class ColorCensus(basis: ColorBasis):
+  import ColorCensus.*
+
+  private val emitted, reflected = mutable.LinkedHashMap.empty[Any, ColoredSpectrum]
+  private var disperses = false
+  private var detector: Option[String] = None
+  private var bandCount: Option[Int] = None
+
+  def lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector)
+  def surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector)
+
+  /** A material disperses light. */
+  def addDispersion(): Unit = disperses = true
+
+  /** Whether a material disperses light. */
+  def isDispersive: Boolean = disperses
+
+  /** The film responds to spectra, not to colours. */
+  def addDetector(what: String): Unit = detector = Some(what)
+
+  /** The film has wavelength bands. */
+  def addBands(count: Int): Unit =
+    bandCount = Some(count)
+    addDetector("the film has wavelength bands")
+  def bands: Option[Int] = bandCount
+  def detectors: Option[String] = detector
+
+  /** A value and the three numbers that stand for it. */
+  def add(value: SpectralValue, role: SpectrumRole, components: Rgb): Unit = value match
+    case SpectralValue.Color(c, space) if space.isSrgb => add(c, role, components)
+    case SpectralValue.Color(c, space) if role == SpectrumRole.Emission =>
+      add(space.light(c), role, components)
+    case SpectralValue.Color(c, space) => add(space.reflectance(c), role, components)
+    case SpectralValue.Wavelengths(s) => add(s, role, s(_), components)
+
+  /** Colours in linear sRGB, such as those of an image. */
+  def addColors(colors: Iterable[Rgb], role: SpectrumRole): Unit =
+    for c <- farApartColors(colors.toVector) do add(c, role, basis.fromSrgb(c))
+
+  /** A reflectance by wavelength in nm. */
+  def addReflectance(key: Any, s: Float => Float): Unit =
+    add(key, SpectrumRole.Reflectance, s, basis.ofReflectance(s))
+
+  private def add(c: Rgb, role: SpectrumRole, components: Rgb): Unit =
+    val isGrey = (c - Rgb.gray(c.g)).largest <= 1e-4f * c.g
+    if c.isFinite && c.max > 0f then
+      // Half as bright as can be, as in pbrt-v4
+      val half = SmoothSpectra.spectrum(c * (0.5f / c.max))
+      val smooth = (nm: Float) => if isGrey then c.g else half(nm) * 2f * c.max
+      role match
+        case SpectrumRole.Emission =>
+          val _ = emitted.getOrElseUpdate(
+            c * (1f / c.max),
+            ColoredSpectrum(ColorError.wavelengths.map(smooth(_).toDouble), components)
+          )
+        case SpectrumRole.Unbounded => addCoefficient(c, smooth, components)
+        case SpectrumRole.Reflectance =>
+          val bounded = if !isGrey && c.max <= 1f then SmoothSpectra.spectrum(c) else smooth
+          val _ = reflected.getOrElseUpdate(
+            c,
+            ColoredSpectrum(ColorError.wavelengths.map(bounded(_).toDouble), components)
+          )
+
+  private def add(key: Any, role: SpectrumRole, s: Float => Float, components: Rgb): Unit =
+    role match
+      case SpectrumRole.Emission =>
+        val values =
+          ColorError.wavelengths.map(nm => (s(nm) / candela.color.Colorimetry.D65(nm)).toDouble)
+        // Scaled to the luminance of the components
+        val seen = ColorError.seen(values)
+        val luminance = 0.2126 * seen(0) + 0.7152 * seen(1) + 0.0722 * seen(2)
+        val scale = if luminance > 0 then basis.toSrgb(components).luminance / luminance else 0.0
+        val _ = emitted.getOrElseUpdate(
+          key,
+          ColoredSpectrum(values.map(_ * scale), components)
+        )
+      case SpectrumRole.Unbounded => addCoefficient(key, s, components)
+      case SpectrumRole.Reflectance =>
+        val values = ColorError.wavelengths.map(s(_).toDouble)
+        val _ = reflected.getOrElseUpdate(key, ColoredSpectrum(values, components))
+
+  /** Transmittance where the mean coefficient leaves 1/e. */
+  private def addCoefficient(key: Any, s: Float => Float, components: Rgb): Unit =
+    val values = ColorError.wavelengths.map(s(_).toDouble)
+    val mean = values.sum / values.length
+    if mean > 0 then
+      val through = components.map(c => Math.exp(-c / mean).toFloat)
+      val _ = reflected.getOrElseUpdate(
+        ("coefficient", key),
+        ColoredSpectrum(values.map(v => Math.exp(-v / mean)), through)
+      )
+
+private object ColorCensus:
+  /** Spectra compared, at most: those of pairs are. */
+  private val Most = 24
+
+  private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
+    spread(all)((a, b) =>
+      a.values.lazyZip(b.values).map((x, y) => Math.abs(x / a.values.max - y / b.values.max)).sum
+    )
+
+  private def farApartColors(all: Vector[Rgb]): Vector[Rgb] =
+    spread(all.distinct)((a, b) => (a - b).largest.toDouble)
+
+  /** A subset whose members are far from each other, greedily (Gonzalez 1985). */
+  private def spread[T](all: Vector[T])(distance: (T, T) => Double): Vector[T] =
+    if all.size <= Most then all
+    else
+      var chosen = Vector(all.head)
+      val nearest = all.map(distance(_, all.head)).toArray
+      while chosen.size < Most do
+        val next = all(nearest.indices.maxBy(nearest(_)))
+        chosen :+= next
+        for i <- all.indices do nearest(i) = Math.min(nearest(i), distance(all(i), next))
+      chosen

@@ -1,0 +1,86 @@
+package candela.build.recipe
+
+import java.nio.file.{Files, Path}
+
+import scala.collection.mutable
+import scala.util.Try
+
+import candela.base.Suggest
+import candela.color.ColorBasis
+import candela.bsdf.layered.Coats
+import candela.bsdf.subsurface.ProfileTables
+import candela.image.{ImageError, ImageFiles, StoredImage}
+import candela.scenefile.{Declaration, Param}
+
+/** Resources that do not depend on the colour basis: files, and tables computed from them.
+  *
+  * @param mayBeSpectral whether rendering may be spectral
+  */
+final class SharedResources(basis: ColorBasis, val mayBeSpectral: Boolean):
+  /** The spectra read so far. */
+  val census = ColorCensus(basis)
+
+  /** Tables of coated materials, shared by materials with equal parameters. */
+  val coats = Coats()
+
+  /** BSSRDF profile tables, shared by materials with equal parameters. */
+  val profiles = ProfileTables()
+
+  private var footprints = Vector.empty[String]
+
+  /** Features that need ray differentials, for messages; initially empty. */
+  def footprintUses: Vector[String] = footprints
+
+  def footprintsInWords: String =
+    if footprints.isEmpty then "none: no texture needs them"
+    else footprints.mkString("for ", ", ", "")
+
+  /** Requests ray differentials or partial derivatives for a feature. */
+  def askForFootprints(what: String): Unit =
+    if !footprints.contains(what) then footprints :+= what
+
+  private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
+  private val made = java.util.IdentityHashMap[Declaration, mutable.Map[String, Any]]()
+
+  /** What a statement needs in every colour basis, made when it is first asked for.
+    *
+    * @param what distinguishes the things that one statement needs
+    */
+  def once[T](statement: Declaration, what: String)(make: => T): T =
+    made
+      .computeIfAbsent(statement, _ => mutable.Map.empty)
+      .getOrElseUpdate(what, make)
+      .asInstanceOf[T]
+
+  /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
+    * file and returns None.
+    *
+    * @param standIn replacement if the user chose to keep going
+    */
+  def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
+    val name = p.strings.headOption.getOrElse("")
+    def path = from.folder.resolve(name.replace('\\', '/'))
+    // some names are not valid paths, e.g. with a zero byte
+    val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
+    if found.isEmpty then
+      problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
+    found
+
+  /** Loads the image that a parameter names; images are cached. */
+  def image(
+      p: Param,
+      from: Declaration,
+      problems: Findings,
+      standIn: String = StandIns.Magentas
+  ): Option[StoredImage] =
+    file(p, from, problems, standIn).flatMap: path =>
+      val read = images.getOrElseUpdate(
+        path.toAbsolutePath.normalize,
+        try Right(ImageFiles.load(path))
+        catch case e: ImageError => Left(e.getMessage)
+      )
+      read match
+        case Right(image) => Some(image)
+        case Left(message) =>
+          problems.missing(p.valuesAt, message, standIn)
+          None

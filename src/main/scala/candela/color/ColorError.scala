@@ -1,0 +1,106 @@
+package candela.color
+
+/** Light or a reflectance: its spectrum, and the three numbers that stand for it.
+  *
+  * @param values at the wavelengths of [[ColorError.wavelengths]]; light relative to D65
+  */
+final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
+  /** Whether it is grey, for which three numbers are exact. */
+  def isGrey: Boolean =
+    val (low, high) = (values.min, values.max)
+    high - low <= 1e-4 * high
+
+/** Error of three-number colour: light and surfaces are multiplied as spectra, and as the
+  * components of a basis.
+  *
+  * The model is a surface in a closed cavity, which sees the light of the others: for each light L,
+  * each reflectance a, and each b that may prevail around it, the light of L·a·(1 + m + m² + …),
+  * where m is the mean of b and of all reflectances; and the same without the first term, for a
+  * surface in the shade. The bound is the largest error of a channel over all of them, relative to
+  * the channel or to a twentieth of the brightest one, times a margin for rooms in which more of
+  * one colour comes together.
+  */
+object ColorError:
+  /** In nm. */
+  val wavelengths: Array[Float] = Colorimetry.responses.map(_._1)
+
+  /** Response of each channel of linear sRGB to D65 at each wavelength. */
+  private val responses: Array[Array[Double]] =
+    val raw = Colorimetry.responses.map((_, c) => Array(c.r.toDouble, c.g, c.b))
+    Array.tabulate(3): c =>
+      val sum = raw.map(_(c)).sum
+      raw.map(_(c) / sum)
+
+  /** Share of the brightest channel below which a channel's error is measured against that. */
+  val Floor = 0.05
+
+  /** Upper bound of the relative error of a channel.
+    *
+    * @param depth number of scattering events of a path, at most
+    */
+  def bound(
+      lights: Seq[ColoredSpectrum],
+      surfaces: Seq[ColoredSpectrum],
+      basis: ColorBasis,
+      depth: Int
+  ): Double =
+    val all = if surfaces.isEmpty then Seq(Grey) else surfaces
+    val mean = mixed(all.map(_ -> 1.0 / all.size)*)
+    val around = all.map(b => mixed(b -> Prevailing, mean -> (1 - Prevailing)))
+    val errors =
+      for
+        light <- lights
+        a <- all
+        m <- around
+        first <- Seq(0, 1) if first < depth
+      yield error(light, a, m, first, depth, basis)
+    Margin * errors.maxOption.getOrElse(0.0)
+
+  /** Share of the one colour that prevails around a surface. */
+  private val Prevailing = 0.3
+
+  private val Margin = 1.2
+
+  private def mixed(parts: (ColoredSpectrum, Double)*): ColoredSpectrum =
+    val values = wavelengths.indices.map(w => parts.map((s, share) => s.values(w) * share).sum)
+    val components = parts.map((s, share) => s.components * share.toFloat).reduce(_ + _)
+    ColoredSpectrum(values.toArray, components)
+
+  private val Grey = ColoredSpectrum(wavelengths.map(_ => 0.5), Rgb.gray(0.5f))
+
+  private def error(
+      light: ColoredSpectrum,
+      a: ColoredSpectrum,
+      b: ColoredSpectrum,
+      first: Int,
+      depth: Int,
+      basis: ColorBasis
+  ): Double =
+    val spectrum = Array.tabulate(wavelengths.length): w =>
+      light.values(w) * a.values(w) * series(b.values(w), first, depth)
+    def component(l: Float, x: Float, y: Float) = (l * x * series(y, first, depth)).toFloat
+    val three = Rgb(
+      component(light.components.r, a.components.r, b.components.r),
+      component(light.components.g, a.components.g, b.components.g),
+      component(light.components.b, a.components.b, b.components.b)
+    )
+    difference(spectrum, basis.toSrgb(three))
+
+  /** Σ b^k for k from `first` to `depth` − 1. */
+  private def series(b: Double, first: Int, depth: Int): Double =
+    var sum = 0.0
+    for _ <- first until depth do sum = 1 + b * sum
+    sum * Math.pow(b, first)
+
+  /** Largest relative difference of a channel. */
+  def difference(spectrum: Array[Double], color: Rgb): Double =
+    val exact = seen(spectrum)
+    val least = Floor * exact.map(Math.abs).max
+    if !(least > 0) then 0.0
+    else
+      Seq(color.r, color.g, color.b).zip(exact)
+        .map((c, e) => Math.abs(c - e) / Math.max(Math.abs(e), least)).max
+
+  /** Linear sRGB of a spectrum of light relative to D65. */
+  def seen(spectrum: Array[Double]): Array[Double] =
+    responses.map(r => r.indices.map(w => r(w) * spectrum(w)).sum)

@@ -1,0 +1,187 @@
+package candela.color
+
+import candela.base.Parallel
+import candela.math.*
+
+/** Coefficients of smooth spectra on a grid of colours, for lookups while rendering; see
+  * [[Upsampling]] for the spectra and their source. Immutable.
+  *
+  * As in Jakob and Hanika's tables, the grid has three parts by the largest component; its value
+  * is the third coordinate, in steps that are finer near black and white, and the other two
+  * components are relative to it.
+  */
+final class SmoothSpectra private (data: Array[Float]):
+  import SmoothSpectra.*
+  private val fitted = scala.collection.mutable.HashMap.empty[Rgb, Float => Float]
+
+  /** The spectrum of one colour, fitted exactly: for the few colours of a scene file. */
+  def exact(color: Rgb): Float => Float =
+    fitted.synchronized(fitted.getOrElseUpdate(color, spectrum(color)))
+
+  /** The spectrum of a colour with components in [0, 1], at three wavelengths in nm. */
+  def at(r: Float, g: Float, b: Float, nm0: Float, nm1: Float, nm2: Float): Rgb =
+    val largest = if r >= g && r >= b then 0 else if g >= b then 1 else 2
+    val z = clamp(if largest == 0 then r else if largest == 1 then g else b, Least, Most)
+    val x = step(if largest == 0 then g else if largest == 1 then b else r, z)
+    val y = step(if largest == 0 then b else if largest == 1 then r else g, z)
+    val i = Math.min(x.toInt, Size - 2)
+    val j = Math.min(y.toInt, Size - 2)
+    var k = 0
+    while k < Size - 2 && Levels(k + 1) <= z do k += 1
+    val tx = x - i
+    val ty = y - j
+    val tz = (z - Levels(k)) / (Levels(k + 1) - Levels(k))
+    val near = place(largest, k, j, i)
+    val far = near + 3 * Size * Size
+    val c0 = mix(near, far, tx, ty, tz)
+    val c1 = mix(near + 1, far + 1, tx, ty, tz)
+    val c2 = mix(near + 2, far + 2, tx, ty, tz)
+    Rgb(logistic(c0, c1, c2, nm0), logistic(c0, c1, c2, nm1), logistic(c0, c1, c2, nm2))
+
+  private def step(c: Float, largest: Float): Float =
+    clamp(c, 0f, largest) / largest * (Size - 1)
+
+  private def mix(near: Int, far: Int, tx: Float, ty: Float, tz: Float): Float =
+    lerp(tz, mix(near, tx, ty), mix(far, tx, ty))
+
+  private def mix(at: Int, tx: Float, ty: Float): Float =
+    val up = at + 3 * Size
+    lerp(ty, lerp(tx, data(at), data(at + 3)), lerp(tx, data(up), data(up + 3)))
+
+object SmoothSpectra:
+  private inline val Size = 40
+  private inline val Least = 1e-4f
+  private inline val Most = 0.9999f
+
+  /** Values of the largest component. */
+  private val Levels: Array[Float] = Array.tabulate(Size): k =>
+    def smoothStep(t: Double) = t * t * (3 - 2 * t)
+    val t = smoothStep(k.toDouble / (Size - 1))
+    (Least + (Most - Least) * t).toFloat
+
+  /** The other components relative to the largest. */
+  private def share(i: Int): Double = i.toDouble / (Size - 1)
+
+  private def place(largest: Int, k: Int, j: Int, i: Int): Int =
+    3 * (((largest * Size + k) * Size + j) * Size + i)
+
+  private def logistic(c0: Float, c1: Float, c2: Float, nm: Float): Float =
+    val x = (nm - 360f) * (1f / 470f)
+    val t = (c0 * x + c1) * x + c2
+    0.5f + 0.5f * t / sqrt(1f + t * t)
+
+  /** Spectra of the colours of sRGB. */
+  def apply(crew: Parallel): SmoothSpectra =
+    val data = new Array[Float](3 * 3 * Size * Size * Size)
+    crew.each(3 * Size)(row => fill(data, row / Size, row % Size))
+    new SmoothSpectra(data)
+
+  /** The spectrum of one colour with components in [0, 1], fitted exactly. */
+  def spectrum(color: Rgb): Float => Float =
+    val fit = SpectrumFit()
+    val target = Array(color.r, color.g, color.b).map(c => clamp(c, Least, Most).toDouble)
+    for step <- 1 to Steps do
+      fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
+    val (c0, c1, c2) = (fit.c(0).toFloat, fit.c(1).toFloat, fit.c(2).toFloat)
+    nm => logistic(c0, c1, c2, nm)
+
+  /** Steps from grey to a colour. */
+  private val Steps = 6
+
+  /** Fits a plane of constant `j`, from the middle level outwards, each colour from the last. */
+  private def fill(data: Array[Float], largest: Int, j: Int): Unit =
+    val fit = SpectrumFit()
+    for i <- 0 until Size do
+      def go(levels: Range): Unit =
+        fit.restart()
+        for k <- levels do
+          val z = Levels(k).toDouble
+          // Not fully saturated, which no bounded spectrum is
+          val c = Array(z, z, z)
+          c((largest + 1) % 3) = z * share(i)
+          c((largest + 2) % 3) = z * share(j)
+          fit.to(c)
+          for n <- 0 until 3 do data(place(largest, k, j, i) + n) = fit.c(n).toFloat
+      go(Size / 2 until Size)
+      go(Size / 2 - 1 to 0 by -1)
+
+/** Newton's method for the three coefficients of a smooth spectrum, from one colour to the next.
+  * Mutable.
+  */
+private[color] final class SpectrumFit:
+  import SpectrumFit.*
+
+  /** The coefficients. */
+  val c: Array[Double] = Array(0.0, 0.0, 0.0)
+  private val off = Array(0.0, 0.0, 0.0)
+  private val jacobian = new Array[Double](9)
+
+  def restart(): Unit = java.util.Arrays.fill(c, 0.0)
+
+  /** Moves to a colour in linear sRGB, as close as a bounded spectrum comes. */
+  def to(target: Array[Double]): Unit =
+    var left = Iterations
+    while left > 0 do
+      left -= 1
+      evaluate(target)
+      if Math.abs(off(0)) + Math.abs(off(1)) + Math.abs(off(2)) < 1e-5 then left = 0
+      else step()
+
+  private def evaluate(target: Array[Double]): Unit =
+    for i <- 0 until 3 do off(i) = -target(i)
+    java.util.Arrays.fill(jacobian, 0.0)
+    var w = 0
+    while w < Count do
+      val x = w.toDouble / (Count - 1)
+      val t = (c(0) * x + c(1)) * x + c(2)
+      val root = 1 / Math.sqrt(1 + t * t)
+      val s = 0.5 + 0.5 * t * root
+      val slope = 0.5 * root * root * root
+      var i = 0
+      while i < 3 do
+        val response = responses(3 * w + i)
+        off(i) += response * s
+        val d = response * slope
+        jacobian(3 * i) += d * x * x
+        jacobian(3 * i + 1) += d * x
+        jacobian(3 * i + 2) += d
+        i += 1
+      w += 1
+
+  /** A damped step: the system is nearly singular for the deepest colours. */
+  private def step(): Unit =
+    val m = jacobian
+    val a = m(4) * m(8) - m(5) * m(7)
+    val b = m(5) * m(6) - m(3) * m(8)
+    val d = m(3) * m(7) - m(4) * m(6)
+    val det = m(0) * a + m(1) * b + m(2) * d
+    if Math.abs(det) > 1e-30 then
+      val s0 =
+        (off(0) * a + off(1) * (m(2) * m(7) - m(1) * m(8)) +
+          off(2) * (m(1) * m(5) - m(2) * m(4))) / det
+      val s1 =
+        (off(0) * b + off(1) * (m(0) * m(8) - m(2) * m(6)) +
+          off(2) * (m(2) * m(3) - m(0) * m(5))) / det
+      val s2 =
+        (off(0) * d + off(1) * (m(1) * m(6) - m(0) * m(7)) +
+          off(2) * (m(0) * m(4) - m(1) * m(3))) / det
+      val largest = Math.max(Math.abs(s0), Math.max(Math.abs(s1), Math.abs(s2)))
+      val scale = if largest > Longest then Longest / largest else 1.0
+      c(0) = clamp(c(0) - scale * s0)
+      c(1) = clamp(c(1) - scale * s1)
+      c(2) = clamp(c(2) - scale * s2)
+
+  private def clamp(x: Double): Double = Math.max(-500.0, Math.min(500.0, x))
+
+private[color] object SpectrumFit:
+  private val Iterations = 8
+  private val Longest = 20.0
+  private inline val Count = 95
+
+  /** Contribution to linear sRGB of each wavelength of a white surface under D65; their sum is
+    * white.
+    */
+  private val responses: Array[Double] =
+    val raw = Colorimetry.responses.map((_, c) => Array(c.r.toDouble, c.g, c.b))
+    val sums = Array.tabulate(3)(i => raw.map(_(i)).sum)
+    raw.flatMap(row => Array.tabulate(3)(i => row(i) / sums(i)))

@@ -1,0 +1,132 @@
+package candela.color
+
+/** The components of light at three wavelengths: a hero and two companions a third of the visible
+  * range away, in the measure of the detector's sensitivity.
+  *
+  * A spectral image is the mean over a set of such bases that covers the range
+  * ([[Wavelengths.covering]]); each camera path uses one of them.
+  *
+  * Source: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014.
+  *
+  * @param nm      the wavelengths; the first is the hero
+  * @param weights widths of the spectrum that they stand for, in nm
+  * @param rows    nine numbers in row order: the matrix to the detector's channels
+  * @param smooth  spectra of colours
+  */
+final class Wavelengths private (
+    val nm: Array[Float],
+    weights: Array[Float],
+    rows: Array[Float],
+    smooth: SmoothSpectra
+) extends ColorBasis:
+  private val daylight = each(Colorimetry.D65(_))
+
+  override def isSpectral: Boolean = true
+
+  /** Width of the spectrum that a wavelength stands for, in nm. */
+  def weight(i: Int): Float = weights(i)
+
+  def toSrgb(c: Rgb): Rgb = ColorBasis.times(rows, c)
+
+  /** Smooth spectra; those of greys are constant, and of brighter colours unbounded. */
+  def fromSrgb(c: Rgb): Rgb =
+    if isGrey(c) then c else if c.max > 1f then unbounded(c) else each(smooth.exact(c))
+
+  def unbounded(c: Rgb): Rgb =
+    val scale = 2f * c.max
+    if isGrey(c) || !(scale > 0f) then c else each(smooth.exact(c * (1f / scale))) * scale
+
+  def lookUp(c: Rgb): Rgb =
+    val most = c.max
+    if isGrey(c) || !(most > 0f) then c
+    else if most <= 1f then smooth.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
+    else
+      val s = 0.5f / most
+      smooth.at(c.r * s, c.g * s, c.b * s, nm(0), nm(1), nm(2)) * (2f * most)
+
+  private def isGrey(c: Rgb): Boolean = c.r == c.g && c.g == c.b
+
+  /** Daylight (D65), filtered by a smooth spectrum. */
+  def ofLight(c: Rgb): Rgb = unbounded(c) * daylight
+
+  def ofReflectance(s: Float => Float): Rgb = each(s)
+
+  def reflectance(c: Rgb): Float => Float =
+    wavelength => if wavelength == nm(0) then c.r else if wavelength == nm(1) then c.g else c.b
+
+  /** Scaled to the luminance of `color`. */
+  def ofLight(s: Float => Float, color: Rgb): Rgb =
+    val luminance = Wavelengths.luminance(s)
+    if luminance > 0f then each(s) * (color.luminance / luminance) else Rgb.Black
+
+  private def each(s: Float => Float): Rgb = Rgb(s(nm(0)), s(nm(1)), s(nm(2)))
+
+object Wavelengths:
+  private inline val First = 360
+  private inline val Last = 830
+
+  /** Share of the wavelengths that are sampled uniformly, whatever the sensitivity. */
+  val Uniform = 0.02
+
+  /** Spectral radiance, in pbrt-v4's unit, of a unit of light; [[Colorimetry.radianceOfD65]]. */
+  val Radiance: Double = Colorimetry.radianceOfD65(560f) / Colorimetry.D65(560f).toDouble
+
+  /** Luminance of a spectrum of light, where D65 has luminance 1. */
+  private def luminance(s: Float => Float): Float =
+    val y = Colorimetry.observers(1)
+    val sum = (First to Last by Step).map(nm => s(nm.toFloat).toDouble * y(nm.toFloat)).sum
+    (sum * Step / Colorimetry.luminanceOfD65).toFloat
+
+  private inline val Step = 5
+
+  /** Linear sRGB, by the standard observer: for each wavelength, its channels. */
+  val Observer: Float => Array[Double] = nm =>
+    (Colorimetry.rgbOfXyz * Colorimetry.observers.map(_(nm).toDouble)).toArray
+
+  /** Bases that cover the visible range `count` times three wavelengths, stratified by sensitivity:
+    * the sum over wavelengths of the detector's responses to daylight.
+    *
+    * @param detector response of its three channels to a unit of light at a wavelength in nm, in
+    *                 units in which D65 has the luminance that [[Colorimetry.luminanceOfD65]] says
+    */
+  def covering(
+      count: Int,
+      smooth: SmoothSpectra,
+      detector: Float => Array[Double] = Observer,
+      uniform: Double = Uniform
+  ): Vector[Wavelengths] =
+    val strength = Array.tabulate(Last - First): i =>
+      val nm = First + i + 0.5f
+      detector(nm).map(r => Math.abs(r) * Colorimetry.D65(nm)).sum
+    val mean = strength.sum / strength.length
+    val density = strength.map(s =>
+      (1 - uniform) * s / (mean * strength.length) +
+        uniform / strength.length
+    )
+    val below = density.scanLeft(0.0)(_ + _)
+
+    /** The wavelength below which lies the share `u` of the sensitivity, and its density per nm. */
+    def at(u: Double): (Float, Double) =
+      val target = u * below.last
+      val found = java.util.Arrays.binarySearch(below, target)
+      val i = Math.min(if found >= 0 then found else -found - 2, density.length - 1)
+      ((First + i + (target - below(i)) / density(i)).toFloat, density(i) / below.last)
+
+    val sets = Vector.tabulate(count): k =>
+      val u = (k + 0.5) / count
+      Vector.tabulate(3)(i => at((u + i / 3.0) % 1.0))
+    def response(nm: Float, pdf: Double) =
+      detector(nm).map(_ / (3 * pdf * Colorimetry.luminanceOfD65))
+    // What the finite set makes of daylight, corrected to what an integral would make of it
+    val exact = Array.tabulate(3): c =>
+      (First to Last by Step).map(nm =>
+        Step * detector(nm.toFloat)(c) * Colorimetry.D65(nm.toFloat) / Colorimetry.luminanceOfD65
+      ).sum
+    val found = Array.tabulate(3): c =>
+      sets.flatten.map((nm, pdf) => response(nm, pdf)(c) * Colorimetry.D65(nm)).sum / count
+    for set <- sets yield
+      val columns = set.map(response(_, _))
+      val rows = Array.tabulate(9): i =>
+        (columns(i % 3)(i / 3) * exact(i / 3) / found(i / 3)).toFloat
+      val widths = set.map((_, pdf) => (1 / (3 * pdf)).toFloat)
+      new Wavelengths(set.map(_._1).toArray, widths.toArray, rows, smooth)

@@ -1,0 +1,54 @@
+package candela.film
+
+import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.color.{Rgb, Wavelengths}
+import candela.image.Image
+
+/** Accumulates the light of camera samples in wavelength bands, at the wavelengths of each sample.
+  * One worker at a time owns a pixel, as in [[Film]].
+  *
+  * A band's value is the mean over the samples within it, weighted by the filter and the density of
+  * wavelengths.
+  */
+final class BandFilm(bands: SpectralBands, x0: Int, y0: Int, x1: Int, y1: Int):
+  private val width = x1 - x0
+  private val height = y1 - y0
+  private val count = bands.channels.size
+
+  // For each pixel and band: weighted light, sum of weights
+  private val sums = ExactSums(Math.multiplyExact(2 * count, Math.multiplyExact(width, height)))
+
+  /** Adds light to its pixel.
+    *
+    * @param light at the wavelengths of `basis`
+    */
+  def add(x: Int, y: Int, basis: Wavelengths, light: Rgb, weight: Float): Unit =
+    val first = 2 * count * ((y - y0) * width + (x - x0))
+    add(first, basis, 0, light.r, weight)
+    add(first, basis, 1, light.g, weight)
+    add(first, basis, 2, light.b, weight)
+
+  private def add(first: Int, basis: Wavelengths, i: Int, light: Float, weight: Float): Unit =
+    val band = bands.at(basis.nm(i))
+    if band >= 0 then
+      val share = basis.weight(i).toDouble * weight
+      sums.add(first + 2 * band, share * light)
+      sums.add(first + 2 * band + 1, share)
+
+  /** Appends the bands to the image's channels. */
+  def behind(image: Image): Image =
+    require(image.width == width && image.height == height)
+    val channels = image.channels + count
+    val data = new Array[Float](channels * width * height)
+    loop(width * height): pixel =>
+      System.arraycopy(image.data, image.channels * pixel, data, channels * pixel, image.channels)
+      loop(count): band =>
+        val at = 2 * (count * pixel + band)
+        val weight = sums(at + 1)
+        if weight != 0 then
+          val mean = sums(at) / weight
+          data(channels * pixel + image.channels + band) = (mean * Wavelengths.Radiance).toFloat
+    Image(width, height, image.channelNames ++ bands.channels, data)
+
+  def save(to: CheckedOutput): Unit = sums.save(to)
+  def load(from: CheckedInput): Unit = sums.load(from)

@@ -1,0 +1,93 @@
+package candela.integrators
+
+import candela.color.{ColorBasis, Rgb, Wavelengths}
+import candela.film.Splats
+import candela.geometry.Ray
+import candela.sampling.{SampleHash, Sampler}
+import candela.scene.PathReport
+
+/** Spectral rendering: each camera path takes one of several sets of wavelengths, and the
+  * integrator whose scene has its colours at these. The radiance is in linear sRGB.
+  *
+  * Source: Wilkie et al., "Hero Wavelength Spectral Sampling", EGSR 2014.
+  *
+  * @param integrators of each basis
+  * @param bases       which cover the visible range; see [[candela.color.Wavelengths.covering]]
+  * @param report      of one path, if wanted
+  */
+final class SpectralIntegrator(
+    integrators: Array[Integrator],
+    bases: Array[Wavelengths],
+    report: Option[PathReport] = None
+) extends Integrator:
+  private var current = 0
+  private var components = Rgb.Black
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    current = SpectralIntegrator.choose(sampler.next1D(), bases.length)
+    for r <- report do r.takes(bases(current))
+    components = integrators(current).radiance(ray, sampler)
+    bases(current).toSrgb(components)
+
+  override def lastWavelengths: Wavelengths = bases(current)
+  override def lastComponents: Rgb = components
+
+  def copy(): SpectralIntegrator = SpectralIntegrator(integrators.map(_.copy()), bases)
+  def reported(report: PathReport): SpectralIntegrator =
+    SpectralIntegrator(integrators.map(_.reported(report)), bases, Some(report))
+  def raysTraced: Long = integrators.iterator.map(_.raysTraced).sum
+  override def lastMaterial: Int = integrators(current).lastMaterial
+
+object SpectralIntegrator:
+  /** Index of one of `count` bases.
+    *
+    * @param u uniform in [0, 1)
+    */
+  def choose(u: Float, count: Int): Int = Math.min((u * count).toInt, count - 1)
+
+/** Spectral rendering in passes: all samples of a pass take the same wavelengths.
+  *
+  * @param passes of each basis
+  */
+final class SpectralPasses(passes: Vector[SharedPasses], bases: Array[Wavelengths])
+    extends SharedPasses:
+
+  def integrator(report: Option[PathReport]): PassIntegrator =
+    SpectralPasses.OfWorker(this, passes.map(_.integrator(report)).toArray, bases)
+
+  def release(pass: Int): Unit = passes(basis(pass)).release(pass)
+
+  /** Passes in turn take bases far apart. */
+  private def basis(pass: Int): Int =
+    SpectralIntegrator.choose(SampleHash.toUnit(Integer.reverse(pass)), passes.length)
+
+object SpectralPasses:
+  private final class OfWorker(
+      shared: SpectralPasses,
+      integrators: Array[PassIntegrator],
+      bases: Array[Wavelengths]
+  ) extends PassIntegrator:
+    private var current = 0
+    private var components = Rgb.Black
+
+    def begin(pass: Int): Unit =
+      if pass >= SharedPasses.Open then shared.release(pass - SharedPasses.Open)
+      current = shared.basis(pass)
+      integrators(current).begin(pass)
+
+    def radiance(ray: Ray, sampler: Sampler): Rgb =
+      components = integrators(current).radiance(ray, sampler)
+      bases(current).toSrgb(components)
+
+    override def lastWavelengths: Wavelengths = bases(current)
+    override def lastComponents: Rgb = components
+
+    def copy(): Integrator = OfWorker(shared, integrators, bases)
+    def reported(report: PathReport): Integrator = shared.integrator(Some(report))
+    def raysTraced: Long = integrators.iterator.map(_.raysTraced).sum
+    override def lastMaterial: Int = integrators(current).lastMaterial
+
+/** Splats of one basis. */
+final class ConvertedSplats(splats: Splats, basis: ColorBasis) extends Splats:
+  def begin(): Unit = splats.begin()
+  def add(x: Float, y: Float, light: Rgb): Unit = splats.add(x, y, basis.toSrgb(light))
