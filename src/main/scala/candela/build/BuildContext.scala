@@ -54,7 +54,7 @@ private[build] object BuildContext:
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
-    val mode = ColorPlan.mode(options.color, description.dialect)
+    val mode = ColorPlan.mode(options.colorMode, description.dialect)
     val resources = new Resources(basis, options.crew, options.seed, mode != ColorMode.Rgb)
     new BuildContext(description, resources, problems)
 

@@ -35,7 +35,9 @@ final case class BuildOptions(
     layers: Vector[Layer] = Vector.empty,
     color: ColorMode = ColorMode.Auto,
     crew: Parallel = Parallel.Alone
-)
+):
+  /** A preview shows albedos, for which three numbers do. */
+  def colorMode: ColorMode = if preview then ColorMode.Rgb else color
 
 /** Builds a render plan from a description. Connects scene files to rendering.
   *
@@ -50,8 +52,9 @@ object SceneBuilder:
     val context = BuildContext(description, options)
     val settings = sceneSettings(context)
     val image = ImageSetup.of(context, options)
-    val integrator =
+    def integratorIn(context: BuildContext) =
       if options.preview then Preview.integrator(context) else integratorPlan(context)
+    val integrator = integratorIn(context)
     val sampling = SamplingSetup.of(context, options, settings.seed, image, integrator)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
@@ -63,7 +66,7 @@ object SceneBuilder:
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
     val world =
       WorldBuilder(
-        context, integratorPlan, camera.shutter, samples, options.color, image.film.camera
+        context, integratorIn, camera.shutter, samples, options.colorMode, image.film.camera
       ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
     context.problems.stopAtErrors()

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Version
+import candela.build.ColorMode
 import candela.film.{Layer, PixelBounds}
 import candela.image.Exposure
 import candela.render.RenderPlan
@@ -70,6 +71,7 @@ private[cli] object FilmHeaders:
       flag("denoise", o.denoise) ++
       one("dialect", o.dialect.map(_.toString.toLowerCase)) ++
       flag("keep-going", o.keepGoing) ++
+      one("color", Option.when(o.color != ColorMode.Auto)(o.color.toString.toLowerCase)) ++
       flag("store-time", o.storeTime) ++
       one("tonemap", Option.when(o.display != Options().display)(o.display.curve.word)) ++
       one("exposure", exposure) ++

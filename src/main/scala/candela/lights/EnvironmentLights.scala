@@ -59,8 +59,8 @@ object ImageEnvironment:
   /** Weight of a pixel: its mean radiance times its solid angle.
     *
     * @param complete whether `sample` must reach every non-black pixel; if false, pixels darker
-    *   than the mean are left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing Sampling
-    *   Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
+    *   than the mean are left to BSDF sampling (Karlík et al., "MIS Compensation: Optimizing
+    *   Sampling Techniques in Multiple Importance Sampling", TOG 38(6), 2019)
     */
   def distribution(image: SphereImage, complete: Boolean): Distribution2D =
     val width = image.width

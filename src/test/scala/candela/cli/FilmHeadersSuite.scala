@@ -13,6 +13,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "film" -> Vector("gbuffer"),
     "dialect" -> Vector("v3"),
     "keep-going" -> Vector(""),
+    "color" -> Vector("rgb", "spectral"),
     "store-time" -> Vector(""),
     "tonemap" -> Vector("filmic", "aces"),
     "exposure" -> Vector("auto", "-2", "1.5"),

@@ -42,4 +42,4 @@ class PreviewCommandSuite extends AnyFunSuite:
         assert(Main.run(words, captured.terminal) == 0)
         captured.err
       assert(run() == "")
-      assert(run("--verbose").contains("does not support dispersion"))
+      assert(run("--verbose").contains("dispersion of \"dielectric\" needs"))

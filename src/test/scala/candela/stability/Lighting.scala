@@ -58,7 +58,7 @@ private object Lit:
       val angle = 2 * Math.PI * (of(1f) -~ (of(1f) -~ sin2).root).doubleValue
       assert(Math.abs(out.pdf * angle - 1) < 1e-5, s"${out.pdf}, not ${1 / angle}: $r $from")
       val off = Math.abs((out.target.p.length - r) / r)
-      assert(off < 1e-6f && out.radiance == emitted, s"${out.target.p} $r $from"): Unit
+      assert(off < 1e-6f && out.radiance.toRgb == emitted, s"${out.target.p} $r $from"): Unit
       i += 1
 
   /** A triangle seen under so small an angle that it is its area over the square of the distance,
