@@ -98,6 +98,8 @@ object ConverterSuite:
       "v4-panorama-equalarea" -> 1.05,
       "v4-picture-lights" -> 10.05,
       "v4-point-lights" -> 3.55,
+      "v4-spectral-fog" -> 1.3,
+      "v4-spectral-lamps" -> 0.4,
       "v4-procedural" -> 2.55,
       "v4-sensor" -> 0.75,
       "v4-spectral" -> 0.4,
