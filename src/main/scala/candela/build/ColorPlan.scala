@@ -30,11 +30,17 @@ private[build] object ColorPlan:
     val census = context.resources.census
     val (least, uniform) = census.bands.fold((Usual, Wavelengths.Uniform))(n => (4 * n, 1.0))
     def spectral(why: String) =
-      val count = Math.max(if census.isDispersive then Many else Usual, least)
+      val smooth = SmoothSpectra(context.resources.crew)
+      def error(count: Int) =
+        val bases = Wavelengths.covering(count, smooth)
+        ColorError.ofWavelengths(bases, census.lights, census.surfaces)
+      val fewest = Math.max(if census.isDispersive then Many else Usual, least)
+      val counts = Iterator.iterate(fewest)(2 * _)
+      val count = counts.find(n => n >= Most || error(n) < LineTolerance).get
       ColorPlan(
         Wavelengths.covering(
           count,
-          SmoothSpectra(context.resources.crew),
+          smooth,
           camera.fold(Wavelengths.Observer)(_.responses),
           uniform
         ),
@@ -67,3 +73,9 @@ private[build] object ColorPlan:
 
   /** … where each hero wavelength goes its own way. */
   private val Many = 256
+
+  /** … for spectra of narrow lines. */
+  private val Most = 512
+
+  /** Error of a channel above which spectra need more wavelengths. */
+  private val LineTolerance = 0.003

@@ -101,6 +101,32 @@ object ColorError:
       Seq(color.r, color.g, color.b).zip(exact)
         .map((c, e) => Math.abs(c - e) / Math.max(Math.abs(e), least)).max
 
+  /** Largest error of a channel, relative to the brightest one, if the spectra of lights, and of surfaces in white light,
+    * are known at the wavelengths of `bases` only: narrow lines need many.
+    */
+  def ofWavelengths(
+      bases: Seq[Wavelengths],
+      lights: Seq[ColoredSpectrum],
+      surfaces: Seq[ColoredSpectrum]
+  ): Double =
+    val errors =
+      for s <- lights ++ surfaces yield
+        val spectrum = s.values
+        val sum = bases.map(b => b.toSrgb(b.ofReflectance(between(spectrum, _)))).reduce(_ + _)
+        val exact = seen(spectrum)
+        val off =
+          sum * (1f / bases.size) - Rgb(exact(0).toFloat, exact(1).toFloat, exact(2).toFloat)
+        off.largest / exact.map(Math.abs).max
+    errors.maxOption.getOrElse(0.0)
+
+  /** The spectrum of light at a wavelength in nm. */
+  private def between(relative: Array[Double], nm: Float): Float =
+    val x = (nm - wavelengths.head) / (wavelengths(1) - wavelengths(0))
+    val i = Math.max(0, Math.min(x.toInt, relative.length - 2))
+    // Linear between the values of the light itself, as tables are
+    def light(k: Int) = relative(k) * Colorimetry.D65(wavelengths(k))
+    (light(i) + (x - i) * (light(i + 1) - light(i))).toFloat
+
   /** Linear sRGB of a spectrum of light relative to D65. */
   def seen(spectrum: Array[Double]): Array[Double] =
     responses.map(r => r.indices.map(w => r(w) * spectrum(w)).sum)
