@@ -101,8 +101,8 @@ object ColorError:
       Seq(color.r, color.g, color.b).zip(exact)
         .map((c, e) => Math.abs(c - e) / Math.max(Math.abs(e), least)).max
 
-  /** Largest error of a channel, relative to the brightest one, if the spectra of lights, and of surfaces in white light,
-    * are known at the wavelengths of `bases` only: narrow lines need many.
+  /** Largest error of a channel, relative to the brightest one, if the spectra of lights, and of
+    * surfaces in white light, are known at the wavelengths of `bases` only: narrow lines need many.
     */
   def ofWavelengths(
       bases: Seq[Wavelengths],

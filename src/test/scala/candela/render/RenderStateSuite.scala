@@ -70,9 +70,10 @@ class RenderStateSuite extends AnyFunSuite:
       withFolder: folder =>
         val keeper = FileKeeper(None, folder.resolve("a"), isAlwaysDue = true)
         val slow = plan(shares, 60): where =>
-          if where.x == 7 && where.y % 16 == 3 then Thread.sleep(1)
+          if where.x == 7 && where.y % 16 == 3 then Thread.sleep(3)
         val _ = Renderer.render(slow, threads = 3, keeper = Some(keeper))
-        assert(keeper.saved > 2)
+        // The last one, and at least one before
+        assert(keeper.saved > 1)
         val last = Files.readAllBytes(keeper.copies.last)
         for copy <- keeper.copies.init do
           val next = FileKeeper(Some(copy), folder.resolve("b"))
