@@ -9,9 +9,13 @@ import java.nio.file.{Files, NoSuchFileException, Path}
 object ImageFiles:
 
   /** Extensions of readable files, most accurate first. */
-  val readable: Vector[String] = Vector("exr", "hdr", "pic", "png", "tga", "jpg", "jpeg")
+  val readable: Vector[String] = Vector(
+    "exr", "pfm", "hdr", "pic", "png", "qoi", "tga", "bmp", "ppm", "pgm", "psd", "gif", "jpg",
+    "jpeg"
+  )
 
-  private val Readable = "EXR, HDR (Radiance), PNG, JPEG and TGA files can be read"
+  private val Readable =
+    "EXR, PFM, HDR (Radiance), PNG, QOI, TGA, JPEG, BMP, PPM, PSD and GIF files can be read"
   private val Writable = s"images are written as ${OutputFormat.listed()}"
 
   /** The image as Floats. Images of 8 and 16 bits are in [0, 1] and marked as sRGB-encoded;
@@ -32,17 +36,21 @@ object ImageFiles:
       case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
       case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
 
-  /** The file's signature overrides its extension, which may be wrong: none of the four signatures
-    * can begin a valid TGA file, the only format without one.
+  /** The file's signature overrides its extension, which may be wrong: none of the signatures can
+    * begin a valid TGA file, the only format without one.
     */
   private def decode(bytes: Array[Byte], extension: String): StoredImage =
     def begins(mark: Int*) =
       bytes.length >= mark.size && mark.indices.forall(i => (bytes(i) & 0xff) == mark(i))
+    def beginsWith(mark: String) = begins(mark.map(_.toInt)*)
     if bytes.isEmpty then throw ImageError("the file is empty")
     else if begins(0x76, 0x2f, 0x31, 0x01) then Exr.read(bytes)
-    else if begins('#', '?') then Hdr.read(bytes)
-    else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || extension == "tga" then
-      StbReader.read(bytes)
+    else if beginsWith("#?") then Hdr.read(bytes)
+    else if beginsWith("PF") || beginsWith("Pf") then Pfm.read(bytes)
+    else if beginsWith("qoif") then Qoi.read(bytes)
+    else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || extension == "tga" ||
+      StbMarks.exists(beginsWith)
+    then StbReader.read(bytes)
     else if readable.contains(extension) then
       throw ImageError(s"not a valid .$extension file: it begins with other bytes")
     else throw ImageError(s"unknown format; $Readable")
@@ -77,6 +85,9 @@ object ImageFiles:
   /** The bytes that `write` stores in a `.png` file. */
   def png(image: Image, display: DisplayTransform = DisplayTransform.Plain): Array[Byte] =
     Png.write(image, Vector.empty, WriteOptions(display = display))
+
+  /** Signatures of BMP, GIF, PSD, PGM and PPM. */
+  private val StbMarks = Vector("BM", "GIF8", "8BPS", "P5", "P6")
 
   private def reason(e: IOException): String =
     e.getClass.getSimpleName.stripSuffix("Exception") match

@@ -47,7 +47,7 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   ): Array[Byte]
 
 object OutputFormat:
-  val all: Vector[OutputFormat] = Vector(Exr, Png, Jpeg)
+  val all: Vector[OutputFormat] = Vector(Exr, Pfm, Png, Jpeg, Qoi, Tga)
 
   /** Replaces formats that are not supported. */
   val default: OutputFormat = Exr

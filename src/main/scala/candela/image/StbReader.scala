@@ -8,7 +8,9 @@ import org.lwjgl.system.{MemoryStack, MemoryUtil}
 
 import java.nio.{ByteBuffer, IntBuffer}
 
-/** Reads PNG (8 and 16 bits), JPEG and TGA through stb_image; palettes are expanded. */
+/** Reads PNG (8 and 16 bits), JPEG, TGA, BMP, GIF (its first image), PSD, PGM and PPM through
+  * stb_image; palettes are expanded.
+  */
 private[image] object StbReader:
 
   private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
@@ -65,4 +67,4 @@ private[image] object StbReader:
 
   private def failed(): Nothing =
     val why = Option(STBImage.stbi_failure_reason).getOrElse("unknown reason")
-    throw ImageError(s"can't be decoded as PNG, JPEG or TGA: $why")
+    throw ImageError(s"can't be decoded: $why")

@@ -18,8 +18,13 @@ class OutputFilesSuite extends AnyFunSuite:
   test("a PNG named by the scene is all there is"):
     assert(names(OutputFiles.ofFilm("a.png")) == Vector("a.png"))
 
+  test("a PFM named by the scene gets a PNG beside it, other pictures none"):
+    assert(names(OutputFiles.ofFilm("a.pfm")) == Vector("a.pfm", "a.png"))
+    for name <- Vector("a.tga", "a.qoi", "a.jpg") do
+      assert(names(OutputFiles.ofFilm(name)) == Vector(name))
+
   test("formats that are not written become EXR and PNG, with a warning"):
-    val films = Vector("a.tga" -> "a", "a.b.qoi" -> "a.b", "a" -> "a", ".hidden" -> ".hidden")
+    val films = Vector("a.webp" -> "a", "a.b.hdr" -> "a.b", "a" -> "a", ".hidden" -> ".hidden")
     for (film, stem) <- films do
       val files = OutputFiles.ofFilm(film)
       assert(names(files) == Vector(s"$stem.exr", s"$stem.png"))

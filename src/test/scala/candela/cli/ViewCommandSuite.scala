@@ -56,6 +56,7 @@ class ViewCommandSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val a = flat(folder.resolve("a.exr"), 0.5f)
       val out = folder.resolve("b.exr")
+      val pictures = ".png, .jpg, .qoi or .tga"
       val (code, captured) = run(a, "--outfile", out.toString)
-      assert(code == 1 && captured.err == s"error: `view` writes .png or .jpg, found `$out`\n")
+      assert(code == 1 && captured.err == s"error: `view` writes $pictures, found `$out`\n")
       assert(!Files.exists(out))

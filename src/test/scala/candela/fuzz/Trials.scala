@@ -10,7 +10,7 @@ import scala.util.Random
 import candela.base.{SceneError, Severity}
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.build.shapes.PlyFile
-import candela.image.{Image, ImageError, ImageFiles}
+import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
 import candela.scenefile.Parser
 
 /** What is done with hostile input, each in its own way. */
@@ -49,7 +49,10 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val scenes = Mutator(files(".pbrt"), random)
   private val meshes = Mutator(files(".ply") ++ Trials.meshes, random)
   private val pictures =
-    Mutator(files(".exr", ".png", ".hdr", ".tga", ".jpg") ++ Trials.pictures(folder), random)
+    Mutator(
+      files(".exr", ".png", ".hdr", ".tga", ".jpg", ".pfm", ".qoi") ++ Trials.pictures(folder),
+      random
+    )
 
   /** The next broken file; `judge` reads it. */
   def next(kind: Kind): Path =
@@ -149,20 +152,24 @@ object Trials:
     val random = Random(1)
     val image = Image(24, 16, Image.RgbNames, Array.fill(24 * 16 * 3)(random.nextFloat()))
     val written =
-      for name <- Vector("good.exr", "good.png") yield
-        ImageFiles.write(folder.resolve(name), image)
-        Files.readAllBytes(folder.resolve(name))
+      for format <- OutputFormat.all yield
+        val path = folder.resolve(s"good.${format.suffix}")
+        ImageFiles.write(path, image)
+        Files.readAllBytes(path)
     def tga(kind: Int, body: Array[Byte]) =
       Array[Byte](0, 0, kind.toByte, 0, 0, 0, 0, 0, 0, 0, 0, 0, 8, 0, 8, 0, 24, 0) ++ body
     val pixels = Array.tabulate[Byte](8 * 8 * 3)(i => (i * 7).toByte)
     val runs = Array.fill(8)(Array[Byte](-121, 1, 2, 3)).flatten
     val hdr = "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 8 +X 8\n".getBytes("ISO-8859-1") ++
       Array.fill(8)(Array[Byte](2, 2, 0, 8, -120, 9, -120, 8, -120, 7, -120, -128)).flatten
-    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, jpeg)
+    val ppm = "P6 8 8 255\n".getBytes("ISO-8859-1") ++ pixels
+    val wide = "P5 8 12 65535\n".getBytes("ISO-8859-1") ++ pixels
+    val others = Vector("jpeg", "bmp", "gif").map(encoded)
+    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, ppm, wide) ++ others
 
-  private def jpeg: Array[Byte] =
+  private def encoded(format: String): Array[Byte] =
     val bytes = ByteArrayOutputStream()
     val picture = java.awt.image.BufferedImage(16, 16, java.awt.image.BufferedImage.TYPE_INT_RGB)
     for i <- 0 until 256 do picture.setRGB(i % 16, i / 16, i * 65793 ^ 0x5500)
-    val _ = javax.imageio.ImageIO.write(picture, "jpeg", bytes)
+    val _ = javax.imageio.ImageIO.write(picture, format, bytes)
     bytes.toByteArray

@@ -43,6 +43,20 @@ class ImageFilesSuite extends AnyFunSuite:
           assert(image.bytes.toVector == Vector[Byte](10, 20, 30, 40, 50, 60))
         case other => fail(s"$other")
 
+  test("PPM, PGM and BMP are read"):
+    Samples.inFolder: folder =>
+      def read(name: String, header: String, values: Int*) =
+        val bytes = header.getBytes("ISO-8859-1") ++ values.map(_.toByte)
+        ImageFiles.load(Files.write(folder.resolve(name), bytes)) match
+          case image: ByteImage => (image.channelNames, image.bytes.toVector.map(_ & 255))
+          case other => fail(s"$other")
+      val pixels = Vector(10, 20, 30, 40, 50, 255)
+      assert(read("a.ppm", "P6 2 1 255\n", pixels*) == (Image.RgbNames, pixels))
+      assert(read("a.pgm", "P5 3 2 255\n", pixels*) == (Vector("Y"), pixels))
+      val header = "BM" + "\u0000" * 8 + "\u001a\u0000\u0000\u0000" + "\u000c\u0000\u0000\u0000" +
+        "\u0002\u0000\u0001\u0000\u0001\u0000\u0018\u0000"
+      assert(read("a.bmp", header, 30, 20, 10, 255, 50, 40, 0, 0) == (Image.RgbNames, pixels))
+
   test("errors name the file and what is wrong"):
     Samples.inFolder: folder =>
       def file(name: String, contents: String) =
@@ -54,7 +68,7 @@ class ImageFilesSuite extends AnyFunSuite:
       val text = file("text.exr", "no picture")
       val wanted = s"$text: not a valid .exr file: it begins with other bytes"
       assert(error(ImageFiles.read(text)) == wanted)
-      assert(error(ImageFiles.read(file("a.tiff", "II*"))).contains("unknown format; EXR, HDR"))
+      assert(error(ImageFiles.read(file("a.tiff", "II*"))).contains("unknown format; EXR, PFM"))
       assert(error(ImageFiles.read(folder)).startsWith(s"$folder: can't be read"))
       assert(error(ImageFiles.read(file("a.tga", "no"))).contains("can't be decoded"))
 

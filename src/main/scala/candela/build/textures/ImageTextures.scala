@@ -10,7 +10,7 @@ import candela.textures.*
 abstract class ImageMapRecipe[A](standIn: String)
     extends MappedRecipe[A]("imagemap", "image texture"):
   private val filename =
-    string("filename", "image file: png, tga, jpg, exr or hdr", shown = "none")("")
+    string("filename", "image file: exr, pfm, hdr, png, qoi, tga, jpg …", shown = "none")("")
   private val wrap =
     oneOf("wrap", "wrap mode outside the image", ImageMapRecipe.Wraps)("repeat")
   protected val scale = float("scale", "scale of the values")(1f)
