@@ -35,6 +35,9 @@ private[build] final class MediaBuilder(
       .flatMap(d => VolumeIntegrators.all.build(context.site(d)))
       .getOrElse(VolumeMethod.Default)
 
+  /** Whether any medium or volume emits light. */
+  def isEmissive: Boolean = media.exists(_.isEmissive) || regions.exists(!_.emitted.isBlack)
+
   /** Index of the camera's medium; −1: none. */
   private val camera: Int =
     val at = description.camera.fold(BuildContext.NoPlace)(_.at)

@@ -23,6 +23,7 @@ import candela.scenefile.SceneDescription
   * @param keepGoing  if true, replaces missing items
   * @param layers     requested AOVs, in addition to the scene's
   * @param color      whether rendering is spectral
+  * @param lightGroups how to group lights for their layer
   * @param crew       executes divisible work
   */
 final case class BuildOptions(
@@ -34,6 +35,7 @@ final case class BuildOptions(
     keepGoing: Boolean = false,
     layers: Vector[Layer] = Vector.empty,
     color: ColorMode = ColorMode.Auto,
+    lightGroups: LightGrouping = LightGrouping.Statements,
     crew: Parallel = Parallel.Alone
 ):
   /** A preview shows albedos, for which three numbers do. */
@@ -66,7 +68,13 @@ object SceneBuilder:
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
     val world =
       WorldBuilder(
-        context, integratorIn, camera.shutter, samples, options.colorMode, image.film.camera
+        context,
+        integratorIn,
+        camera.shutter,
+        samples,
+        options.colorMode,
+        image.film.camera,
+        Option.when(image.layers.exists(_.isLight))(options.lightGroups)
       ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
     context.problems.stopAtErrors()
@@ -104,6 +112,14 @@ object SceneBuilder:
         context.problems.warn(
           at,
           "Metropolis rendering writes no AOVs; the image contains colour only"
+        )
+    else
+      val divided = image.layers.filter(_.dividesLight)
+      if divided.nonEmpty && !method.dividesLight then
+        context.problems.error(
+          description.integrator.orElse(description.renderer).fold(BuildContext.NoPlace)(_.at),
+          s"this integrator does not divide light: AOVs ${divided.map(_.word).mkString(", ")} " +
+            "need \"path\" or \"volpath\""
         )
 
   private def plan(
@@ -179,7 +195,8 @@ object SceneBuilder:
     val motion =
       if wants(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
     val surface = VisibleSurface(world.scene, space, context.resources.basis, names, motion)
-    LayerPlan(image.layers, surface, names)
+    val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)
+    LayerPlan(image.layers, surface, names, groups)
 
   private def described(layers: Vector[Layer], bands: Option[SpectralBands]): String =
     val all = layers.map(_.word) ++ bands.map(b => s"bands of wavelengths, ${b.describe}")

@@ -12,7 +12,9 @@ private[build] object StatementName:
   /** Files are named relative to the scene's folder, so that the name does not depend on where it
     * is, or is rendered from.
     */
-  def apply(d: Declaration): String =
+  def apply(d: Declaration): String = s"${d.name} ${file(d)}:${d.at.line}:${d.at.column}"
+
+  def file(d: Declaration): String =
     val file = Path.of(d.at.file)
     val within = Try(d.folder.relativize(file)).getOrElse(file.getFileName)
-    s"${d.name} ${within.toString.replace('\\', '/')}:${d.at.line}:${d.at.column}"
+    within.toString.replace('\\', '/')

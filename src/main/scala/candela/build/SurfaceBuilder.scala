@@ -12,8 +12,8 @@ import candela.scene.{ShapeInstance, Surfaces}
 import candela.scenefile.{Declaration, Dialect}
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
 
-/** A light and its number of samples in v2's and v3's direct lighting. */
-private[build] final case class SampledLight(light: Light, samples: Int)
+/** A light, its number of samples in v2's and v3's direct lighting, and its statement. */
+private[build] final case class SampledLight(light: Light, samples: Int, statement: Declaration)
 
 /** Surfaces and their area lights, in the order of their indices.
   *
@@ -44,7 +44,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
   ): Unit =
     lights += { (context, soup) =>
       emission(statement, context).toVector.flatMap: plan =>
-        make(plan, soup).map(SampledLight(_, plan.samples))
+        make(plan, soup).map(SampledLight(_, plan.samples, statement))
     }
     lightCount += count
 

@@ -43,6 +43,7 @@ private[build] final class Structure(
   * @param samples      maximum number of camera samples
   * @param mode         as asked for
   * @param sensor       the camera's, unless it is the standard observer
+  * @param grouping     how to group lights, if light is to be divided
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
@@ -50,7 +51,8 @@ private[build] final class WorldBuilder(
     shutter: Shutter,
     samples: Long,
     mode: ColorMode,
-    sensor: Option[CameraSensor]
+    sensor: Option[CameraSensor],
+    grouping: Option[LightGrouping]
 ):
   private val integrator = integratorIn(context)
   import context.{description, problems}
@@ -86,7 +88,9 @@ private[build] final class WorldBuilder(
       all,
       selection,
       sidesByGeometry = !context.isV4,
-      Option.when(context.resources.footprintUses.nonEmpty)(footprints)
+      Option.when(context.resources.footprintUses.nonEmpty)(footprints),
+      lightGroups =
+        grouping.map(LightGrouping.groups(_, lights.map(_.statement), media.isEmissive))
     )
     warnOfDarkness(scene)
     val reach = 2f * placed.accelerator.bounds.radius
@@ -119,7 +123,7 @@ private[build] final class WorldBuilder(
         "ray differentials" -> context.resources.footprintsInWords,
         "media" -> inMedia,
         "lights" -> (if all.isEmpty then "none" else selection.describe)
-      ),
+      ) ++ scene.lightGroups.map(g => "light groups" -> g.names.mkString(", ")),
       placed.instanced.instances.moving > 0,
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
     )
@@ -148,7 +152,7 @@ private[build] final class WorldBuilder(
     for
       plan <- plan if !l.lightToWorld.start.isFlat
       light <- plan.make(l.lightToWorld.start, complete)
-    yield SampledLight(light, plan.samples)
+    yield SampledLight(light, plan.samples, l.light)
 
   private def structure(world: Surfaces, objects: Vector[Surfaces], uses: Vector[PlacedObject]) =
     val asked =

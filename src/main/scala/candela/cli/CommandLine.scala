@@ -3,7 +3,7 @@ package candela.cli
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.Suggest
-import candela.build.ColorMode
+import candela.build.{ColorMode, LightGrouping}
 import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
@@ -92,6 +92,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param film options of saved renderings
   * @param storeTime whether to store the render time in the image file
   * @param precisions whether AOVs are stored in 16 bits, where asked
+  * @param lightGroups how to group lights for their layer
   * @param reference reference image for reports
   * @param reports report files
   * @param watch address of the live page
@@ -121,6 +122,7 @@ final case class Options(
     color: ColorMode = ColorMode.Auto,
     layers: Vector[Layer] = Vector.empty,
     precisions: Vector[(Layer, Boolean)] = Vector.empty,
+    lightGroups: Option[LightGrouping] = None,
     display: DisplayTransform = DisplayTransform.Plain,
     denoise: Boolean = false,
     thumbnail: Option[ThumbnailKind] = None,

@@ -68,6 +68,7 @@ private[cli] object FilmHeaders:
       flag("quick", o.quick) ++
       one("cropwindow", o.cropWindow.map(w => s"${w.x0},${w.x1},${w.y0},${w.y1}")) ++
       one("aov", Option.when(o.layers.nonEmpty)(o.layers.map(layer(o, _)).mkString(","))) ++
+      one("light-groups", o.lightGroups.map(LightGroupWords(_))) ++
       flag("denoise", o.denoise) ++
       one("dialect", o.dialect.map(_.toString.toLowerCase)) ++
       flag("keep-going", o.keepGoing) ++

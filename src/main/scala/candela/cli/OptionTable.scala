@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.base.Version
-import candela.build.ColorMode
+import candela.build.{ColorMode, LightGrouping}
 import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
@@ -54,6 +54,14 @@ private[cli] object OptionTable:
       .find(_.word.equalsIgnoreCase(word))
       .getOrElse(throw IllegalArgumentException(s"expected one or more of $layers"))
     (layer, precision)
+
+  private given Read[LightGrouping] = Read.reads: text =>
+    LightGroupWords.parse(text).getOrElse(
+      throw IllegalArgumentException(
+        "expected statement, type, or names of letters, digits and _, such as " +
+          "key=point_12+spot_14,sky=infinite"
+      )
+    )
 
   private given Read[ColorMode] = Read.reads: text =>
     ColorMode.values
@@ -145,6 +153,13 @@ private[cli] object OptionTable:
         val precisions = l.collect { case (layer, Some(isHalf)) => layer -> isHalf }
         o.copy(layers = o.layers ++ l.map(_._1), precisions = o.precisions ++ precisions)
     ,
+    opt[LightGrouping]("light-groups").valueName("statement|type|NAME=LIGHT[+LIGHT],…")
+      .text(
+        "groups of the layer lights, which is added: each light statement (default), each type, " +
+          "or named groups of statements (point_12: type and line) and types"
+      )
+      .action: (g, o) =>
+        o.copy(lightGroups = Some(g), layers = (o.layers :+ Layer.Lights).distinct),
     opt[Unit]("denoise")
       .text(
         "add the image denoised by Open Image Denoise; .png and .jpg show it " +

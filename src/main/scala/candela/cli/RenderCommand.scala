@@ -217,8 +217,14 @@ final class RenderCommand(
 
   /** Channels whose layers have another precision than the image: whether it is half. */
   private def precisions(plan: RenderPlan): Map[String, Boolean] =
-    val own = plan.layers.toVector.flatMap(_.layers).filter(_.needsFloat).map(_ -> false)
-    (own ++ options.precisions).flatMap((layer, isHalf) => layer.channels.map(_ -> isHalf)).toMap
+    val all =
+      for
+        layers <- plan.layers.toVector
+        own = layers.layers.filter(_.needsFloat).map(_ -> false)
+        (layer, isHalf) <- own ++ options.precisions
+        channel <- layers.channels(layer)
+      yield channel -> isHalf
+    all.toMap
 
   private def metadata(scene: String, loaded: LoadedScene): Vector[(String, String)] =
     val plan = loaded.plan

@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Suggest}
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
 import candela.render.{Crew, RenderPlan}
 import candela.scenefile.{Parser, SceneDescription}
 
@@ -46,7 +46,16 @@ object SceneLoader:
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
     BuildOptions(
-      o.spp, o.seed, o.quick, o.preview, crop, o.keepGoing, o.layers, o.color, Crew(o.threadCount)
+      o.spp,
+      o.seed,
+      o.quick,
+      o.preview,
+      crop,
+      o.keepGoing,
+      o.layers,
+      o.color,
+      o.lightGroups.getOrElse(LightGrouping.Statements),
+      Crew(o.threadCount)
     )
 
   /** The path of an existing scene file. */

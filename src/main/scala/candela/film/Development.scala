@@ -28,16 +28,17 @@ final case class Development(
 
   def apply(film: Film): Image =
     val image = film.toImage(scale)
-    for response <- sensor; pixel <- 0 until image.width * image.height do
-      val at = 3 * pixel
-      response(image.data(at), image.data(at + 1), image.data(at + 2), image.data, at)
-    for m <- balance do
-      loop(image.width * image.height): pixel =>
-        val at = 3 * pixel
-        val r = image.data(at)
-        val g = image.data(at + 1)
-        val b = image.data(at + 2)
-        loop(3)(c => image.data(at + c) = m(3 * c) * r + m(3 * c + 1) * g + m(3 * c + 2) * b)
+    if sensor.isDefined || balance.isDefined then
+      loop(image.width * image.height)(pixel => color(image.data, 3 * pixel))
     if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))
     if space.isSrgb then image
     else Image(image.width, image.height, image.channelNames, image.data, colorSpace = space)
+
+  /** Develops the colour at `at`, but for its scale. */
+  private[film] def color(data: Array[Float], at: Int): Unit =
+    for response <- sensor do response(data(at), data(at + 1), data(at + 2), data, at)
+    for m <- balance do
+      val r = data(at)
+      val g = data(at + 1)
+      val b = data(at + 2)
+      loop(3)(c => data(at + c) = m(3 * c) * r + m(3 * c + 1) * g + m(3 * c + 2) * b)

@@ -15,6 +15,7 @@ import Tally.{color, numbers, plane, vector}
   * @param statistic       one value per channel
   * @param needsFootprints whether the scene must track ray differentials for it
   * @param needsFloat      whether its values need 32 bits even if the image has 16
+  * @param dividesLight    whether the integrator must divide its light ([[LightParts]])
   */
 enum Layer(
     val word: String,
@@ -22,7 +23,8 @@ enum Layer(
     val meaning: String,
     private[film] val statistic: Statistic,
     val needsFootprints: Boolean = false,
-    val needsFloat: Boolean = false
+    val needsFloat: Boolean = false,
+    val dividesLight: Boolean = false
 ):
   case Albedo
       extends Layer(
@@ -74,8 +76,40 @@ enum Layer(
       extends Layer(
         "emission",
         Layer.rgb("Emission"),
-        "light that the surface emits",
-        ScaledMeanOfAll(color(_.emitted))
+        "light that surfaces and media emit towards the camera",
+        ScaledMeanOfAll(Tally.light(LightParts.Emission))
+      )
+  case Background
+      extends Layer(
+        "background",
+        Layer.rgb("Background"),
+        "light of infinite lights that reaches the camera unscattered",
+        ScaledMeanOfAll(Tally.light(LightParts.Background)),
+        dividesLight = true
+      )
+  case Direct
+      extends Layer(
+        "direct",
+        Layer.rgb("Direct"),
+        "light scattered once",
+        ScaledMeanOfAll(Tally.light(LightParts.Direct)),
+        dividesLight = true
+      )
+  case Indirect
+      extends Layer(
+        "indirect",
+        Layer.rgb("Indirect"),
+        "light scattered more than once",
+        ScaledMeanOfAll(Tally.light(LightParts.Indirect)),
+        dividesLight = true
+      )
+  case Lights
+      extends Layer(
+        "lights",
+        Vector.empty,
+        "light of each light group",
+        ScaledMeanOfAll(Tally.Empty),
+        dividesLight = true
       )
   case DenoisingAlbedo
       extends Layer(
@@ -108,6 +142,18 @@ enum Layer(
         needsFloat = true
       )
 
+  /** Channels in an image whose lights have these groups. */
+  def channelsOf(groups: Vector[String]): Vector[String] = this match
+    case Lights => groups.flatMap(group => Layer.rgb(s"Combined_$group"))
+    case _ => channels
+
+  private[film] def statisticOf(groups: Vector[String]): Statistic = this match
+    case Lights => ScaledMeanOfAll(Tally.light(LightParts.Groups, groups.size))
+    case _ => statistic
+
+  /** Whether it is made of the parts of the light, where the integrator has them. */
+  def isLight: Boolean = dividesLight || this == Emission
+
   /** Matrix from linear sRGB to the colour space of the image, for layers of colours. */
   private[film] def to(space: ColorSpace): Option[Matrix3] = this match
     case Albedo | DenoisingAlbedo => Some(space.ofSrgbAdapted)
@@ -128,7 +174,10 @@ object Layer:
   * @param size number of accumulators
   */
 private[film] abstract class Tally(val size: Int):
-  /** Adds a sample that hit a surface.
+  /** Whether it counts only samples that hit a surface. */
+  def needsSurface: Boolean = true
+
+  /** Adds a sample.
     *
     * @param at index of the first accumulator
     */
@@ -172,6 +221,19 @@ private[film] object Tally:
       sums.add(at, weight * c.r)
       sums.add(at + 1, weight * c.g)
       sums.add(at + 2, weight * c.b)
+
+  /** Parts of the light, from `first` on. */
+  def light(first: Int, count: Int = 1): Tally = new Tally(3 * count):
+    override def needsSurface: Boolean = false
+
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+      var i = 0
+      while i < count do
+        val c = seen.light(first + i)
+        sums.add(at + 3 * i, weight * c.r)
+        sums.add(at + 3 * i + 1, weight * c.g)
+        sums.add(at + 3 * i + 2, weight * c.b)
+        i += 1
 
   object Empty extends Tally(0):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) = ()

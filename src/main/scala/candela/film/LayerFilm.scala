@@ -7,14 +7,24 @@ import candela.image.Image
 /** Accumulators of the requested AOVs, in addition to [[Film]]. Not synchronised either: one worker
   * at a time owns a pixel.
   *
-  * Misses contribute to the albedo and the sample count only, as in pbrt-v4.
+  * Misses contribute to light, the albedo and the sample count only, as in pbrt-v4.
+  *
+  * @param groups names of the light groups, if the samples' light is divided
   */
-final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer]):
+final class LayerFilm(
+    x0: Int,
+    y0: Int,
+    x1: Int,
+    y1: Int,
+    layers: Vector[Layer],
+    groups: Option[Vector[String]] = None
+):
   private val width = x1 - x0
   private val height = y1 - y0
 
   // Per pixel: sample count, total weight, weight of samples that hit a surface; then the tallies
-  private val tallies = layers.map(_.statistic.tally).distinct.toArray
+  private val statistics = layers.map(_.statisticOf(groups.getOrElse(Vector.empty)))
+  private val tallies = statistics.map(_.tally).distinct.toArray
   private val offsets = tallies.scanLeft(3)(_ + _.size)
   private val stride = offsets.last
   private val sums =
@@ -23,14 +33,14 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
   /** Adds a sample to its pixel. */
   def add(x: Int, y: Int, light: Rgb, weight: Float, seen: VisibleSurface): Unit =
     miss(x, y, weight)
-    if seen.isThere then
-      val at = first(x, y)
-      val w = weight.toDouble
-      sums.add(at + 2, w)
-      var i = 0
-      while i < tallies.length do
-        tallies(i).add(sums, at + offsets(i), w, light, seen)
-        i += 1
+    val at = first(x, y)
+    val w = weight.toDouble
+    if seen.isThere then sums.add(at + 2, w)
+    var i = 0
+    while i < tallies.length do
+      val tally = tallies(i)
+      if seen.isThere || !tally.needsSurface then tally.add(sums, at + offsets(i), w, light, seen)
+      i += 1
 
   /** Adds a sample blocked by the camera. */
   def miss(x: Int, y: Int, weight: Float): Unit =
@@ -54,27 +64,38 @@ final class LayerFilm(x0: Int, y0: Int, x1: Int, y1: Int, layers: Vector[Layer])
 
   /** Appends the AOV channels to the image.
     *
-    * @param scale from accumulated values to image values
+    * @param development how the image was made
     */
-  def behind(image: Image, scale: Float): Image =
+  def behind(image: Image, development: Development): Image =
     require(image.width == width && image.height == height)
-    val names = image.channelNames ++ layers.flatMap(_.channels)
+    val names =
+      image.channelNames ++ layers.flatMap(_.channelsOf(groups.getOrElse(Vector.empty)))
     val data = new Array[Float](names.size * width * height)
     val space = image.colorSpace
-    val converted = layers.map(layer => layer -> (if space.isSrgb then None else layer.to(space)))
+    def convert(layer: Layer): Array[Double] => Array[Float] =
+      if groups.isDefined && layer.isLight then
+        own =>
+          val values = own.map(_.toFloat)
+          for at <- values.indices by 3 do development.color(values, at)
+          values
+      else if space.isSrgb then _.map(_.toFloat)
+      else
+        layer.to(space) match
+          case Some(matrix) => own => (matrix * own.toVector).toArray.map(_.toFloat)
+          case None => _.map(_.toFloat)
+    val all = statistics.zip(layers.map(convert))
     loop(width * height): pixel =>
       val from = image.channels * pixel
       var to = names.size * pixel
       System.arraycopy(image.data, from, data, to, image.channels)
       to += image.channels
-      for (layer, matrix) <- converted do
-        val own = layer.statistic(tallyOf(layer, stride * pixel, scale))
-        val values = matrix.fold(own)(m => (m * own.toVector).toArray)
-        loop(values.length)(i => data(to + i) = values(i).toFloat)
+      for (statistic, converted) <- all do
+        val values = converted(statistic(tallyOf(statistic, stride * pixel, development.scale)))
+        System.arraycopy(values, 0, data, to, values.length)
         to += values.length
     Image(width, height, names, data, colorSpace = space)
 
-  private def tallyOf(layer: Layer, pixel: Int, scale: Float): PixelTally =
-    val tally = layer.statistic.tally
+  private def tallyOf(statistic: Statistic, pixel: Int, scale: Float): PixelTally =
+    val tally = statistic.tally
     val at = pixel + offsets(tallies.indexOf(tally))
     PixelTally(sums, at, tally.size, sums(pixel), sums(pixel + 1), sums(pixel + 2), scale)

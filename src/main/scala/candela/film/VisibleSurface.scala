@@ -34,6 +34,9 @@ final class VisibleSurface(
   private lazy val reflection = SpecularView(scene)
   private var isReflectionKnown = false
 
+  /** The light of the camera ray, if the integrator divides it. */
+  var parts: LightParts | Null = null
+
   /** The intersection, in world space. */
   val hit: Hit = Hit()
   val at: ShadingPoint = scene.newPoint()
@@ -83,8 +86,15 @@ final class VisibleSurface(
     if scattering == null then Rgb.Black
     else basis.toSrgb(DirectionalAlbedo(scattering, at.frame.toLocal(wo)))
 
+  /** A part of the light. Undivided light is what the first surface emits. */
+  def light(part: Int): Rgb =
+    val divided = parts
+    if divided != null then divided(part)
+    else if isThere && part == LightParts.Emission then emitted
+    else Rgb.Black
+
   /** Radiance emitted towards the camera, in linear sRGB. */
-  def emitted: Rgb =
+  private def emitted: Rgb =
     if at.areaLight < 0 then Rgb.Black
     else basis.toSrgb(scene.surfaceLight(at).radiance(at, wo))
 

@@ -2,6 +2,7 @@ package candela.integrators
 
 import candela.base.{CheckedInput, CheckedOutput}
 import candela.color.{Rgb, Wavelengths}
+import candela.film.LightParts
 import candela.geometry.Ray
 import candela.sampling.Sampler
 import candela.scene.{PathReport, Scene}
@@ -16,6 +17,9 @@ abstract class Integrator:
   /** Wavelengths of the last radiance, and the radiance at these; null: it has none. */
   def lastWavelengths: Wavelengths | Null = null
   def lastComponents: Rgb = Rgb.Black
+
+  /** The last radiance, divided; null: the scene doesn't ask for it, or the integrator can't. */
+  def lightParts: LightParts | Null = null
 
   /** Rays traced so far by this worker, for the statistics. */
   def raysTraced: Long

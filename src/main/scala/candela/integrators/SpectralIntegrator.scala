@@ -1,7 +1,7 @@
 package candela.integrators
 
 import candela.color.{ColorBasis, Rgb, Wavelengths}
-import candela.film.Splats
+import candela.film.{LightParts, Splats}
 import candela.geometry.Ray
 import candela.sampling.{SampleHash, Sampler}
 import candela.scene.PathReport
@@ -22,11 +22,19 @@ final class SpectralIntegrator(
 ) extends Integrator:
   private var current = 0
   private var components = Rgb.Black
+  private val parts: LightParts | Null = integrators(0).lightParts match
+    case null => null
+    case some: LightParts => LightParts(some.groups)
+
+  override def lightParts: LightParts | Null = parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     current = SpectralIntegrator.choose(sampler.next1D(), bases.length)
     for r <- report do r.takes(bases(current))
     components = integrators(current).radiance(ray, sampler)
+    if parts != null then
+      val found = integrators(current).lightParts
+      if found != null then parts.convert(found, bases(current))
     bases(current).toSrgb(components)
 
   override def lastWavelengths: Wavelengths = bases(current)

@@ -1,6 +1,7 @@
 package candela.integrators
 
 import candela.color.Rgb
+import candela.film.LightParts
 import candela.geometry.Ray
 import candela.math.*
 import candela.media.Regions
@@ -33,8 +34,11 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
     light.begin(ray.time)
     random.seed(sampler.next1D(), sampler.next1D())
 
-  /** Marches along the ray up to `ray.tMax`. */
-  def march(ray: Ray, sampler: Sampler): Unit =
+  /** Marches along the ray up to `ray.tMax`.
+    *
+    * @param parts also receives what the volumes add, if given
+    */
+  def march(ray: Ray, sampler: Sampler, parts: LightParts | Null = null): Unit =
     added = Rgb.Black
     transmitted = Rgb.White
     if regions.clip(ray, work) then
@@ -68,6 +72,9 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
           sumR += here.r * work.glowR
           sumG += here.g * work.glowG
           sumB += here.b * work.glowB
+          if parts != null then
+            val glow = Rgb(work.glowR, work.glowG, work.glowB)
+            parts.addGlow(0, here * glow * (step * unit))
           if scatters && work.scatters && scene.lights.length > 0 then
             val dr = work.depthR
             val dg = work.depthG
@@ -79,6 +86,7 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
             sumR += here.r * arrived.r
             sumG += here.g * arrived.g
             sumB += here.b * arrived.b
+            if parts != null then parts.addLight(light.index, 1, here * arrived * (step * unit))
         i += 1
       added = Rgb(sumR, sumG, sumB) * (step * unit)
       transmitted = work.transmittance * boost

@@ -1,6 +1,7 @@
 package candela.integrators
 
 import candela.color.Rgb
+import candela.film.LightParts
 import candela.geometry.Ray
 import candela.media.SceneMedia
 import candela.sampling.Sampler
@@ -28,6 +29,7 @@ final class VolumePathTracer(
 
   def raysTraced: Long = walk.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
+  override def lightParts: LightParts | Null = walk.parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

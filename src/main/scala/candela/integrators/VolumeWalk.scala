@@ -2,6 +2,7 @@ package candela.integrators
 
 import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
+import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.media.{MediumWork, SceneMedia}
@@ -53,6 +54,9 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   private val visibility = MediumVisibility(scene, media, work)
   private val regularizes = options.regularizes
   private val disperses = scene.isDispersive
+
+  /** As [[Walk.parts]]. */
+  val parts: LightParts | Null = scene.lightGroups.map(LightParts(_)).orNull
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
 
@@ -67,6 +71,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     work.random.seed(sampler.next1D(), sampler.next1D())
     visibility.start(ray.time)
     radiance.set(Rgb.Black)
+    if parts != null then parts.clear()
     medium = media.camera
     depth = 0
     etaScale = 1f
@@ -76,7 +81,9 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   def end(): Unit = goesOn = false
 
   /** All light found, with what media emitted towards the camera. */
-  def total: Rgb = radiance.toRgb + Rgb(work.glowR, work.glowG, work.glowB)
+  def total: Rgb = radiance.toRgb + glow
+
+  private def glow: Rgb = Rgb(work.glowR, work.glowG, work.glowB)
 
   /** Traces the ray to the next surface; false if it leaves the scene. */
   def intersect(): Boolean =
@@ -89,7 +96,10 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     */
   def sampleMedium(emits: Boolean, sampler: Sampler): Float =
     if medium < 0 then -1f
-    else media.media(medium).follow(ray, sampler.next1D(), emits, work)
+    else
+      val t = media.media(medium).follow(ray, sampler.next1D(), emits, work)
+      if parts != null then parts.addGlowUpTo(depth, glow)
+      t
 
   /** Was the path absorbed? */
   def isAbsorbed: Boolean = weights.isDead
@@ -103,7 +113,8 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     val found = LightTransport.environment(
       scene,
       ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction))
+      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
+      (i, light) => if parts != null then parts.addEnvironment(i, depth, weights.throughput * light)
     )
     radiance.add(weights.throughput * found)
     end()
@@ -116,7 +127,9 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
         val weight = emissionWeight(at.areaLight, source.pdf(lastP, at))
-        radiance.add(weights.throughput * (emitted * weight))
+        val found = weights.throughput * (emitted * weight)
+        radiance.add(found)
+        if parts != null then parts.addLight(at.areaLight, depth, found)
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
   private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
@@ -144,7 +157,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
       if light.choose(p, Vec3.Zero, choice) && light.samplePoint(p, sampler.x, sampler.y) then
         val value = phase.value(wo, light.wi)
         if visibility.reaches(p, light.sample, medium) then
-          radiance.add(arriving(scatterPdf = value) * value)
+          add(arriving(scatterPdf = value) * value)
     sampler.next2D()
     val wi = phase.sample(wo, sampler.x, sampler.y)
     weights.turn(phase.value(wo, wi))
@@ -176,7 +189,12 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     val localWi = vertex.at.frame.toLocal(light.wi)
     val f = vertex.received(light.wi, localWi)
     if !f.isBlack && reaches() then
-      radiance.add(arriving(scatterPdf(localWi)) * f * Math.abs(localWi.z))
+      add(arriving(scatterPdf(localWi)) * f * Math.abs(localWi.z))
+
+  /** Adds light of the sampled light. */
+  private def add(found: Rgb): Unit =
+    radiance.add(found)
+    if parts != null then parts.addLight(light.index, depth, found)
 
   private def reaches(): Boolean =
     val at = vertex.at

@@ -2,6 +2,7 @@ package candela.integrators
 
 import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
+import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.sampling.Sampler
@@ -66,6 +67,9 @@ final class Walk(
   private val regularizes = options.regularizes
   private val disperses = scene.isDispersive
 
+  /** The light found so far, divided, if the scene asks for it. */
+  val parts: LightParts | Null = scene.lightGroups.map(LightParts(_)).orNull
+
   /** Does the path carry its hero wavelength only? */
   private var isAlone = false
   private val probe: SubsurfaceProbe | Null =
@@ -81,6 +85,7 @@ final class Walk(
   def begin(cameraRay: Ray, sampler: Sampler): Unit =
     ray = cameraRay
     radiance.set(Rgb.Black)
+    if parts != null then parts.clear()
     throughput.set(Rgb.White)
     depth = 0
     etaScale = 1f
@@ -105,7 +110,7 @@ final class Walk(
   def marchThroughVolumes(sampler: Sampler): Unit =
     val march = volumes
     if march != null then
-      march.march(ray, sampler)
+      march.march(ray, sampler, parts)
       radiance.addProduct(throughput, march.added)
       throughput.scale(march.transmitted)
 
@@ -121,7 +126,8 @@ final class Walk(
     val found = LightTransport.environment(
       scene,
       ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction))
+      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
+      (i, light) => if parts != null then parts.addEnvironment(i, depth, throughput.toRgb * light)
     )
     radiance.addProduct(throughput, found)
     end()
@@ -134,7 +140,9 @@ final class Walk(
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
         val weight = emissionWeight(at.areaLight, source.pdf(lastP, at))
-        radiance.add(throughput.toRgb * emitted * weight)
+        val found = throughput.toRgb * emitted * weight
+        radiance.add(found)
+        if parts != null then parts.addLight(at.areaLight, depth, found)
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
   private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
@@ -172,7 +180,9 @@ final class Walk(
 
   /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
   inline def addLight(inline weight: Vec3 => Float): Unit =
-    radiance.addProduct(throughput, light.scattered(vertex, weight))
+    val found = light.scattered(vertex, weight)
+    radiance.addProduct(throughput, found)
+    if parts != null then parts.addLight(light.index, depth, throughput.toRgb * found)
 
   /** Adds light that leaves the vertex towards the path. */
   def add(light: Rgb): Unit = radiance.addProduct(throughput, light)

@@ -95,7 +95,8 @@ private[render] object Job:
       ,
       plan.bands.map(BandFilm(_, x0, y0, x1, y1))
     )
-    private val layers = plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers))
+    private val layers =
+      plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers, asked.groups))
     private val filterSampler = new FilterSampler(plan.filter)
 
     def job(worker: Board => Worker): Job = new Job(schedule, film, layers, chains = None, worker)

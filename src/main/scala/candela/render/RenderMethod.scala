@@ -52,6 +52,11 @@ enum RenderMethod:
     case Tiles(_) | Passes(_) => true
     case _ => false
 
+  /** Whether its light is divided by way and source, as the scene asks. */
+  def dividesLight: Boolean = this match
+    case Tiles(integrator) => integrator.lightParts != null
+    case _ => false
+
   /** Whether light paths connect to the camera. */
   def seesLightPaths: Boolean = this match
     case SplattedTiles(_) | Chains(_, _, _) => true

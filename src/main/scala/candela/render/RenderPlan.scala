@@ -77,13 +77,17 @@ final class RenderPlan(
 
 /** The AOVs of an image, and the visible surface that they are computed from.
   *
-  * @param names legend of the identifiers
+  * @param names  legend of the identifiers
+  * @param groups names of the light groups, if the samples' light is divided
   */
 final case class LayerPlan(
     layers: Vector[Layer],
     surface: VisibleSurface,
-    names: SurfaceNames = SurfaceNames.Empty
+    names: SurfaceNames = SurfaceNames.Empty,
+    groups: Option[Vector[String]] = None
 ):
+  def channels(layer: Layer): Vector[String] = layer.channelsOf(groups.getOrElse(Vector.empty))
+
   /** Legends of the layers in the image. */
   def metadata(image: Image): Vector[(String, String)] = layers.flatMap:
     case Layer.CryptoObject => Cryptomatte.metadata("CryptoObject", names.objects, image)

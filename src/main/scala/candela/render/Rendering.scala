@@ -50,7 +50,7 @@ final case class Rendering(
   /** Colour channels, then AOVs, then wavelength bands. */
   def image(development: Development): Image =
     val colors = development(film)
-    val layered = layers.fold(colors)(_.behind(colors, development.scale))
+    val layered = layers.fold(colors)(_.behind(colors, development))
     development.bands.fold(layered): bands =>
       film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered))
 

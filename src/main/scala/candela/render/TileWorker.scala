@@ -32,6 +32,9 @@ private[render] final class TileWorker(
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val bands: BandFilm | Null = film.bands.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
+  private val parts: LightParts | Null =
+    if plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
+  if visible != null then visible.parts = parts
 
   // Accumulators of samples shared by several pixels
   private val shares: SharedPass | Null = film.shares.map(_.pass()).orNull
@@ -132,8 +135,15 @@ private[render] final class TileWorker(
         add(light)
         if bands != null then addTo(bands, weight)
         if layerFilm != null && visible != null then
+          if parts != null then develop(parts, radiance, light)
           layerFilm.add(x, y, light, filterSampler.weight, visible)
       else refuse()
+
+  /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
+  private def develop(parts: LightParts, radiance: Rgb, light: Rgb): Unit =
+    if !plan.basis.isSrgb then parts.convert(parts, plan.basis)
+    val whole = radiance.largest
+    if whole != 0f then parts.scale(light.largest / whole)
 
   private def addTo(bands: BandFilm, weight: Float): Unit =
     val basis = integrator.lastWavelengths

@@ -3,7 +3,7 @@ package candela.scene
 import candela.accel.Accelerator
 import candela.bsdf.{Bsdf, Bssrdf, InterfaceMaterial, Material}
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
-import candela.lights.{EnvironmentLight, Light, LightSelection, SurfaceLight}
+import candela.lights.{EnvironmentLight, Light, LightGroups, LightSelection, SurfaceLight}
 import candela.math.Vec3
 import candela.shapes.Shape
 
@@ -29,6 +29,7 @@ final case class ShapeInstance(
   * @param footprints      present if textures need footprints, or displacements need partial
   *   derivatives
   * @param report          receives every scattering surface; see [[reported]]
+  * @param lightGroups     present if light is to be divided by them
   */
 final class Scene(
     surfaces: Surfaces,
@@ -39,7 +40,8 @@ final class Scene(
     val selection: LightSelection,
     val sidesByGeometry: Boolean,
     footprints: Option[Footprints] = None,
-    report: Option[PathReport] = None
+    report: Option[PathReport] = None,
+    val lightGroups: Option[LightGroups] = None
 ):
   private val pathReport: PathReport | Null = report.orNull
 
@@ -132,7 +134,16 @@ final class Scene(
     */
   def recolored(materials: Array[Material], lights: Array[Light]): Scene =
     Scene(
-      surfaces, instanced, accelerator, materials, lights, selection, sidesByGeometry, footprints
+      surfaces,
+      instanced,
+      accelerator,
+      materials,
+      lights,
+      selection,
+      sidesByGeometry,
+      footprints,
+      report,
+      lightGroups
     )
 
   /** Returns the same scene, reporting one path. */
@@ -147,7 +158,8 @@ final class Scene(
       selection,
       sidesByGeometry,
       footprints,
-      Some(report)
+      Some(report),
+      lightGroups
     )
 
   /** Whether any surface is dispersive. */

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Version
+import candela.build.LightGrouping
 import candela.film.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
@@ -35,6 +36,13 @@ class CommandLineSuite extends AnyFunSuite:
       one.copy(cropWindow = Some(CropWindow(0.25f, 0.75f, 0f, 1f))),
     "a.pbrt --aov albedo,Depth --aov samples" ->
       one.copy(layers = Vector(Layer.Albedo, Layer.Depth, Layer.Samples)),
+    "a.pbrt --light-groups type" ->
+      one.copy(layers = Vector(Layer.Lights), lightGroups = Some(LightGrouping.Types)),
+    "a.pbrt --light-groups key=point_3,key=spot_4+area" -> one.copy(
+      layers = Vector(Layer.Lights),
+      lightGroups =
+        Some(LightGrouping.Named(Vector("key" -> Vector("point_3", "spot_4", "area"))))
+    ),
     "a.pbrt --film gbuffer" -> one.copy(layers = Layer.gbuffer),
     "a.pbrt --dialect v2" -> one.copy(dialect = Some(Dialect.V2)),
     "check a.pbrt --dialect V4 --explain" ->
@@ -101,6 +109,9 @@ class CommandLineSuite extends AnyFunSuite:
     "--cropwindow 0,2,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
     "--cropwindow 0,NaN,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
     "--dialect v5 a.pbrt" -> "expected v2, v3 or v4",
+    "--light-groups types a.pbrt" -> "expected statement, type, or names",
+    "--light-groups key=a,b a.pbrt" -> "expected statement, type, or names",
+    "--light-groups my-key=a a.pbrt" -> "expected statement, type, or names",
     "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
     "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
     "-outfile x.exr a.pbrt" -> "did you mean `--outfile`?",

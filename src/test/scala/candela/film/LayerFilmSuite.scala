@@ -44,7 +44,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     film.add(3, 5, Rgb(3f, 2f, 7f), 3f, surface(Vec3(3, 4, 0), Vec3(0, 1, 0), 0.9f))
     film.add(3, 5, Rgb(9f, 9f, 9f), 1f, nothing)
     film.miss(3, 5, 1f)
-    film.behind(Image.rgb(2, 1), scale)
+    film.behind(Image.rgb(2, 1), Development(scale))
 
   test("channels have pbrt-v4's names, behind the image's own"):
     val names = filled(Layer.gbuffer).channelNames
@@ -57,7 +57,7 @@ final class LayerFilmSuite extends AnyFunSuite:
     val film = LayerFilm(0, 0, 1, 1, Vector(Layer.Albedo))
     film.add(0, 0, Rgb.Black, 1f, surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f))
     val empty = Image(1, 1, Image.RgbNames, Array(0f, 0f, 0f), colorSpace = space)
-    val image = film.behind(empty, 1f)
+    val image = film.behind(empty, Development())
     val wanted = space.ofSrgbAdapted * Rgb(0.5f, 0f, 1f)
     assert(image.colorSpace eq space)
     assert(value(image, "Albedo.R") == wanted.r && value(image, "Albedo.G") == wanted.g)

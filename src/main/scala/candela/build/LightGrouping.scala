@@ -1,0 +1,79 @@
+package candela.build
+
+import candela.base.{Problem, SceneError, Suggest}
+import candela.lights.LightGroups
+import candela.scenefile.Declaration
+
+/** How the layer `lights` groups the lights of a scene. pbrt's lights have no names: those of their
+  * statements are made of type and line, such as `point_12`.
+  */
+enum LightGrouping:
+  /** One group for each statement; an area light statement may have many shapes. */
+  case Statements
+
+  /** One group for each type. */
+  case Types
+
+  /** Groups with these names and statements or types; other lights are in the group `default`. */
+  case Named(groups: Vector[(String, Vector[String])])
+
+object LightGrouping:
+  /** Each has three channels; scenes may have thousands of lights. */
+  val Most = 100
+
+  private val Rest = "default"
+  private val Media = "media"
+
+  /** @param statements of each light
+    * @param glows      whether media emit light, too
+    */
+  def groups(
+      grouping: LightGrouping,
+      statements: Vector[Declaration],
+      glows: Boolean
+  ): LightGroups =
+    val named = names(statements)
+    val lights = statements.map(d => Light(d.name, named(d))) ++
+      Option.when(glows)(Light(Media, Media))
+    val found = lights.map(groupOf(grouping, lights))
+    val all = found.distinct
+    if all.size > Most then
+      throw error(
+        s"the scene has ${all.size} light groups, more than $Most",
+        Some("--light-groups type merges those of equal types; NAME=LIGHT+LIGHT,… names them")
+      )
+    val indices = found.map(all.indexOf).toArray
+    LightGroups(all, indices.take(statements.size), if glows then indices.last else -1)
+
+  private final case class Light(kind: String, name: String)
+
+  private def groupOf(grouping: LightGrouping, all: Vector[Light]): Light => String =
+    grouping match
+      case LightGrouping.Statements => _.name
+      case LightGrouping.Types => _.kind
+      case LightGrouping.Named(groups) =>
+        val known = all.flatMap(l => Vector(l.kind, l.name)).distinct
+        for (_, members) <- groups; member <- members if !known.contains(member) do
+          throw error(s"--light-groups: no light `$member`", Suggest.help(member, known))
+        light =>
+          groups
+            .collectFirst { case (name, in) if in.contains(light.name) => name }
+            .orElse(groups.collectFirst { case (name, in) if in.contains(light.kind) => name })
+            .getOrElse(Rest)
+
+  private def error(message: String, help: Option[String]): SceneError =
+    SceneError(Problem.general(message, help))
+
+  /** The shortest names that tell all statements apart. */
+  private def names(statements: Vector[Declaration]): Declaration => String =
+    val places = statements.distinctBy(d => (d.name, d.at))
+    val ways = Vector[Declaration => String](
+      d => s"${d.name}_${d.at.line}",
+      d => s"${d.name}_${d.at.line}_${d.at.column}",
+      d => s"${d.name}_${file(d)}_${d.at.line}_${d.at.column}"
+    )
+    ways.find(way => places.map(way).distinct.size == places.size).getOrElse(ways.last)
+
+  /** Relative to the scene's folder, as far as channel names allow. */
+  private def file(d: Declaration): String =
+    StatementName.file(d).stripSuffix(".pbrt").replaceAll("[^A-Za-z0-9]+", "_")
