@@ -24,7 +24,8 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     val paths = reports(source)
     paths.foreach(checkFolder)
     val suite = read(source).only(asked.programs, asked.scenes)
-    val shown = asked.samples.fold(suite)(counts => suite.copy(work = Work.Samples(counts)))
+    val told = if asked.denoise then suite.withDenoised else suite
+    val shown = asked.samples.fold(told)(counts => told.copy(work = Work.Samples(counts)))
     terminal.interrupts.during(cancellation):
       val results = inScratch(measured(seeded(withoutOwnWork(shown)), paths, _))
       if results.scenes.nonEmpty then
@@ -117,6 +118,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   *
   * @param references folder of the references of a folder of scenes, if not that folder
   * @param pictures whether the page contains all images
+  * @param denoise whether Candela also renders with --denoise
   */
 final case class BenchOptions(
     samples: Option[Vector[Int]] = None,
@@ -124,7 +126,8 @@ final case class BenchOptions(
     programs: Vector[String] = Vector.empty,
     scenes: Vector[String] = Vector.empty,
     references: Option[String] = None,
-    pictures: Boolean = true
+    pictures: Boolean = true,
+    denoise: Boolean = false
 )
 
 /** Option table of `bench`, one row each. */
@@ -159,6 +162,9 @@ private[cli] object BenchTable:
     opt[String]("references").valueName("FOLDER")
       .text("references for a folder of scenes (default: that folder)")
       .action((f, o) => change(o)(_.copy(references = Some(f)))),
+    opt[Unit]("denoise")
+      .text("measure Candela with and without denoising")
+      .action((_, o) => change(o)(_.copy(denoise = true))),
     opt[Unit]("no-pictures")
       .text("omit images from the page: a tenth of the size")
       .action((_, o) => change(o)(_.copy(pictures = false)))

@@ -14,8 +14,8 @@ private[cli] final class Denoising(denoiser: Oidn, threads: Int):
   /** The image with a layer of denoised colours behind the others. */
   def apply(image: Image): Image =
     def found(layer: Layer) =
-      image.indicesOf(layer.channels).map(selected(image, _))
-    val noisy = selected(image, image.colorChannels)
+      image.indicesOf(layer.channels).map(image.selected)
+    val noisy = image.selected(image.colorChannels)
     val (albedo, normal) = (found(Layer.DenoisingAlbedo), found(Layer.DenoisingNormal))
     val colors = denoiser.denoise(noisy, albedo, normal, threads)
     val names = image.channelNames ++ Channels
@@ -63,11 +63,4 @@ private[cli] object Denoising:
 
   /** What pictures show: the denoised colours, if there are any. */
   def shown(image: Image): Image =
-    image.indicesOf(Channels).fold(image)(selected(image, _))
-
-  /** Three channels as R, G and B, in the colour space of the image. */
-  private def selected(image: Image, channels: Vector[Int]): Image =
-    val data = new Array[Float](3 * image.width * image.height)
-    for pixel <- 0 until image.width * image.height; c <- 0 until 3 do
-      data(3 * pixel + c) = image.data(image.channels * pixel + channels(c))
-    Image(image.width, image.height, Image.RgbNames, data, colorSpace = image.colorSpace)
+    image.indicesOf(Channels).fold(image)(image.selected)

@@ -83,6 +83,14 @@ final class Image(
     val isGray = sources.distinct.size == 1
     if colorSpace.isSrgb || isGray then picked else picked.mapped(matrix * _)
 
+  /** Three of its channels as R, G and B. */
+  def selected(three: Vector[Int]): Image =
+    require(three.size == 3, three)
+    val picked = new Array[Float](3 * width * height)
+    loop(width * height): pixel =>
+      loop(3)(c => picked(3 * pixel + c) = data(pixel * channels + three(c)))
+    Image(width, height, Image.RgbNames, picked, encoding, colorSpace)
+
   /** Other colours in its place; it has the channels R, G and B only. */
   def mapped(change: Rgb => Rgb): Image =
     require(channelNames == Image.RgbNames, channelNames)

@@ -47,6 +47,13 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
   def secondsUntil(relativeMse: Double): Option[Double] =
     LogLogFit.firstAt(curve, relativeMse)
 
+  /** Mean relative MSE at this time; see [[LogLogFit.at]]. */
+  def errorAt(seconds: Double): Option[Double] = LogLogFit.at(curve, seconds)
+
+  /** From the shortest to the longest renderings, in seconds. */
+  def span: Option[(Double, Double)] =
+    Option.when(curve.nonEmpty)((curve.map(_._1).min, curve.map(_._1).max))
+
   def least: Double = curve.map(_._2).minOption.getOrElse(Double.PositiveInfinity)
 
   /** Mean ratio of the longest renderings, averaged over the seeds. */
@@ -71,6 +78,17 @@ object LogLogFit:
       val meanY = logs.map(_._2).sum / logs.size
       val together = logs.map((x, y) => (x - meanX) * (y - meanY)).sum
       Some(together / logs.map((x, _) => (x - meanX) * (x - meanX)).sum)
+
+  /** Ordinate at `x`, interpolated linearly between neighbours. None outside of the curve. */
+  def at(points: Vector[(Double, Double)], x: Double): Option[Double] =
+    val curve = points.filter((t, e) => t > 0 && e > 0).sortBy(_._1)
+    curve.indexWhere(_._1 >= x) match
+      case -1 => None
+      case 0 => Option.when(curve.head._1 == x)(curve.head._2)
+      case i =>
+        val ((x0, y0), (x1, y1)) = (curve(i - 1), curve(i))
+        val part = (Math.log(x) - Math.log(x0)) / (Math.log(x1) - Math.log(x0))
+        Some(Math.exp(Math.log(y0) + part * (Math.log(y1) - Math.log(y0))))
 
   /** Abscissa where the curve first falls to `y`, interpolated linearly between neighbours. None if
     * it doesn't: no extrapolation. The first point if the curve starts below `y`, an upper bound.

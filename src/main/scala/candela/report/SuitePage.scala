@@ -18,7 +18,17 @@ object SuitePage:
           "start-up, parsing and scene construction. Bold: best of the scene; " +
           "–: not reached; blank: not run."
       ),
-      overview(r),
+      overview(r)("relative MSE", s => Some(Numbers.tick(s.target))): (s, p) =>
+        p.curve.secondsUntil(s.target).map(t => (t, s"${Numbers.short(t)} s")),
+      Option.when(r.scenes.exists(s => s.programs.sizeIs > 1 && s.equalTime.isDefined))(frag(
+        h2("Error at equal time"),
+        p(
+          "Relative MSE after the time in the second column, the longest that all programs of a " +
+            "scene took, from program start. Bold: best of the scene; blank: not run."
+        ),
+        overview(r)("seconds", _.equalTime.map(Numbers.short)): (s, p) =>
+          s.errorAtEqualTime(p).map(e => (e, Numbers.short(e)))
+      )),
       Option.when(r.scenes.sizeIs > 1)(div(cls := "card chart", SuiteChart.all(r).svg)),
       r.scenes.map(scene(_, hasPictures)),
       h2("Method"),
@@ -30,19 +40,26 @@ object SuitePage:
       Page.facts(commands(r))
     )
 
-  private def overview(r: SuiteReport): Frag =
+  /** A row for each scene, a column for each program.
+    *
+    * @param key    of a scene
+    * @param figure number and text; the smallest is the best
+    */
+  private def overview(r: SuiteReport)(keys: String, key: SceneResult => Option[String])(
+      figure: (SceneResult, ProgramResult) => Option[(Double, String)]
+  ): Frag =
     val programs = r.scenes.flatMap(_.programs.map(p => (p.name, p.title))).distinct
-    val head = Vector("scene", "relative MSE") ++ programs.map(_._2)
+    val head = Vector("scene", keys) ++ programs.map(_._2)
     val rows = r.scenes.map: s =>
-      val times = s.programs.map(p => p.name -> p.curve.secondsUntil(s.target)).toMap
-      val best = times.values.flatten.minOption
+      val figures = s.programs.map(p => p.name -> figure(s, p)).toMap
+      val best = figures.values.flatten.map(_._1).minOption
       val cells = programs.map: (name, _) =>
-        times.get(name) match
+        figures.get(name) match
           case None => td()
           case Some(None) => td("–")
-          case Some(Some(t)) =>
-            td(Option.when(best.contains(t))(cls := "best"), s"${Numbers.short(t)} s")
-      tr(td(s.title), td(Numbers.tick(s.target)), cells)
+          case Some(Some((number, text))) =>
+            td(Option.when(best.contains(number))(cls := "best"), text)
+      tr(td(s.title), td(key(s).getOrElse("–")), cells)
     div(cls := "scroll", table(thead(tr(head.map(th(_)))), tbody(rows)))
 
   private def scene(s: SceneResult, hasPictures: Boolean): Frag =

@@ -31,7 +31,14 @@ final case class SceneResult(
     referenceName: String,
     target: Double,
     programs: Vector[ProgramResult]
-)
+):
+  /** The longest time, in seconds, for which all programs' errors are known. */
+  val equalTime: Option[Double] =
+    val spans = programs.flatMap(_.curve.span)
+    val least = spans.map(_._1).maxOption
+    spans.map(_._2).minOption.filter(end => least.exists(_ <= end))
+
+  def errorAtEqualTime(p: ProgramResult): Option[Double] = equalTime.flatMap(p.curve.errorAt)
 
 /** Results of a suite.
   *
@@ -84,6 +91,7 @@ object SuiteData:
     "name" -> s.name,
     "reference" -> s.referenceName,
     "target" -> RenderData.number(s.target),
+    "equalTime" -> s.equalTime.fold(ujson.Null: ujson.Value)(RenderData.number),
     "programs" -> ujson.Arr.from(s.programs.map(program(s, _)))
   )
 
@@ -96,7 +104,9 @@ object SuiteData:
     "efficiency" -> known(p.curve.efficiency),
     "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
     "secondsToTarget" ->
-      p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number)
+      p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number),
+    "errorAtEqualTime" ->
+      s.errorAtEqualTime(p).fold(ujson.Null: ujson.Value)(RenderData.number)
   )
 
   private def point(p: MeasuredPoint): ujson.Obj = ujson.Obj(

@@ -20,6 +20,7 @@ final case class Edit(find: Regex, replacement: String)
   * @param isSeeded whether another seed gives another image
   * @param needs environment variables that locate it
   * @param isThin whether its curve is dashed, beside another one of the same colour
+  * @param layer layer of its images that is compared, instead of the colours
   */
 final case class Program(
     name: String,
@@ -31,8 +32,20 @@ final case class Program(
     isSeeded: Boolean,
     color: Int,
     isThin: Boolean,
-    needs: Vector[String] = Vector.empty
-)
+    needs: Vector[String] = Vector.empty,
+    layer: Option[String] = None
+):
+  /** This program itself, which can denoise. */
+  def isSelf: Boolean = command.headOption.contains("{candela}")
+
+  /** The same with denoised images. */
+  def denoised: Program = copy(
+    name = s"$name-denoised",
+    title = s"$title, denoised",
+    command = command :+ "--denoise",
+    isThin = true,
+    layer = Some("Denoised")
+  )
 
 /** A scene in one or more formats, and its reference.
   *
@@ -72,6 +85,16 @@ final case class Suite(
     seeds: Int,
     timeout: Double
 ):
+  /** With each program that can denoise twice: without and with it. */
+  def withDenoised: Suite =
+    val able = programs.filter(_.isSelf).map(_.name).toSet
+    copy(
+      programs = programs.flatMap(p => if p.isSelf then Vector(p, p.denoised) else Vector(p)),
+      scenes = scenes.map: scene =>
+        scene.copy(programs = scene.programs.map: names =>
+          names ++ names.filter(able).map(name => s"$name-denoised"))
+    )
+
   /** Restricted to these programs and scenes; empty keeps all. */
   def only(programNames: Vector[String], sceneNames: Vector[String]): Suite =
     def check(asked: Vector[String], known: Vector[String], what: String): Unit =

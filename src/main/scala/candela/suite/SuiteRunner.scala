@@ -136,7 +136,7 @@ final class SuiteRunner(
         None
       case Outcome.Done(seconds) =>
         try
-          val image = ImageFiles.read(out).toRgb
+          val image = shown(ImageFiles.read(out), program)
           val errors = Errors.against(reference)(image)
           val counted = if job.step < 0 then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
@@ -149,6 +149,12 @@ final class SuiteRunner(
             forecast.ended(job, None)
             leaveOut(name, e.getMessage)
             None
+
+  private def shown(image: Image, program: Program): Image =
+    program.layer.fold(image.toRgb): layer =>
+      val channels = Image.RgbNames.map(c => s"$layer.$c")
+      image.indicesOf(channels).map(image.selected(_).toRgb).getOrElse:
+        throw ImageError(s"the image has no layer `$layer`")
 
   private def keep(job: Job, image: Image): Unit =
     val longer = pictures.get(job.entry).forall((kept, _) => job.samples > kept.samples)

@@ -37,6 +37,8 @@ class MeasuredCurveSuite extends AnyFunSuite:
     // Half-way in the logarithms between 0.8 at 1.5 s and 0.2 at 3 s
     assert(Math.abs(curve.secondsUntil(0.4).get - Math.sqrt(1.5 * 3)) < 1e-9)
     assert(curve.secondsUntil(0.01).isEmpty)
+    assert(Math.abs(curve.errorAt(Math.sqrt(1.5 * 3)).get - 0.4) < 1e-9)
+    assert(curve.span.contains((1.5, 9.0)))
     assert(Math.abs(curve.least - 0.05) < 1e-12)
     assert(Math.abs(curve.meanRatio(1) - 1.02) < 1e-12)
 
@@ -57,3 +59,6 @@ class LogLogFitSuite extends AnyFunSuite:
     assert(Math.abs(LogLogFit.firstAt(hyperbola, 3 / 64.0).get - 64) < 1e-9)
     assert(LogLogFit.firstAt(hyperbola, 0.01).isEmpty)
     assert(LogLogFit.firstAt(hyperbola, 4.0).contains(1.0))
+    assert(Math.abs(LogLogFit.at(hyperbola, 16).get - 3 / 16.0) < 1e-9)
+    assert(LogLogFit.at(hyperbola, 1).contains(3.0) && LogLogFit.at(hyperbola, 0.9).isEmpty)
+    assert(LogLogFit.at(hyperbola, 65).isEmpty)

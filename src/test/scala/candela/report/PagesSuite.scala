@@ -32,6 +32,8 @@ class PagesSuite extends AnyFunSuite:
     assert(page.contains("pbrt-v9") && page.contains("is not installed"))
     // Error 0.2 on the mean curve 1.2 / samples at 6 samples, half a second each.
     assert(page.contains("""<td class="best">3.000 s</td>"""))
+    // After 8 s, the longest run of the first and the second of the other
+    assert(page.contains("""<td>8.000</td><td class="best">0.07500</td><td>0.3000</td>"""))
 
   test("JSON and CSV have the same figures"):
     val json = ujson.read(RenderData.json(Reports.report))
@@ -44,4 +46,6 @@ class PagesSuite extends AnyFunSuite:
     val fast = suite("scenes")(0)("programs")(0)
     assert(fast("points")(2)("runs").arr.size == 3)
     assert(Math.abs(fast("slope")("estimate").num + 1) < 1e-9)
+    assert(suite("scenes")(0)("equalTime").num == 8)
+    assert(Math.abs(fast("errorAtEqualTime").num - 0.075) < 1e-9)
     assert(SuiteData.csv(Reports.suite).linesIterator.size == 1 + 2 * 9)

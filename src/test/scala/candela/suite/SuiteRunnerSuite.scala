@@ -62,6 +62,42 @@ class SuiteRunnerSuite extends AnyFunSuite:
       Using.resource(Files.walk(folder)): files =>
         files.iterator.asScala.toVector.reverse.foreach(Files.delete)
 
+  test("a program's layer is compared in place of its colours"):
+    inFolder: folder =>
+      val names = Vector("R", "G", "B", "Denoised.R", "Denoised.G", "Denoised.B")
+      val data = Array.tabulate(12 * names.size)(i => if i % 6 < 3 then 0.75f else 0.5f)
+      ImageFiles.write(folder.resolve("both.exr"), Image(4, 3, names, data))
+      val copy = s"cp ${folder.resolve("both.exr")} {out}"
+      val denoised = program("denoised", copy).copy(layer = Some("Denoised"))
+      val wrong = program("wrong", copy).copy(layer = Some("Clean"))
+      val (report, _) = run(folder, program("noisy", copy), denoised, wrong)
+      val errors =
+        report.scenes.head.programs.map(p => p.curve.points.last(Metric.Mse).get.estimate)
+      assert(errors == Vector(0.0625, 0.0))
+      assert(report.leftOut.exists((what, why) =>
+        what.startsWith("Flat, wrong") &&
+          why == "the image has no layer `Clean`"
+      ))
+
+  test("programs that can denoise are run with and without it"):
+    inFolder: folder =>
+      val self = program("own", "{candela} {scene} --outfile {out}").copy(title = "Own")
+      val scene = sceneIn(folder).copy(programs = Some(Vector("own", "other")))
+      val suite = Suite(
+        "T",
+        Vector(self, program("other", "cp")),
+        Vector(scene),
+        Work.Samples(Vector(1)),
+        1,
+        1
+      )
+        .withDenoised
+      assert(suite.programs.map(_.name) == Vector("own", "own-denoised", "other"))
+      val twin = suite.programs(1)
+      assert(twin.title == "Own, denoised" && twin.layer.contains("Denoised") && twin.isThin)
+      assert(twin.command == self.command :+ "--denoise")
+      assert(suite.scenes.head.programs.contains(Vector("own", "other", "own-denoised")))
+
   test("every program makes every image, in turn, after one that doesn't count"):
     inFolder: folder =>
       val copy = "cp {scene} {out}"
