@@ -46,6 +46,9 @@ object Gallery:
   val Pictures: Path = Path.of("docs", "gallery")
   private val SamplesPerPixel = 64
 
+  /** About as many as the references have. */
+  private val ComparedSamples = 1024
+
   val exhibits: Vector[Exhibit] =
     for category <- Examples.categories; recipe <- category.recipes.all
     yield Exhibit(category, recipe, Examples.of(category, recipe))
@@ -55,10 +58,18 @@ object Gallery:
     for e <- exhibits if e.scene.nonEmpty && (words.isEmpty || words.exists(e.file.contains)) do
       val (plan, problems) = e.plan(BuildOptions(spp = Some(SamplesPerPixel)))
       problems.foreach(p => println(s"${e.file}: ${p.message}"))
-      ImageFiles.write(Pictures.resolve(s"${e.file}.png"), render(plan))
+      write(e.file, render(plan))
       println(e.file)
+    for c <- Comparisons.all if words.isEmpty || words.exists(c.own.contains) do
+      val reference = ImageFiles.read(ReferenceScenes.References.resolve(s"${c.name}.exr"))
+      write(c.own, render(c.plan(ComparedSamples)))
+      write(c.pbrt, reference)
+      println(c.own)
     val _ = Files.writeString(Page, GalleryPage(exhibits).text)
     println(s"wrote $Page")
+
+  private def write(file: String, image: Image): Unit =
+    ImageFiles.write(Pictures.resolve(s"$file.png"), image.toRgb)
 
   def render(plan: RenderPlan): Image =
     Renderer.render(plan, Runtime.getRuntime.availableProcessors).image(plan.development)

@@ -9,7 +9,7 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
   private val described = Described(Dialect.values.toSet)
 
   def text: String =
-    (GalleryPage.Introduction +: exhibits.map(_.category).distinct.flatMap(section))
+    (GalleryPage.Introduction +: exhibits.map(_.category).distinct.flatMap(section) :++ colors)
       .mkString("", "\n", "\n")
 
   private def section(category: Category): Vector[String] =
@@ -24,6 +24,14 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
           s"| ${words.meaning.replace("|", "\\|")} |"
     Vector("", s"## ${category.name}", "", s"${category.meaning.capitalize}.", "") ++
       Vector("| | type | in | meaning |", "|---|---|---|---|") ++ rows
+
+  private val colors: Vector[String] =
+    val rows = Comparisons.all.map: c =>
+      val own = s"![${c.name} by Candela](gallery/${c.own}.png)"
+      val pbrt = s"![${c.name} by pbrt-v4](gallery/${c.pbrt}.png)"
+      s"| $own | $pbrt | [`${c.name}`](../scenes/${c.name}.pbrt) | ${c.effect} |"
+    Vector("", "## Spectral rendering", "", GalleryPage.OfColors, "") ++
+      Vector("| Candela | pbrt-v4 | scene | |", "|---|---|---|---|") ++ rows
 
   private def shown(name: String) = if name.isEmpty then "\"\"" else name
 
@@ -42,6 +50,10 @@ object GalleryPage:
   def anchor(heading: String): String =
     heading.toLowerCase.filter(c => c.isLetterOrDigit || c == ' ' || c == '-' || c == '_')
       .replace(' ', '-')
+
+  val OfColors: String =
+    """Scenes of this repository where three numbers per colour are not enough, beside pbrt-v4's
+      |images of them, which `RenderSuite` compares with Candela's.""".stripMargin
 
   val Introduction: String =
     """# Gallery

@@ -6,7 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.SceneError
 import candela.build.BuildOptions
-import candela.image.{Image, ImageFiles}
+import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer}
 import candela.testing.Blocks
 
@@ -31,6 +31,17 @@ final class GallerySuite extends AnyFunSuite:
       // Noise: 0.05 at most, in blocks of 256 pixels
       assert(worst < 0.1)
 
+  for c <- Comparisons.all do
+    test(s"the pictures of ${c.name} are alike, and pbrt's is its reference"):
+      def drawn(file: String) =
+        shades(ImageFiles.read(Gallery.Pictures.resolve(s"$file.png")).linear)
+      val stored = ImageFiles.read(ReferenceScenes.References.resolve(s"${c.name}.exr"))
+      val reference = DisplayTransform()(stored.toRgb)
+      val own = drawn(c.own)
+      for (what, other) <- Vector("pbrt's" -> drawn(c.pbrt), "reference" -> shades(reference)) do
+        // Rounding to 8 bits and noise
+        assert(own.lazyZip(other).forall((a, b) => Math.abs(a - b) < 0.03), what)
+
   /** The means of blocks, as a screen shows them: at most 1. */
   private def shades(image: Image): Array[Double] =
     val shown = image.data.map(Math.min(_, 1f))
@@ -45,7 +56,8 @@ final class GallerySuite extends AnyFunSuite:
     assert(found == GalleryPage(Gallery.exhibits).text, help)
 
   test("images exist for exactly the examples and are small in total"):
-    val wanted = Gallery.exhibits.filter(_.scene.nonEmpty).map(_.file).sorted
+    val compared = Comparisons.all.flatMap(c => Vector(c.own, c.pbrt))
+    val wanted = (Gallery.exhibits.filter(_.scene.nonEmpty).map(_.file) ++ compared).sorted
     assert(wanted.distinct == wanted)
     assert(ReferenceScenes.names(Gallery.Pictures, ".png") == wanted)
     val sizes = wanted.map(name => Files.size(Gallery.Pictures.resolve(s"$name.png")))
