@@ -4,16 +4,37 @@
 const byId = id => document.getElementById(id), live = byId("live");
 const me = Math.random().toString(36).slice(2);
 
-// By name, at the places √(v / (1 + v)) of the values v
-const ToneCurves = JSON.parse(byId("curves").textContent);
+// By name: what they do to a channel, at the places √(v / (1 + v)) of its values v; the matrices before
+// and after, and a power
+const { curves: ToneCurves, luminance: Luminance } = JSON.parse(byId("display").textContent);
 
-// Display code of v, at the place v / (1 + v) of 8192
-function codesOf(curve) {
-  const table = ToneCurves[curve], n = table.length - 1;
-  return Uint8ClampedArray.from({ length: 8193 }, (_, i) => {
-    const place = Math.sqrt(i / 8192) * n, at = Math.min(n - 1, place | 0);
-    return 255 * encode(table[at] + (table[at + 1] - table[at]) * (place - at)) + 0.5;
+// Writes the display codes of linear sRGB at c to out
+function displays(curve) {
+  const { table, mixing, power } = ToneCurves[curve], n = table.length - 1, m = Float32Array.of(0, 0, 0);
+  // Of what is toned: at the place v / (1 + v) of 16384
+  const toned = Float32Array.from({ length: 16385 }, (_, i) => {
+    const place = Math.sqrt(i / 16384) * n, at = Math.min(n - 1, place | 0);
+    return table[at] + (table[at + 1] - table[at]) * (place - at);
   });
+  // Of what is shown: at the place √v of 4096; the array rounds
+  const codes = Uint8ClampedArray.from({ length: 4097 }, (_, i) =>
+    255 * encode(Math.pow((i / 4096) ** 2, power)));
+  const tone = v => v > 0 ? toned[v === Infinity ? 16384 : 16384 * v / (1 + v) + 0.5 | 0] : toned[0];
+  const code = v => v > 0 ? codes[v < 1 ? 4096 * Math.sqrt(v) + 0.5 | 0 : 4096] : 0;
+  const row = (a, k, c) => a[k] * c[0] + a[k + 1] * c[1] + a[k + 2] * c[2];
+  return (c, out, o) => {
+    for (let k = 0; k < 3; k++) m[k] = tone(mixing ? row(mixing[0], 3 * k, c) : c[k]);
+    for (let k = 0; k < 3; k++) out[o + k] = code(mixing ? row(mixing[1], 3 * k, m) : m[k]);
+  };
+}
+
+// Mixes colours with negative components with the grey of their luminance, as pictures do
+function inGamut(c) {
+  const least = Math.min(c[0], c[1], c[2]);
+  if (!(least < 0)) return;
+  const y = Luminance[0] * c[0] + Luminance[1] * c[1] + Luminance[2] * c[2];
+  const share = y > 0 ? y / (y - least) : 0;
+  for (let k = 0; k < 3; k++) c[k] = y > 0 ? Math.max(0, y + (c[k] - y) * share) : 0;
 }
 
 const clock = seconds => {
@@ -33,20 +54,22 @@ function liveView(size) {
     layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
   const pixels = Object.assign(document.createElement("canvas"), { width, height });
   const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);
-  let data = null, channels = 3, matrix = null, codes = codesOf(s.curve), asking = null;
+  let data = null, channels = 3, matrix = null, display = displays(s.curve), asking = null;
 
   function paint() {
     if (!data) return;
-    const gain = Math.pow(2, s.ev), n = width * height, last = channels - 1;
+    const gain = Math.pow(2, s.ev), n = width * height, last = channels - 1, c = new Float32Array(3);
+    const isColor = s.layer === "color";
     for (let i = 0, o = 0; i < n; i++, o += 4) {
       for (let k = 0; k < 3; k++) {
         const at = i * channels, m = 3 * k;
         const light = matrix
           ? matrix[m] * data[at] + matrix[m + 1] * data[at + 1] + matrix[m + 2] * data[at + 2]
           : data[at + (k < last ? k : last)];
-        const v = light * gain;
-        out.data[o + k] = v > 0 ? codes[v === Infinity ? 8192 : 8192 * v / (1 + v) | 0] : 0;
+        c[k] = light * gain;
       }
+      if (isColor) inGamut(c);
+      display(c, out.data, o);
       out.data[o + 3] = 255;
     }
     paper.putImageData(out, 0, 0);
@@ -124,7 +147,7 @@ function liveView(size) {
   function set(changes) {
     Object.assign(s, changes);
     byId("ev").value = s.ev; byId("curve").value = s.curve; byId("layer").value = s.layer;
-    codes = codesOf(s.curve);
+    if ("curve" in changes) display = displays(s.curve);
     if ("layer" in changes) { s.stale = true; poll(); } else paint();
   }
   const next = (select, by = 1) => {

@@ -48,7 +48,7 @@ async function floats(base64) {
 }
 
 const encode = v => v <= 0.0031308 ? 12.92 * v : 1.055 * Math.pow(v, 1 / 2.4) - 0.055;
-const Codes = Uint8ClampedArray.from({ length: 4097 }, (_, i) => 255 * encode(i / 4096) + 0.5);
+const Codes = Uint8ClampedArray.from({ length: 4097 }, (_, i) => 255 * encode(i / 4096));
 const short = v => v === 0 ? "0" : Math.abs(v) >= 1e-3 && Math.abs(v) < 1e5 ? v.toPrecision(4) : v.toExponential(3);
 
 // Per-channel errors; the FLIP map is precomputed by the program.

@@ -32,19 +32,34 @@ enum ToneCurve(val word: String, val meaning: String):
   /** NaN stays NaN. */
   def apply(c: Rgb): Rgb = this match
     case Linear => c
-    case Filmic => ToneCurve.bounded(c).map(ToneCurve.filmic)
-    case Aces =>
-      ToneCurve.unit(ToneCurve.acesOut(ToneCurve.acesIn(ToneCurve.bounded(c)).map(ToneCurve.aces)))
-    case Agx =>
-      val shown = ToneCurve.agxOut(ToneCurve.agxIn(ToneCurve.bounded(c)).map(ToneCurve.agx))
-      ToneCurve.unit(shown).map(v => Math.pow(v.toDouble, 2.2).toFloat)
+    case _ =>
+      val bounded = c.map(v => Math.min(Math.max(v, 0f), ToneCurve.Brightest))
+      mixing match
+        case None => bounded.map(channel)
+        case Some((before, after)) =>
+          val mixed = ToneCurve.times(after, ToneCurve.times(before, bounded).map(channel))
+          val unit = mixed.map(v => Math.min(Math.max(v, 0f), 1f))
+          if power == 1.0 then unit else unit.map(v => Math.pow(v.toDouble, power).toFloat)
+
+  /** What it does to each channel; to mixtures of channels if it is [[mixing]]. */
+  def channel(v: Float): Float = this match
+    case Linear => v
+    case Filmic => ToneCurve.filmic(v)
+    case Aces => ToneCurve.aces(v)
+    case Agx => ToneCurve.agx(v)
+
+  /** Matrices before and after, row by row, if it mixes channels. */
+  def mixing: Option[(Vector[Float], Vector[Float])] = this match
+    case Linear | Filmic => None
+    case Aces => Some((ToneCurve.acesIn, ToneCurve.acesOut))
+    case Agx => Some((ToneCurve.agxIn, ToneCurve.agxOut))
+
+  /** Exponent of the channels at last. */
+  def power: Double = if this == Agx then 2.2 else 1.0
 
 object ToneCurve:
   /** Beyond it the quotients would overflow. */
   private val Brightest = 1e6f
-
-  private def bounded(c: Rgb): Rgb = c.map(v => Math.min(Math.max(v, 0f), Brightest))
-  private def unit(c: Rgb): Rgb = c.map(v => Math.min(Math.max(v, 0f), 1f))
 
   private val White = 11.2f
   private val Bias = 2f
@@ -56,12 +71,12 @@ object ToneCurve:
     (x * (a * x + c * b) + d * e) / (x * (a * x + b) + d * f) - e / f
 
   /** From sRGB to ACES' AP1 primaries, desaturated. */
-  private val acesIn = rows(
+  private val acesIn = Vector(
     0.59719f, 0.35458f, 0.04823f, //
     0.07600f, 0.90834f, 0.01566f, //
     0.02840f, 0.13383f, 0.83777f
   )
-  private val acesOut = rows(
+  private val acesOut = Vector(
     1.60475f, -0.53108f, -0.07367f, //
     -0.10208f, 1.10813f, -0.00605f, //
     -0.00327f, -0.07276f, 1.07602f
@@ -70,13 +85,12 @@ object ToneCurve:
   private def aces(v: Float): Float =
     (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.4329510f) + 0.238081f)
 
-  private val agxMatrix = Array(
+  private val agxIn = Vector(
     0.842479062f, 0.0784336f, 0.0792237451f, //
     0.0423282422f, 0.878468636f, 0.0791661274f, //
     0.0423756549f, 0.0784336f, 0.879142973f
   )
-  private val agxIn = rows(agxMatrix*)
-  private val agxOut = rows(Matrix3(agxMatrix.map(_.toDouble).toVector).inverse.toFloats*)
+  private val agxOut = Matrix3(agxIn.map(_.toDouble)).inverse.toFloats.toVector
 
   // Range of the logarithm, in stops about 1
   private val Darkest = -12.47393
@@ -88,11 +102,8 @@ object ToneCurve:
     val fit = ((((15.5 * x - 40.14) * x + 31.96) * x - 6.868) * x + 0.4298) * x
     ((fit + 0.1191) * x - 0.00232).toFloat
 
-  private def rows(m: Float*): Rgb => Rgb =
-    val a = m.toArray
-    c =>
-      Rgb(
-        a(0) * c.r + a(1) * c.g + a(2) * c.b,
-        a(3) * c.r + a(4) * c.g + a(5) * c.b,
-        a(6) * c.r + a(7) * c.g + a(8) * c.b
-      )
+  private def times(m: Vector[Float], c: Rgb): Rgb = Rgb(
+    m(0) * c.r + m(1) * c.g + m(2) * c.b,
+    m(3) * c.r + m(4) * c.g + m(5) * c.b,
+    m(6) * c.r + m(7) * c.g + m(8) * c.b
+  )

@@ -41,7 +41,10 @@ object LivePage:
           label("layer ", select(id := "layer")),
           label(
             "tone curve ",
-            select(id := "curve", curves.map(c => option(value := c.word, c.word)))
+            select(
+              id := "curve",
+              ToneCurve.values.toVector.map(c => option(value := c.word, c.word))
+            )
           ),
           label("exposure ", exposure, span(id := "evtext")),
           button(id := "whole", "whole image"),
@@ -58,17 +61,24 @@ object LivePage:
       Page.facts(plan)
     )
 
-  /** Those that act on each channel by itself. */
-  private val curves = Vector(ToneCurve.Linear, ToneCurve.Filmic)
-
-  /** Each curve at the places √(v / (1 + v)) of the values v, which the page interpolates. */
+  /** The stages of each tone curve, so that the page shows what a picture of the program does: what
+    * it does to a channel's values v, at the places √(v / (1 + v)), and the matrices around it.
+    */
   private def tables: Frag =
-    def table(curve: ToneCurve) = Vector.tabulate(TableSize + 1): i =>
-      val place = Math.min(i.toFloat / TableSize, 0.9999f)
-      val value = place * place / (1 - place * place)
-      Math.min(1f, curve(Rgb.gray(value)).r)
-    val all = curves.map(c => c.word -> ujson.Arr.from(table(c).map(v => ujson.Num(v.toDouble))))
-    script(tpe := "application/json", id := "curves", raw(ujson.write(ujson.Obj.from(all))))
+    def numbers(all: Seq[Float]) = ujson.Arr.from(all.map(v => ujson.Num(v.toDouble)))
+    def stages(curve: ToneCurve) =
+      val table = Vector.tabulate(TableSize + 1): i =>
+        val place = Math.min(i.toFloat / TableSize, 0.9999f)
+        Math.min(curve.channel(place * place / (1 - place * place)), 2f)
+      val mixing = curve.mixing.fold(ujson.Null: ujson.Value): (before, after) =>
+        ujson.Arr(numbers(before), numbers(after))
+      ujson.Obj("table" -> numbers(table), "mixing" -> mixing, "power" -> curve.power)
+    val luminance = Vector(Rgb(1f, 0f, 0f), Rgb(0f, 1f, 0f), Rgb(0f, 0f, 1f)).map(_.luminance)
+    val all = ujson.Obj(
+      "luminance" -> numbers(luminance),
+      "curves" -> ujson.Obj.from(ToneCurve.values.map(c => c.word -> stages(c)))
+    )
+    script(tpe := "application/json", id := "display", raw(ujson.write(all)))
 
   private val TableSize = 1024
 

@@ -88,18 +88,52 @@ class LivePageSuite extends AnyFunSuite:
         assert(read == (0 to 2).map(ImageFiles.read(file)(20, 13, _)))
         val light = space.light(Rgb(0.2f, 0.4f, 0.6f))
         for curve <- Vector(ToneCurve.Linear, ToneCurve.Filmic) do
-          val shown = page.value(
-            "(c => [...c.getContext('2d').getImageData(5, 5, 1, 1).data])" +
-              "(document.querySelector('canvas'))"
-          ).arr.map(_.num.toInt)
           val srgb = curve(light)
           val wanted = Vector(srgb.r, srgb.g, srgb.b).map: v =>
             if v <= 0 then 0.0 else 255 * (1.055 * Math.pow(v, 1 / 2.4) - 0.055)
-          for (a, b) <- shown.zip(wanted) do
-            assert(Math.abs(a - b) <= 1, s"${curve.word}: $shown, $wanted")
+          for (a, b) <- shown(page).zip(wanted) do
+            assert(Math.abs(a - b) <= 1, s"${curve.word}: ${shown(page)}, $wanted")
           page.press("c", "c")
         click(page, "end")
         assert(running.ended == 0)
+
+  /** The colour that the canvas has in its corner. */
+  private def shown(page: OpenPage): Vector[Int] =
+    page.value(
+      "(c => [...c.getContext('2d').getImageData(5, 5, 1, 1).data])" +
+        "(document.querySelector('canvas'))"
+    ).arr.map(_.num.toInt).toVector.take(3)
+
+  test("the page shows what --tonemap and --exposure write, with every tone curve"):
+    TempFolder.use: folder =>
+      // The last one is outside of sRGB's gamut
+      val colors = Vector(Rgb(0.2f, 0.4f, 0.6f), Rgb(9f, 0.02f, 0.3f), Rgb(0.5f, -0.1f, 0.2f))
+      for color <- colors do
+        val file = folder.resolve("a.exr")
+        val flat = TinyPlan(filename = file.toString)((_, _) => color)
+        val running = Watched(flat, "--watch", "0", "--watch-after")
+        Chromium.use(browser, s"${running.link}#x=20&y=13"): page =>
+          page.until("document.querySelector('#live').dataset.stage == 'done'")
+          page.until("(document.querySelector('#live').dataset.pixel || '').includes('color')")
+          val words = page.value("[...document.querySelector('#curve').options].map(o => o.value)")
+          assert(words.arr.map(_.str) == ToneCurve.values.map(_.word).toSeq)
+          for curve <- ToneCurve.values do
+            page.value(s"document.querySelector('#curve').value = '${curve.word}'; " +
+              "document.querySelector('#curve').dispatchEvent(new Event('change'))")
+            for stops <- Vector("0", "1.5") do
+              page.value(s"document.querySelector('#ev').value = '$stops'; " +
+                "document.querySelector('#ev').dispatchEvent(new Event('input'))")
+              val picture = folder.resolve("a.png")
+              val words =
+                Seq("--tonemap", curve.word, "--exposure", stops, "--outfile", s"$picture")
+              assert(Main.run(Seq("view", file.toString) ++ words, Captured().terminal) == 0)
+              val png = ImageFiles.read(picture).data.take(3).map(v => Math.round(v * 255)).toVector
+              val found = shown(page)
+              // Interpolation on the page: one code
+              val off = found.lazyZip(png).map((a, b) => Math.abs(a - b)).max
+              assert(off <= 1, s"$color, ${curve.word}, $stops: $found, $png")
+          click(page, "end")
+          assert(running.ended == 0)
 
   test("with --watch-after the page stays, for reloads and several viewers, until it is ended"):
     TempFolder.use: folder =>
