@@ -18,14 +18,15 @@ object MajorantGrid:
 
   /** Majorants at a resolution suited to this number of samples along each axis.
     *
+    * @param finest maximum number of cells along an axis
     * @param most upper bound in a box of the unit cube: x0, y0, z0, x1, y1, z1
     */
-  def of(nx: Int, ny: Int, nz: Int)(
+  def of(nx: Int, ny: Int, nz: Int, finest: Int = Finest)(
       most: (Float, Float, Float, Float, Float, Float) => Float
   ): MajorantGrid =
-    val cx = Math.min(nx, Finest)
-    val cy = Math.min(ny, Finest)
-    val cz = Math.min(nz, Finest)
+    val cx = Math.min(nx, finest)
+    val cy = Math.min(ny, finest)
+    val cz = Math.min(nz, finest)
     val values = new Array[Float](cx * cy * cz)
     loop(values.length): i =>
       val x = i % cx

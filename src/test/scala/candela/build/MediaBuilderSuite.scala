@@ -49,14 +49,36 @@ final class MediaBuilderSuite extends AnyFunSuite:
     assert(found.map(_.message) == Vector("medium `fogg` is not defined"))
     assert(found.head.help.exists(_.contains("fog")))
 
+  private def smoke(rest: String) = scene(
+    "volpath",
+    s"""MakeNamedMedium "v" "string type" "nanovdb" $rest
+       |MediumInterface "v" """"".stripMargin
+  )
+
+  private def found(text: String) = SceneTexts.problems(text, Dialect.V4)
+
+  test("nanovdb media have densities, and emit by temperature unless their scale is 0"):
+    val file = "\"string filename\" \"scenes/volumes/smoke.nvdb\""
+    val size = "1 (sparse grid of 17×19×16 voxels with bounds of 17×19×16"
+    def described(rest: String) = media(SceneTexts.plan(smoke(s"$file $rest"), Dialect.V4))
+    assert(described("") == s"$size, emissive by temperature)")
+    assert(described("\"float Lescale\" 0") == s"$size)")
+    assert(described("\"string gridname\" \"temperature\" \"string temperaturename\" \"x\"")
+      .startsWith("1 (sparse grid of 13×13×13 voxels with bounds"))
+
   test("nanovdb says what is missing"):
-    val text = scene(
-      "volpath",
-      """MakeNamedMedium "v" "string type" "nanovdb" "string filename" "a.nvdb"
-        |MediumInterface "v" """"".stripMargin
-    )
-    val found = SceneTexts.problems(text, Dialect.V4)
-    assert(found.exists(_.message.contains("no NanoVDB reader")), found)
+    assert(found(smoke("")).exists(_.message == "a \"nanovdb\" medium needs `filename`"))
+    val nowhere = found(smoke("\"string filename\" \"a.nvdb\""))
+    assert(nowhere.map(_.message) == Vector("no file `a.nvdb`"))
+    val file = "\"string filename\" \"scenes/volumes/smoke.nvdb\""
+    val other = found(smoke(s"$file \"string gridname\" \"densty\"")).head
+    assert(other.message == "can't read `scenes/volumes/smoke.nvdb`: it has no grid `densty`, " +
+      "only `density`, `temperature`")
+    assert(other.help.contains("\"string gridname\" \"density\"") && other.at.exists(_.line == 5))
+    val cold = found(smoke(s"$file \"string temperaturename\" \"heat\""))
+    assert(cold.exists(_.message.endsWith("has no grid `heat`; it does not emit")))
+    val scene = found(smoke("\"string filename\" \"scenes/v4-fog.pbrt\""))
+    assert(scene.head.message.contains("can't read `scenes/v4-fog.pbrt`: not a NanoVDB file"))
 
   test("a grid of the wrong size is an error that counts"):
     val text = scene(

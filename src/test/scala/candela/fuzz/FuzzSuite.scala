@@ -19,7 +19,8 @@ class FuzzSuite extends AnyFunSuite with BeforeAndAfterAll:
       Kind.Scenes -> 2000,
       Kind.Builds -> 150,
       Kind.Meshes -> 1500,
-      Kind.Pictures -> 500
+      Kind.Pictures -> 500,
+      Kind.Volumes -> 200
     )
   do
     test(s"$count broken files end in an answer or a clean refusal: ${kind.name}"):

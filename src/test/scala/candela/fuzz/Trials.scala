@@ -9,9 +9,11 @@ import scala.util.Random
 
 import candela.base.{SceneError, Severity}
 import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
 import candela.scenefile.Parser
+import candela.testing.{NanoVdb, VdbGrid}
 
 /** What is done with hostile input, each in its own way. */
 enum Kind(val name: String):
@@ -19,6 +21,7 @@ enum Kind(val name: String):
   case Builds extends Kind("builds")
   case Meshes extends Kind("meshes")
   case Pictures extends Kind("pictures")
+  case Volumes extends Kind("volumes")
 
 /** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
   * refusal; whatever else happens is a finding.
@@ -54,6 +57,8 @@ final class Trials(from: Path, folder: Path, random: Random):
       random
     )
 
+  private val volumes = Mutator(Trials.volumes, random)
+
   /** The next broken file; `judge` reads it. */
   def next(kind: Kind): Path =
     val (bytes, name) = kind match
@@ -64,6 +69,7 @@ final class Trials(from: Path, folder: Path, random: Random):
         (if random.nextBoolean() then meshes.bytes() else meshes.text(), "broken.ply")
       case Kind.Pictures =>
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
+      case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
     Files.write(folder.resolve(name), bytes)
 
   /** What is wrong with the answer to a broken file, if it is. */
@@ -83,8 +89,12 @@ final class Trials(from: Path, folder: Path, random: Random):
         case Kind.Pictures =>
           val picture = ImageFiles.read(file)
           Option.when(picture.width < 1 || picture.height < 1)("an empty picture")
+        case Kind.Volumes =>
+          val all = Vector("density", "heat").flatMap(NanoVdbFile.read(file, _).toOption)
+          Option.when(all.exists(_.tree.maximum.isNaN))("an unsound volume")
     catch
       case e: SceneError => unclear(e)
+      case e: NanoVdbError => Option.when(e.getMessage.isBlank)("an error without a message")
       case e: ImageError => Option.when(e.getMessage.isBlank)("an error without a message")
       case e: Throwable =>
         Some((e.toString.take(300) +: e.getStackTrace.take(12).toVector).mkString("\n    at "))
@@ -146,6 +156,14 @@ object Trials:
       binary("binary_little_endian", ByteOrder.LITTLE_ENDIAN),
       binary("binary_big_endian", ByteOrder.BIG_ENDIAN)
     )
+
+  /** Two grids, as they are and compressed. */
+  private def volumes: Vector[Array[Byte]] =
+    val grids = Vector(
+      VdbGrid("density", Map((0, 0, 0) -> 1f, (3, 9, 140) -> 2f)),
+      VdbGrid("heat", Map((1, 1, 1) -> 900f))
+    )
+    Vector(NanoVdb.file(grids), NanoVdb.file(grids, zipped = true))
 
   /** Small pictures in all formats that can be read and in some codings. */
   private def pictures(folder: Path): Vector[Array[Byte]] =

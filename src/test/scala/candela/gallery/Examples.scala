@@ -49,7 +49,7 @@ object Examples:
     "LightSource" -> shown(LightExamples.lights),
     "AreaLightSource" -> shown(LightExamples.areaLights),
     "Camera" -> (shown(LightExamples.cameras) ++ LightExamples.unseenCameras),
-    "MakeNamedMedium" -> (shown(MediumExamples.media) ++ MediumExamples.unseen),
+    "MakeNamedMedium" -> shown(MediumExamples.media),
     "Volume" -> shown(MediumExamples.volumes)
   )
 

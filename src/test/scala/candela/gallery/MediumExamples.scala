@@ -1,7 +1,5 @@
 package candela.gallery
 
-import candela.gallery.Example.Unseen
-
 /** Media with about the size of the unit cube. */
 private object MediumExamples:
   private def inBall(medium: String): String =
@@ -30,11 +28,9 @@ private object MediumExamples:
       "rgbgrid",
       s"$grid $place \"rgb sigma_s\" [${Vector.tabulate(81)(i => i * 5 % 4).mkString(" ")}]"
     ),
-    v4("cloud", s"$thin $place \"float density\" 4")
+    v4("cloud", s"$thin $place \"float density\" 4"),
+    v4("nanovdb", s"$thin \"float scale\" 8 \"string filename\" \"volumes/smoke.nvdb\"")
   )
-
-  val unseen: Map[String, Example] =
-    Map("nanovdb" -> Unseen("input files are produced by other programs"))
 
   private val box = "\"point p0\" [-.9 -.9 0] \"point p1\" [.9 .9 1.9]"
   private def volume(name: String, rest: String) = name -> s"Volume \"$name\" $box $thin $rest"

@@ -46,7 +46,8 @@ object UniformGridRecipe
     extends MediumRecipe("uniformgrid", "density grid", onlyV4)
     with HasScale
     with HasGrid
-    with HasBox:
+    with HasBox
+    with HasTemperature:
   private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
   private val temperature =
     numbers("temperature", "float[]", "temperature of each cell, for thermal emission", unit = "K")
@@ -54,15 +55,6 @@ object UniformGridRecipe
     numbers("Lescale", "float[]", "scale of each cell's emission", shown = "1")
   private val emitted =
     color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
-  private val offset =
-    float("temperatureoffset", "offset subtracted from temperatures", unit = "K")(0f)
-  private val cutoff = float(
-    "temperaturecutoff",
-    "alias of `temperatureoffset`",
-    unit = "K",
-    shown = "temperatureoffset"
-  )(0f)
-  private val scaling = float("temperaturescale", "scale of temperatures")(1f)
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -74,22 +66,22 @@ object UniformGridRecipe
 
   /** The emission, if any. Returns None after an error. */
   private def glow()(using site: Site): Option[Option[Glow]] =
-    val (kelvins, factors) = (temperature(), emittedScale())
+    val (temperatures, factors) = (temperature(), emittedScale())
     val le = held(emitted(), "Le")
     val scale =
       if factors.isEmpty then Some(SampledGrid.One)
       else samples("Lescale", factors).map(_.head)
-    if kelvins.nonEmpty && emitted.given_().isDefined then
+    if temperatures.nonEmpty && emitted.given_().isDefined then
       site.error("`Le` and `temperature` of a medium are mutually exclusive")
       None
-    else if kelvins.nonEmpty then
+    else if temperatures.nonEmpty then
       for
         s <- scale
-        t <- samples("temperature", kelvins)
+        t <- samples("temperature", temperatures)
       yield
-        val below = offset.given_().getOrElse(cutoff())
-        val hottest = (t.head.maximum - below) * scaling()
-        Some(ThermalGlow(t.head, below, scaling(), Thermal.colors(hottest), s))
+        val (below, factor) = kelvins()
+        val hottest = (t.head.maximum - below) * factor
+        Some(ThermalGlow(t.head, below, factor, Thermal.colors(hottest), s))
     else scale.map(s => Option.unless(le.isBlack)(ColoredGlow(le, s)))
 
 object RgbGridRecipe
@@ -175,26 +167,21 @@ object CloudRecipe
         phase()
       )
 
-object NanoVdbRecipe
-    extends MediumRecipe("nanovdb", "density grid from a NanoVDB file", onlyV4)
-    with HasScale:
-  override def pending: Option[String] =
-    Some("ignoring the medium, since the JVM has no NanoVDB reader")
-  declare(
-    string("filename", ".nvdb file", shown = "none")(""),
-    string("gridname", "name of the density grid")("density"),
-    string("temperaturename", "name of the temperature grid")("temperature"),
-    float("Lescale", "scale of the emission", onlyV4)(1f),
-    float("temperatureoffset", "offset subtracted from temperatures", unit = "K")(0f),
-    float(
-      "temperaturecutoff",
-      "alias of `temperatureoffset`",
-      unit = "K",
-      shown = "temperatureoffset"
-    )(0f),
-    float("temperaturescale", "scale of temperatures")(1f)
-  )
-  protected def make()(using Site): Option[Medium] = None
+/** How temperatures of a grid become kelvins. */
+trait HasTemperature extends Fields:
+  private val offset =
+    float("temperatureoffset", "offset subtracted from temperatures", unit = "K")(0f)
+  private val cutoff = float(
+    "temperaturecutoff",
+    "alias of `temperatureoffset`",
+    unit = "K",
+    shown = "temperatureoffset"
+  )(0f)
+  private val scaling = float("temperaturescale", "scale of temperatures")(1f)
+
+  /** What is subtracted, and the scale of the difference. */
+  protected def kelvins()(using Site): (Float, Float) =
+    (offset.given_().getOrElse(cutoff()), scaling())
 
 /** Thermal emission of pbrt-v4's media. */
 private[build] object Thermal:

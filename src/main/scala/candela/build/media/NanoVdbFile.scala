@@ -1,0 +1,99 @@
+package candela.build.media
+
+import java.io.IOException
+import java.nio.channels.FileChannel
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Path, StandardOpenOption}
+
+import scala.collection.mutable
+import scala.util.Using
+
+import candela.math.Transform
+import candela.media.VoxelTree
+
+/** A grid of a NanoVDB file.
+  *
+  * @param toIndex the grid's space to the voxels' indices, affine
+  * @param low     lowest indices of the active voxels
+  * @param high    highest indices, inclusive
+  */
+final class NanoVdbGrid(
+    val tree: VoxelTree,
+    val toIndex: Transform,
+    val low: Vector[Int],
+    val high: Vector[Int]
+)
+
+/** A NanoVDB file can't be read: the cause, on one line. */
+final class NanoVdbError(message: String) extends RuntimeException(message, null, false, false)
+
+/** Reads grids of floats from NanoVDB files, version 32, uncompressed or by ZIP.
+  *
+  * Source: the layout documented in NanoVDB's `NanoVDB.h` and `util/IO.h`, openvdb.org.
+  */
+object NanoVdbFile:
+  private val HeaderSize = 16
+  private val MetaSize = 176
+  private val Marks = Vector("NanoVDB0", "NanoVDB2")
+  private val Version = 32
+  private val Codecs = Vector("no compression", "ZIP", "BLOSC")
+  private val LongestName = 1 << 16
+
+  /** The first grid of this name, or the names of all grids.
+    *
+    * @throws NanoVdbError if the file is damaged or of another kind
+    */
+  def read(path: Path, name: String): Either[Vector[String], NanoVdbGrid] =
+    try
+      Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
+        val file = FileBytes(channel, 0, channel.size)
+        entries(file) match
+          case all if all.exists(_.name == name) =>
+            Right(NanoVdbTree.read(all.find(_.name == name).get.bytes(file)))
+          case others => Left(others.map(_.name))
+    catch
+      case e: IOException =>
+        throw NanoVdbError(Option(e.getMessage).getOrElse(e.getClass.getSimpleName))
+      case _: OutOfMemoryError => throw NanoVdbError("not enough memory for its voxels")
+
+  /** A grid's place in the file. */
+  private final case class Entry(name: String, at: Long, stored: Long, size: Long, codec: Int):
+    def bytes(file: GridBytes): GridBytes =
+      if codec == 0 && stored != size then
+        throw NanoVdbError(s"byte $at: grid `$name` has $stored bytes, expected $size")
+      Codecs.lift(codec) match
+        case Some("no compression") => file.part(at, stored)
+        case Some("ZIP") => InflatedBytes.of(file, at, stored, size)
+        case other =>
+          val coding = other.getOrElse(s"compression number $codec")
+          throw NanoVdbError(s"grid `$name` is stored with $coding, expected none or ZIP")
+
+  private def entries(file: GridBytes): Vector[Entry] =
+    val found = mutable.ArrayBuffer.empty[Entry]
+    var at = 0L
+    while at < file.size do
+      val header = file.at(at, HeaderSize)
+      val mark = UTF_8.decode(header.slice(0, 8)).toString
+      if !Marks.contains(mark) then
+        val what = if at == 0 then "not a NanoVDB file" else "damaged"
+        throw NanoVdbError(s"$what: byte $at must begin with `${Marks.head}`")
+      val version = header.getInt(8) >>> 21
+      if version != Version then
+        throw NanoVdbError(s"it has version $version of the format, expected $Version")
+      val (count, codec) = (header.getShort(12) & 0xffff, header.getShort(14) & 0xffff)
+      at += HeaderSize
+      val described = Vector.fill(count):
+        val meta = file.at(at, MetaSize)
+        val (size, stored, length) = (meta.getLong(0), meta.getLong(8), meta.getInt(136))
+        if size < 0 || stored < 0 || length < 1 || length > LongestName then
+          throw NanoVdbError(s"byte $at: the description of a grid is damaged")
+        val name = UTF_8.decode(file.at(at + MetaSize, length)).toString.takeWhile(_ != 0)
+        at += MetaSize + length
+        (name, size, stored)
+      for (name, size, stored) <- described do
+        if stored > file.size - at then
+          throw NanoVdbError(s"the file is cut short: $stored bytes at $at of ${file.size}")
+        found += Entry(name, at, stored, size, codec)
+        at += stored
+    if found.isEmpty then throw NanoVdbError("the file is empty")
+    found.toVector

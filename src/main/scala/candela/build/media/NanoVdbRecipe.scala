@@ -1,0 +1,89 @@
+package candela.build.media
+
+import java.nio.file.Path
+
+import candela.base.Suggest
+import candela.build.recipe.*
+import candela.geometry.Bounds3
+import candela.math.*
+import candela.media.{Medium, SparseDensity, SparseGlow, SparseGrid, SparseMedium}
+import candela.scenefile.Param
+
+object NanoVdbRecipe
+    extends MediumRecipe("nanovdb", "density grid from a NanoVDB file", onlyV4)
+    with HasScale
+    with HasTemperature:
+  private val filename = string("filename", ".nvdb file", shown = "none")("")
+  private val gridName = string("gridname", "name of the density grid")("density")
+  private val temperatureName =
+    string("temperaturename", "name of the temperature grid, if there is one")("temperature")
+  private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
+  private val Ignored = "ignoring the medium"
+
+  protected def make()(using site: Site): Option[Medium] =
+    site.declaration.param("filename").filter(_ => filename().nonEmpty) match
+      case None =>
+        site.error("a \"nanovdb\" medium needs `filename`")
+        None
+      case Some(p) =>
+        val voxels = site.resources.once(site.declaration, "voxels"):
+          site.resources.file(p, site.declaration, site.problems, Ignored).flatMap(read(_, p))
+        voxels.flatMap(medium)
+
+  private def medium(voxels: Voxels)(using site: Site): Option[Medium] =
+    val (absorption, scattering) = coefficients()
+    val toWorld = site.toWorld * voxels.fromUnit
+    if toWorld.isFlat then
+      site.warn("this medium has no volume; it is ignored")
+      None
+    else
+      val light =
+        for grid <- voxels.temperature if emittedScale() > 0f yield
+          val (below, factor) = kelvins()
+          val colors = Thermal.colors((grid.maximum - below) * factor)
+          SparseGlow(grid, below, factor, colors, emittedScale())
+      Some(SparseMedium(toWorld.inverse, voxels.density, absorption, scattering, light, phase()))
+
+  /** What all colour bases share.
+    *
+    * @param fromUnit the unit cube to the medium's space
+    */
+  private final class Voxels(
+      val density: SparseDensity,
+      val temperature: Option[SparseGrid],
+      val fromUnit: Transform
+  )
+
+  private def read(path: Path, p: Param)(using site: Site): Option[Voxels] =
+    def refuse(why: String, help: Option[String] = None) =
+      site.problems.missing(p.valuesAt, s"can't read `${filename()}`: $why", Ignored, help)
+      None
+    try
+      NanoVdbFile.read(path, gridName()) match
+        case Left(names) =>
+          val found = names.distinct.sorted.mkString("`", "`, `", "`")
+          val help = Suggest.nearest(gridName(), names).map(n => s"\"string gridname\" \"$n\"")
+          refuse(s"it has no grid `${gridName()}`, only $found", help)
+        case Right(grid) =>
+          val temperature = NanoVdbFile.read(path, temperatureName()).toOption
+          if temperature.isEmpty && temperatureName.given_().isDefined then
+            site.warn(s"`${filename()}` has no grid `${temperatureName()}`; it does not emit")
+          voxels(grid, temperature).orElse(refuse("its voxels have no volume"))
+    catch case e: NanoVdbError => refuse(e.getMessage)
+
+  /** The box of a grid, upright in the medium's space; beyond it, there is nothing. */
+  private def voxels(grid: NanoVdbGrid, temperature: Option[NanoVdbGrid]): Option[Voxels] =
+    val corners =
+      for
+        x <- Vector(grid.low(0), grid.high(0) + 1)
+        y <- Vector(grid.low(1), grid.high(1) + 1)
+        z <- Vector(grid.low(2), grid.high(2) + 1)
+      yield grid.toIndex.inverse.point(Vec3(x.toFloat, y.toFloat, z.toFloat))
+    val box = Bounds3.of(corners)
+    val (low, size) = (box.min, box.max - box.min)
+    val fits = low.isFinite && size.isFinite
+    for scale <- Transform.scale(size.x, size.y, size.z) if fits yield
+      val fromUnit = Transform.translate(low.x, low.y, low.z) * scale
+      val Vector(nx, ny, nz) = grid.low.zip(grid.high).map((a, b) => b - a + 1): @unchecked
+      def mapped(g: NanoVdbGrid) = SparseGrid(g.tree, g.toIndex * fromUnit)
+      Voxels(SparseDensity(mapped(grid), nx, ny, nz), temperature.map(mapped), fromUnit)

@@ -1,0 +1,149 @@
+package candela.build.media
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import scala.util.Random
+
+import candela.math.*
+import candela.testing.{NanoVdb, VdbGrid}
+
+final class NanoVdbFileSuite extends AnyFunSuite:
+
+  private def read(bytes: Array[Byte], name: String = "density") =
+    val file = Files.createTempFile("candela", ".nvdb")
+    try NanoVdbFile.read(Files.write(file, bytes), name)
+    finally Files.delete(file)
+
+  private def grid(bytes: Array[Byte], name: String = "density"): NanoVdbGrid =
+    read(bytes, name).toOption.get
+
+  private def refusal(bytes: Array[Byte]): String =
+    intercept[NanoVdbError](read(bytes)).getMessage
+
+  /** Voxels in several leaves, nodes and tiles of the root, on both sides of zero. */
+  private val values: Map[(Int, Int, Int), Float] =
+    val random = Random(1)
+    val corners = Vector((0, 0, 0), (7, 7, 7), (-130, 126, 4094), (-1, -1, -1), (120, 5, 4100))
+    corners.flatMap((x, y, z) =>
+      for i <- 0 to 2; j <- 0 to 2; k <- 0 to 2
+      yield (x + i, y + j, z + k) -> random.nextFloat()
+    ).toMap
+
+  private def at(grid: NanoVdbGrid, p: (Int, Int, Int)) =
+    grid.tree.interpolated(p._1.toFloat, p._2.toFloat, p._3.toFloat)
+
+  for zipped <- Vector(false, true) do
+    test(s"every voxel is read, and zero everywhere else${if zipped then ", by ZIP" else ""}"):
+      val found = grid(NanoVdb.file(Vector(VdbGrid("density", values)), zipped))
+      for (p, value) <- values do assert(at(found, p) == value)
+      for p <- Vector((3, 3, 3), (-200, 0, 0), (100000, 0, 0), (0, 0, 50), (-1, -1, 4000)) do
+        assert(at(found, p) == 0f)
+      assert(found.low == Vector(-130, -1, -1) && found.high == Vector(122, 128, 4102))
+
+  test("between voxels, values are interpolated, across leaves and nodes too"):
+    val found = grid(NanoVdb.file(Vector(VdbGrid("density", values))))
+    def value(x: Int, y: Int, z: Int) = values.getOrElse((x, y, z), 0f)
+    for (x, y, z) <- Vector((0, 0, 0), (7, 7, 7), (-130, 127, 4095), (-1, -1, -1), (1, 7, 0)) do
+      val (u, v, w) = (0.25f, 0.5f, 0.125f)
+      def line(i: Int, j: Int) = lerp(w, value(i, j, z), value(i, j, z + 1))
+      def plane(i: Int) = lerp(v, line(i, y), line(i, y + 1))
+      val wanted = lerp(u, plane(x), plane(x + 1))
+      assert(Math.abs(found.tree.interpolated(x + u, y + v, z + w) - wanted) < 1e-6f, s"$x $y $z")
+
+  test("bounds of boxes are exact"):
+    val tree = grid(NanoVdb.file(Vector(VdbGrid("density", values)))).tree
+    assert(tree.maximum == values.values.max)
+    val random = Random(2)
+    for _ <- 0 until 200 do
+      val (x, y, z) = values.keys.toVector(random.nextInt(values.size))
+      val Vector(a, b, c, d, e, f) = Vector.fill(6)(random.nextInt(12)): @unchecked
+      val inside = values.collect:
+        case ((i, j, k), v)
+            if i >= x - a && i <= x + b && j >= y - c && j <= y + d && k >= z - e && k <= z + f =>
+          v
+      assert(tree.most(x - a, y - c, z - e, x + b, y + d, z + f) == inside.max)
+    val all = Int.MinValue
+    assert(tree.most(all, all, all, Int.MaxValue, Int.MaxValue, Int.MaxValue) == tree.maximum)
+
+  test("the map of a grid is read: scaled, turned and moved"):
+    val shift = Vector(1.0, 2.0, 3.0)
+    val found =
+      grid(NanoVdb.file(Vector(VdbGrid("density", values, 0.5, shift, turned = true))))
+    // x to −y: voxel (2, 4, 6) is at (1 + 4/2 · −1 …): the writer's matrix is 0 −1 0 / 1 0 0
+    assert(found.toIndex.inverse.point(Vec3(2f, 4f, 6f)) == Vec3(-1f, 3f, 6f))
+
+  test("grids are found by name; others are listed"):
+    val other = Map((1, 2, 3) -> 5f)
+    val file = NanoVdb.file(Vector(VdbGrid("density", values), VdbGrid("heat", other)))
+    assert(at(grid(file, "heat"), (1, 2, 3)) == 5f)
+    assert(read(file, "flame") == Left(Vector("density", "heat")))
+    val twice = file ++ NanoVdb.file(Vector(VdbGrid("fog", other)))
+    assert(at(grid(twice, "fog"), (1, 2, 3)) == 5f)
+
+  test("constant tiles of nodes stand for all of their voxels"):
+    val file = NanoVdb.file(Vector(VdbGrid("density", Map((0, 0, 0) -> 1f))))
+    val body = 16 + 176 + 8
+    val root = body + 672 + 64
+    val upper = root + 64 + 32
+    val lower = upper + 270400
+    def put(at: Int, value: Float) =
+      java.nio.ByteBuffer.wrap(file).order(java.nio.ByteOrder.LITTLE_ENDIAN).putFloat(at, value)
+    put(upper + 8256 + 8 * 1, 7f)
+    put(lower + 1088 + 8 * 1, 3f): Unit
+    val found = grid(file)
+    assert(at(found, (0, 0, 128)) == 7f && at(found, (127, 127, 255)) == 7f)
+    assert(at(found, (0, 0, 8)) == 3f && at(found, (7, 7, 15)) == 3f)
+    assert(at(found, (0, 0, 7)) == 0f && at(found, (0, 0, 256)) == 0f)
+
+  test("what can't be read is named"):
+    val file = NanoVdb.file(Vector(VdbGrid("density", Map((0, 0, 0) -> 1f))))
+    def changed(at: Int, bytes: Int*) = file.patch(at, bytes.map(_.toByte), bytes.size)
+    val body = 16 + 176 + 8
+    assert(refusal("no volume at all".getBytes).startsWith("not a NanoVDB file: byte 0"))
+    assert(refusal(Array.emptyByteArray) == "the file is empty")
+    assert(refusal(changed(11, 5)) == "it has version 40 of the format, expected 32")
+    assert(refusal(changed(14, 2)) == "grid `density` is stored with BLOSC, expected none or ZIP")
+    assert(refusal(changed(body + 636, 15)) == "its values are of type fp16, expected float")
+    assert(refusal(changed(body + 632, 1)) == "the grid is a level set, expected a fog volume")
+    assert(refusal(file.take(300000)).startsWith("the file is cut short: 307232 bytes at 200"))
+    assert(refusal(changed(body + 672 + 64 + 24, 255, 255, 255, 127)).contains("tiles"))
+    assert(refusal(changed(body + 456, 0, 0, 0, 0, 0, 0, 0, 0)).contains("a rotation and a scale"))
+    val zipped = NanoVdb.file(Vector(VdbGrid("density", Map((0, 0, 0) -> 1f))), zipped = true)
+    val longer = zipped.patch(16 + 7, Array[Byte](1), 1)
+    assert(refusal(longer).startsWith("a ZIP stream is cut short"))
+
+  test("damaged files are read or refused, never anything else"):
+    val random = Random(3)
+    val grids = Vector(VdbGrid("density", Map((0, 0, 0) -> 1f, (0, 0, 130) -> 2f)))
+    val (file, zipped) = (NanoVdb.file(grids), NanoVdb.file(grids, zipped = true))
+    val body = 200
+    val root = body + 672 + 64
+    // Where a number means something, and by how much to miss it
+    val places = Vector(
+      0 -> 200,
+      body -> 672,
+      body + 672 -> 64,
+      root -> 96,
+      root + 96 + 4128 -> 64,
+      root + 96 + 8256 -> 64,
+      root + 96 + 270400 + 544 -> 64,
+      root + 96 + 270400 + 1088 -> 64
+    )
+    val outcomes =
+      for i <- 0 until 1500 yield
+        val copy = (if i % 5 == 0 then zipped else file).clone
+        for _ <- 0 to random.nextInt(3) do
+          val (from, length) =
+            if i % 5 == 0 then (0, copy.length) else places(random.nextInt(places.size))
+          copy(from + random.nextInt(length)) = random.nextInt(4) match
+            case 0 => 0
+            case 1 => -1
+            case 2 => 127
+            case _ => random.nextInt().toByte
+        val damaged =
+          if random.nextInt(10) == 0 then copy.take(random.nextInt(copy.length)) else copy
+        try read(damaged)
+        catch case e: NanoVdbError => Left(Vector(e.getMessage))
+    assert(outcomes.exists(_.isLeft) && outcomes.exists(_.isRight))
