@@ -106,8 +106,9 @@ function liveView(size) {
         try {
           const rows = await (await fetch(`pixel?x=${x}&y=${y}`)).json();
           const text = v => (v === null ? "–" : short(v)).padStart(11);
+          const wide = Math.max(18, ...rows.map(r => r.layer.length));
           readout.textContent = `pixel (${x + size.x0}, ${y + size.y0})\n` +
-            rows.map(r => `${r.layer.padEnd(18)} ${r.values.map(text).join(" ")}`).join("\n");
+            rows.map(r => `${r.layer.padEnd(wide)} ${r.values.map(text).join(" ")}`).join("\n");
           live.dataset.pixel = JSON.stringify({ x, y, version: s.version, rows });
         } catch (e) { /* the next state tells that the server has gone */ }
       }, 40);

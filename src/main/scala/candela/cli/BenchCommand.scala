@@ -25,7 +25,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     paths.foreach(checkFolder)
     val suite = read(source).only(asked.programs, asked.scenes)
     val told = if asked.denoise then suite.withDenoised else suite
-    val shown = asked.samples.fold(told)(counts => told.copy(work = Work.Samples(counts)))
+    val shown = asked.work.fold(told)(work => told.copy(work = work))
     terminal.interrupts.during(cancellation):
       val results = inScratch(measured(seeded(withoutOwnWork(shown)), paths, _))
       if results.scenes.nonEmpty then
@@ -61,9 +61,9 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
   private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
 
-  /** Sample counts on the command line apply to all scenes. */
+  /** Sample counts and budgets on the command line apply to all scenes. */
   private def withoutOwnWork(suite: Suite): Suite =
-    if asked.samples.isEmpty then suite
+    if asked.work.isEmpty then suite
     else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
 
   /** Default without `--report`: an HTML page in the current folder, named after the suite. */
@@ -116,12 +116,13 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
 
 /** Options of `bench`; empty or None keeps the suite's setting.
   *
+  * @param work sample counts or time budgets
   * @param references folder of the references of a folder of scenes, if not that folder
   * @param pictures whether the page contains all images
   * @param denoise whether Candela also renders with --denoise
   */
 final case class BenchOptions(
-    samples: Option[Vector[Int]] = None,
+    work: Option[Work] = None,
     seeds: Option[Int] = None,
     programs: Vector[String] = Vector.empty,
     scenes: Vector[String] = Vector.empty,
@@ -147,7 +148,11 @@ private[cli] object BenchTable:
     opt[Seq[Int]]("samples").valueName("N,...")
       .text("samples per pixel; overrides the suite")
       .validate(n => if n.forall(_ >= 1) then success else failure("--samples must be at least 1"))
-      .action((n, o) => change(o)(_.copy(samples = Some(n.toVector.distinct.sorted)))),
+      .action((n, o) => change(o)(_.copy(work = Some(Work.Samples(n.toVector.distinct.sorted))))),
+    opt[Seq[Double]]("seconds").valueName("N,...")
+      .text("time per image, instead of samples; overrides the suite")
+      .validate(n => if n.forall(_ > 0) then success else failure("--seconds must be above 0"))
+      .action((n, o) => change(o)(_.copy(work = Some(Work.Seconds(n.toVector.distinct.sorted))))),
     opt[Int]("seeds").valueName("N")
       .text("independent images per sample count; overrides the suite")
       .validate: n =>

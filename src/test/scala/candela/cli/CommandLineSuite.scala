@@ -5,6 +5,7 @@ import candela.build.LightGrouping
 import candela.film.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
+import candela.suite.Work
 import candela.watch.WatchAddress
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -66,12 +67,17 @@ class CommandLineSuite extends AnyFunSuite:
         files = Vector("s.conf"),
         reports = Vector("x.html"),
         bench = BenchOptions(
-          samples = Some(Vector(1, 4)),
+          work = Some(Work.Samples(Vector(1, 4))),
           seeds = Some(5),
           programs = Vector("a", "b"),
           scenes = Vector("c")
         )
       ),
+    "bench s.conf --denoise --seconds 8,0.5" -> Options(
+      command = Command.Bench,
+      files = Vector("s.conf"),
+      bench = BenchOptions(work = Some(Work.Seconds(Vector(0.5, 8))), denoise = true)
+    ),
     "compare a.exr b.exr" ->
       Options(command = Command.Compare, files = Vector("a.exr", "b.exr")),
     "compare --max-relmse 0.01 a.exr b.exr" ->

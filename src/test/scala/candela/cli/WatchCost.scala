@@ -21,7 +21,7 @@ object WatchCost:
     val options = args.grouped(2).collect { case Array(key, value) => key -> value }.toMap
     val rounds = options.get("--rounds").fold(7)(_.toInt)
     val scene = options.getOrElse("--scene", "scenes/showcase.pbrt")
-    val spp = options.getOrElse("--spp", "256")
+    val spp = options.getOrElse("--spp", "32")
     val ways = Vector("not watched" -> None, "watched, no viewer" -> Some(0)) ++
       Vector("one viewer" -> Some(1), "two viewers" -> Some(2))
     val seconds = (1 to rounds).toVector.map: round =>

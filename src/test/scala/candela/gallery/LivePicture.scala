@@ -13,14 +13,15 @@ object LivePicture:
     val browser = Chromium.installed.getOrElse(sys.error(s"none of ${Chromium.names} is installed"))
     val err = ByteArrayOutputStream()
     val image = Files.createTempFile("live", ".exr")
-    val words = Vector("scenes/showcase.pbrt", "--outfile", s"$image", "--watch", "0")
+    val words = Vector("scenes/showcase.pbrt", "--outfile", s"$image", "--watch", "0") ++
+      Vector("--aov", "albedo,direct,indirect,lights")
     val rendering = Thread: () =>
       val _ = Main.run(words :+ "--spp" :+ "1024", PrintStream(err), PrintStream(err, true))
     rendering.start()
     val link = Chromium.eventually("link"):
       raw"watch at (http://\S+)\n".r.findFirstMatchIn(err.toString).map(_.group(1))
     val _ = Files.createDirectories(file.getParent)
-    Chromium.use(browser, s"$link#x=402&y=205&curve=filmic&theme=light"): page =>
+    Chromium.use(browser, s"$link#x=402&y=205&curve=agx&theme=light"): page =>
       page.until("parseInt(document.getElementById('samples').textContent) >= 16")
       page.until("document.querySelector('#live').dataset.pixel.includes('noise')")
       val _ = Files.write(file, page.screenshot())
