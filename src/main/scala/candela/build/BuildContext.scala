@@ -1,8 +1,10 @@
 package candela.build
 
 import java.nio.file.Path
+import java.util.IdentityHashMap
 
 import candela.base.SourcePos
+import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.color.ColorBasis
 import candela.math.Transform
@@ -24,6 +26,12 @@ private[build] final class BuildContext(
   /** The same scene in another colour basis. */
   def in(basis: ColorBasis): BuildContext =
     new BuildContext(description, resources.in(basis), problems)
+
+  private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
+
+  /** The area light of a statement; many shapes may share it. */
+  def emission(statement: Declaration): Option[AreaLightPlan] =
+    emissions.computeIfAbsent(statement, d => AreaLights.all.build(site(d)).flatten)
 
   def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
     Site(d, dialect, resources, problems, toWorld)

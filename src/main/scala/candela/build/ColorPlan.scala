@@ -31,21 +31,24 @@ private[build] object ColorPlan:
     val (least, uniform) = census.bands.fold((Usual, Wavelengths.Uniform))(n => (4 * n, 1.0))
     def spectral(why: String) =
       val smooth = SmoothSpectra(context.resources.crew)
-      def error(count: Int) =
-        val bases = Wavelengths.covering(count, smooth)
-        ColorError.ofWavelengths(bases, census.lights, census.surfaces)
+      val (lights, surfaces) = (census.lights, census.surfaces)
       val fewest = Math.max(if census.isDispersive then Many else Usual, least)
-      val counts = Iterator.iterate(fewest)(2 * _)
-      val count = counts.find(n => n >= Most || error(n) < LineTolerance).get
-      ColorPlan(
-        Wavelengths.covering(
-          count,
-          smooth,
-          camera.fold(Wavelengths.Observer)(_.responses),
-          uniform
-        ),
-        s"spectral, three of ${3 * count} wavelengths a path: $why"
-      )
+      val observed =
+        Iterator
+          .iterate(fewest)(2 * _)
+          .map(Wavelengths.covering(_, smooth))
+          .find(bases =>
+            bases.size >= Most ||
+              ColorError.ofWavelengths(bases, lights, surfaces) < LineTolerance
+          )
+          .get
+      val count = observed.size
+      val bases =
+        if camera.isEmpty && census.bands.isEmpty then observed
+        else
+          val detector = camera.fold(Wavelengths.Observer)(_.responses)
+          Wavelengths.covering(count, smooth, detector, uniform)
+      ColorPlan(bases, s"spectral, three of ${3 * count} wavelengths a path: $why")
     mode(asked, context.dialect) match
       case ColorMode.Spectral => spectral("as asked for")
       case ColorMode.Rgb if asked == ColorMode.Rgb =>

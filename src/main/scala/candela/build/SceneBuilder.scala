@@ -69,6 +69,7 @@ object SceneBuilder:
     val world =
       WorldBuilder(
         context,
+        integrator,
         integratorIn,
         camera.shutter,
         samples,

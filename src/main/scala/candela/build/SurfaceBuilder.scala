@@ -4,7 +4,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks}
 import candela.bsdf.InterfaceMaterial
-import candela.build.lights.{AreaLightPlan, AreaLights, MeshLights}
+import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
 import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes, SoupBuilder}
 import candela.lights.Light
@@ -43,18 +43,15 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       make: (AreaLightPlan, TriangleSoup) => Vector[Light]
   ): Unit =
     lights += { (context, soup) =>
-      emission(statement, context).toVector.flatMap: plan =>
+      context.emission(statement).toVector.flatMap: plan =>
         make(plan, soup).map(SampledLight(_, plan.samples, statement))
     }
     lightCount += count
 
-  private def emission(statement: Declaration, context: BuildContext): Option[AreaLightPlan] =
-    AreaLights.all.build(context.site(statement)).flatten
-
   def add(dressed: DressedShape): Unit =
     val here = context.site(dressed.declared)
     for plan <- Shapes.all.build(here).flatten do
-      val lamp = dressed.shape.areaLight.filter(emission(_, context).isDefined)
+      val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
       if lamp.isDefined || !isNothing(dressed.material) then
         Placement(dressed, here, plan, lamp).place(plan.geometry)
 

@@ -39,7 +39,8 @@ private[build] final class Structure(
 /** Builds the world of a description in stages: materials, surfaces, lights, acceleration
   * structures, scene, and render method.
   *
-  * @param integratorIn the integrator, in the colour basis of a context
+  * @param integrator   in the colour basis of `context`
+  * @param integratorIn the integrator, in the colour basis of another context
   * @param samples      maximum number of camera samples
   * @param mode         as asked for
   * @param sensor       the camera's, unless it is the standard observer
@@ -47,6 +48,7 @@ private[build] final class Structure(
   */
 private[build] final class WorldBuilder(
     context: BuildContext,
+    integrator: IntegratorPlan,
     integratorIn: BuildContext => IntegratorPlan,
     shutter: Shutter,
     samples: Long,
@@ -54,7 +56,6 @@ private[build] final class WorldBuilder(
     sensor: Option[CameraSensor],
     grouping: Option[LightGrouping]
 ):
-  private val integrator = integratorIn(context)
   import context.{description, problems}
 
   /** @param footprints evaluated only if a texture or a material needs ray differentials */

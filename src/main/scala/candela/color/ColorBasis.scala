@@ -12,8 +12,10 @@ abstract class ColorBasis:
   /** Components of a reflectance with this colour, in linear sRGB. */
   def fromSrgb(c: Rgb): Rgb
 
-  /** As [[fromSrgb]], or [[unbounded]] if a component is above 1: for textures, while rendering. */
-  def lookUp(c: Rgb): Rgb
+  /** As [[fromSrgb]], or [[unbounded]] if a component is above 1: for colours that are known while
+    * rendering only. To ask for it may compute a table.
+    */
+  def lookUp: Rgb => Rgb
 
   /** Components of light with this colour. */
   def ofLight(c: Rgb): Rgb
@@ -80,7 +82,7 @@ object ColorBasis:
   private final class ThreeNumbers(toRows: Array[Float], fromRows: Array[Float]) extends ColorBasis:
     def toSrgb(c: Rgb): Rgb = times(toRows, c)
     def fromSrgb(c: Rgb): Rgb = times(fromRows, c)
-    def lookUp(c: Rgb): Rgb = fromSrgb(c)
+    def lookUp: Rgb => Rgb = fromSrgb(_)
     def ofLight(c: Rgb): Rgb = fromSrgb(c)
     def unbounded(c: Rgb): Rgb = fromSrgb(c)
     def ofReflectance(s: Float => Float): Rgb =

@@ -1,14 +1,12 @@
 package candela.color
 
+import candela.base.loop
+
 /** Light or a reflectance: its spectrum, and the three numbers that stand for it.
   *
   * @param values at the wavelengths of [[ColorError.wavelengths]]; light relative to D65
   */
-final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
-  /** Whether it is grey, for which three numbers are exact. */
-  def isGrey: Boolean =
-    val (low, high) = (values.min, values.max)
-    high - low <= 1e-4 * high
+final class ColoredSpectrum(val values: Array[Double], val components: Rgb)
 
 /** Error of three-number colour: light and surfaces are multiplied as spectra, and as the
   * components of a basis.
@@ -22,14 +20,7 @@ final class ColoredSpectrum(val values: Array[Double], val components: Rgb):
   */
 object ColorError:
   /** In nm. */
-  val wavelengths: Array[Float] = Colorimetry.responses.map(_._1)
-
-  /** Response of each channel of linear sRGB to D65 at each wavelength. */
-  private val responses: Array[Array[Double]] =
-    val raw = Colorimetry.responses.map((_, c) => Array(c.r.toDouble, c.g, c.b))
-    Array.tabulate(3): c =>
-      val sum = raw.map(_(c)).sum
-      raw.map(_(c) / sum)
+  def wavelengths: Array[Float] = Colorimetry.wavelengths
 
   /** Share of the brightest channel below which a channel's error is measured against that. */
   val Floor = 0.05
@@ -46,14 +37,13 @@ object ColorError:
   ): Double =
     val all = if surfaces.isEmpty then Seq(Grey) else surfaces
     val mean = mixed(all.map(_ -> 1.0 / all.size)*)
-    val around = all.map(b => mixed(b -> Prevailing, mean -> (1 - Prevailing)))
-    val errors =
+    val around =
       for
-        light <- lights
-        a <- all
-        m <- around
+        b <- all
+        m = mixed(b -> Prevailing, mean -> (1 - Prevailing))
         first <- Seq(0, 1) if first < depth
-      yield error(light, a, m, first, depth, basis)
+      yield gathered(m, first, depth)
+    val errors = for light <- lights; a <- all; m <- around yield error(light, a, m, basis)
     Margin * errors.maxOption.getOrElse(0.0)
 
   /** Share of the one colour that prevails around a surface. */
@@ -68,23 +58,22 @@ object ColorError:
 
   private val Grey = ColoredSpectrum(wavelengths.map(_ => 0.5), Rgb.gray(0.5f))
 
+  /** Light that reaches a surface in a cavity of `m`, of unit light. */
+  private def gathered(m: ColoredSpectrum, first: Int, depth: Int): ColoredSpectrum =
+    ColoredSpectrum(
+      m.values.map(series(_, first, depth)),
+      m.components.map(c => series(c, first, depth).toFloat)
+    )
+
   private def error(
       light: ColoredSpectrum,
       a: ColoredSpectrum,
-      b: ColoredSpectrum,
-      first: Int,
-      depth: Int,
+      around: ColoredSpectrum,
       basis: ColorBasis
   ): Double =
-    val spectrum = Array.tabulate(wavelengths.length): w =>
-      light.values(w) * a.values(w) * series(b.values(w), first, depth)
-    def component(l: Float, x: Float, y: Float) = (l * x * series(y, first, depth)).toFloat
-    val three = Rgb(
-      component(light.components.r, a.components.r, b.components.r),
-      component(light.components.g, a.components.g, b.components.g),
-      component(light.components.b, a.components.b, b.components.b)
-    )
-    difference(spectrum, basis.toSrgb(three))
+    val spectrum = Array.tabulate(light.values.length): w =>
+      light.values(w) * a.values(w) * around.values(w)
+    difference(spectrum, basis.toSrgb(light.components * a.components * around.components))
 
   /** Σ b^k for k from `first` to `depth` − 1. */
   private def series(b: Double, first: Int, depth: Int): Double =
@@ -129,4 +118,7 @@ object ColorError:
 
   /** Linear sRGB of a spectrum of light relative to D65. */
   def seen(spectrum: Array[Double]): Array[Double] =
-    responses.map(r => r.indices.map(w => r(w) * spectrum(w)).sum)
+    val sums = new Array[Double](3)
+    loop(spectrum.length): w =>
+      loop(3)(c => sums(c) += Colorimetry.shares(3 * w + c) * spectrum(w))
+    sums

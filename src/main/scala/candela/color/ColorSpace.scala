@@ -92,7 +92,7 @@ final class ColorSpace private (
 
   /** X, Y and Z by wavelength (in nm, first) of the illuminant, over the Y of white. */
   private[color] lazy val seen: Array[Array[Double]] =
-    val nms = Colorimetry.responses.map(_(0))
+    val nms = Colorimetry.wavelengths
     val y = Colorimetry.observers(1)
     val all = nms.map(nm => (5.0 * y(nm)) * illuminant(nm)).sum
     nms.map: nm =>

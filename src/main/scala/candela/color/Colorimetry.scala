@@ -52,6 +52,15 @@ object Colorimetry:
       val light = D65(nm).toDouble
       (nm, fromXyz(light * x, light * y, light * z))
 
+  /** The wavelengths of [[responses]]. */
+  private[color] lazy val wavelengths: Array[Float] = responses.map(_._1)
+
+  /** Shares of [[responses]] in the channels of white: red, green, blue for each wavelength. */
+  private[color] lazy val shares: Array[Double] =
+    val raw = responses.map((_, c) => Array(c.r.toDouble, c.g, c.b))
+    val sums = Array.tabulate(3)(i => raw.map(_(i)).sum)
+    raw.flatMap(row => Array.tabulate(3)(i => row(i) / sums(i)))
+
   /** Colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's convention for emission. */
   def unitLuminance(spectrum: Float => Float): Rgb =
     val c = rgb(spectrum, White.EqualEnergy)

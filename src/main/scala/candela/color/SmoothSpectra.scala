@@ -3,20 +3,51 @@ package candela.color
 import candela.base.Parallel
 import candela.math.*
 
-/** Coefficients of smooth spectra on a grid of colours, for lookups while rendering; see
-  * [[Upsampling]] for the spectra and their source. Immutable.
+/** Smooth spectra of colours in linear sRGB; see [[Upsampling]] for the spectra and their source.
+  *
+  * @param crew computes the table
+  */
+final class SmoothSpectra(crew: Parallel):
+  private val fitted = scala.collection.mutable.HashMap.empty[Rgb, Float => Float]
+
+  /** The spectrum of one colour, fitted exactly: for the few colours of a scene file. */
+  def exact(color: Rgb): Float => Float =
+    fitted.synchronized(fitted.getOrElseUpdate(color, SmoothSpectra.spectrum(color)))
+
+  /** For colours that are known while rendering only; computed when it is first asked for. */
+  lazy val table: SpectrumTable = SpectrumTable(crew)
+
+object SmoothSpectra:
+  /** Bounds of the largest component of a colour that is fitted. */
+  private[color] inline val Least = 1e-4f
+  private[color] inline val Most = 0.9999f
+
+  /** Steps from grey to a colour. */
+  private val Steps = 6
+
+  /** The spectrum of one colour with components in [0, 1], fitted exactly. */
+  def spectrum(color: Rgb): Float => Float =
+    val fit = SpectrumFit()
+    val target = Array(color.r, color.g, color.b).map(c => clamp(c, Least, Most).toDouble)
+    for step <- 1 to Steps do
+      fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
+    val (c0, c1, c2) = (fit.c(0).toFloat, fit.c(1).toFloat, fit.c(2).toFloat)
+    nm => logistic(c0, c1, c2, nm)
+
+  private[color] def logistic(c0: Float, c1: Float, c2: Float, nm: Float): Float =
+    val x = (nm - 360f) * (1f / 470f)
+    val t = (c0 * x + c1) * x + c2
+    0.5f + 0.5f * t / sqrt(1f + t * t)
+
+/** Coefficients of smooth spectra on a grid of colours. Immutable.
   *
   * As in Jakob and Hanika's tables, the grid has three parts by the largest component; its value
   * is the third coordinate, in steps that are finer near black and white, and the other two
   * components are relative to it.
   */
-final class SmoothSpectra private (data: Array[Float]):
+final class SpectrumTable private (data: Array[Float]):
   import SmoothSpectra.*
-  private val fitted = scala.collection.mutable.HashMap.empty[Rgb, Float => Float]
-
-  /** The spectrum of one colour, fitted exactly: for the few colours of a scene file. */
-  def exact(color: Rgb): Float => Float =
-    fitted.synchronized(fitted.getOrElseUpdate(color, spectrum(color)))
+  import SpectrumTable.*
 
   /** The spectrum of a colour with components in [0, 1], at three wavelengths in nm. */
   def at(r: Float, g: Float, b: Float, nm0: Float, nm1: Float, nm2: Float): Rgb =
@@ -26,7 +57,7 @@ final class SmoothSpectra private (data: Array[Float]):
     val y = step(if largest == 0 then b else if largest == 1 then r else g, z)
     val i = Math.min(x.toInt, Size - 2)
     val j = Math.min(y.toInt, Size - 2)
-    var k = 0
+    var k = Starts((z * Starts.length).toInt).toInt
     while k < Size - 2 && Levels(k + 1) <= z do k += 1
     val tx = x - i
     val ty = y - j
@@ -48,10 +79,9 @@ final class SmoothSpectra private (data: Array[Float]):
     val up = at + 3 * Size
     lerp(ty, lerp(tx, data(at), data(at + 3)), lerp(tx, data(up), data(up + 3)))
 
-object SmoothSpectra:
+object SpectrumTable:
+  import SmoothSpectra.{Least, Most}
   private inline val Size = 40
-  private inline val Least = 1e-4f
-  private inline val Most = 0.9999f
 
   /** Values of the largest component. */
   private val Levels: Array[Float] = Array.tabulate(Size): k =>
@@ -59,34 +89,20 @@ object SmoothSpectra:
     val t = smoothStep(k.toDouble / (Size - 1))
     (Least + (Most - Least) * t).toFloat
 
+  /** Index of a level at or below `z`, by the integer part of `z * Starts.length`. */
+  private val Starts: Array[Byte] = Array.tabulate(256): cell =>
+    Math.max(Levels.lastIndexWhere(_ <= cell / 256f), 0).toByte
+
   /** The other components relative to the largest. */
   private def share(i: Int): Double = i.toDouble / (Size - 1)
 
   private def place(largest: Int, k: Int, j: Int, i: Int): Int =
     3 * (((largest * Size + k) * Size + j) * Size + i)
 
-  private def logistic(c0: Float, c1: Float, c2: Float, nm: Float): Float =
-    val x = (nm - 360f) * (1f / 470f)
-    val t = (c0 * x + c1) * x + c2
-    0.5f + 0.5f * t / sqrt(1f + t * t)
-
-  /** Spectra of the colours of sRGB. */
-  def apply(crew: Parallel): SmoothSpectra =
+  def apply(crew: Parallel): SpectrumTable =
     val data = new Array[Float](3 * 3 * Size * Size * Size)
     crew.each(3 * Size)(row => fill(data, row / Size, row % Size))
-    new SmoothSpectra(data)
-
-  /** The spectrum of one colour with components in [0, 1], fitted exactly. */
-  def spectrum(color: Rgb): Float => Float =
-    val fit = SpectrumFit()
-    val target = Array(color.r, color.g, color.b).map(c => clamp(c, Least, Most).toDouble)
-    for step <- 1 to Steps do
-      fit.to(target.map(c => 0.5 + (c - 0.5) * step / Steps))
-    val (c0, c1, c2) = (fit.c(0).toFloat, fit.c(1).toFloat, fit.c(2).toFloat)
-    nm => logistic(c0, c1, c2, nm)
-
-  /** Steps from grey to a colour. */
-  private val Steps = 6
+    new SpectrumTable(data)
 
   /** Fits a plane of constant `j`, from the middle level outwards, each colour from the last. */
   private def fill(data: Array[Float], largest: Int, j: Int): Unit =
@@ -96,7 +112,6 @@ object SmoothSpectra:
         fit.restart()
         for k <- levels do
           val z = Levels(k).toDouble
-          // Not fully saturated, which no bounded spectrum is
           val c = Array(z, z, z)
           c((largest + 1) % 3) = z * share(i)
           c((largest + 2) % 3) = z * share(j)
@@ -139,7 +154,7 @@ private[color] final class SpectrumFit:
       val slope = 0.5 * root * root * root
       var i = 0
       while i < 3 do
-        val response = responses(3 * w + i)
+        val response = shares(3 * w + i)
         off(i) += response * s
         val d = response * slope
         jacobian(3 * i) += d * x * x
@@ -176,12 +191,5 @@ private[color] final class SpectrumFit:
 private[color] object SpectrumFit:
   private val Iterations = 8
   private val Longest = 20.0
-  private inline val Count = 95
-
-  /** Contribution to linear sRGB of each wavelength of a white surface under D65; their sum is
-    * white.
-    */
-  private val responses: Array[Double] =
-    val raw = Colorimetry.responses.map((_, c) => Array(c.r.toDouble, c.g, c.b))
-    val sums = Array.tabulate(3)(i => raw.map(_(i)).sum)
-    raw.flatMap(row => Array.tabulate(3)(i => row(i) / sums(i)))
+  private val shares = Colorimetry.shares
+  private val Count = Colorimetry.wavelengths.length

@@ -36,13 +36,15 @@ final class Wavelengths private (
     val scale = 2f * c.max
     if isGrey(c) || !(scale > 0f) then c else each(smooth.exact(c * (1f / scale))) * scale
 
-  def lookUp(c: Rgb): Rgb =
-    val most = c.max
-    if isGrey(c) || !(most > 0f) then c
-    else if most <= 1f then smooth.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
-    else
-      val s = 0.5f / most
-      smooth.at(c.r * s, c.g * s, c.b * s, nm(0), nm(1), nm(2)) * (2f * most)
+  def lookUp: Rgb => Rgb =
+    val table = smooth.table
+    c =>
+      val most = c.max
+      if isGrey(c) || !(most > 0f) then c
+      else if most <= 1f then table.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
+      else
+        val s = 0.5f / most
+        table.at(c.r * s, c.g * s, c.b * s, nm(0), nm(1), nm(2)) * (2f * most)
 
   private def isGrey(c: Rgb): Boolean = c.r == c.g && c.g == c.b
 
@@ -88,6 +90,7 @@ object Wavelengths:
     *
     * @param detector response of its three channels to a unit of light at a wavelength in nm, in
     *                 units in which D65 has the luminance that [[Colorimetry.luminanceOfD65]] says
+    * @param uniform  share of the wavelengths that are spread evenly instead
     */
   def covering(
       count: Int,

@@ -23,11 +23,6 @@ final case class LightBounds(
     power: Float,
     twoSided: Boolean
 ):
-  /** Estimate of the contribution to `p` with normal `n` (zero vector: a point that receives light
-    * from all directions). Zero only if these lights can't contribute.
-    */
-  def importance(p: Vec3, n: Vec3): Float = LightNodes(Array(this)).importance(0, p, n)
-
   def union(b: LightBounds): LightBounds =
     if power == 0f then b
     else if b.power == 0f then this
@@ -88,7 +83,9 @@ final class LightNodes(bounds: Array[LightBounds]):
     )
     System.arraycopy(row, 0, data, Stride * i, row.length)
 
-  /** [[LightBounds.importance]] of the bounds with this index. */
+  /** Estimate of the contribution of the lights with this index to `p` with normal `n` (zero
+    * vector: a point that receives light from all directions). Zero only if they can't contribute.
+    */
   def importance(node: Int, p: Vec3, n: Vec3): Float =
     val at = Stride * node
     val x = data(at) - p.x

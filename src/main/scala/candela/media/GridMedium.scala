@@ -15,14 +15,14 @@ final class GridMedium(
     scattering: Rgb,
     glow: Option[Glow],
     val phase: HenyeyGreenstein
-) extends VaryingMedium(toUnit, GridMedium.bounds(density), absorption + scattering):
+) extends VaryingMedium(toUnit, density.majorants, absorption + scattering):
   private val glowing: Glow | Null = glow.orNull
   def isEmissive: Boolean = glow.isDefined
   def isChromatic: Boolean = Medium.isChromatic(absorption, scattering)
 
   def describe: String =
     val light = glow.fold("")(g => s", ${g.describe}")
-    s"grid ${density.describe} with bounds of ${GridMedium.bounds(density).describe}$light"
+    s"grid ${density.describe} with bounds of ${density.majorants.describe}$light"
 
   protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
     val d = Math.max(0f, density(x, y, z))
@@ -33,10 +33,6 @@ final class GridMedium(
       out.glowR *= out.absorbR
       out.glowG *= out.absorbG
       out.glowB *= out.absorbB
-
-object GridMedium:
-  private def bounds(density: SampledGrid): MajorantGrid =
-    MajorantGrid.of(density.nx, density.ny, density.nz)(density.most)
 
 /** Three grids, one per colour. */
 final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid):

@@ -23,6 +23,9 @@ final class SampledGrid(
 ):
   private val isClamped = edge == GridEdge.Clamped
 
+  /** Upper bounds of the values. */
+  lazy val majorants: MajorantGrid = MajorantGrid.of(nx, ny, nz)(most)
+
   def apply(x: Float, y: Float, z: Float): Float =
     val sx = x * nx - 0.5f
     val sy = y * ny - 0.5f

@@ -1,6 +1,6 @@
 package candela.textures
 
-import candela.color.{ColorBasis, Rgb}
+import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.lerp
 
@@ -66,5 +66,5 @@ object MixRgb:
   private def mix(t: Float, a: Rgb, b: Rgb): Rgb = a * (1f - t) + b * t
 
 /** A texture of linear sRGB colours, converted to another basis. */
-final class RebasedTexture(texture: RgbTexture, basis: ColorBasis) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = basis.lookUp(texture(at))
+final class RebasedTexture(texture: RgbTexture, convert: Rgb => Rgb) extends RgbTexture:
+  def apply(at: ShadingPoint): Rgb = convert(texture(at))

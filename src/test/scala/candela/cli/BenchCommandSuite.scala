@@ -11,9 +11,7 @@ import org.scalatest.funsuite.AnyFunSuite
 /** `candela bench`, with a program that copies a picture for a renderer. */
 class BenchCommandSuite extends AnyFunSuite:
 
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run("bench" +: args, captured.terminal), captured)
+  private def run(args: String*): (Int, Captured) = Captured.run("bench" +: args*)
 
   private def flat(path: Path, value: Float): Unit =
     val image = Image.rgb(4, 3)

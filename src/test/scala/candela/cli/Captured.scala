@@ -22,3 +22,9 @@ final class Captured(
 
   def out: String = outBytes.toString(UTF_8)
   def err: String = errBytes.toString(UTF_8)
+
+object Captured:
+  /** Runs the program; returns its exit code and what it printed. */
+  def run(args: String*): (Int, Captured) =
+    val captured = Captured()
+    (Main.run(args, captured.terminal), captured)

@@ -6,17 +6,11 @@ import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import FlatImages.flat
+
 class CompareCommandSuite extends AnyFunSuite:
 
-  private def flat(path: Path, value: Float, width: Int = 4, height: Int = 2): String =
-    val image = Image.rgb(width, height)
-    java.util.Arrays.fill(image.data, value)
-    ImageFiles.write(path, image)
-    path.toString
-
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run("compare" +: args, captured.terminal), captured)
+  private def run(args: String*): (Int, Captured) = Captured.run("compare" +: args*)
 
   test("equal images have no error"):
     TempFolder.use: folder =>

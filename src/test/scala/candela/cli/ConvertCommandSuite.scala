@@ -6,9 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class ConvertCommandSuite extends AnyFunSuite:
 
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run("convert" +: args, captured.terminal.out, captured.terminal.err), captured)
+  private def run(args: String*): (Int, Captured) = Captured.run("convert" +: args*)
 
   private val old =
     "WorldBegin\nMaterial \"matte\" \"float sigma\" 20\nShape \"sphere\"\nWorldEnd\n"

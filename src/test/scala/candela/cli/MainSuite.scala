@@ -6,9 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class MainSuite extends AnyFunSuite:
 
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run(args, captured.terminal.out, captured.terminal.err), captured)
+  private def run(args: String*): (Int, Captured) = Captured.run(args*)
 
   test("--help and --version print to standard output and exit with 0"):
     for option <- Vector("--help", "--version") do

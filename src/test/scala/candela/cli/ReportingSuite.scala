@@ -9,6 +9,8 @@ import org.scalatest.funsuite.AnyFunSuite
 /** `--report`, from the scene's text to the files. */
 class ReportingSuite extends AnyFunSuite:
 
+  private def run(args: String*): (Int, Captured) = Captured.run(args*)
+
   private val scene =
     """LookAt 0 0 -4  0 0 0  0 1 0
       |Camera "perspective" "float fov" 40
@@ -19,10 +21,6 @@ class ReportingSuite extends AnyFunSuite:
       |LightSource "infinite" "rgb L" [ 0.2 0.3 0.4 ]
       |Shape "sphere" "float radius" 1
       |""".stripMargin
-
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run(args, captured.terminal), captured)
 
   private def withScene[A](body: (Path, String) => A): A =
     TempFolder.use: folder =>

@@ -1,27 +1,21 @@
 package candela.cli
 
 import candela.color.Srgb
-import candela.image.{Image, ImageFiles}
+import candela.image.ImageFiles
 
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import FlatImages.flat
+
 class ViewCommandSuite extends AnyFunSuite:
 
-  private def flat(path: Path, value: Float): String =
-    val image = Image.rgb(40, 20)
-    java.util.Arrays.fill(image.data, value)
-    ImageFiles.write(path, image)
-    path.toString
-
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run("view" +: args, captured.terminal), captured)
+  private def run(args: String*): (Int, Captured) = Captured.run("view" +: args*)
 
   test("one image is written as a picture, by its tone curve and exposure"):
     TempFolder.use: folder =>
-      val a = flat(folder.resolve("a.exr"), 2f)
+      val a = flat(folder.resolve("a.exr"), 2f, 40, 20)
       val out = folder.resolve("a.png")
       val (code, captured) = run(a, "--outfile", out.toString, "--exposure", "-3", "--bits", "16")
       assert(code == 0 && captured.out == s"wrote $out  40x20\n")
@@ -34,7 +28,7 @@ class ViewCommandSuite extends AnyFunSuite:
   test("several images become a contact sheet, each with its own auto exposure"):
     TempFolder.use: folder =>
       val images = Vector(0.01f, 5f, 300f).zipWithIndex.map: (value, i) =>
-        flat(folder.resolve(s"$i.exr"), value)
+        flat(folder.resolve(s"$i.exr"), value, 40, 20)
       val out = folder.resolve("sheet.png").toString
       val (code, _) =
         run(images ++ Seq("--outfile", out, "--exposure", "auto", "--columns", "3")*)
@@ -45,7 +39,7 @@ class ViewCommandSuite extends AnyFunSuite:
 
   test("without a file it needs a terminal, or a protocol by name"):
     TempFolder.use: folder =>
-      val a = flat(folder.resolve("a.exr"), 0.5f)
+      val a = flat(folder.resolve("a.exr"), 0.5f, 40, 20)
       val (code, captured) = run(a)
       assert(code == 1 && captured.err.contains("--thumbnail kitty, iterm, sixel or blocks"))
       val (shown, terminal) = run(a, "--thumbnail", "blocks")
@@ -54,7 +48,7 @@ class ViewCommandSuite extends AnyFunSuite:
 
   test("linear formats are refused: nothing to view is in them"):
     TempFolder.use: folder =>
-      val a = flat(folder.resolve("a.exr"), 0.5f)
+      val a = flat(folder.resolve("a.exr"), 0.5f, 40, 20)
       val out = folder.resolve("b.exr")
       val pictures = ".png, .jpg, .qoi or .tga"
       val (code, captured) = run(a, "--outfile", out.toString)

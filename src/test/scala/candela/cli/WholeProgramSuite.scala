@@ -9,6 +9,8 @@ import org.scalatest.funsuite.AnyFunSuite
 /** From a scene's text to image files, through everything. */
 class WholeProgramSuite extends AnyFunSuite:
 
+  private def run(args: String*): (Int, Captured) = Captured.run(args*)
+
   private val scene =
     """LookAt 0 0 -4  0 0 0  0 1 0
       |Camera "perspective" "float fov" 40
@@ -27,10 +29,6 @@ class WholeProgramSuite extends AnyFunSuite:
   private def withScene[A](body: (Path, String) => A): A =
     TempFolder.use: folder =>
       body(folder, Files.writeString(folder.resolve("sphere.pbrt"), scene).toString)
-
-  private def run(args: String*): (Int, Captured) =
-    val captured = Captured()
-    (Main.run(args, captured.terminal.out, captured.terminal.err), captured)
 
   private def image(folder: Path, args: String*): Image =
     val file = folder.resolve("out.exr")

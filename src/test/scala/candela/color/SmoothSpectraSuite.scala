@@ -12,7 +12,7 @@ class SmoothSpectraSuite extends AnyFunSuite:
 
   /** Colour of the spectrum under D65. */
   private def seen(c: Rgb): Rgb =
-    Colorimetry.rgb(nm => spectra.at(c.r, c.g, c.b, nm, nm, nm).r, Colorimetry.White.D65)
+    Colorimetry.rgb(nm => spectra.table.at(c.r, c.g, c.b, nm, nm, nm).r, Colorimetry.White.D65)
 
   private def errors(count: Int)(draw: => Rgb): Seq[Double] =
     Seq.fill(count)(draw).map: c =>

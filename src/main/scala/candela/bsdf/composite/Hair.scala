@@ -1,7 +1,7 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{Bsdf, BsdfSample, Fresnel, Hemisphere, Material}
-import candela.color.{ColorBasis, Rgb}
+import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Varying}
@@ -245,16 +245,18 @@ enum Pigment extends Varying:
   /** Multiple-scattering colour of a volume of such hair. */
   case Color(reflectance: RgbTexture)
 
-  /** Concentrations of the pigments eumelanin (black and brown) and pheomelanin (red). */
-  case Melanin(eumelanin: FloatTexture, pheomelanin: FloatTexture, basis: ColorBasis)
+  /** Concentrations of the pigments eumelanin (black and brown) and pheomelanin (red); `convert`
+    * brings colours to the scene's basis.
+    */
+  case Melanin(eumelanin: FloatTexture, pheomelanin: FloatTexture, convert: Rgb => Rgb)
 
   def absorption(at: ShadingPoint, betaN: Float): Rgb = this match
     case Absorption(sigmaA) => sigmaA.positive(at)
     case Color(reflectance) => Pigment.ofColor(reflectance(at), betaN)
-    case Melanin(eu, pheo, basis) =>
+    case Melanin(eu, pheo, convert) =>
       val e = Math.max(eu(at), 0f)
       val p = Math.max(pheo(at), 0f)
-      basis.lookUp(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
+      convert(Pigment.Eumelanin * e + Pigment.Pheomelanin * p).map(s => Math.max(s, 0f))
 
   def isConstant: Boolean = this match
     case Absorption(t) => t.isConstant

@@ -45,7 +45,7 @@ object SpectralFilmRecipe
     if buckets() < 1 then site.error(s"`nbuckets` must be at least 1, found ${buckets()}")
     if !(from >= 360f && from < to && to <= 830f) then
       site.error(s"`lambdamin` and `lambdamax` must be between 360 and 830 nm, found $from and $to")
-    site.resources.census.addBands(Math.max(buckets(), 1))
+    site.resources.counting.foreach(_.addBands(Math.max(buckets(), 1)))
     if !site.resources.mayBeSpectral then
       site.warn(
         "rendering is RGB, not spectral; bands sample a smooth spectrum fitted to each pixel's " +
@@ -106,7 +106,7 @@ abstract class SensorFilmRecipe(name: String, meaning: String)
     val name = sensor()
     val found = CameraSensor.named(name)
     if found.isDefined then
-      site.resources.census.addDetector(s"the sensor \"$name\" responds to spectra")
+      site.resources.counting.foreach(_.addDetector(s"the sensor \"$name\" responds to spectra"))
       if !site.resources.mayBeSpectral then
         site.warn(
           s"rendering is RGB, not spectral; sensor \"$name\" responds to a smooth spectrum " +

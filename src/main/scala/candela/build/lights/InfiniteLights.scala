@@ -76,8 +76,8 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
               val basis = resources.basis
               if !basis.isSpectral then plain
               else
-                val day = basis.ofLight(Rgb.White)
-                plain.converted(c => basis.lookUp(resources.plainBasis.toSrgb(c)) * day)
+                val (day, lookUp) = (basis.ofLight(Rgb.White), basis.lookUp)
+                plain.converted(c => lookUp(resources.plainBasis.toSrgb(c)) * day)
             LightPlan((toWorld, _) => Some(light(toWorld)), sampleCount())
 
   /** Frame of the portal, which must be a rectangle. */

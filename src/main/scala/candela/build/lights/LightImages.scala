@@ -28,16 +28,10 @@ private[build] object LightImages:
       image <- usable(stored.toImage, m => site.problems.error(p.valuesAt, m))
     yield
       val isFromBelow = site.dialect == Dialect.V2 && isTga(p.strings.headOption.getOrElse(""))
-      if !site.resources.basis.isSpectral then
-        val pixels = image.data.length / 3
-        val step = Math.max(1, pixels / ColorsInCensus)
-        val some = 0.until(pixels, step).map: i =>
+      site.resources.counting.foreach:
+        _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
-        site.resources.census.addColors(some, SpectrumRole.Emission)
       rebased(if isFromBelow then upsideDown(image) else image, site.resources.basis)
-
-  /** Pixels that stand for the colours of an image. */
-  private val ColorsInCensus = 1000
 
   private def isTga(file: String): Boolean = file.toLowerCase.endsWith(".tga")
 

@@ -3,7 +3,6 @@ package candela.build.materials
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
-import candela.bsdf.Bsdf
 import candela.bsdf.measured.AdaptiveReflection
 import candela.color.{Rgb, Spectrum}
 import candela.sampling.WarpTable
@@ -12,13 +11,13 @@ import candela.sampling.WarpTable
 private[build] object AdaptiveFile:
 
   /** Returns the BRDF, or an error message. */
-  def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+  def read(path: Path): Either[String, MeasuredBsdf.OfSpectra] =
     for
       fields <- TensorFile.read(path)
-      bsdf <- Reader(fields, toRgb).result
+      bsdf <- Reader(fields).result
     yield bsdf
 
-  private final class Reader(fields: Map[String, Tensor], toRgb: Spectrum => Rgb):
+  private final class Reader(fields: Map[String, Tensor]):
     private def table(name: String, dimensions: Int): Either[String, Tensor] =
       fields.get(name) match
         case None => Left(s"field `$name` is missing")
@@ -33,7 +32,7 @@ private[build] object AdaptiveFile:
     private def ascends(values: Array[Float]): Boolean =
       values.indices.drop(1).forall(i => values(i - 1) < values(i))
 
-    def result: Either[String, Bsdf] =
+    def result: Either[String, MeasuredBsdf.OfSpectra] =
       for
         theta <- table("theta_i", 1)
         phi <- table("phi_i", 1)
@@ -67,36 +66,44 @@ private[build] object AdaptiveFile:
           WarpTable(of.shape(1), of.shape(0), of.floats, Array(0f), Array(0f))
         def density(of: Tensor) =
           WarpTable(of.shape(3), of.shape(2), of.floats, p, t, isDensity = true)
-        AdaptiveReflection(
-          fixed(ndf),
-          fixed(sigma),
-          density(vndf),
-          density(luminance),
-          WarpTable(
-            spectra.shape(4),
-            spectra.shape(3),
-            colors(spectra, wavelengths.floats),
-            p,
-            t,
-            channels = 3
-          ),
-          isIsotropic = phi.length <= 2
-        )
+        val (normals, projected) = (fixed(ndf), fixed(sigma))
+        val (visible, brightness) = (density(vndf), density(luminance))
+        val (lambda, values) = (wavelengths.floats, spectra.floats)
+        MeasuredBsdf.OfSpectra: toRgb =>
+          AdaptiveReflection(
+            normals,
+            projected,
+            visible,
+            brightness,
+            WarpTable(
+              spectra.shape(4),
+              spectra.shape(3),
+              colors(spectra.shape, values, lambda, toRgb),
+              p,
+              t,
+              channels = 3
+            ),
+            isIsotropic = phi.length <= 2
+          )
 
     /** Projects the spectra to three channels, one wavelength at a time. */
-    private def colors(spectra: Tensor, wavelengths: Array[Float]): Array[Float] =
+    private def colors(
+        shape: Vector[Int],
+        values: Array[Float],
+        wavelengths: Array[Float],
+        toRgb: Spectrum => Rgb
+    ): Array[Float] =
       val hats = wavelengths.indices.map: i =>
         val hat = Array.tabulate(wavelengths.length)(j => if i == j then 1f else 0f)
         val c = toRgb(Spectrum(wavelengths, hat))
         Array(c.r, c.g, c.b)
-      val size = spectra.shape(3) * spectra.shape(4)
-      val slices = spectra.shape(0) * spectra.shape(1)
-      val values = spectra.floats
+      val size = shape(3) * shape(4)
+      val slices = shape(0) * shape(1)
       val result = new Array[Float](slices * 3 * size)
       for slice <- 0 until slices; i <- wavelengths.indices; channel <- 0 until 3 do
         val (from, to) = ((slice * wavelengths.length + i) * size, (slice * 3 + channel) * size)
         val share = hats(i)(channel)
-        var k = 0
+        var k = if share == 0f then size else 0
         while k < size do
           result(to + k) += share * values(from + k)
           k += 1

@@ -3,9 +3,8 @@ package candela.build.materials
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
-import candela.bsdf.Bsdf
 import candela.bsdf.measured.{HalfAngleReflection, ScatteredReflection}
-import candela.color.{Rgb, Spectrum}
+import candela.color.Spectrum
 import candela.math.*
 
 /** Reads pbrt-v2's two formats of measured BRDFs.
@@ -18,12 +17,12 @@ import candela.math.*
 private[build] object BrdfFile:
 
   /** Returns the BRDF, or an error message. */
-  def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+  def read(path: Path): Either[String, MeasuredBsdf] =
     val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
-    try if isText then scattered(path, toRgb) else table(path)
+    try if isText then scattered(path) else table(path)
     catch case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
 
-  private def scattered(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
+  private def scattered(path: Path): Either[String, MeasuredBsdf] =
     val words = Files
       .readString(path, java.nio.charset.StandardCharsets.ISO_8859_1)
       .linesIterator
@@ -46,15 +45,15 @@ private[build] object BrdfFile:
           val points = measured.flatMap: m =>
             val p = ScatteredReflection.pair(direction(m(2), m(3)), direction(m(0), m(1)))
             Array(p.x, p.y, p.z)
-          val values = measured.flatMap: m =>
-            val c = toRgb(Spectrum(lambda, m.drop(4)))
-            Array(c.r, c.g, c.b)
-          Right(ScatteredReflection(points, values))
+          val spectra = measured.map(m => Spectrum(lambda, m.drop(4)))
+          Right(MeasuredBsdf.OfSpectra: toRgb =>
+            val values = spectra.map(toRgb).flatMap(c => Array(c.r, c.g, c.b))
+            ScatteredReflection(points, values))
 
   private def direction(theta: Float, phi: Float): Vec3 =
     Vec3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
 
-  private def table(path: Path): Either[String, Bsdf] =
+  private def table(path: Path): Either[String, MeasuredBsdf] =
     import HalfAngleReflection.{Azimuths, HalfAngles, Polar}
     val entries = HalfAngles * Polar * Azimuths
     val expected = 12L + 24L * entries
@@ -69,7 +68,7 @@ private[build] object BrdfFile:
         val values = new Array[Float](3 * entries)
         for c <- 0 until 3; i <- 0 until entries do
           values(3 * i + c) = Math.max(0.0, in.getDouble() * Scales(c)).toFloat
-        Right(HalfAngleReflection(values))
+        Right(MeasuredBsdf.OfColors(HalfAngleReflection(values)))
 
   // Channel scales of the MERL database
   private val Scales = Array(1.0 / 1500, 1.15 / 1500, 1.66 / 1500)

@@ -57,7 +57,7 @@ private[build] object Indices:
     if !varies(v) then material
     else if site.resources.basis.isSpectral then DispersiveMaterial(material)
     else
-      site.resources.census.addDispersion()
+      site.resources.counting.foreach(_.addDispersion())
       material
 
   private def varies(v: SpectralValue): Boolean = v match

@@ -47,10 +47,11 @@ object HairRecipe
     (sigmaA.given_(), byColor) match
       case (Some(s), _) => Pigment.Absorption(s)
       case (_, Some(c)) => Pigment.Color(c)
-      case _ if hasMelanin => Pigment.Melanin(eumelanin(), pheomelanin(), site.resources.basis)
+      case _ if hasMelanin =>
+        Pigment.Melanin(eumelanin(), pheomelanin(), site.resources.basis.lookUp)
       case _ =>
         Pigment.Melanin(
           candela.textures.ConstantFloat(1.3f),
           pheomelanin(),
-          site.resources.basis
+          site.resources.basis.lookUp
         )

@@ -92,7 +92,8 @@ abstract class MaterialRecipe(
       name <- field.given_() if name.nonEmpty
       p <- site.declaration.param("normalmap")
       stored <- site.resources.image(p, site.declaration, site.problems)
-    yield MipLevel(Texels.color(stored, identity), Wrap.Repeat)
+    yield site.resources.once(site.declaration, "normals"):
+      MipLevel(Texels.color(stored, identity), Wrap.Repeat)
 
 /** Base of materials with the common roughness parameters.
   *

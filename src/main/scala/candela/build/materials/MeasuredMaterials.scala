@@ -8,6 +8,11 @@ import candela.build.recipe.*
 import candela.color.{Rgb, Spectrum}
 import candela.scenefile.Dialect
 
+/** A BSDF read from a file: of spectra, made for each colour basis, or of red, green and blue. */
+private[build] enum MeasuredBsdf:
+  case OfSpectra(make: (Spectrum => Rgb) => Bsdf)
+  case OfColors(bsdf: Bsdf)
+
 /** Base of materials with a measured BSDF from a file. */
 abstract class MeasuredRecipe(
     meaning: String,
@@ -19,7 +24,7 @@ abstract class MeasuredRecipe(
   private val file = string(parameter, s"$ending file", shown = "none")("")
 
   /** Returns the BSDF, or an error message. */
-  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf]
+  protected def read(path: Path): Either[String, MeasuredBsdf]
 
   /** Whether the BSDF is isotropic. */
   protected def isIsotropic: Boolean
@@ -35,11 +40,21 @@ abstract class MeasuredRecipe(
           for
             path <-
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
-            bsdf <- read(
-              path,
-              s => Spectra.inBasis(SpectralValue.Wavelengths(s), SpectrumRole.Reflectance, site)
-            ) match
-              case Right(b) => Some(b)
+            bsdf <- site.resources.once(site.declaration, "measured")(read(path)) match
+              case Right(MeasuredBsdf.OfSpectra(make)) =>
+                Some(
+                  make: s =>
+                    Spectra.inBasis(SpectralValue.Wavelengths(s), SpectrumRole.Reflectance, site)
+                )
+              case Right(MeasuredBsdf.OfColors(b)) =>
+                if basis.isSpectral then
+                  site.problems.warn(
+                    p.valuesAt,
+                    s"`${file()}` gives red, green and blue only; they are taken as values at " +
+                      "the wavelengths of a path, which pales its colours",
+                    Some("render with --color rgb")
+                  )
+                Some(b)
               case Left(why) =>
                 val message = s"can't read `${file()}`: $why"
                 site.problems.missing(p.valuesAt, message, StandIns.MagentaSurface)
@@ -51,15 +66,13 @@ abstract class MeasuredRecipe(
 object MeasuredTableRecipe
     extends MeasuredRecipe("measured BRDF from a table", ".brdf or .merl", onlyV2):
   protected def isIsotropic: Boolean = true
-  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
-    BrdfFile.read(path, toRgb)
+  protected def read(path: Path): Either[String, MeasuredBsdf] = BrdfFile.read(path)
 
 /** pbrt-v4's measured BRDF. */
 object MeasuredBsdfRecipe
     extends MeasuredRecipe("measured BRDF of Dupuy and Jakob", ".bsdf", onlyV4):
   protected def isIsotropic: Boolean = false
-  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
-    AdaptiveFile.read(path, toRgb)
+  protected def read(path: Path): Either[String, MeasuredBsdf] = AdaptiveFile.read(path)
 
 object FourierRecipe
     extends MeasuredRecipe(
@@ -70,5 +83,5 @@ object FourierRecipe
       parameter = "bsdffile"
     ):
   protected def isIsotropic: Boolean = true
-  protected def read(path: Path, toRgb: Spectrum => Rgb): Either[String, Bsdf] =
-    BsdfFile.read(path).map(FourierBsdf(_))
+  protected def read(path: Path): Either[String, MeasuredBsdf] =
+    BsdfFile.read(path).map(table => MeasuredBsdf.OfColors(FourierBsdf(table)))

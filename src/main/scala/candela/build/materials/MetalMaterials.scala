@@ -55,8 +55,7 @@ private[build] trait MetalFields extends SpectrumFields:
       site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
     (spectral(index, outside), tint) match
       case (Some(reflected), _) =>
-        if !site.resources.basis.isSpectral then
-          site.resources.census.addReflectance(site.declaration, reflected(1f))
+        site.resources.counting.foreach(_.addReflectance(site.declaration, reflected(1f)))
         UniformMetal(TabulatedReflectance.of(128)(Spectra.underWhite(reflected)))
       case (None, Some(reflectance)) => TintedMetal(reflectance, outside)
       case (None, None) =>

@@ -44,9 +44,10 @@ final class ColorCensus(basis: ColorBasis):
     case SpectralValue.Color(c, space) => add(space.reflectance(c), role, components)
     case SpectralValue.Wavelengths(s) => add(s, role, s(_), components)
 
-  /** Colours in linear sRGB, such as those of an image. */
-  def addColors(colors: Iterable[Rgb], role: SpectrumRole): Unit =
-    for c <- farApartColors(colors.toVector) do add(c, role, basis.fromSrgb(c))
+  /** An image in linear sRGB: some of its pixels. */
+  def addImage(pixels: Int, role: SpectrumRole)(color: Int => Rgb): Unit =
+    val some = 0.until(pixels, Math.max(1, pixels / PixelsOfImage)).map(color).toVector
+    for c <- farApartColors(some) do add(c, role, basis.fromSrgb(c))
 
   /** A reflectance by wavelength in nm. */
   def addReflectance(key: Any, s: Float => Float): Unit =
@@ -104,6 +105,9 @@ final class ColorCensus(basis: ColorBasis):
 private object ColorCensus:
   /** Spectra compared, at most: those of pairs are. */
   private val Most = 24
+
+  /** Pixels that stand for the colours of an image. */
+  private val PixelsOfImage = 1000
 
   private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
     spread(all)((a, b) =>

@@ -34,6 +34,9 @@ final class Resources private (
 
   export shared.*
 
+  /** Where spectra are noted, if they decide how the scene is rendered. */
+  def counting: Option[ColorCensus] = Option.when(mayBeSpectral && !basis.isSpectral)(census)
+
   val materials = NamedMaterials()
 
   private val floats = mutable.Map.empty[String, FloatTexture]

@@ -40,7 +40,7 @@ object Spectra:
     if basis.isSpectral then atWavelengths(value, role, site)
     else
       val components = inThree(value, role, site)
-      site.resources.census.add(value, role, components)
+      site.resources.counting.foreach(_.add(value, role, components))
       components
 
   private def inThree(value: SpectralValue, role: SpectrumRole, site: Site): Rgb =

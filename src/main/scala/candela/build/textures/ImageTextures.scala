@@ -116,17 +116,13 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
     val basis = site.resources.basis
     def texels(stored: StoredImage, decode: Float => Float): Texels =
       val made = inSrgb(stored, decode)
-      if !basis.isSpectral && made.channels == 3 then
-        val step = Math.max(1, made.width * made.height / ImageMapRecipe.ColorsInCensus)
-        val some = 0.until(made.width * made.height, step)
-        site.resources.census.addColors(
-          some.map(i => Rgb(made(i, 0), made(i, 1), made(i, 2))),
-          SpectrumRole.Reflectance
-        )
+      for census <- site.resources.counting if made.channels == 3 do
+        census.addImage(made.width * made.height, SpectrumRole.Reflectance): i =>
+          Rgb(made(i, 0), made(i, 1), made(i, 2))
       made
     lookup(texels).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
-      if basis.isSrgb then image else RebasedTexture(image, basis)
+      if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)
 
   /** pbrt-v4 alone knows other colour spaces. */
   private def inSrgb(image: StoredImage, decode: Float => Float)(using site: Site): Texels =
@@ -134,9 +130,6 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
     Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 
 private object ImageMapRecipe:
-  /** Texels that stand for the colours of an image. */
-  val ColorsInCensus = 1000
-
   val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 

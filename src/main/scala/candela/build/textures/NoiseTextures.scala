@@ -48,4 +48,4 @@ object RgbMarbleRecipe
   private val variation = float("variation", "amplitude of the noise displacement")(0.2f)
   protected def make()(using site: Site): RgbTexture =
     val made = marble(scale(), variation())
-    if site.resources.basis.isSrgb then made else RebasedTexture(made, site.resources.basis)
+    if site.resources.basis.isSrgb then made else RebasedTexture(made, site.resources.basis.lookUp)

@@ -9,7 +9,7 @@ class AdaptiveFileSuite extends BsdfLaws:
   private val folder = Path.of("scenes/measured")
   private def toRgb(s: Spectrum): Rgb = Colorimetry.rgb(s(_), Colorimetry.White.D65)
   private def read(name: String): Bsdf =
-    AdaptiveFile.read(folder.resolve(name), toRgb).fold(why => fail(why), identity)
+    AdaptiveFile.read(folder.resolve(name)).fold(why => fail(why), _.make(toRgb))
 
   obeysLaws("the same all around", read("glossy.bsdf"), isReciprocal = false)
   obeysLaws("brushed", read("brushed.bsdf"), isReciprocal = false)
@@ -30,7 +30,7 @@ class AdaptiveFileSuite extends BsdfLaws:
       val file = Files.createTempFile("hostile", ".bsdf")
       try
         val _ = Files.write(file, bytes)
-        AdaptiveFile.read(file, toRgb).fold(identity, _ => "")
+        AdaptiveFile.read(file).fold(identity, _ => "")
       finally Files.delete(file)
     assert(problem(Array.empty) == "unexpected end of file")
     assert(problem("tensor_fool!".getBytes ++ whole.drop(12)) == "not a tensor file")
