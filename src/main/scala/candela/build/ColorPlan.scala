@@ -36,7 +36,7 @@ private[build] object ColorPlan:
       val observed =
         Iterator
           .iterate(fewest)(2 * _)
-          .map(Wavelengths.covering(_, smooth))
+          .map(Wavelengths.covering(_, smooth, census.light))
           .find(bases =>
             bases.size >= Most ||
               ColorError.ofWavelengths(bases, lights, surfaces) < LineTolerance
@@ -47,7 +47,7 @@ private[build] object ColorPlan:
         if camera.isEmpty && census.bands.isEmpty then observed
         else
           val detector = camera.fold(Wavelengths.Observer)(_.responses)
-          Wavelengths.covering(count, smooth, detector, uniform)
+          Wavelengths.covering(count, smooth, census.light, detector, uniform)
       ColorPlan(bases, s"spectral, three of ${3 * count} wavelengths a path: $why")
     mode(asked, context.dialect) match
       case ColorMode.Spectral => spectral("as asked for")

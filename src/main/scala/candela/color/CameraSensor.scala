@@ -2,7 +2,7 @@ package candela.color
 
 /** A camera sensor: spectral responses of its three channels.
   *
-  * @param curves responses for red, green and blue; 0 outside their range
+  * @param curves responses for red, green and blue; constant outside their range, as in pbrt-v4
   *
   * Source of the measurements: Langlands and Fascione, "PhysLight: An End-to-End Pipeline for
   * Scene-Referred Lighting", SIGGRAPH 2020 Talks; PBRT 4th ed., §5.4.2.
@@ -67,7 +67,7 @@ object CameraSensor:
   private def spectra(file: String): Vector[Spectrum] =
     val rows = Colorimetry.table(file)
     Vector.tabulate(rows.head.length - 1): c =>
-      Spectrum(rows.map(_(0)), rows.map(_(c + 1)), Spectrum.Outside.Zero)
+      Spectrum(rows.map(_(0)), rows.map(_(c + 1)), Spectrum.Outside.Clamped)
 
   /** Integral over pbrt-v4's range of wavelengths, in nm. */
   private def integral(f: Float => Float): Double =
@@ -106,7 +106,7 @@ object WhiteBalance:
   private[color] def chromaticity(kelvin: Double): (Double, Double) =
     if kelvin < 4000 then
       val body = Spectrum.blackbody(kelvin.toFloat)
-      val c = Colorimetry.rgb(body(_), Colorimetry.White.EqualEnergy)
+      val c = Colorimetry.rgb(body, Colorimetry.White.EqualEnergy)
       val v = Colorimetry.xyzOfRgb * Vector(c.r, c.g, c.b).map(_.toDouble)
       (v(0) / v.sum, v(1) / v.sum)
     else

@@ -101,20 +101,27 @@ object ColorError:
     val errors =
       for s <- lights ++ surfaces yield
         val spectrum = s.values
-        val sum = bases.map(b => b.toSrgb(b.ofReflectance(between(spectrum, _)))).reduce(_ + _)
+        val sum =
+          bases.map(b => b.toSrgb(b.ofReflectance(light(spectrum)(_).toFloat))).reduce(_ + _)
         val exact = seen(spectrum)
         val off =
           sum * (1f / bases.size) - Rgb(exact(0).toFloat, exact(1).toFloat, exact(2).toFloat)
         off.largest / exact.map(Math.abs).max
     errors.maxOption.getOrElse(0.0)
 
-  /** The spectrum of light at a wavelength in nm. */
-  private def between(relative: Array[Double], nm: Float): Float =
-    val x = (nm - wavelengths.head) / (wavelengths(1) - wavelengths(0))
-    val i = Math.max(0, Math.min(x.toInt, relative.length - 2))
+  /** Light at a wavelength in nm, from its values relative to D65. */
+  def light(relative: Array[Double]): Float => Double =
     // Linear between the values of the light itself, as tables are
-    def light(k: Int) = relative(k) * Colorimetry.D65(wavelengths(k))
-    (light(i) + (x - i) * (light(i + 1) - light(i))).toFloat
+    val all = wavelengths.lazyZip(relative).map((nm, v) => v * Colorimetry.D65(nm))
+    nm =>
+      val x = (nm - wavelengths.head) / (wavelengths(1) - wavelengths(0))
+      val i = Math.max(0, Math.min(x.toInt, all.length - 2))
+      all(i) + (x - i) * (all(i + 1) - all(i))
+
+  /** Luminance of a spectrum of light relative to D65. */
+  def luminance(spectrum: Array[Double]): Double =
+    val c = seen(spectrum)
+    0.2126 * c(0) + 0.7152 * c(1) + 0.0722 * c(2)
 
   /** Linear sRGB of a spectrum of light relative to D65. */
   def seen(spectrum: Array[Double]): Array[Double] =

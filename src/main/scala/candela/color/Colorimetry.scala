@@ -34,8 +34,20 @@ object Colorimetry:
   private[color] lazy val luminanceOfD65: Double =
     observer.map(row => 5.0 * row(2) * D65(row(0))).sum
 
-  /** Colour of a reflectance (or index of refraction, …) that depends on wavelength. */
-  def rgb(spectrum: Float => Float, white: White): Rgb =
+  /** The observer between its samples. */
+  private lazy val observerByNm: Array[Array[Float]] =
+    Array.tabulate(471): i =>
+      val nm = 360f + i
+      Array(nm, observers(0)(nm), observers(1)(nm), observers(2)(nm))
+
+  /** Colour of a spectrum given by its values, in steps of 1 nm if it may vary within 5. */
+  def rgb(spectrum: Spectrum, white: White): Rgb =
+    rgb(spectrum(_), white, if spectrum.isCoarse then observer else observerByNm)
+
+  /** Colour of a smooth reflectance (or index of refraction, …) that depends on wavelength. */
+  def rgb(spectrum: Float => Float, white: White): Rgb = rgb(spectrum, white, observer)
+
+  private def rgb(spectrum: Float => Float, white: White, observer: Array[Array[Float]]): Rgb =
     var x, y, z, sum = 0.0
     for Array(nm, cx, cy, cz) <- observer do
       val light = if white == White.D65 then D65(nm) else 1f
@@ -62,7 +74,7 @@ object Colorimetry:
     raw.flatMap(row => Array.tabulate(3)(i => row(i) / sums(i)))
 
   /** Colour of emitted light, scaled to luminance (CIE Y) 1: pbrt-v4's convention for emission. */
-  def unitLuminance(spectrum: Float => Float): Rgb =
+  def unitLuminance(spectrum: Spectrum): Rgb =
     val c = rgb(spectrum, White.EqualEnergy)
     c * (1f / c.luminance)
 

@@ -23,6 +23,9 @@ final class Spectrum(
       val i = if found >= 0 then found else -found - 2
       lerp((nm - lambda(i)) / (lambda(i + 1) - lambda(i)), values(i), values(i + 1))
 
+  /** Whether its values at multiples of 5 nm determine it. */
+  def isCoarse: Boolean = outside == Spectrum.Outside.Clamped && lambda.forall(_ % 5f == 0f)
+
   def *(s: Float): Spectrum = Spectrum(lambda, values.map(_ * s), outside)
 
 object Spectrum:

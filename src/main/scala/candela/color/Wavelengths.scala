@@ -70,24 +70,26 @@ object Wavelengths:
   /** Share of the wavelengths that are sampled uniformly, whatever the sensitivity. */
   val Uniform = 0.02
 
+  /** Brightness of a channel, relative to the brightest, below which its noise counts less. */
+  private val Dim = 0.1
+
   /** Spectral radiance, in pbrt-v4's unit, of a unit of light; [[Colorimetry.radianceOfD65]]. */
   val Radiance: Double = Colorimetry.radianceOfD65(560f) / Colorimetry.D65(560f).toDouble
 
   /** Luminance of a spectrum of light, where D65 has luminance 1. */
   private def luminance(s: Float => Float): Float =
     val y = Colorimetry.observers(1)
-    val sum = (First to Last by Step).map(nm => s(nm.toFloat).toDouble * y(nm.toFloat)).sum
-    (sum * Step / Colorimetry.luminanceOfD65).toFloat
-
-  private inline val Step = 5
+    val sum = (First to Last).map(nm => s(nm.toFloat).toDouble * y(nm.toFloat)).sum
+    (sum / Colorimetry.luminanceOfD65).toFloat
 
   /** Linear sRGB, by the standard observer: for each wavelength, its channels. */
   val Observer: Float => Array[Double] = nm =>
     (Colorimetry.rgbOfXyz * Colorimetry.observers.map(_(nm).toDouble)).toArray
 
-  /** Bases that cover the visible range `count` times three wavelengths, stratified by sensitivity:
-    * the sum over wavelengths of the detector's responses to daylight.
+  /** Bases that cover the visible range `count` times three wavelengths, stratified by what the
+    * detector's channels see of the scene's light; each channel counts alike, unless it sees little.
     *
+    * @param light    spectrum of the scene's light
     * @param detector response of its three channels to a unit of light at a wavelength in nm, in
     *                 units in which D65 has the luminance that [[Colorimetry.luminanceOfD65]] says
     * @param uniform  share of the wavelengths that are spread evenly instead
@@ -95,12 +97,17 @@ object Wavelengths:
   def covering(
       count: Int,
       smooth: SmoothSpectra,
+      light: Float => Double = Colorimetry.D65(_).toDouble,
       detector: Float => Array[Double] = Observer,
       uniform: Double = Uniform
   ): Vector[Wavelengths] =
-    val strength = Array.tabulate(Last - First): i =>
-      val nm = First + i + 0.5f
-      detector(nm).map(r => Math.abs(r) * Colorimetry.D65(nm)).sum
+    val centres = Array.tabulate(Last - First)(First + _ + 0.5f)
+    def seen(light: Float => Double) = Array.tabulate(3): c =>
+      centres.map(nm => Math.abs(detector(nm)(c)) * light(nm)).sum
+    val bright = seen(light).lazyZip(seen(Colorimetry.D65(_))).map(_ / _)
+    val shares = bright.map(b => 1 / Math.max(b, Dim * bright.max))
+    val strength = centres.map: nm =>
+      detector(nm).lazyZip(shares).map((r, share) => Math.abs(r) * share).sum * light(nm)
     val mean = strength.sum / strength.length
     val density = strength.map(s =>
       (1 - uniform) * s / (mean * strength.length) +
@@ -120,13 +127,13 @@ object Wavelengths:
       Vector.tabulate(3)(i => at((u + i / 3.0) % 1.0))
     def response(nm: Float, pdf: Double) =
       detector(nm).map(_ / (3 * pdf * Colorimetry.luminanceOfD65))
-    // What the finite set makes of daylight, corrected to what an integral would make of it
+    // What the finite set makes of the light, corrected to what an integral would make of it
     val exact = Array.tabulate(3): c =>
-      (First to Last by Step).map(nm =>
-        Step * detector(nm.toFloat)(c) * Colorimetry.D65(nm.toFloat) / Colorimetry.luminanceOfD65
+      (First to Last).map(nm =>
+        detector(nm.toFloat)(c) * light(nm.toFloat) / Colorimetry.luminanceOfD65
       ).sum
     val found = Array.tabulate(3): c =>
-      sets.flatten.map((nm, pdf) => response(nm, pdf)(c) * Colorimetry.D65(nm)).sum / count
+      sets.flatten.map((nm, pdf) => response(nm, pdf)(c) * light(nm)).sum / count
     for set <- sets yield
       val columns = set.map(response(_, _))
       val rows = Array.tabulate(9): i =>

@@ -42,7 +42,7 @@ object Emission:
             s.addRaw(Param(ParamType.Blackbody, color, p.at, p.valuesAt, floats = floats))
           case _ =>
             for x <- s.run.values.spectrum(p, s.declaration) do
-              s.addRgb(color, positive(Colorimetry.unitLuminance(x(_))))(using p.at)
+              s.addRgb(color, positive(Colorimetry.unitLuminance(x)))(using p.at)
       if factor != 1f then s.addRgb("scale", Rgb.gray(factor))
 
   private def rgb(p: Param, s: Statement): Rgb = s.colorOf(p).getOrElse(Rgb.White)
@@ -63,7 +63,7 @@ object Emission:
       s.addRgb(name, positive(rgb(p, s)))(using p.at)
       1f
 
-  private def luminance(x: Spectrum): Float = Colorimetry.rgb(x(_), White.EqualEnergy).luminance
+  private def luminance(x: Spectrum): Float = Colorimetry.rgb(x, White.EqualEnergy).luminance
 
   /** Clamps negative components, of saturated spectra outside the sRGB gamut. */
   private def positive(c: Rgb): Rgb = c.map(Math.max(_, 0f))

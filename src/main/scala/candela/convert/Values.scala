@@ -60,8 +60,8 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       val body =
         if from == Dialect.V2 then Spectrum.blackbody(p.floats(0), unitAt = 555f)
         else Spectrum.blackbody(p.floats(0))
-      Some(Colorimetry.rgb(body(_), white) * scale)
-    case ParamType.Spectrum => spectrum(p, d).map(s => Colorimetry.rgb(s(_), white))
+      Some(Colorimetry.rgb(body, white) * scale)
+    case ParamType.Spectrum => spectrum(p, d).map(s => Colorimetry.rgb(s, white))
     case _ => None
 
   private def white: White = if from == Dialect.V4 then White.D65 else White.EqualEnergy

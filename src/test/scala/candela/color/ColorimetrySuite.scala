@@ -19,11 +19,23 @@ final class ColorimetrySuite extends AnyFunSuite:
   test("colours are linear in the spectrum"):
     val s = NamedSpectra("metal-Cu-k").get
     val (one, three) =
-      (Colorimetry.rgb(s(_), White.D65), Colorimetry.rgb(nm => 3 * s(nm), White.D65))
+      (Colorimetry.rgb(s, White.D65), Colorimetry.rgb(s * 3f, White.D65))
     assert(Math.abs(three.r - 3 * one.r) < 1e-4f * one.r) // rounding
 
+  test("narrow bands count as much as is in them, wherever they lie between the samples"):
+    val y = Colorimetry.observers(1)
+    for first <- 540 to 560 by 3 do
+      val band = Spectrum(
+        Array(first - 1f, first.toFloat, first + 6f, first + 7f),
+        Array(0f, 1f, 1f, 0f),
+        Spectrum.Outside.Zero
+      )
+      val exact = (10 * first - 10 to 10 * first + 70).map(x => band(x / 10f) * y(x / 10f)).sum / 10
+      val found = Colorimetry.rgb(band, White.EqualEnergy).luminance * 106.8569f
+      assert(Math.abs(found / exact - 1) < 2e-3, s"at $first nm: $found, not $exact")
+
   test("emission is scaled to luminance 1"):
-    val c = Colorimetry.unitLuminance(Spectrum.blackbody(3000f)(_))
+    val c = Colorimetry.unitLuminance(Spectrum.blackbody(3000f))
     assert(Math.abs(c.luminance - 1f) < 1e-5f) // rounding
     assert(c.r > c.g && c.g > c.b)
 

@@ -40,7 +40,7 @@ final class SpectrumSuite extends AnyFunSuite:
 
   test("hotter bodies are bluer"):
     def blueness(k: Float) =
-      val c = Colorimetry.unitLuminance(Spectrum.blackbody(k)(_))
+      val c = Colorimetry.unitLuminance(Spectrum.blackbody(k))
       c.b / c.r
     assert(blueness(2700f) < blueness(6500f) && blueness(6500f) < blueness(20000f))
 
@@ -55,13 +55,13 @@ final class DaylightSuite extends AnyFunSuite:
 
   test("the warmer the redder, also where there is no daylight"):
     val ratios = Seq(2500f, 3900f, 4500f, 6500f, 9000f, 20000f).map: kelvin =>
-      val c = Colorimetry.rgb(Daylight.spectrum(kelvin)(_), White.EqualEnergy)
+      val c = Colorimetry.rgb(Daylight.spectrum(kelvin), White.EqualEnergy)
       c.b / c.r
     assert(ratios.zip(ratios.tail).forall(_ < _), ratios)
 
   test("the spectrum has the chromaticity of its temperature"):
     for kelvin <- Seq(4500f, 9000f) do
-      val c = Colorimetry.rgb(Daylight.spectrum(kelvin)(_), White.EqualEnergy)
+      val c = Colorimetry.rgb(Daylight.spectrum(kelvin), White.EqualEnergy)
       val v = Colorimetry.xyzOfRgb * Vector(c.r, c.g, c.b).map(_.toDouble)
       val (x, y) = WhiteBalance.chromaticity(Daylight.correlated(kelvin))
       // CIE 15 gives the components one digit behind the point

@@ -197,6 +197,6 @@ private[build] object Thermal:
       hottest,
       kelvin =>
         val body = Spectrum.blackbody(kelvin)
-        val c = Colorimetry.rgb(body(_), White.EqualEnergy)
+        val c = Colorimetry.rgb(body, White.EqualEnergy)
         site.resources.basis.ofLight(body(_), c * LuminousIntegral): Rgb
     )

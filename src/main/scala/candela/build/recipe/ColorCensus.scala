@@ -20,6 +20,16 @@ final class ColorCensus(basis: ColorBasis):
   def lights: Vector[ColoredSpectrum] = farApart(emitted.values.toVector)
   def surfaces: Vector[ColoredSpectrum] = farApart(reflected.values.toVector)
 
+  /** Spectrum of the scene's light: of all lamps alike, since what each lights is not known, and of
+    * some daylight, for what surfaces make of it.
+    */
+  def light: Float => Double =
+    val all =
+      for l <- lights.map(_.values); y = ColorError.luminance(l) if y > 0 yield l.map(_ / y)
+    val mean = ColorError.wavelengths.indices.map: w =>
+      if all.isEmpty then 1.0 else Daylight + (1 - Daylight) * all.map(_(w)).sum / all.size
+    ColorError.light(mean.toArray)
+
   /** A material disperses light. */
   def addDispersion(): Unit = disperses = true
 
@@ -79,8 +89,7 @@ final class ColorCensus(basis: ColorBasis):
         val values =
           ColorError.wavelengths.map(nm => (s(nm) / candela.color.Colorimetry.D65(nm)).toDouble)
         // Scaled to the luminance of the components
-        val seen = ColorError.seen(values)
-        val luminance = 0.2126 * seen(0) + 0.7152 * seen(1) + 0.0722 * seen(2)
+        val luminance = ColorError.luminance(values)
         val scale = if luminance > 0 then basis.toSrgb(components).luminance / luminance else 0.0
         val _ = emitted.getOrElseUpdate(
           key,
@@ -103,6 +112,9 @@ final class ColorCensus(basis: ColorBasis):
       )
 
 private object ColorCensus:
+  /** Share of daylight in [[ColorCensus.light]]. */
+  private val Daylight = 0.2
+
   /** Spectra compared, at most: those of pairs are. */
   private val Most = 24
 

@@ -104,9 +104,9 @@ object Spectra:
     * emission to luminance 1.
     */
   def toRgb(s: Spectrum, role: SpectrumRole, dialect: Dialect): Rgb =
-    if dialect != Dialect.V4 then Colorimetry.rgb(s(_), White.EqualEnergy)
-    else if role == SpectrumRole.Emission then Colorimetry.unitLuminance(s(_))
-    else Colorimetry.rgb(s(_), White.D65)
+    if dialect != Dialect.V4 then Colorimetry.rgb(s, White.EqualEnergy)
+    else if role == SpectrumRole.Emission then Colorimetry.unitLuminance(s)
+    else Colorimetry.rgb(s, White.D65)
 
   /** Colour under D65 of a reflectance given by cosine and wavelength. */
   def underWhite(reflected: Float => Float => Float)(using site: Site): Float => Rgb =

@@ -7,7 +7,7 @@ import candela.color.{Colorimetry, Rgb, Spectrum}
 
 class AdaptiveFileSuite extends BsdfLaws:
   private val folder = Path.of("scenes/measured")
-  private def toRgb(s: Spectrum): Rgb = Colorimetry.rgb(s(_), Colorimetry.White.D65)
+  private def toRgb(s: Spectrum): Rgb = Colorimetry.rgb(s, Colorimetry.White.D65)
   private def read(name: String): Bsdf =
     AdaptiveFile.read(folder.resolve(name)).fold(why => fail(why), _.make(toRgb))
 

@@ -1,0 +1,33 @@
+package candela.color
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.base.Parallel
+
+class WavelengthsSuite extends AnyFunSuite:
+  private val smooth = SmoothSpectra(Parallel.Alone)
+
+  /** Colour of light by a set of bases. */
+  private def seen(bases: Vector[Wavelengths])(light: Wavelengths => Rgb): Rgb =
+    bases.map(b => b.toSrgb(light(b))).reduce(_ + _) * (1f / bases.size)
+
+  private def relative(c: Rgb, to: Rgb): Float = (c - to).map(Math.abs(_)).max / to.max
+
+  test("daylight is white, whatever light wavelengths are chosen for"):
+    for light <- Seq(Colorimetry.D65, Spectrum.blackbody(2400f)) do
+      val bases = Wavelengths.covering(64, smooth, light(_).toDouble)
+      assert(relative(seen(bases)(_.ofLight(Rgb.White)), Rgb.White) < 6e-3f)
+
+  test("lamps have their colours, and bands between the observer's samples, too"):
+    val band = Spectrum(Array(551f, 552f, 558f, 559f), Array(0f, 1f, 1f, 0f), Spectrum.Outside.Zero)
+    for lamp <- Seq(Spectrum.blackbody(2400f), NamedSpectra("stdillum-F11").get, band) do
+      val color = Colorimetry.unitLuminance(lamp)
+      val bases = Wavelengths.covering(64, smooth, nm => 0.1 + lamp(nm))
+      val found = seen(bases)(_.ofLight(lamp(_), color))
+      assert(relative(found, color) < 1e-2f, s"$found, not $color")
+
+  test("wavelengths lie where the scene's light is"):
+    def red(light: Spectrum) =
+      val bases = Wavelengths.covering(64, smooth, light(_).toDouble)
+      bases.flatMap(_.nm).count(_ > 600f) / (3.0 * bases.size)
+    assert(red(Spectrum.blackbody(2400f)) > red(Colorimetry.D65) + 0.03)
