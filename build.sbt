@@ -13,6 +13,11 @@ val lwjglNatives = Seq(
   "natives-windows-arm64"
 )
 
+/** Of rendering: the share of memory that a heap may take. Rays allocate nothing, so a small young
+  * generation is collected rarely; a large one would only be filled before it is.
+  */
+val memory = Seq("-XX:MaxRAMPercentage=70", "-XX:MaxNewSize=64m")
+
 /** Options of every JVM of this build: the renderer's and the tests'. */
 val jvmOptions = Seq(
   "-XX:+UseParallelGC", // throughput matters, pauses don't
@@ -54,7 +59,7 @@ lazy val root = (project in file("."))
     Compile / sourceGenerators += versionSource,
 
     // `sbt run`: a separate JVM in the project folder, attached to the terminal.
-    Compile / run / javaOptions ++= jvmOptions :+ "-XX:MaxRAMPercentage=70",
+    Compile / run / javaOptions ++= jvmOptions ++ memory,
     Compile / run / runner := new TerminalRun((Compile / run / forkOptions).value),
 
     // `sbt stage`: src/universal, the program's jar, native libraries, and the same JVM options.
@@ -89,7 +94,7 @@ lazy val bench = (project in file("bench"))
 def program = Def.task {
   val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
   val folder = target.value / "program"
-  val options = jvmOptions :+ "-XX:MaxRAMPercentage=70"
+  val options = jvmOptions ++ memory
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))

@@ -87,7 +87,7 @@ object Wavelengths:
     (Colorimetry.rgbOfXyz * Colorimetry.observers.map(_(nm).toDouble)).toArray
 
   /** Bases that cover the visible range `count` times three wavelengths, stratified by what the
-    * detector's channels see of the scene's light; each channel counts alike, unless it sees little.
+    * detector's channels see of the scene's light. Channels count alike, unless they see little.
     *
     * @param light    spectrum of the scene's light
     * @param detector response of its three channels to a unit of light at a wavelength in nm, in
