@@ -51,6 +51,7 @@ final class FloatBuffer extends NumberBuffer[Array[Float]](new Array[Float](_)):
     last(at) = x
     size += 1
 
+  def apply(i: Int): Float = pieceOf(i)(i & NumberBuffer.Within)
   def update(i: Int, x: Float): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
 
 final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):

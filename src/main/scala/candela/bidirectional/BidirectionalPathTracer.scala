@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.cameras.{Camera, FilmPlace}
+import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.{Hit, Ray, ShadingPoint}
@@ -52,15 +52,15 @@ final class BidirectionalPathTracer(
   // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
 
-  private val camera: Camera | Null = if takes.isTraceable then takes else null
-  private val place = FilmPlace()
+  private val camera = CameraConnection(scene, takes, splats)
 
   protected def over(scene: Scene): BidirectionalPathTracer =
     BidirectionalPathTracer(
       scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes
     )
 
-  def raysTraced: Long = rays + connection.raysTraced + lightPaths.raysTraced
+  def raysTraced: Long =
+    rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced
   override def lastMaterial: Int = at.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
@@ -78,40 +78,11 @@ final class BidirectionalPathTracer(
       onward: Sampler
   ): Rgb =
     shadowRay.time = ray.time
+    camera.begin(ray.time)
     connection.begin(ray.time)
     lightPaths.trace(ray.time, light)
-    splats.begin()
-    traceLight(light)
+    camera.connect(lightPaths, isWeighted = true, light)
     fromCamera(ray, joins, onward)
-
-  /** Light tracing: connects the light vertices to the camera. */
-  private def traceLight(sampler: Sampler): Unit =
-    val sensor = camera
-    if sensor != null && lightPaths.count > 0 then
-      sampler.next2D()
-      val lensU = sampler.x
-      val lensV = sampler.y
-      var i = 0
-      while i < lightPaths.count do
-        val lit = lightPaths(i)
-        if sensor.see(lit.at.p, lensU, lensV, place) then
-          val f = lit.sent(place.direction)
-          if !f.isBlack then
-            val toCamera = place.direction
-            val arriving = place.density * lit.cosine(toCamera)
-            val others =
-              lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
-            val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
-            val found = lit.throughput * f * weight
-            if !found.isBlack && isClear(lit.at, toCamera, place.eye) then
-              splats.add(place.x, place.y, found)
-        i += 1
-
-  private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
-    val origin = from.offsetOrigin(towards)
-    shadowRay.set(origin, end - origin, LightConnection.ShadowEnd)
-    rays += 1
-    !scene.isOccluded(shadowRay, shadowHit)
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
@@ -147,8 +118,7 @@ final class BidirectionalPathTracer(
         val distance = ray.tMax.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
         else
-          val sensor = camera
-          val density = if sensor == null then 0f else sensor.density(eye, at.p)
+          val density = camera.density(eye, at.p)
           path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
         if at.areaLight >= 0 && cosine > 0f then
           found += path.throughput * emitted(edges, wo, distance)

@@ -6,6 +6,7 @@ import java.util.IdentityHashMap
 import candela.base.SourcePos
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
+import candela.build.settings.OptionRecipe
 import candela.color.ColorBasis
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, SceneDescription}
@@ -63,8 +64,13 @@ private[build] object BuildContext:
     val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     val mode = ColorPlan.mode(options.colorMode, description.dialect)
-    val resources = new Resources(basis, options.crew, options.seed, mode != ColorMode.Rgb)
-    new BuildContext(description, resources, problems)
+    def context(switches: Switches) =
+      val mayBeSpectral = mode != ColorMode.Rgb
+      val resources = new Resources(basis, options.crew, options.seed, mayBeSpectral, switches)
+      new BuildContext(description, resources, problems)
+    val plain = context(Switches())
+    val statement = plain.unwritten("Option", "").copy(params = description.options)
+    context(options.switches.over(OptionRecipe.build(plain.site(statement))))
 
 /** Default types of each dialect. */
 private[build] final case class Defaults(

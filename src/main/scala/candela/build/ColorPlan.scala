@@ -16,6 +16,11 @@ enum ColorMode:
 private[build] final case class ColorPlan(bases: Vector[Wavelengths], describe: String):
   def isSpectral: Boolean = bases.nonEmpty
 
+  /** All paths carry the same wavelengths, of the middle set. */
+  def ofOneSet: ColorPlan =
+    if !isSpectral then this
+    else ColorPlan(Vector(bases(bases.size / 2)), s"$describe; always the same three")
+
 private[build] object ColorPlan:
 
   /** pbrt-v2 and v3 multiply three numbers. */

@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable
 
-import candela.bsdf.Material
+import candela.bsdf.{DiffuseEquivalent, InterfaceMaterial, Material}
 import candela.build.integrators.IntegratorPlan
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
@@ -67,7 +67,7 @@ private[build] object MaterialTable:
       for (name, d) <- named do
         context.resources.materials.define(name, () => Materials.build(context.site(d)))
       val made = mutable.HashMap.empty[MaterialRef, Material]
-      worn.map((ref, _) => made.getOrElseUpdate(ref, material(context, ref))).toArray
+      worn.map((ref, _) => made.getOrElseUpdate(ref, switched(context, ref))).toArray
     new MaterialTable(
       make(context),
       worn.map(_._2).toArray,
@@ -83,6 +83,12 @@ private[build] object MaterialTable:
     case MaterialRef.Default => "default"
     case MaterialRef.Inline(d) => StatementName(d)
     case MaterialRef.Named(name, _) => name
+
+  private def switched(context: BuildContext, ref: MaterialRef): Material =
+    material(context, ref) match
+      case InterfaceMaterial => InterfaceMaterial
+      case made if context.resources.switches.diffuse => DiffuseEquivalent(made)
+      case made => made
 
   private def material(context: BuildContext, ref: MaterialRef): Material = ref match
     case MaterialRef.Default => Materials.default

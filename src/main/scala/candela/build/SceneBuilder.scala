@@ -3,13 +3,13 @@ package candela.build
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
-import candela.build.settings.{OptionRecipe, SceneSettings}
+import candela.build.recipe.Switches
 import candela.film.{
   Development, FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface
 }
 import candela.math.{Motion, Still, Transform}
-import candela.render.{LayerPlan, RenderMethod, RenderPlan}
-import candela.sampling.IndependentSampler
+import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
+import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
 
@@ -25,6 +25,8 @@ import candela.scenefile.SceneDescription
   * @param color      whether rendering is spectral
   * @param lightGroups how to group lights for their layer
   * @param crew       executes divisible work
+  * @param switches   settings of the whole scene
+  * @param pixels     pixels of the image to render, overrides the scene
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -36,7 +38,9 @@ final case class BuildOptions(
     layers: Vector[Layer] = Vector.empty,
     color: ColorMode = ColorMode.Auto,
     lightGroups: LightGrouping = LightGrouping.Statements,
-    crew: Parallel = Parallel.Alone
+    crew: Parallel = Parallel.Alone,
+    switches: Switches = Switches(),
+    pixels: Option[PixelBounds] = None
 ):
   /** A preview shows albedos, for which three numbers do. */
   def colorMode: ColorMode = if preview then ColorMode.Rgb else color
@@ -52,17 +56,17 @@ object SceneBuilder:
     */
   def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
     val context = BuildContext(description, options)
-    val settings = sceneSettings(context)
     val image = ImageSetup.of(context, options)
     def integratorIn(context: BuildContext) =
       if options.preview then Preview.integrator(context) else integratorPlan(context)
     val integrator = integratorIn(context)
-    val sampling = SamplingSetup.of(context, options, settings.seed, image, integrator)
+    val sampling = SamplingSetup.of(context, options, image, integrator)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
       context.resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
     def footprints =
-      val cone = Option.when(context.isV4)(camera.cone(image, sampling.footprint))
+      val cone = Option.when(context.isV4 && !context.resources.switches.unfiltered):
+        camera.cone(image, sampling.footprint)
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, options)
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
@@ -81,10 +85,6 @@ object SceneBuilder:
     context.problems.stopAtErrors()
     val made = plan(context, options, image, crop, integrator, sampling, camera, world)
     (made, context.problems.result)
-
-  private def sceneSettings(context: BuildContext): SceneSettings =
-    val statement = context.unwritten("Option", "").copy(params = context.description.options)
-    OptionRecipe.build(context.site(statement))
 
   /** The integrator; v2's renderers may override it. */
   private def integratorPlan(context: BuildContext): IntegratorPlan =
@@ -134,15 +134,15 @@ object SceneBuilder:
       world: World
   ): RenderPlan =
     val method = world.method
+    val switches = context.resources.switches
     // pbrt-v4 scales images by the shutter time
     val exposure = if context.isV4 then camera.shutter.duration else 1f
     val film = if world.color.isSpectral then image.film.spectral(exposure) else image.film
     val bands = film.development.bands.filter(_ => world.color.isSpectral && method.hasWavelengths)
     // AOVs belong to the pixel of the camera sample
     val shares =
-      image.layers.isEmpty && bands.isEmpty && method.canShareSamples && FilterReach.isUseful(
-        image.filter
-      )
+      image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&
+        FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
@@ -153,7 +153,8 @@ object SceneBuilder:
       filter = image.filter,
       // Markov chains ignore the sampler
       sampler =
-        if usesSampler then sampling.sampler
+        if usesSampler then
+          if switches.centers then CenteredSampler(sampling.sampler, moves) else sampling.sampler
         else IndependentSampler(sampling.samples.getOrElse(1), options.seed),
       method = method,
       basis = if world.color.isSpectral then ColorBasis.Srgb else context.resources.basis,
@@ -171,7 +172,8 @@ object SceneBuilder:
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
       ),
       differentialScale =
-        if context.resources.footprintUses.isEmpty then 0f else sampling.footprint,
+        if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
+        else sampling.footprint,
       shutter = Option.when(moves)(camera.shutter),
       weighsFirst = context.isV4,
       layers = Option.when(image.layers.nonEmpty && usesSampler):
@@ -179,7 +181,9 @@ object SceneBuilder:
         layerPlan(context, image, camera, world, space)
       ,
       sharesSamples = shares,
-      bands = bands
+      bands = bands,
+      isCentered = switches.centers,
+      errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f)
     )
 
   private def layerPlan(

@@ -36,8 +36,18 @@ private[build] final case class ImageSetup(
       else (c(0), c(1), c(2), c(3))
     def edge(part: Float, size: Int) =
       candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
-    val onFilm = PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
-    val bounds = window.filter(_ => options.cropWindow.isEmpty).fold(onFilm): w =>
+    val onFilm = options.pixels match
+      case Some(p) =>
+        PixelBounds(
+          Math.max(p.x0, 0),
+          Math.max(p.y0, 0),
+          Math.min(p.x1, width),
+          Math.min(p.y1, height)
+        )
+      case None =>
+        PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    val isAsked = options.cropWindow.isDefined || options.pixels.isDefined
+    val bounds = window.filterNot(_ => isAsked).fold(onFilm): w =>
       // The image may be smaller than the film
       def x(at: Int) = Math.ceil(at.toDouble * width / film.width).toInt
       def y(at: Int) = Math.ceil(at.toDouble * height / film.height).toInt
@@ -52,7 +62,10 @@ private[build] final case class ImageSetup(
         Problem(
           Severity.Error,
           None,
-          s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, has no pixel of $width×$height"
+          options.pixels match
+            case Some(p) => s"pixels ${p.x0},${p.x1},${p.y0},${p.y1} are outside $width×$height"
+            case None =>
+              s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, has no pixel of $width×$height"
         )
       )
     bounds
@@ -93,20 +106,22 @@ private[build] object SamplingSetup:
   def of(
       context: BuildContext,
       options: BuildOptions,
-      sceneSeed: Int,
       image: ImageSetup,
       integrator: IntegratorPlan
   ): SamplingSetup =
     val samples =
       options.spp.orElse(Option.when(options.quick)(1)).orElse(integrator.samples)
-    val request = SamplerRequest(samples, options.seed ^ sceneSeed, image.width, image.height)
+    val switches = context.resources.switches
+    val request = SamplerRequest(samples, options.seed ^ switches.seed, image.width, image.height)
     val default = context.defaults.sampler
     val sampler = context.made(context.description.sampler, Samplers.all, default)(request)
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
       samples,
-      if context.isV4 then Math.max(SharpestV4, density) else density
+      if switches.centers then 1f
+      else if context.isV4 then Math.max(SharpestV4, density)
+      else density
     )
 
 /** The placed camera.

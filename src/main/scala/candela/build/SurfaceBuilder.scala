@@ -49,7 +49,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
     lightCount += count
 
   def add(dressed: DressedShape): Unit =
-    val here = context.site(dressed.declared)
+    val here = context.site(dressed.declared, dressed.shape.objectToWorld.start)
     for plan <- Shapes.all.build(here).flatten do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
       if lamp.isDefined || !isNothing(dressed.material) then

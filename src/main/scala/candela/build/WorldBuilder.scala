@@ -104,7 +104,8 @@ private[build] final class WorldBuilder(
         shining.flatMap((l, _) => light(l, lightPlan(l, other)))
       val otherScene = scene.recolored(materials.in(other), otherLights.map(_.light).toArray)
       MediaBuilder(other, integratorIn(other)).method(otherScene, samples, materials, reach)._1
-    val color = ColorPlan.of(context, mode, sensor)
+    val found = ColorPlan.of(context, mode, sensor)
+    val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
     val method =
       if !color.isSpectral then plain
       else SpectralMethod(color.bases.map(basis => basis -> recolored(basis)))
@@ -169,3 +170,11 @@ private[build] final class WorldBuilder(
     if scene.lights.isEmpty && integrator.isLit && !problems.hasErrors then
       for c <- description.camera do
         problems.warn(c.at, "the scene has no light; its image will be black")
+    if !integrator.samplesLights && scene.lights.exists(_.isDelta) then
+      for i <- description.integrator do
+        problems.warn(
+          i.at,
+          s"\"${i.name}\" does not sample lights: those that no ray hits, such as point lights, " +
+            "do not shine, as in pbrt",
+          Some("use \"volpath\"")
+        )

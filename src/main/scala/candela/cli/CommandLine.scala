@@ -4,6 +4,7 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.Suggest
 import candela.build.{ColorMode, LightGrouping}
+import candela.build.recipe.Switches
 import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
@@ -16,6 +17,24 @@ object CommandLine:
   final case class Answer(out: String, err: String, code: ExitCode)
 
   def parse(args: Seq[String]): Either[Answer, Options] =
+    translated(args) match
+      case Left(instead) => Left(Answer("", s"error: $instead\n", ExitCode.BadUsage))
+      case Right(words, notes) => parseOurs(words).map(_.copy(notes = notes))
+
+  /** Translates pbrt's words for rendering; other commands have options of their own. */
+  private def translated(args: Seq[String]): Either[String, (Seq[String], Vector[String])] =
+    val own = Command.values.map(_.word)
+    val isOther = args.headOption.exists(w => own.contains(w) && w != Command.Render.word)
+    if isOther then Right((args, Vector.empty))
+    else
+      val isNamed = args.headOption.contains(Command.Render.word)
+      PbrtOptions.translate(if isNamed then args.tail else args).map: found =>
+        val words =
+          if isNamed && found.command.isEmpty then Command.Render.word +: found.words
+          else found.command.toSeq ++ found.words
+        (words, found.notes)
+
+  private def parseOurs(args: Seq[String]): Either[Answer, Options] =
     val (options, effects) =
       val words = FilmOptions.withValues(joined(withCommand(args)))
       OParser.runParser(OptionTable.table, words, Options(), setup)
@@ -79,8 +98,14 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param files scenes; for `resume` and `merge`, film files; for `compare`, the image and its
   *   reference; for `describe`, category and type
   * @param outfiles output images, instead of the file named by the scene
-  * @param pixel with `sample`, the sample that `debug` traces instead of rendering
+  * @param pixels part of the image to render, in pixels
+  * @param pixel only pixel to render; with `sample`, the sample that `debug` traces instead
+  * @param pixelMaterial pixel whose material is printed, instead of rendering
+  * @param switches settings of the whole scene
+  * @param partialImages whether to write the image of each pass
+  * @param notes on words of the command line that have no effect
   * @param markdown whether `describe` prints the whole reference
+  * @param pbrtOptions whether `describe` prints the options of pbrt's command lines
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
   * @param color whether rendering is spectral
@@ -114,7 +139,12 @@ final case class Options(
     verbose: Boolean = false,
     explain: Boolean = false,
     cropWindow: Option[CropWindow] = None,
+    pixels: Option[PixelRange] = None,
     pixel: Option[(Int, Int)] = None,
+    pixelMaterial: Option[(Int, Int)] = None,
+    switches: Switches = Switches(),
+    partialImages: Boolean = false,
+    notes: Vector[String] = Vector.empty,
     sample: Int = 0,
     debug: Boolean = false,
     dialect: Option[Dialect] = None,
@@ -137,6 +167,7 @@ final case class Options(
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
     markdown: Boolean = false,
+    pbrtOptions: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None
 ):

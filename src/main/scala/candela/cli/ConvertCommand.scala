@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.base.{Problem, SceneError, WholeFile}
 import candela.convert.{Converter, Declarations, SceneText}
-import candela.scenefile.{Excerpts, Parser, SceneDescription}
+import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
 import java.nio.charset.StandardCharsets
@@ -17,7 +17,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     val scene = Parser.parse(SceneLoader.existing(options.files.head), options.dialect)
     out.foreach(keepSource(_, scene))
     val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
-    val converted = Converter.convert(scene, options.to.get, folder, options.toPly)
+    val to = options.to.getOrElse(scene.dialect)
+    val converted = Converter.convert(scene, to, folder, options.toPly)
     val warnings = Excerpts.fill(converted.warnings)
     report.warnings(scene.warnings ++ warnings, all = options.verbose)
     out match
@@ -26,13 +27,13 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
           val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
           try SceneText.write(converted.scene, writer)
           finally writer.close()
-        if !options.quiet then terminal.out.println(s"wrote $path  ${summary(warnings)}")
+        if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
       case None => print(converted.scene)
     terminal.out.flush()
     ExitCode.Done
 
-  private def summary(warnings: Vector[Problem]): String =
-    val dialect = options.to.get.toString.toLowerCase
+  private def summary(to: Dialect, warnings: Vector[Problem]): String =
+    val dialect = to.toString.toLowerCase
     if warnings.isEmpty then dialect
     else s"$dialect, ${Figures.count(warnings.size, "warning")}"
 

@@ -15,7 +15,9 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
 
   def run(): ExitCode = report.guarded:
     val lines =
-      if options.markdown then ReferenceMarkdown(described).page else answer(options.files)
+      if options.pbrtOptions then PbrtOptions.page.linesIterator.toVector
+      else if options.markdown then ReferenceMarkdown(described).page
+      else answer(options.files)
     options.outfiles match
       case Vector() =>
         lines.foreach(terminal.out.println)

@@ -31,5 +31,11 @@ object Figures:
 
   def scientific(value: Double): String = "%.4g".formatLocal(Locale.ROOT, value)
 
+  /** Nine significant digits, as C prints with `%.9g`. */
+  def general(value: Double): String =
+    val rounded = java.math.BigDecimal(value).round(java.math.MathContext(9)).stripTrailingZeros
+    if Math.abs(value) >= 1e-4 && Math.abs(value) < 1e9 then rounded.toPlainString
+    else rounded.toString.replace('E', 'e')
+
   /** `1 error`, `2 errors`. */
   def count(n: Long, noun: String): String = if n == 1 then s"1 $noun" else s"$n ${noun}s"

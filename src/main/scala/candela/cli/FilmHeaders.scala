@@ -78,7 +78,8 @@ private[cli] object FilmHeaders:
       one("exposure", exposure) ++
       flag("falsecolor", o.display.falseColor) ++
       one("bits", Option.when(o.display.bits != 8)(o.display.bits)) ++
-      flag("dither", o.display.dithers)
+      flag("dither", o.display.dithers) ++
+      SwitchTable.words(o)
 
   private def layer(o: Options, layer: Layer): String =
     val precision = o.precisions.collectFirst:

@@ -29,6 +29,8 @@ object Main:
         val canKeepGoing = OptionTable.names(options.command.word).contains("keep-going")
         val report =
           Report(terminal.err, options.quiet, options.verbose, canKeepGoing, terminal.hasColor)
+        if !options.quiet then
+          for note <- options.notes do terminal.err.println(s"warning: $note")
         options.command match
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Resume => ResumeCommand(options, terminal, report, loader).run()

@@ -135,7 +135,7 @@ private[cli] object OptionTable:
       .action((_, o) => o.copy(quick = true)),
     crop,
     opt[(Int, Int)]("pixel").valueName("x,y")
-      .text("the pixel of --debug, from 0,0 at the top left")
+      .text("render only this pixel, from 0,0 at the top left; with --debug, trace it")
       .action((p, o) => o.copy(pixel = Some(p))),
     opt[Int]("sample").valueName("N")
       .text("the sample of --debug, from 0 (default 0)")
@@ -201,7 +201,7 @@ private[cli] object OptionTable:
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
-  ) ++ FilmTable.render ++ DisplayTable.options
+  ) ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++ DisplayTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,
@@ -220,6 +220,9 @@ private[cli] object OptionTable:
   private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 
   private val describeOptions: Vector[Row] = Vector(
+    opt[Unit]("pbrt-options")
+      .text("print the options of pbrt's command lines, and what they are here, as Markdown")
+      .action((_, o) => o.copy(pbrtOptions = true)),
     dialect("only types and parameters of this pbrt version"),
     opt[Unit]("markdown")
       .text("print the whole reference as a Markdown page")
@@ -230,8 +233,8 @@ private[cli] object OptionTable:
   )
 
   private val convertOptions: Vector[Row] = Vector(
-    opt[Dialect]("to").required().valueName("v4|v3")
-      .text("target dialect; the scene's own dialect reformats it (v2 only from v2)")
+    opt[Dialect]("to").valueName("v4|v3")
+      .text("target dialect (default: the scene's own, which reformats it)")
       .action((d, o) => o.copy(to = Some(d))),
     opt[String]("outfile").valueName("FILE")
       .text("output scene (default: standard output); its images and meshes go beside it")
@@ -345,8 +348,7 @@ private[cli] object OptionTable:
     checkConfig: o =>
       if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
         failure("--outfile needs a single scene, found several")
-      else if o.debug != o.pixel.isDefined then
-        failure("--debug and --pixel x,y must be given together")
+      else if SwitchTable.problem(o).isDefined then failure(SwitchTable.problem(o).mkString)
       else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then
         failure("--report needs a single scene, found several")
       else if o.columns.isDefined && o.files.size < 2 then

@@ -8,7 +8,7 @@ import scala.util.{Failure, Success, Try}
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
 import candela.image.*
-import candela.render.{Cancellation, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.render.{Cancellation, Live, Progress, Refused, Renderer, Rendering, RenderPlan}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
 
@@ -37,6 +37,9 @@ final class RenderCommand(
         report.guarded:
           val loaded = load(scene, outfiles)
           if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
+          else if options.pixelMaterial.isDefined then
+            val (x, y) = options.pixelMaterial.get
+            PixelMaterial.run(loaded.plan, x, y, terminal.out)
           else
             val files = outputs(loaded.plan.filename, outfiles)
             val plan = loaded.plan
@@ -117,6 +120,14 @@ final class RenderCommand(
       val show: Progress => Unit = if options.quiet then _ => () else progress.update
       val keeper = keeping.map(_.keeper(() => goal.exists(_.isEnough)))
       val watching = Option.when(options.isWatched)(watched(scene, loaded, paths, about))
+      var current = Option.empty[Live]
+      def writePartly() = current.foreach: live =>
+        val rendering = live.rendering
+        write(paths, loaded, rendering, finished(loaded, rendering), about): Unit
+      val observer = goal.orElse(reporting.map(_.recorder))
+      val logged = ErrorLog.of(loaded.plan, observer).orElse(observer)
+      val witness =
+        if options.partialImages then Some(PartialImages(() => writePartly(), logged)) else logged
       try
         val rendering =
           try
@@ -125,10 +136,12 @@ final class RenderCommand(
               threads,
               cancellation,
               show,
-              goal.orElse(reporting.map(_.recorder)),
+              witness,
               goals.shard,
               keeper,
-              live => watching.foreach(_.start(live))
+              live =>
+                current = Some(live)
+                watching.foreach(_.start(live))
             )
           finally progress.finish()
         watching.foreach(_.end(rendering))

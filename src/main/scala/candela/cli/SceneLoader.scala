@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.{Problem, SceneError, Suggest}
 import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
+import candela.film.PixelBounds
 import candela.render.{Crew, RenderPlan}
 import candela.scenefile.{Parser, SceneDescription}
 
@@ -45,6 +46,9 @@ object SceneLoader:
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
+    val pixels = o.pixels.map(w => PixelBounds(w.x0, w.y0, w.x1, w.y1))
+    val pixel = o.pixel.filterNot(_ => o.debug).map((x, y) => PixelBounds(x, y, x + 1, y + 1))
+    val layers = if o.pixelMaterial.isEmpty then o.layers else o.layers ++ PixelMaterial.Layers
     BuildOptions(
       o.spp,
       o.seed,
@@ -52,10 +56,12 @@ object SceneLoader:
       o.preview,
       crop,
       o.keepGoing,
-      o.layers,
+      layers.distinct,
       o.color,
       o.lightGroups.getOrElse(LightGrouping.Statements),
-      Crew(o.threadCount)
+      Crew(o.threadCount),
+      o.switches,
+      pixels.orElse(pixel)
     )
 
   /** The path of an existing scene file. */

@@ -113,14 +113,25 @@ object ToV3View:
   )
 
   private val path = Seq(keep("maxdepth"), strategy, regularize)
-  private val simple = Seq(keep("maxdepth"), drop("samplelights", "samplebsdf"))
+  private val simple = Seq(
+    keep("maxdepth"),
+    lose("samplelights", "lights are sampled, and point lights shine")((p, _) =>
+      p.bools == Vector(true)
+    ),
+    lose("samplebsdf", "BSDFs are sampled, and mirrors reflect")((p, _) =>
+      p.bools == Vector(true)
+    )
+  )
 
   private val integrators = Table("Integrator", fallback = "path")(
     Rule("path" -> "path")(path*),
     Rule("volpath" -> "volpath")(path*),
-    Rule("simplepath|randomwalk" -> "path")(simple*),
-    Rule("simplevolpath" -> "volpath")(simple*),
-    Rule("lightpath" -> "bdpt")(keep("maxdepth")),
+    Rule("simplepath" -> "path")(simple*),
+    Rule.near("randomwalk" -> "path", "point lights shine, and mirrors reflect")(keep("maxdepth")),
+    Rule.near("simplevolpath" -> "volpath", "point lights shine")(keep("maxdepth")),
+    Rule.near("lightpath" -> "bdpt", "the sky, mirrors and smooth glass are seen")(
+      keep("maxdepth")
+    ),
     Rule("bdpt" -> "bdpt")(
       keep("maxdepth", "visualizestrategies", "visualizeweights"),
       regularize

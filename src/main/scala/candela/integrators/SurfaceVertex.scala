@@ -2,9 +2,9 @@ package candela.integrators
 
 import candela.bsdf.{Bounce, Bsdf, Bssrdf, Lambert}
 import candela.color.Rgb
-import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.geometry.{Frame, Hit, Ray, ShadingPoint}
 import candela.math.*
-import candela.sampling.Sampler
+import candela.sampling.{Sampler, Warp}
 import candela.scene.Scene
 
 /** A vertex of a path on a surface. Directions point away from it, in world space unless a name
@@ -97,6 +97,21 @@ class SurfaceVertex(scene: Scene):
     val choice = sampler.next1D()
     sampler.next2D()
     scattering.draw(localWo, choice, sampler.x, sampler.y, bounce)
+
+  /** Samples a direction into `bounce` with equal density, of both sides of the surface or of that
+    * of `wo`.
+    */
+  final def drawUniformly(bothSides: Boolean, sampler: Sampler): Unit =
+    sampler.next2D()
+    val wi =
+      if bothSides then Warp.uniformSphere(sampler.x, sampler.y)
+      else
+        val around = Frame.around(at.geometricNormal.facing(wo))
+        around.toWorld(Warp.uniformHemisphere(sampler.x, sampler.y))
+    val localWi = at.frame.toLocal(wi)
+    val pdf = if bothSides then 0.5f * InvTwoPi else InvTwoPi
+    val weight = received(wi, localWi) * (Math.abs(localWi.z) / pdf)
+    bounce.set(localWi, weight, pdf, isSpecular = false)
 
   /** How light travels beneath the surface, if `bounce` was refracted into it; null: straight. */
   final def beneath: Bssrdf | Null =

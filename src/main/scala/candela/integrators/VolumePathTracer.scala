@@ -22,6 +22,8 @@ final class VolumePathTracer(
 ) extends SceneIntegrator(scene):
   import limits.*
 
+  // Media where the last event could be shine, too, if paths find light only where they hit it
+  private val endsShine = !options.samplesLights
   private val walk = VolumeWalk(scene, media, options)
 
   protected def over(scene: Scene): VolumePathTracer =
@@ -35,7 +37,7 @@ final class VolumePathTracer(
     walk.begin(ray, sampler)
     while walk.goesOn do
       val isHit = walk.intersect()
-      val scattered = walk.sampleMedium(emits = walk.depth < maxDepth, sampler)
+      val scattered = walk.sampleMedium(emits = walk.depth < maxDepth || endsShine, sampler)
       if walk.isAbsorbed then walk.end()
       else if scattered >= 0f then
         if walk.depth == maxDepth then walk.end()

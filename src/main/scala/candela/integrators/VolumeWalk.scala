@@ -53,6 +53,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   private var rays = 0L
   private val visibility = MediumVisibility(scene, media, work)
   private val regularizes = options.regularizes
+  private val samplesLights = options.samplesLights && scene.lights.length > 0
   private val disperses = scene.isDispersive
 
   /** As [[Walk.parts]]. */
@@ -151,7 +152,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     val p = ray.at(t)
     val wo = -ray.direction
     val phase = media.media(medium).phase
-    if scene.lights.length > 0 then
+    if samplesLights then
       val choice = sampler.next1D()
       sampler.next2D()
       if light.choose(p, Vec3.Zero, choice) && light.samplePoint(p, sampler.x, sampler.y) then
@@ -160,7 +161,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
           add(arriving(scatterPdf = value) * value)
     sampler.next2D()
     val wi = phase.sample(wo, sampler.x, sampler.y)
-    weights.turn(phase.value(wo, wi))
+    weights.turn(if options.samplesLights then phase.value(wo, wi) else 0f)
     lastP.set(p)
     lastN.set(Vec3.Zero)
     ray.set(p, wi, Float.PositiveInfinity)
@@ -179,7 +180,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
     val choice = sampler.next1D()
     sampler.next2D()
     val p = vertex.at.p
-    !vertex.bsdf.isSpecular && scene.lights.length > 0 &&
+    !vertex.bsdf.isSpecular && samplesLights &&
     light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against scattering, whose density is that of the
@@ -241,7 +242,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
   def leave(): Unit =
     val bounce = vertex.bounce
     isSpread ||= regularizes && !bounce.isSpecular
-    weights.turn(if bounce.isSpecular then 0f else bounce.pdf)
+    weights.turn(if bounce.isSpecular || !options.samplesLights then 0f else bounce.pdf)
     lastP.set(vertex.at.p)
     lastN.set(vertex.at.frame.n)
     etaScale *= square(bounce.eta)

@@ -10,12 +10,14 @@ import candela.scene.Scene
 
 /** Which optional steps a path takes.
   *
-  * @param regularizes roughen BSDFs after the first non-specular bounce
-  * @param subsurface  does light travel beneath surfaces?
+  * @param regularizes   roughen BSDFs after the first non-specular bounce
+  * @param subsurface    does light travel beneath surfaces?
+  * @param samplesLights does light sampling look for lights, too?
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
-    subsurface: Boolean = false
+    subsurface: Boolean = false,
+    samplesLights: Boolean = true
 )
 
 /** A path from the camera over surfaces: its state, and the steps of which integrators are made.
@@ -65,6 +67,7 @@ final class Walk(
   private val hit = Hit()
   private var rays = 0L
   private val regularizes = options.regularizes
+  private val samplesLights = options.samplesLights
   private val disperses = scene.isDispersive
 
   /** The light found so far, divided, if the scene asks for it. */
@@ -171,7 +174,7 @@ final class Walk(
     * numbers where the BSDF is specular or the scene has no lights.
     */
   def sampleOneLight(sampler: Sampler): Boolean =
-    if vertex.bsdf.isSpecular || scene.lights.length == 0 then false
+    if !samplesLights || vertex.bsdf.isSpecular || scene.lights.length == 0 then false
     else
       val choice = sampler.next1D()
       sampler.next2D()
@@ -190,6 +193,14 @@ final class Walk(
   /** Samples the BSDF: `vertex.bounce`. */
   def scatter(sampler: Sampler): Unit =
     vertex.draw(sampler)
+    throughput.scale(vertex.bounce.weight)
+
+  /** Samples a direction in place of the BSDF: `vertex.bounce`.
+    *
+    * @param bothSides of the surface, with equal density; else of the side where the path came from
+    */
+  def scatterUniformly(bothSides: Boolean, sampler: Sampler): Unit =
+    vertex.drawUniformly(bothSides, sampler)
     throughput.scale(vertex.bounce.weight)
 
   /** How light travels beneath the surface that the path was just refracted into; null: it goes
@@ -216,7 +227,7 @@ final class Walk(
   def leave(): Unit =
     val bounce = vertex.bounce
     isSpread ||= regularizes && !bounce.isSpecular
-    directionPdf = if bounce.isSpecular then 0f else bounce.pdf
+    directionPdf = if bounce.isSpecular || !samplesLights then 0f else bounce.pdf
     lastP.set(vertex.at.p)
     lastN.set(vertex.at.frame.n)
     etaScale *= square(bounce.eta)

@@ -97,7 +97,8 @@ private[render] object Job:
     )
     private val layers =
       plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers, asked.groups))
-    private val filterSampler = new FilterSampler(plan.filter)
+    private val filterSampler =
+      new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
 
     def job(worker: Board => Worker): Job = new Job(schedule, film, layers, chains = None, worker)
 

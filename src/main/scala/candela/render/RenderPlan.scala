@@ -25,6 +25,8 @@ import candela.scene.SurfaceNames
   * @param sharesSamples     if true, a sample contributes to all pixels within the filter's radius;
   *                          otherwise to one, by filter importance sampling
   * @param bands             wavelength bands to accumulate, if rendering is spectral
+  * @param isCentered        whether all samples are at the pixel centre
+  * @param errors            where to write errors while rendering, if anywhere
   */
 final class RenderPlan(
     val width: Int,
@@ -44,7 +46,9 @@ final class RenderPlan(
     val weighsFirst: Boolean = true,
     val layers: Option[LayerPlan] = None,
     val sharesSamples: Boolean = false,
-    val bands: Option[SpectralBands] = None
+    val bands: Option[SpectralBands] = None,
+    val isCentered: Boolean = false,
+    val errors: Option[ErrorFile] = None
 ):
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =
@@ -74,6 +78,9 @@ final class RenderPlan(
       shutter,
       differentialScale
     )
+
+/** Errors to write while rendering: names of the reference image and of the file. */
+final case class ErrorFile(reference: String, file: String)
 
 /** The AOVs of an image, and the visible surface that they are computed from.
   *

@@ -164,11 +164,11 @@ final class BuildErrorsSuite extends AnyFunSuite:
     finally Files.delete(file)
 
   test("an unknown film or integrator falls back with a message"):
-    val text = "Film \"spectral\"\nIntegrator \"randomwalk\"\nWorldBegin\nLightSource \"point\"\n"
+    val text = "Film \"spectral\"\nIntegrator \"function\"\nWorldBegin\nLightSource \"point\"\n"
     val found = SceneTexts.problems(text)
     assert(found.map(_.severity).toSet == Set(Severity.Warning))
     assert(found.exists(_.message.contains("\"spectral\"")))
-    assert(found.exists(_.message.contains("\"randomwalk\"")))
+    assert(found.exists(_.message.contains("\"function\"")))
 
   test("gamma as a number in v3 is ignored with a warning, as in pbrt-v3"):
     val folder = Files.createTempDirectory("candela-build")

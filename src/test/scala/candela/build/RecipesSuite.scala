@@ -10,9 +10,8 @@ import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
 import candela.build.sampling.{SamplerRequest, Samplers}
-import candela.build.settings.{
-  AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements, SceneSettings
-}
+import candela.build.recipe.Switches
+import candela.build.settings.{AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.{ShapePlan, Shapes}
 import candela.build.textures.Textures
 import candela.color.ColorSpace
@@ -83,7 +82,7 @@ final class RendererRecipesSuite extends RecipeLaws[Option[IntegratorPlan]](Rend
 
 final class VolumeIntegratorRecipesSuite extends RecipeLaws[VolumeMethod](VolumeIntegrators.all)
 
-final class OptionRecipesSuite extends RecipeLaws[SceneSettings](OptionStatements.all)
+final class OptionRecipesSuite extends RecipeLaws[Switches](OptionStatements.all)
 
 final class AcceleratorRecipesSuite
     extends RecipeLaws[AcceleratorPlan](Accelerators.all)

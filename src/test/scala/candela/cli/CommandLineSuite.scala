@@ -120,7 +120,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--light-groups my-key=a a.pbrt" -> "expected statement, type, or names",
     "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
     "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
-    "-outfile x.exr a.pbrt" -> "did you mean `--outfile`?",
+    "-outfle x.exr a.pbrt" -> "did you mean `--outfile`?",
     "--xyzzy a.pbrt" -> "`candela render` has no option `--xyzzy`",
     "check --spp 4 a.pbrt" -> "`candela check` has no option `--spp`",
     "--outfile x.exr a.pbrt b.pbrt" -> "--outfile needs a single scene",

@@ -53,7 +53,8 @@ class DescribeCommandSuite extends AnyFunSuite:
 
   test("what is not supported says what is done instead"):
     def unwrapped(words: String) = printed(words).replaceAll("\\s+", " ")
-    assert(unwrapped("plymesh").contains("not supported yet: the mesh is not displaced"))
+    assert(unwrapped("trianglemesh").contains("not supported yet: tangents are computed"))
+    assert(unwrapped("igi").contains("Not supported yet: using \"path\""))
     assert(unwrapped("accelerator bvh").contains("no effect: Candela builds its own BVH"))
 
   test("a name in several categories is described in each"):

@@ -21,13 +21,22 @@ class FilmHeadersSuite extends AnyFunSuite:
     "falsecolor" -> Vector(""),
     "bits" -> Vector("16"),
     "dither" -> Vector(""),
-    "denoise" -> Vector("")
+    "denoise" -> Vector(""),
+    "pixelbounds" -> Vector("3,9,-2,5"),
+    "pixel" -> Vector("7,8"),
+    "disable-pixel-jitter" -> Vector(""),
+    "disable-texture-filtering" -> Vector(""),
+    "disable-image-textures" -> Vector(""),
+    "disable-wavelength-jitter" -> Vector(""),
+    "force-diffuse" -> Vector(""),
+    "displacement-edge-scale" -> Vector("2.5")
   )
 
   /** Saved by themselves, or without an effect on the image. */
   private val others = Set("spp", "outfile", "shard") ++
     Set(
-      "nthreads", "pixel", "sample", "debug", "report", "reference", "explain", "quiet", "verbose"
+      "nthreads", "pixelmaterial", "sample", "debug", "mse-reference-image", "mse-reference-out",
+      "write-partial-images", "report", "reference", "explain", "quiet", "verbose"
     ) ++
     Set("checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error", "thumbnail",
       "watch", "watch-after", "display-server")

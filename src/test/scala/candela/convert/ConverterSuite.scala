@@ -54,7 +54,7 @@ object ConverterSuite:
         "v4-depth-of-field v4-dielectric v4-diffuse-transmission v4-environment-map " +
         "v4-filter-gaussian v4-filter-mitchell " +
         "v4-instances v4-interfaces v4-lights v4-media v4-mirrored-glass v4-motion " +
-        "v4-panorama v4-realistic v4-sppm"
+        "v4-panorama v4-realistic v4-simplepath v4-sppm"
     val inV4 =
       "v2-alpha v2-defaults-bare v2-filter-gaussian v2-filter-triangle v2-motion v2-panorama " +
         "v2-textures v3-curves v3-defaults-bare v3-defaults-emission v3-defaults-lights " +
@@ -88,20 +88,26 @@ object ConverterSuite:
       "v4-defaults-noise" -> 12.1,
       "v4-defaults-paths" -> 0.25,
       "v4-defaults-spelling" -> 0.25,
+      "v4-displacement" -> 0.00001,
       "v4-film" -> 1.05,
       "v4-fog" -> 0.4,
+      "v4-force-diffuse" -> 0.2,
       "v4-layers" -> 0.25,
+      "v4-lightpath" -> 0.85,
       "v4-measured" -> 0.35,
       "v4-media-cloud" -> 0.15,
       "v4-media-emission" -> 9.65,
       "v4-mlt" -> 0.2,
       "v4-panorama-equalarea" -> 1.05,
       "v4-picture-lights" -> 10.05,
+      "v4-pixel-centres" -> 0.25,
       "v4-point-lights" -> 3.55,
       "v4-spectral-fog" -> 1.3,
       "v4-spectral-lamps" -> 0.4,
       "v4-procedural" -> 2.55,
+      "v4-randomwalk" -> 0.4,
       "v4-sensor" -> 0.75,
+      "v4-simplevolpath" -> 0.35,
       "v4-spectral" -> 0.4,
       "v4-subsurface" -> 0.15
     )

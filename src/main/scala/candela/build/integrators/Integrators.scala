@@ -48,6 +48,7 @@ object Integrators:
   * @param window       rendered window of the full image; None: all of it
   * @param samples      samples per pixel, if set by the integrator instead of the sampler
   * @param lights       light sampling strategy
+  * @param samplesLights whether the integrator finds lights that no ray hits
   * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
   * @param followsSpecular whether textures are also filtered along specular paths
   * @param throughMedia   creates the integrator for scenes with participating media, if supported
@@ -60,6 +61,7 @@ final case class IntegratorPlan(
     followsSpecular: Boolean = true,
     goesBeneath: Boolean = false,
     lights: LightStrategy = LightStrategy.Importance,
+    samplesLights: Boolean = true,
     isLit: Boolean = true,
     samples: Option[Int] = None,
     window: Option[PixelBounds] = None,
@@ -124,9 +126,6 @@ trait Regularizing extends Recipe[IntegratorPlan]:
 trait PathInstead extends Recipe[IntegratorPlan]:
   protected def depth()(using Site): Int = 5
 
-  /** Whether the integrator supports participating media in v3 and v4. */
-  protected def seesMedia: Boolean = false
-
   protected def make()(using site: Site): IntegratorPlan =
     val most = Math.max(0, depth())
     val limits =
@@ -136,10 +135,6 @@ trait PathInstead extends Recipe[IntegratorPlan]:
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,
-      throughMedia =
-        Option.when(seesMedia)((scene, media) =>
-          VolumePathTracer(scene, media, limits, WalkOptions(subsurface = scene.hasSubsurface))
-        ),
       throughVolumes =
         Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
     )

@@ -78,10 +78,20 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
     PhotonPlans.plan(name, maxDepth(), settings, count)
 
 object LightPathRecipe
-    extends IntegratorRecipe("lightpath", "light tracing only", onlyV4):
-  override def pending: Option[String] =
-    Some("using \"bdpt\", which also renders light seen via specular surfaces")
-  protected def make()(using Site): IntegratorPlan = BidirectionalPlans.plan(name, maxDepth())
+    extends IntegratorRecipe(
+      "lightpath",
+      "light tracing only: what is seen in mirrors and through smooth glass is black, and so is " +
+        "the sky",
+      onlyV4
+    ):
+  protected def make()(using Site): IntegratorPlan =
+    val most = Math.max(0, maxDepth())
+    IntegratorPlan(
+      (scene, _) =>
+        RenderMethod.SplattedTiles(v => LightTracer(scene, v.camera, v.splats, most)),
+      samplesBsdf = false,
+      s"$name, up to $most scattering events"
+    )
 
 object FunctionRecipe
     extends Recipe[IntegratorPlan]("function", "error of samplers; renders no image", onlyV4)
@@ -108,11 +118,10 @@ private[build] object BidirectionalPlans:
   ): IntegratorPlan =
     val most = Math.max(0, depth)
     val dialect = site.dialect
-    val shown = if name == "bdpt" then name else s"bdpt for $name"
     IntegratorPlan(
       (scene, _) => RenderMethod.SplattedTiles(v => tracer(scene, v, most, regularizes)(v.splats)),
       samplesBsdf = false,
-      s"$shown, up to $most scattering events" + (if regularizes then ", regularised" else ""),
+      s"$name, up to $most scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
         site.warn(

@@ -45,36 +45,55 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       )
     ))
 
-object SimplePathRecipe
-    extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4)
-    with PathInstead:
-  override def pending: Option[String] =
-    Some(
-      "using \"path\", which samples point lights even if `samplelights` is false"
-    )
-  declare(
-    bool("samplelights", "sample light sources")(true),
-    bool("samplebsdf", "sample BSDFs")(true)
-  )
-  override protected def depth()(using Site): Int = maxDepth()
+object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
+  private val samplesLights =
+    bool("samplelights", "sample light sources; if not, point lights do not shine")(true)
+  private val samplesBsdf =
+    bool("samplebsdf", "sample BSDFs; if not, mirrors and smooth glass are black")(true)
+
+  protected def make()(using Site): IntegratorPlan =
+    val onward = if samplesBsdf() then Onward.Bsdf else Onward.Hemisphere
+    SimplePlans.plan(name, maxDepth(), samplesLights(), onward)
 
 object SimpleVolPathRecipe
     extends IntegratorRecipe(
       "simplevolpath",
-      "simple path tracing in participating media, without light sampling",
+      "simple path tracing in participating media, without light sampling: point lights do not " +
+        "shine; surfaces may scatter light, too",
       onlyV4
-    )
-    with PathInstead:
-  override def pending: Option[String] =
-    Some("using \"volpath\", which also renders point lights")
-  override protected def seesMedia: Boolean = true
-  override protected def depth()(using Site): Int = maxDepth()
+    ):
+  protected def make()(using Site): IntegratorPlan =
+    val most = Math.max(0, maxDepth())
+    val options = WalkOptions(samplesLights = false)
+    SimplePlans
+      .plan(name, most, samplesLights = false, Onward.Bsdf)
+      .copy(throughMedia = Some(VolumePathTracer(_, _, PathLimits(most), options)))
 
 object RandomWalkRecipe
-    extends IntegratorRecipe("randomwalk", "path tracing in uniformly sampled directions", onlyV4)
-    with PathInstead:
-  override def pending: Option[String] =
-    Some(
-      "using \"path\", which also renders point lights, mirrors and smooth glass"
+    extends IntegratorRecipe(
+      "randomwalk",
+      "path tracing in uniformly sampled directions: point lights do not shine; mirrors and " +
+        "smooth glass are black",
+      onlyV4
+    ):
+  protected def make()(using Site): IntegratorPlan =
+    SimplePlans.plan(name, maxDepth(), samplesLights = false, Onward.Sphere, crosses = false)
+
+/** Plans that use [[SimplePathTracer]]. */
+private object SimplePlans:
+  def plan(
+      name: String,
+      depth: Int,
+      samplesLights: Boolean,
+      onward: Onward,
+      crosses: Boolean = true
+  ): IntegratorPlan =
+    val most = Math.max(0, depth)
+    val by = if samplesLights then "" else ", without light sampling"
+    IntegratorPlan(
+      (scene, _) =>
+        RenderMethod.Tiles(SimplePathTracer(scene, most, samplesLights, onward, crosses)),
+      samplesBsdf = !samplesLights,
+      s"$name, up to $most scattering events$by",
+      samplesLights = samplesLights
     )
-  override protected def depth()(using Site): Int = maxDepth()

@@ -26,8 +26,9 @@ final class Resources private (
       basis: ColorBasis,
       crew: Parallel = Parallel.Alone,
       seed: Int = 0,
-      mayBeSpectral: Boolean = false
-  ) = this(basis, crew, seed, SharedResources(basis, mayBeSpectral), basis)
+      mayBeSpectral: Boolean = false,
+      switches: Switches = Switches()
+  ) = this(basis, crew, seed, SharedResources(basis, mayBeSpectral, switches), basis)
 
   /** The same files and tables, for another basis; names are yet to be defined. */
   def in(other: ColorBasis): Resources = new Resources(other, crew, seed, shared, plainBasis)

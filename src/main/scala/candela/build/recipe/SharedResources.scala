@@ -15,8 +15,13 @@ import candela.scenefile.{Declaration, Param}
 /** Resources that do not depend on the colour basis: files, and tables computed from them.
   *
   * @param mayBeSpectral whether rendering may be spectral
+  * @param switches      settings of the whole scene
   */
-final class SharedResources(basis: ColorBasis, val mayBeSpectral: Boolean):
+final class SharedResources(
+    basis: ColorBasis,
+    val mayBeSpectral: Boolean,
+    val switches: Switches
+):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
 
@@ -32,7 +37,8 @@ final class SharedResources(basis: ColorBasis, val mayBeSpectral: Boolean):
   def footprintUses: Vector[String] = footprints
 
   def footprintsInWords: String =
-    if footprints.isEmpty then "none: no texture needs them"
+    if switches.unfiltered then "none: textures are not filtered"
+    else if footprints.isEmpty then "none: no texture needs them"
     else footprints.mkString("for ", ", ", "")
 
   /** Requests ray differentials or partial derivatives for a feature. */

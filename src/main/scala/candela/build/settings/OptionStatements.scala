@@ -3,44 +3,57 @@ package candela.build.settings
 import candela.build.recipe.*
 import candela.color.ColorSpace
 
-/** Settings of all of v4's `Option` statements. */
-final case class SceneSettings(seed: Int)
-
 /** v4's options, as parameters in lower case, which is how the reader passes them. */
-object OptionRecipe extends Recipe[SceneSettings]("", "settings of the whole scene", onlyV4):
+object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", onlyV4):
   private val seed = integer("seed", "random seed, if the sampler sets none")(0)
-  notYet("samples cover the whole pixel")(
-    bool("disablepixeljitter", "place all samples at the pixel centre")(false)
-  )
-  notYet("textures keep their filters")(
-    bool("disabletexturefiltering", "point-sample textures")(false)
-  )
-  notYet("materials are unchanged")(
-    bool("forcediffuse", "make all materials diffuse")(false)
-  )
-  notYet("meshes are not displaced")(
-    float("displacementedgescale", "scale of `edgelength` of all meshes")(1f)
-  )
-  notYet("comparing images is up to `candela compare`")(
-    string("msereferenceimage", "reference image", shown = "none")(""),
-    string("msereferenceout", "file for the errors", shown = "none")("")
-  )
-  noMeaning("rendering is RGB: no wavelengths are sampled")(
-    bool("disablewavelengthjitter", "use the same wavelengths for all samples")(false)
-  )
-  noMeaning("only affects rounding")(
+  private val centers = bool(
+    "disablepixeljitter",
+    "place all samples at the pixel centre, and in the middle of lens and shutter; no effect on " +
+      "the chains of \"mlt\""
+  )(false)
+  private val unfiltered = bool("disabletexturefiltering", "point-sample textures")(false)
+  private val diffuse = bool("forcediffuse", "make all materials diffuse")(false)
+  private val oneColorSet = bool(
+    "disablewavelengthjitter",
+    "use the same wavelengths for all samples, if rendering is spectral: colours are off"
+  )(false)
+  private val edgeScale = float("displacementedgescale", "scale of `edgelength` of all meshes")(1f)
+  private val reference =
+    string("msereferenceimage", "reference image for `msereferenceout`", shown = "none")("")
+  private val errors = string(
+    "msereferenceout",
+    "file for the MSE against `msereferenceimage` at 1, 2, 4, 8, … samples per pixel",
+    shown = "none"
+  )("")
+  noMeaning("it affects rounding only")(
     string("rendercoordsys", "space of ray tracing: camera, cameraworld, world")("cameraworld")
   )
-  noMeaning("no statistics images are written")(bool(
-    "pixelstats",
-    "write statistics images"
-  )(false))
-  noMeaning("there is only one renderer")(bool("wavefront", "use the wavefront renderer")(false))
+  noMeaning("`--aov` and `--report` show what pixels and rendering do")(
+    bool("pixelstats", "write statistics images")(false)
+  )
+  noMeaning("the image is the same: pbrt's two renderers differ in speed")(
+    bool("wavefront", "use the wavefront renderer")(false)
+  )
 
-  protected def make()(using Site): SceneSettings = SceneSettings(seed())
+  protected def make()(using site: Site): Switches =
+    val scale = edgeScale.given_()
+    for s <- scale if !(s > 0f) do site.error(s"`displacementedgescale` must be above 0, found $s")
+    for (one, other) <- Seq(reference -> errors, errors -> reference) do
+      if one().nonEmpty && other().isEmpty then
+        site.error(s"option `${one.name}` needs `${other.name}`, too")
+    Switches(
+      seed(),
+      centers(),
+      unfiltered(),
+      oneColorSet = oneColorSet(),
+      diffuse = diffuse(),
+      edgeScale = scale,
+      reference = reference.given_().filter(_.nonEmpty),
+      errors = errors.given_().filter(_.nonEmpty)
+    )
 
 object OptionStatements:
-  val all: Recipes[SceneSettings] = Recipes("option", Vector(OptionRecipe))
+  val all: Recipes[Switches] = Recipes("option", Vector(OptionRecipe))
 
 /** Colour spaces of v4's `ColorSpace`. */
 object ColorSpaces:

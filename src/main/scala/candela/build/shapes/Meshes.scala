@@ -2,8 +2,9 @@ package candela.build.shapes
 
 import candela.base.{loop, SceneError}
 import candela.build.recipe.*
+import candela.geometry.ShadingPoint
 import candela.scenefile.Dialect
-import candela.shapes.{LoopSubdivision, MeshError}
+import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError}
 
 object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle mesh"):
   private val indices =
@@ -38,10 +39,10 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
 
 object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY file", sinceV3):
   private val filename = string("filename", ".ply or .ply.gz file", shown = "none")("")
-  notYet("the mesh is not displaced")(
-    floatTexture("displacement", "height along the normal", onlyV4, "scene units", "none")(0f),
+  private val displacement =
+    floatTexture("displacement", "height along the normal", onlyV4, "object space", "none")(0f)
+  private val edge =
     float("edgelength", "maximum edge length of the displaced mesh", onlyV4, "scene units")(1f)
-  )
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     site.declaration.param("filename") match
@@ -50,7 +51,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         site.resources.file(p, site.declaration, site.problems, standIn).flatMap: path =>
           try
             val mesh = PlyFile.read(path, keepQuads = site.dialect == Dialect.V4)
-            Some(ofFile(mesh))
+            if displacement.given_().isEmpty then Some(ofFile(mesh)) else displaced(mesh)
           catch
             case e: SceneError =>
               for x <- e.problems do site.problems.missing(p.valuesAt, x.message, standIn, x.help)
@@ -58,6 +59,38 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
       case _ =>
         site.error("a \"plymesh\" needs `filename`")
         None
+
+  /** As triangles. */
+  private def displaced(mesh: PlyMesh)(using site: Site): Option[ShapeGeometry] =
+    val longest = edge() * site.resources.switches.edgeScale.getOrElse(1f)
+    if mesh.uvs.isEmpty then
+      site.error("a displaced mesh needs texture coordinates, as in pbrt")
+      None
+    else if !(longest > 0f) then
+      site.error(s"`edgelength` must be above 0, found $longest")
+      None
+    else
+      val heights = displacement()
+      val at = ShadingPoint()
+      val halves = mesh.quads.grouped(4).flatMap(q => Seq(q(0), q(1), q(3), q(0), q(3), q(2)))
+      try
+        val made = DisplacedMesh.of(
+          mesh.positions,
+          mesh.normals,
+          mesh.uvs,
+          mesh.indices ++ halves,
+          site.toWorld,
+          longest
+        ): (p, u, v) =>
+          at.p = p
+          at.u = u
+          at.v = v
+          heights(at)
+        Some(ShapeGeometry.Triangles(made.positions, made.normals, made.uvs, made.indices))
+      catch
+        case e: MeshError =>
+          site.error(s"\"plymesh\": ${e.getMessage}")
+          None
 
   /** Quads are bilinear patches in pbrt-v4, which are curved if the corners are not coplanar. */
   private def ofFile(mesh: PlyMesh)(using Site): ShapeGeometry =

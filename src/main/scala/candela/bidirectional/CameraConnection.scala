@@ -1,0 +1,65 @@
+package candela.bidirectional
+
+import candela.cameras.{Camera, FilmPlace}
+import candela.film.Splats
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.integrators.LightConnection
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Light tracing: connects the vertices of light subpaths to the camera. Mutable, one per worker.
+  *
+  * @param takes  the image's camera; if it can't project points to the film, nothing is connected
+  * @param splats receives what arrives
+  */
+private[bidirectional] final class CameraConnection(scene: Scene, takes: Camera, splats: Splats):
+  private val camera: Camera | Null = if takes.isTraceable then takes else null
+  private val place = FilmPlace()
+  private val shadowRay = Ray()
+  private val shadowHit = Hit()
+
+  var raysTraced: Long = 0L
+
+  /** Area pdf of camera rays at `p`, from `eye`; 0 if the camera can't be connected to. */
+  def density(eye: Vec3, p: Vec3): Float =
+    val sensor = camera
+    if sensor == null then 0f else sensor.density(eye, p)
+
+  /** Starts a new sample. */
+  def begin(time: Float): Unit = shadowRay.time = time
+
+  /** Connects all vertices.
+    *
+    * @param isWeighted against the other strategies of [[BidirectionalPathTracer]]; else light
+    *                   tracing is the only one
+    */
+  def connect(paths: LightPaths, isWeighted: Boolean, sampler: Sampler): Unit =
+    splats.begin()
+    val sensor = camera
+    if sensor != null && paths.count > 0 then
+      sampler.next2D()
+      val lensU = sampler.x
+      val lensV = sampler.y
+      var i = 0
+      while i < paths.count do
+        val lit = paths(i)
+        if sensor.see(lit.at.p, lensU, lensV, place) then
+          val toCamera = place.direction
+          val f = lit.sent(toCamera)
+          if !f.isBlack then
+            val arriving = place.density * lit.cosine(toCamera)
+            val others =
+              if !isWeighted then 0.0
+              else lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
+            val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
+            val found = lit.throughput * f * weight
+            if !found.isBlack && isClear(lit.at, toCamera, place.eye) then
+              splats.add(place.x, place.y, found)
+        i += 1
+
+  private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =
+    val origin = from.offsetOrigin(towards)
+    shadowRay.set(origin, end - origin, LightConnection.ShadowEnd)
+    raysTraced += 1
+    !scene.isOccluded(shadowRay, shadowHit)

@@ -1,0 +1,48 @@
+package candela.bidirectional
+
+import candela.cameras.Camera
+import candela.color.Rgb
+import candela.film.Splats
+import candela.geometry.Ray
+import candela.integrators.{LightTransport, SceneIntegrator, Walk}
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** Light tracing: all light but that of visible emitters comes by paths from the lights, connected
+  * to the camera at every vertex. What the camera sees in mirrors and through smooth glass stays
+  * black.
+  *
+  * @param takes    the image's camera
+  * @param splats   receives the splats
+  * @param maxDepth scattering events of a path, at most
+  *
+  * Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; PBRT 4th ed., §16.1.
+  */
+final class LightTracer(scene: Scene, takes: Camera, splats: Splats, maxDepth: Int)
+    extends SceneIntegrator(scene):
+  private val paths = LightPaths(
+    scene,
+    maxDepth,
+    LightTransport.RouletteAfter,
+    compresses = true,
+    weighsAll = false
+  )
+  private val camera = CameraConnection(scene, takes, splats)
+  private val walk = Walk(scene)
+
+  protected def over(scene: Scene): LightTracer = LightTracer(scene, takes, splats, maxDepth)
+
+  def raysTraced: Long = walk.raysTraced + paths.raysTraced + camera.raysTraced
+  override def lastMaterial: Int = walk.vertex.at.material
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    camera.begin(ray.time)
+    paths.trace(ray.time, sampler)
+    camera.connect(paths, isWeighted = false, sampler)
+    walk.begin(ray, sampler)
+    while walk.goesOn do
+      if !walk.intersect() then walk.end()
+      else
+        walk.addEmission()
+        if walk.vertex.isInterface then walk.passThrough() else walk.end()
+    walk.radiance.toRgb

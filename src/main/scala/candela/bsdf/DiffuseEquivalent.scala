@@ -1,0 +1,48 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.sampling.{SampleHash, Warp}
+
+/** A diffuse surface that reflects as much light as `inner` reflects and transmits, for each
+  * direction of view.
+  */
+final class DiffuseEquivalent(inner: Material) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = DiffuseEquivalent.Lobe(inner.bsdf(at), at.p)
+  override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDispersive: Boolean = inner.isDispersive
+
+object DiffuseEquivalent:
+  private def bits(f: Float) = java.lang.Float.floatToRawIntBits(f) & 0xffffffffL
+
+  /** @param p position, from which the random numbers of the estimated albedo follow */
+  private final class Lobe(inner: Bsdf, p: Vec3) extends Bsdf:
+    private val place =
+      SampleHash.mix64(bits(p.x) << 32 | bits(p.y)) ^ SampleHash.mix64(bits(p.z))
+
+    /** Estimated by one sample, which is right on average, as paths use it once. */
+    private def albedo(wo: Vec3): Rgb =
+      val first = SampleHash.mix64(place ^ (bits(wo.x) << 32 | bits(wo.y)))
+      val second = SampleHash.mix64(first + SampleHash.Step)
+      val third = SampleHash.mix64(second + SampleHash.Step)
+      def unit(hash: Long) = SampleHash.toUnit((hash >>> 32).toInt)
+      inner.sample(wo, unit(first), unit(second), unit(third)).weight
+
+    private def isReflection(wo: Vec3, wi: Vec3) = wo.z * wi.z > 0f
+
+    def f(wo: Vec3, wi: Vec3): Rgb = if isReflection(wo, wi) then albedo(wo) * InvPi else Rgb.Black
+
+    def pdf(wo: Vec3, wi: Vec3): Float =
+      if isReflection(wo, wi) then Warp.cosineHemispherePdf(Math.abs(wi.z)) else 0f
+
+    def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+      val w = Warp.cosineHemisphere(u1, u2)
+      val wi = if wo.z < 0f then Vec3(w.x, w.y, -w.z) else w
+      val weight = albedo(wo)
+      if weight.isBlack then BsdfSample.Absorbed
+      else BsdfSample(wi, weight, pdf(wo, wi), isSpecular = false)
+
+    def isSpecular: Boolean = false
+    def isTransmissive: Boolean = false
+    override def isDispersive: Boolean = inner.isDispersive

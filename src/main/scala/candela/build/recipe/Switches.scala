@@ -1,0 +1,38 @@
+package candela.build.recipe
+
+/** What pbrt-v4's `Option` statements and the options of its command line set for a whole scene.
+  *
+  * @param seed        of the scene, combined with that of the command line
+  * @param centers     take all samples at the pixel centre, the middle of lens and shutter
+  * @param unfiltered  point-sample textures
+  * @param meanImages  replace image textures by their mean
+  * @param oneColorSet take the same wavelengths for all samples
+  * @param diffuse     make all materials diffuse
+  * @param edgeScale   scale of `edgelength` of displaced meshes
+  * @param reference   reference image of the errors to write
+  * @param errors      file for the errors
+  */
+final case class Switches(
+    seed: Int = 0,
+    centers: Boolean = false,
+    unfiltered: Boolean = false,
+    meanImages: Boolean = false,
+    oneColorSet: Boolean = false,
+    diffuse: Boolean = false,
+    edgeScale: Option[Float] = None,
+    reference: Option[String] = None,
+    errors: Option[String] = None
+):
+  /** Both together; where they differ, these. */
+  def over(scene: Switches): Switches =
+    Switches(
+      scene.seed,
+      centers || scene.centers,
+      unfiltered || scene.unfiltered,
+      meanImages || scene.meanImages,
+      oneColorSet || scene.oneColorSet,
+      diffuse || scene.diffuse,
+      edgeScale.orElse(scene.edgeScale),
+      reference.orElse(scene.reference),
+      errors.orElse(scene.errors)
+    )

@@ -1,0 +1,49 @@
+package candela.cli
+
+import candela.film.{Development, Film}
+import candela.image.Image
+import candela.measure.Errors
+import candela.render.{Pass, RenderPlan, Witness}
+
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path, StandardOpenOption}
+
+/** Observes a rendering after 1, 2, 4, 8, … samples per pixel and at its end, beside another. */
+private[cli] abstract class Bystander(other: Option[Witness]) extends Witness:
+  protected def saw(pass: Pass, film: Film): Unit
+
+  override final def begins(samples: Int, film: Film): Unit =
+    other.foreach(_.begins(samples, film))
+  override final def isEnough: Boolean = other.exists(_.isEnough)
+  override final def seesWaves: Boolean = other.exists(_.seesWaves)
+
+  final def passed(pass: Pass, film: Film): Unit =
+    other.foreach(_.passed(pass, film))
+    if pass.isLast || Integer.bitCount(pass.samples) == 1 then saw(pass, film)
+
+/** Writes lines of samples per pixel and MSE, as pbrt-v4 does. */
+private[cli] final class ErrorLog(
+    development: Development,
+    reference: Image,
+    file: Path,
+    other: Option[Witness]
+) extends Bystander(other):
+  // At once: a file that can't be written must not wait for the first pass
+  Files.write(file, Array.empty[Byte]): Unit
+
+  protected def saw(pass: Pass, film: Film): Unit =
+    val mse = Errors.quickly(reference)(development(film)).mse
+    val line = s"${pass.samples}, ${Figures.general(mse)}\n"
+    Files.writeString(file, line, UTF_8, StandardOpenOption.APPEND): Unit
+
+private[cli] object ErrorLog:
+  /** None unless the plan asks for one. */
+  def of(plan: RenderPlan, other: Option[Witness]): Option[Witness] =
+    plan.errors.map: asked =>
+      val reference = RenderRecorder.fitting(plan, asked.reference)
+      ErrorLog(plan.development, reference, OutputFiles.path(asked.file), other)
+
+/** Writes the image of each pass but the last, which is written anyway. */
+private[cli] final class PartialImages(write: () => Unit, other: Option[Witness])
+    extends Bystander(other):
+  protected def saw(pass: Pass, film: Film): Unit = if !pass.isLast then write()

@@ -1,0 +1,38 @@
+package candela.sampling
+
+/** A sampler whose camera samples all lie in the middle: of the pixel, of the lens and, if the
+  * scene moves, of the shutter interval. The dimensions behind these are those of `inner`.
+  */
+final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
+  private var places, times = 0
+
+  def samplesPerPixel: Int = inner.samplesPerPixel
+  override def isProgressive: Boolean = inner.isProgressive
+
+  def start(x: Int, y: Int, sample: Int): Unit =
+    inner.start(x, y, sample)
+    places = CenteredSampler.Places
+    times = if moves then 1 else 0
+
+  def next1D(): Float =
+    val u = inner.next1D()
+    if times > 0 then
+      times -= 1
+      0.5f
+    else u
+
+  def next2D(): Unit =
+    inner.next2D()
+    if places > 0 then
+      places -= 1
+      x = 0.5f
+      y = 0.5f
+    else
+      x = inner.x
+      y = inner.y
+
+  def copy(): CenteredSampler = CenteredSampler(inner.copy(), moves)
+
+object CenteredSampler:
+  /** On the film and on the lens. */
+  private inline val Places = 2
