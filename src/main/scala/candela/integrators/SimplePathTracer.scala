@@ -1,6 +1,7 @@
 package candela.integrators
 
 import candela.color.Rgb
+import candela.film.LightParts
 import candela.geometry.Ray
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -35,6 +36,7 @@ final class SimplePathTracer(
 
   def raysTraced: Long = walk.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
+  override def lightParts: LightParts | Null = walk.parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

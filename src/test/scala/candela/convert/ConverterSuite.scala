@@ -88,7 +88,7 @@ object ConverterSuite:
       "v4-defaults-noise" -> 12.1,
       "v4-defaults-paths" -> 0.25,
       "v4-defaults-spelling" -> 0.25,
-      "v4-displacement" -> 0.00001,
+      "v4-displacement" -> 0.15,
       "v4-film" -> 1.05,
       "v4-fog" -> 0.4,
       "v4-force-diffuse" -> 0.2,

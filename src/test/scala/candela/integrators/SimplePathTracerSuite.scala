@@ -2,6 +2,9 @@ package candela.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.BuildOptions
+import candela.film.Layer
+import candela.render.Renderer
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -141,3 +144,15 @@ final class SimplePathTracerSuite extends AnyFunSuite:
       "Shape \"sphere\" \"float radius\" .4\nAttributeEnd\n"
     val lit = mean(disk("\"lightpath\"", s"$point\n$lens", matte))
     assert(lit > 0.01f, lit)
+
+  test("layers of light divide the light of simple paths, too"):
+    for integrator <- Seq("\"simplepath\"", unsampled, "\"simplevolpath\"") do
+      val text = corner(integrator, 16)
+      val options = BuildOptions(layers = Vector(Layer.Emission, Layer.Direct, Layer.Indirect))
+      val plan = SceneTexts.plan(text, Dialect.V4, options)
+      val image = Renderer.render(plan, threads = 1).image(plan.development)
+      val channels = image.channels
+      def mean(c: Int) = image.data.indices.by(channels).map(i => image.data(i + c).toDouble).sum
+      val (green, parts) = (mean(1), Seq(4, 7, 10).map(mean))
+      assert(parts(1) > 0 && parts(2) > 0)
+      assert(Math.abs(parts.sum - green) < 1e-3 * green, s"$parts, $green")
