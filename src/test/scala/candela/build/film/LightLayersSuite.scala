@@ -1,10 +1,11 @@
 package candela.build.film
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{BuildOptions, ColorMode, LightGrouping, SceneBuilder}
+import candela.cli.TempFolder
 import candela.film.Layer
 import candela.image.Image
 import candela.render.{Renderer, RenderPlan}
@@ -159,6 +160,17 @@ final class LightLayersSuite extends AnyFunSuite:
     assert(names(LightGrouping.Statements, line) == Vector("point_1_24", "point_1_44"))
     val foggy = s"Integrator \"volpath\" $line\n$fog"
     assert(names(LightGrouping.Types, foggy) == Vector("point", "media"))
+
+  test("two lights at the same place of two files are told apart by their files"):
+    TempFolder.use: folder =>
+      for name <- Seq("lamps-1", "lamps-2") do
+        val _ = Files.writeString(folder.resolve(s"$name.pbrt"), "LightSource \"point\"")
+      val text = "WorldBegin Include \"lamps-1.pbrt\" Include \"lamps-2.pbrt\" " +
+        "Include \"lamps-1.pbrt\""
+      val scene = SceneTexts.parse(text, Dialect.V4, folder)
+      val found = SceneBuilder.build(scene, BuildOptions(layers = Vector(Layer.Lights)))._1
+      val names = found.layers.get.groups.get
+      assert(names == Vector("point_lamps_1_1_13", "point_lamps_2_1_13"))
 
   test("unknown lights, too many groups and integrators that do not divide light are errors"):
     def problems(text: String, grouping: LightGrouping, layer: Layer = Layer.Lights) =
