@@ -116,6 +116,8 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(!isExact(plain, "Z") && isExact(plain, "CryptoObject00.R"))
       assert(legend.contains("{\"sphere s.pbrt:3:") && legend.contains("MurmurHash3_32"))
       assert(isExact(image("depth:float")._1, "Z") && !isExact(image("depth:half")._1, "Z"))
+      val group = "Combined_infinite_3.R"
+      assert(isExact(image("lights:float")._1, group) && !isExact(image("lights")._1, group))
 
   private def needsDenoiser(): Unit =
     try candela.image.Oidn.load(): Unit
