@@ -89,6 +89,9 @@ enum Command(val word: String):
   case Convert extends Command("convert")
   case View extends Command("view")
   case Preview extends Command("preview")
+  case Image extends Command("image")
+  case Average extends Command("average")
+  case Info extends Command("info")
 
 /** Part of the image to render, in fractions [0, 1] of width and height. */
 final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
@@ -125,6 +128,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param watchAfter whether the page stays when rendering has ended
   * @param bench options of `bench`
   * @param compare options of `compare`
+  * @param image options of `image` and `average`
   */
 final case class Options(
     command: Command = Command.Render,
@@ -166,6 +170,7 @@ final case class Options(
     displayServer: Option[(String, Int)] = None,
     compare: CompareOptions = CompareOptions(),
     bench: BenchOptions = BenchOptions(),
+    image: ImageOptions = ImageOptions(),
     markdown: Boolean = false,
     pbrtOptions: Boolean = false,
     to: Option[Dialect] = None,

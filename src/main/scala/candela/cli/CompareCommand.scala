@@ -252,7 +252,7 @@ private[cli] object CompareTable:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
-  private given Read[PixelWindow] = Read.reads: text =>
+  private[cli] given window: Read[PixelWindow] = Read.reads: text =>
     text.split(",", -1).map(_.trim.toIntOption) match
       case Array(Some(x0), Some(x1), Some(y0), Some(y1)) if 0 <= x0 && 0 <= y0 && x1 != x0 =>
         // As in imgtool, a negative end is a size.

@@ -34,7 +34,10 @@ private[cli] object DisplayTable:
 
   private val pictures = OutputFormat.listed(Contents.Display)
 
-  def options: Vector[Row] = Vector(
+  def options: Vector[Row] = shown :+ thumbnail
+
+  /** All but those of the terminal. */
+  def shown: Vector[Row] = Vector(
     opt[ToneCurve]("tonemap").valueName("CURVE")
       .text(
         s"tone curve of $pictures: " +
@@ -55,11 +58,13 @@ private[cli] object DisplayTable:
       .action((n, o) => change(o)(_.copy(bits = n))),
     opt[Unit]("dither")
       .text("round 8-bit values at random, which hides banding")
-      .action((_, o) => change(o)(_.copy(dithers = true))),
+      .action((_, o) => change(o)(_.copy(dithers = true)))
+  )
+
+  private def thumbnail: Row =
     opt[ThumbnailKind]("thumbnail").valueName("KIND")
       .text(
         "show the image in the terminal: " +
           s"${ThumbnailKind.values.map(_.word).mkString(", ")}; auto: what the terminal supports"
       )
       .action((k, o) => o.copy(thumbnail = Some(k)))
-  )

@@ -41,6 +41,9 @@ object Main:
           case Command.Describe => DescribeCommand(options, terminal, report).run()
           case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
           case Command.View => ViewCommand(options, terminal, report).run()
+          case Command.Image => ImageCommand(options, terminal, report).run()
+          case Command.Average => AverageCommand(options, terminal, report).run()
+          case Command.Info => InfoCommand(options, terminal, report).run()
           case Command.Convert => ConvertCommand(options, terminal, report).run()
     code.number
 

@@ -271,6 +271,10 @@ private[cli] object OptionTable:
     verbose("")
   ) ++ DisplayTable.options
 
+  private val imageOptions: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
+
+  private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
+
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =
     val rows = Command.values.find(_.word == command) match
@@ -284,6 +288,9 @@ private[cli] object OptionTable:
       case Some(Command.Convert) => convertOptions
       case Some(Command.View) => viewOptions
       case Some(Command.Preview) => previewOptions
+      case Some(Command.Image) => imageOptions
+      case Some(Command.Average) => averageOptions
+      case Some(Command.Info) => Vector.empty
       case None => Vector.empty
     rows.flatMap(_.toList).map(_.name)
 
@@ -338,6 +345,23 @@ private[cli] object OptionTable:
     command(Command.View, "show images, or write them as a picture; several: a contact sheet")(
       arg[String]("image...").unbounded().text("images in any readable format")
         .action((f, o) => o.copy(files = o.files :+ f)) +: viewOptions
+    ),
+    note(""),
+    command(Command.Image, "convert an image: format, size, range, primaries, environment map")(
+      arg[String]("image").text("an image in any readable format")
+        .action((f, o) => o.copy(files = o.files :+ f)) +: imageOptions
+    ),
+    note(""),
+    command(Command.Average, "average images of one size, such as renderings with several seeds")(
+      arg[String]("image...").unbounded().text("images with the same channels")
+        .action((f, o) => o.copy(files = o.files :+ f)) +: averageOptions
+    ),
+    note(""),
+    command(Command.Info, "print size, channels, metadata and statistics of images")(
+      Vector(
+        arg[String]("image...").unbounded().text("images in any readable format")
+          .action((f, o) => o.copy(files = o.files :+ f))
+      )
     ),
     note("""
       |Without --outfile the scene's Film names the image, and a preview is written next to it.

@@ -18,6 +18,7 @@ private[image] final case class ExrChannel(
   *
   * @param width  of the data window, as `height`
   * @param tiling present if the part is tiled
+  * @param facts  coding, windows and texts, for people
   */
 private[image] final case class ExrPart(
     channels: Vector[ExrChannel],
@@ -25,7 +26,8 @@ private[image] final case class ExrPart(
     width: Int,
     height: Int,
     tiling: Option[ExrTiling],
-    colorSpace: ColorSpace
+    colorSpace: ColorSpace,
+    facts: Vector[(String, String)]
 ):
   /** Uncompressed size of the finest level. */
   def storedBytes: Long =
@@ -136,7 +138,17 @@ private[image] object ExrHeader:
     checkSize(width, height, channels.size, tiling)
     checkCoding(compression, channels)
     val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
-    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling, space)
+    val display = value("displayWindow", "box2i", 16).map(d => Vector.fill(4)(d.getInt()))
+    val coding = Vector("compression" -> Compressions(compression)) ++
+      tiling.map(t => "tiles" -> s"${t.width}x${t.height}") ++
+      display.filter(_ != Vector(x0, y0, x1, y1)).map: d =>
+        val full = s"${d(2) - d(0) + 1}x${d(3) - d(1) + 1}"
+        "window" -> s"x $x0 to ${x1 + 1}, y $y0 to ${y1 + 1} of $full"
+    val texts = attributes.toVector.collect:
+      case (name, ("string", text)) if name != "type" && name != "name" =>
+        name -> UTF_8.decode(text.duplicate).toString
+    val facts = coding ++ texts.sortBy(_._1)
+    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling, space, facts)
     // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
       throw ImageError("attribute `chunkCount` is damaged")

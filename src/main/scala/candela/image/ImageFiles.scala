@@ -36,6 +36,13 @@ object ImageFiles:
       case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
       case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
 
+  /** What an image file says of itself: its coding, windows and texts. Only EXR files do. */
+  def facts(path: Path): Vector[(String, String)] =
+    val bytes = Files.readAllBytes(path)
+    if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
+
+  private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
+
   /** The file's signature overrides its extension, which may be wrong: none of the signatures can
     * begin a valid TGA file, the only format without one.
     */

@@ -1,0 +1,86 @@
+package candela.image
+
+import candela.base.loop
+import candela.color.{ColorSpace, Rgb}
+
+/** Changes of linear images that keep all of their channels. */
+object ImageEdits:
+
+  /** The named channels alone, in this order.
+    *
+    * @throws ImageError if one is missing
+    */
+  def select(image: Image, names: Vector[String]): Image =
+    val missing = names.filterNot(image.channelNames.contains)
+    if missing.nonEmpty then
+      throw ImageError(
+        s"no channel ${missing.mkString(", ")}, only ${image.channelNames.mkString(", ")}"
+      )
+    val from = names.map(image.channelNames.indexOf).toArray
+    val data = new Array[Float](image.width * image.height * from.length)
+    loop(data.length): i =>
+      data(i) = image.data(i / from.length * image.channels + from(i % from.length))
+    Image(image.width, image.height, names, data, image.encoding, image.colorSpace)
+
+  /** All channels times a factor, except alpha. */
+  def scaled(image: Image, factor: Float): Image =
+    val isScaled = image.channelNames.map(_ != "A").toArray
+    val data = image.data.clone
+    loop(data.length)(i => if isScaled(i % image.channels) then data(i) *= factor)
+    withData(image, data)
+
+  /** Pixels with a channel above `most` are scaled down to it: their hue stays. */
+  def clamped(image: Image, most: Float): Image =
+    val data = image.data.clone
+    val n = image.channels
+    loop(image.width * image.height): pixel =>
+      var greatest = 0f
+      loop(n)(c => greatest = Math.max(greatest, data(pixel * n + c)))
+      if greatest > most then loop(n)(c => data(pixel * n + c) *= most / greatest)
+    withData(image, data)
+
+  /** Upside down. */
+  def flipped(image: Image): Image =
+    val row = image.width * image.channels
+    val data = new Array[Float](image.data.length)
+    loop(image.height): y =>
+      System.arraycopy(image.data, y * row, data, (image.height - 1 - y) * row, row)
+    withData(image, data)
+
+  /** The same colours by other primaries.
+    *
+    * @throws ImageError if the image has no R, G and B
+    */
+  def in(image: Image, space: ColorSpace): Image =
+    val source = image.indicesOf(Image.RgbNames)
+      .getOrElse(throw ImageError("only images with R, G and B have a colour space"))
+    val Vector(r, g, b) = source: @unchecked
+    val matrix = space.ofSrgb * image.colorSpace.toSrgb
+    val data = image.data.clone
+    loop(image.width * image.height): pixel =>
+      val at = pixel * image.channels
+      val c = matrix * Rgb(data(at + r), data(at + g), data(at + b))
+      data(at + r) = c.r
+      data(at + g) = c.g
+      data(at + b) = c.b
+    Image(image.width, image.height, image.channelNames, data, image.encoding, space)
+
+  /** Mean of images of one size with the same channels, in double precision.
+    *
+    * @throws ImageError if they differ
+    */
+  def mean(images: Iterator[(String, Image)]): Image =
+    val (firstName, first) = images.next()
+    val sum = first.data.map(_.toDouble)
+    var count = 1
+    for (name, image) <- images do
+      def differs(what: String) = throw ImageError(s"$name and $firstName differ in $what")
+      if image.width != first.width || image.height != first.height then differs("size")
+      if image.channelNames != first.channelNames then differs("their channels")
+      if image.colorSpace ne first.colorSpace then differs("their colour space")
+      loop(sum.length)(i => sum(i) += image.data(i))
+      count += 1
+    withData(first, sum.map(s => (s / count).toFloat))
+
+  private def withData(image: Image, data: Array[Float]): Image =
+    Image(image.width, image.height, image.channelNames, data, image.encoding, image.colorSpace)
