@@ -4,19 +4,29 @@ package candela.image
   *
   * Reads half, float and integer channels of any names, in scanlines or tiles (the finest level);
   * of a multi-part file, the first part with colour. The pixels are those of the data window,
-  * whatever the display window is, as in pbrt. Rejects what the decoder does not support or decodes
-  * wrongly: DWA, HTJ2K, B44 with float channels, subsampled channels, deep pixels.
+  * whatever the display window is, as in pbrt. What the decoder does not support or decodes wrongly
+  * is read by [[OpenExr]], if that is installed: DWA, HTJ2K, B44 with float channels, subsampled
+  * channels such as those of luminance and chroma. Rejects deep pixels.
   */
 private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   /** Channels are returned in the order R, G, B, A, then the others as in the file. Integers above
     * 2^24 lose their lowest bits.
     */
-  def read(file: Array[Byte]): Image =
+  def read(file: Array[Byte], environment: Map[String, String] = sys.env): Image =
     val parts = ExrHeader.parts(file)
     val hasColor = parts.map(p => p.channels.map(_.name).toSet).map: names =>
       names("Y") || Image.RgbNames.forall(names)
     val chosen = Math.max(0, hasColor.indexOf(true))
+    val part = parts(chosen)
+    parts.flatMap(_.obstacle).headOption match
+      case None => decoded(file, parts, chosen)
+      case Some(why) =>
+        if parts.size > 1 then throw ImageError(s"$why in files of several parts")
+        OpenExr.load(environment).getOrElse(throw ImageError(s"$why; ${OpenExr.help}"))
+          .read(file, part, why)
+
+  private def decoded(file: Array[Byte], parts: Vector[ExrPart], chosen: Int): Image =
     val part = parts(chosen)
     val inFile = part.channels.map(_.name)
     val first = (Image.RgbNames :+ "A").map(inFile.indexOf).filter(_ >= 0)

@@ -29,7 +29,7 @@ private[image] object ExrDecoder:
     try
       native.put(file).flip()
       val version = EXRVersion.calloc(stack)
-      check(ParseEXRVersionFromMemory(version, native), stack.mallocPointer(1))
+      check(ParseEXRVersionFromMemory(version, native), stack.callocPointer(1))
       val part = parts(chosen)
       if version.multipart then many(version, native, parts, chosen, order, target, stack)
       else one(version, native, part, order, target, stack)

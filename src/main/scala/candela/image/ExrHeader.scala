@@ -18,7 +18,9 @@ private[image] final case class ExrChannel(
   *
   * @param width  of the data window, as `height`
   * @param tiling present if the part is tiled
+  * @param x, y   first pixel of the data window
   * @param facts  coding, windows and texts, for people
+  * @param obstacle what the decoder can't read
   */
 private[image] final case class ExrPart(
     channels: Vector[ExrChannel],
@@ -26,12 +28,18 @@ private[image] final case class ExrPart(
     width: Int,
     height: Int,
     tiling: Option[ExrTiling],
+    x: Int,
+    y: Int,
     colorSpace: ColorSpace,
-    facts: Vector[(String, String)]
+    facts: Vector[(String, String)],
+    obstacle: Option[String]
 ):
   /** Uncompressed size of the finest level. */
   def storedBytes: Long =
     width.toLong * height * channels.map(c => if c.pixelType == ExrHeader.Half then 2L else 4L).sum
+
+  /** Upper bound of its compression ratio; DWA and HTJ2K drop details of blocks before. */
+  def maxRatio: Int = if obstacle.isEmpty then ExrHeader.MaxRatio else 64 * ExrHeader.MaxRatio
 
 /** Tiling of a part: tiles of `width` × `height`; `levelMode` is 0 for one level, 1 for a MIP map,
   * 2 for a RIP map (levels halved in each direction separately).
@@ -70,14 +78,17 @@ private[image] object ExrHeader:
   )
 
   /** Scanlines per chunk, by compression. */
-  private val ChunkRows = Vector(1, 1, 1, 16, 32, 16, 32, 32)
+  private val ChunkRows = Vector(1, 1, 1, 16, 32, 16, 32, 32, 32, 256, 256, 32)
 
   val Half = 1
 
   /** Upper bound of the format's compression ratios: deflate reaches 1032, over the 3 of 4 bytes
     * that PXR24 keeps. Limits the memory that a damaged size can request.
     */
-  private val MaxRatio = 1400
+  private[image] val MaxRatio = 1400
+
+  /** The last compression that the decoder knows. */
+  private val LastRead = 7
   private val MaxAttributes = 128
   private val MaxChannels = 256
   private val MaxTile = 1 << 16
@@ -100,7 +111,7 @@ private[image] object ExrHeader:
     val rest = file.length.toLong - in.position
     // A chunk has 8 bytes in the table and 8 or more of its own.
     if found.map(chunks).sum * 16 > rest then throw ImageError("the file is cut short")
-    for p <- found if p.storedBytes > file.length.toLong * MaxRatio do
+    for p <- found if p.storedBytes > file.length.toLong * p.maxRatio do
       throw ImageError(s"${p.width}×${p.height} pixels can't be in a file of ${file.length} bytes")
     found.toVector
 
@@ -136,7 +147,7 @@ private[image] object ExrHeader:
     val (width, height) = (x1 - x0 + 1, y1 - y0 + 1)
     if width < 1 || height < 1 then throw ImageError("the data window is empty")
     checkSize(width, height, channels.size, tiling)
-    checkCoding(compression, channels)
+    val unread = obstacle(compression, channels)
     val space = value("chromaticities", "chromaticities", 32).fold(ColorSpace.Srgb)(spaceOf)
     val display = value("displayWindow", "box2i", 16).map(d => Vector.fill(4)(d.getInt()))
     val coding = Vector("compression" -> Compressions(compression)) ++
@@ -148,7 +159,10 @@ private[image] object ExrHeader:
       case (name, ("string", text)) if name != "type" && name != "name" =>
         name -> UTF_8.decode(text.duplicate).toString
     val facts = coding ++ texts.sortBy(_._1)
-    val part = ExrPart(channels, compression, width.toInt, height.toInt, tiling, space, facts)
+    val part = ExrPart(
+      channels, compression, width.toInt, height.toInt, tiling, x0.toInt, y0.toInt, space, facts,
+      unread
+    )
     // The decoder trusts this number, and a wrong one crashes the process.
     for count <- value("chunkCount", "int", 4) if count.getInt() != chunks(part) do
       throw ImageError("attribute `chunkCount` is damaged")
@@ -175,14 +189,18 @@ private[image] object ExrHeader:
         padded(w, t.width) * padded(h, t.height) <= (Int.MaxValue - 8) / channels
       if !sane then throw ImageError(s"tiles of ${t.width}×${t.height} pixels are not supported")
 
-  private def checkCoding(compression: Int, channels: Vector[ExrChannel]): Unit =
-    val name = Compressions.lift(compression).getOrElse(s"number $compression")
-    if compression >= ChunkRows.size then
-      throw ImageError(s"EXR compression $name is not supported; save it with ZIP or PIZ")
-    if (name == "B44" || name == "B44A") && channels.exists(_.pixelType != Half) then
-      throw ImageError(s"EXR compression $name is read for half channels only; save it with ZIP")
-    for channel <- channels if channel.xSampling != 1 || channel.ySampling != 1 do
-      throw ImageError(s"channel `${channel.name}` is subsampled, which is not supported")
+  /** What of this coding the decoder can't read. */
+  private def obstacle(compression: Int, channels: Vector[ExrChannel]): Option[String] =
+    val name = Compressions.lift(compression)
+      .getOrElse(throw ImageError(s"EXR compression number $compression is not supported"))
+    val isB44 = name == "B44" || name == "B44A"
+    if compression > LastRead then Some(s"EXR compression $name is not supported")
+    else if isB44 && channels.exists(_.pixelType != Half) then
+      Some(s"EXR compression $name is read for half channels only")
+    else
+      channels.find(c => c.xSampling != 1 || c.ySampling != 1).map(c =>
+        s"channel `${c.name}` is subsampled, which is not supported"
+      )
 
   private def channelList(data: ByteBuffer): Vector[ExrChannel] =
     val in = Reader(data)

@@ -29,13 +29,14 @@ sealed abstract class StoredImage:
     val found = names.map(channelNames.indexOf)
     Option.when(found.forall(_ >= 0))(found)
 
-  /** The colour channels: R, G and B, or Y three times.
+  /** The colour channels: R, G and B, or Y or the only channel three times.
     *
-    * @throws ImageError if there are neither
+    * @throws ImageError if there are none of these
     */
   final def colorChannels: Vector[Int] =
     indicesOf(Image.RgbNames)
-      .orElse(indicesOf(Vector("Y")).map(y => Vector(y.head, y.head, y.head)))
+      .orElse(indicesOf(Vector("Y")).map(y => Vector.fill(3)(y.head)))
+      .orElse(Option.when(channels == 1)(Vector.fill(3)(0)))
       .getOrElse(throw ImageError(s"no channels R, G, B or Y, only ${channelNames.mkString(", ")}"))
 
 /** An image of Floats, in the layout of [[StoredImage]]; linear by default. */

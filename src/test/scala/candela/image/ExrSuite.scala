@@ -51,12 +51,46 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     // 16000 times the number of the pixel is a multiple of 128 below 2^31: exact in Float.
     for y <- 0 until 21; x <- 0 until 37 do assert(image(x, y, id) == 16000f * (37 * y + x))
 
-  test("what the decoder can't do right is refused by name"):
-    def refusal(name: String) = Samples.attempt(Exr.read(resource(name))).swap.toOption.get
+  private val noLibrary = Map(OpenExr.Variable -> "/nowhere/libOpenEXR.so")
+
+  test("what the decoder can't do right is refused by name, without the OpenEXR library"):
+    def refusal(name: String) =
+      Samples.attempt(Exr.read(resource(name), noLibrary)).swap.toOption.get
+    assert(refusal("half-dwaa").contains("or install the OpenEXR library (CANDELA_OPENEXR"))
+    assert(refusal("luminance-chroma").contains("channel `BY` is subsampled"))
     assert(refusal("float-b44").contains("B44 is read for half channels only"))
     assert(refusal("half-dwaa").contains("DWAA is not supported"))
     assert(refusal("half-dwab").contains("DWAB is not supported"))
     assert(refusal("half-htj2k").contains("HTJ2K256 is not supported"))
+
+  private def withLibrary(read: => Unit): Unit =
+    assume(OpenExr.load().isDefined, "OpenEXR is not installed")
+    read
+
+  test("with the OpenEXR library, files of other codings are read"):
+    withLibrary:
+      assertHolds(Exr.read(resource("float-b44")), rgb)
+      for name <- Vector("half-dwaa", "half-dwab") do
+        val (image, exact) = (Exr.read(resource(name)), Exr.read(resource("half-zip")))
+        assert((image.width, image.height, image.channelNames) == (37, 21, Image.RgbNames))
+        // A lossy coding
+        assert(image.data.zip(exact.data).forall((a, b) => Math.abs(a - b) < 0.05f), name)
+
+  test("with the OpenEXR library, luminance and chroma become colours"):
+    withLibrary:
+      val image = Exr.read(resource("luminance-chroma"))
+      assert(image.channelNames == Image.RgbNames)
+      // Chroma has half the resolution, and luminance a step between columns 17 and 18
+      for x <- Vector(3, 33); y <- 0 until 21; (value, c) <- Vector(0.6f, 0.4f, 0.2f).zipWithIndex
+      do
+        val wanted = if x < 18 then value / 2 else value
+        assert(Math.abs(image(x, y, c) - wanted) < 2e-3f, s"$x $y")
+
+  test("a coding that the library doesn't know either is named"):
+    withLibrary:
+      for message <- Samples.attempt(Exr.read(resource("half-htj2k"))).left do
+        assert(message.startsWith("EXR compression HTJ2K256 is not supported, and the OpenEXR"))
+        assert(!message.contains(".exr")): Unit
 
   test("every finite float, infinity and NaN comes back bit for bit"):
     val sizes = for w <- Gen.choose(1, 40); h <- Gen.choose(1, 40) yield (w, h)
@@ -112,6 +146,11 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     java.util.Arrays.fill(file, at, at + 32, 0.toByte)
     val message = intercept[ImageError](Exr.read(file)).getMessage
     assert(message == "attribute `chromaticities` is damaged")
+
+  test("another signature is an error, for which the decoder has no message"):
+    val file = resource("tiled")
+    file(0) = 0
+    assert(Samples.attempt(Exr.read(file)).left.exists(_.contains("EXR error")))
 
   test("damaged files are read or refused, never anything else"):
     val names =

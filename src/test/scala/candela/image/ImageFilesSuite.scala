@@ -116,7 +116,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       val path = folder.resolve("a.png")
       ImageFiles.write(path, Image.rgb(4, 4))
-      val depth = Samples.random(2, 2, Vector("z"), 1)
+      val depth = Samples.random(2, 2, Vector("z", "id"), 1)
       assert(error(ImageFiles.write(path, depth)).startsWith(s"$path: no channels"))
       assert(ImageFiles.read(path).width == 4)
 

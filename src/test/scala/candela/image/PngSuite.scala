@@ -41,9 +41,11 @@ class PngSuite extends AnyFunSuite:
   test("other channels are left out; without colour it is an error"):
     val back = read(Png.write(Samples.random(3, 3, Vector("z", "B", "G", "R"), 1), Vector.empty))
     assert(back.channelNames == Image.RgbNames)
-    val depth = Samples.random(3, 3, Vector("depth"), 1)
+    val depth = Samples.random(3, 3, Vector("depth", "id"), 1)
     val error = intercept[ImageError](Png.write(depth, Vector.empty))
-    assert(error.getMessage == "no channels R, G, B or Y, only depth")
+    assert(error.getMessage == "no channels R, G, B or Y, only depth, id")
+    val alone = read(Png.write(Image(1, 1, Vector("depth"), Array(1f)), Vector.empty))
+    assert(alone.channelNames == Vector("Y") && alone.toImage.data(0) == 1f)
 
   test("metadata is stored as text"):
     val file = Png.write(Image.rgb(1, 1), Vector("Software" -> "Candela 0.1", "Scene" -> "küche"))
