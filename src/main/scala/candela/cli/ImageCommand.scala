@@ -15,10 +15,16 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
     val outputs = OutputFiles.asked(options.outfiles)
     outputs.check()
     val path = OutputFiles.path(options.files.head)
+    val whole = ImageFiles.read(path).linear
     val made =
-      try edited(ImageFiles.read(path).linear)
-      catch case e: ImageError => throw ImageError(message(path, e))
-    val how = WriteOptions(isHalf = asked.isHalf, display = options.display)
+      try edited(whole)
+      catch
+        case e: ImageError => throw ImageError(message(path, e))
+    // As imgtool: a crop knows its place
+    val isPlaced = asked.size.isEmpty && asked.environment.isEmpty && !asked.flips
+    val window = asked.crop.filter(_ => isPlaced).map: c =>
+      ImageWindow(c.x0, c.y0, whole.width, whole.height)
+    val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
     for out <- outputs.paths do
       val shown =
         if OutputFormat.of(out).exists(_.contents == Contents.Display) then

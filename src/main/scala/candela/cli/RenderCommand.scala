@@ -213,7 +213,12 @@ final class RenderCommand(
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
     val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++
       denoising.fold(Vector.empty)(_.metadata)
-    val how = WriteOptions(development.isHalf, precisions(loaded.plan), options.display)
+    val how = WriteOptions(
+      development.isHalf,
+      precisions(loaded.plan),
+      options.display,
+      window(loaded.plan)
+    )
     def write(path: Path) = Try:
       if OutputFormat.of(path).exists(_.contents == Contents.Display) then
         ImageFiles.write(path, picture, about ++ options.display.describe(picture), how)
@@ -239,10 +244,16 @@ final class RenderCommand(
       yield channel -> isHalf
     all.toMap
 
+  private def isCropped(plan: RenderPlan): Boolean =
+    plan.crop != PixelBounds(0, 0, plan.width, plan.height)
+
+  private def window(plan: RenderPlan): Option[ImageWindow] = Option.when(isCropped(plan)):
+    ImageWindow(plan.crop.x0, plan.crop.y0, plan.width, plan.height)
+
   private def metadata(scene: String, loaded: LoadedScene): Vector[(String, String)] =
     val plan = loaded.plan
     val PixelBounds(x0, y0, x1, y1) = plan.crop
-    val crop = Option.when(plan.crop != PixelBounds(0, 0, plan.width, plan.height)):
+    val crop = Option.when(isCropped(plan)):
       "crop" -> s"x $x0 to $x1, y $y0 to $y1 of ${plan.width}x${plan.height}"
     Vector(
       "software" -> s"Candela ${Version.current}",

@@ -39,4 +39,7 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do
       throw ImageError(s"metadata `$name`: the name must have 1 to 255 bytes")
-    ExrEncoder.encode(image.linear, metadata, options.others.getOrElse(_, options.isHalf))
+    val file =
+      ExrEncoder.encode(image.linear, metadata, options.others.getOrElse(_, options.isHalf))
+    for window <- options.window do ExrWindow.place(file, window, image.height, ExrEncoder.Rows)
+    file

@@ -16,6 +16,9 @@ import java.nio.charset.StandardCharsets.UTF_8
 /** Calls the native encoder. */
 private[image] object ExrEncoder:
 
+  /** Scanlines per chunk, with ZIP. */
+  val Rows = 16
+
   /** Largest finite half. */
   private val LargestHalf = 65504f
 

@@ -20,11 +20,13 @@ enum Contents:
   * @param isHalf  whether to store 16-bit instead of 32-bit floats
   * @param others  the same of channels by name, where it differs
   * @param display how display formats show linear light
+  * @param window  where the image lies in a larger one, of which it is a crop
   */
 final case class WriteOptions(
     isHalf: Boolean = false,
     others: Map[String, Boolean] = Map.empty,
-    display: DisplayTransform = DisplayTransform.Plain
+    display: DisplayTransform = DisplayTransform.Plain,
+    window: Option[ImageWindow] = None
 )
 
 /** An output file format; all are listed in [[OutputFormat.all]].

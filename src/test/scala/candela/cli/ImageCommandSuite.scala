@@ -44,6 +44,14 @@ class ImageCommandSuite extends AnyFunSuite:
       val factor = if values.max > 1.5f then 1.5f / values.max else 1f
       for c <- 0 until 3 do assert(Math.abs(part(x, y, c) - values(c) * factor) < 1e-6f): Unit
 
+  test("image stores the place of a crop in .exr"):
+    TempFolder.use: folder =>
+      val out = folder.resolve("crop.exr")
+      val (code, captured) =
+        run("image", sky, "--crop", "10,40,5,20", "--outfile", out.toString)
+      assert(code == 0, captured.err)
+      assert(run("info", out.toString)._2.out.contains("x 10 to 40, y 5 to 20 of 64x32"))
+
   test("image resizes by width, height or both"):
     for (size, width, height) <- Vector(("32", 32, 16), ("x8", 16, 8), ("10x30", 10, 30)) do
       val small = made(sky, "--resize", size)

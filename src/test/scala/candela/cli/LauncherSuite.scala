@@ -57,6 +57,16 @@ class LauncherSuite extends AnyFunSuite:
       val rest = Vector("-cp", jar, "candela.cli.Main", "a b", "*", "$HOME", "")
       assert(words.drop(5).dropRight(1) == rest)
 
+  test("names of files are UTF-8 where there is no locale; a locale stays as it is"):
+    staged: p =>
+      val _ = p.jdk("99", java = "printf %s \"${LC_ALL:-$LANG}\"")
+      def locale(all: String, lang: String) =
+        p.run(env = Map(None_, "LC_ALL" -> all, "LC_CTYPE" -> "", "LANG" -> lang)).out
+      for (all, lang) <- Seq("C" -> "", "POSIX" -> "de_DE.UTF-8", "" -> "", "" -> "C") do
+        assert(locale(all, lang) == "C.UTF-8")
+      assert(locale("", "de_DE.ISO-8859-1") == "de_DE.ISO-8859-1")
+      assert(locale("ja_JP.UTF-8", "C") == "ja_JP.UTF-8")
+
   test("bench is told how people start the program, and nothing else is"):
     staged: p =>
       val _ = p.jdk("99")

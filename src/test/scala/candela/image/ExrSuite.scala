@@ -187,6 +187,19 @@ class ExrSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     for i <- 6 until data.length do
       assert(Math.abs(half.data(i) - data(i)) <= Math.abs(data(i)) / 2048 + 1e-7f): Unit
 
+  test("a crop is stored with its place in the whole image, and is read by itself"):
+    val image = Samples.random(7, 35, Image.RgbNames :+ "Z", 1)
+    val options = WriteOptions(window = Some(ImageWindow(100, 20, 640, 360)))
+    val file = Exr.write(image, Vector("dataWindow of" -> "nothing"), options)
+    val part = ExrHeader.parts(file).head
+    assert((part.x, part.y, part.width, part.height) == (100, 20, 7, 35))
+    assert(part.facts.toMap.apply("window") == "x 100 to 107, y 20 to 55 of 640x360")
+    val back = Exr.read(file)
+    assert(back.data.sameElements(image.data))
+    for library <- OpenExr.load() do
+      val halves = library.read(file, part, "")
+      assert(Math.abs(halves(3, 30, 1) - image(3, 30, 1)) < 2e-3f): Unit
+
   test("channels may have a precision of their own"):
     val image = Image(1, 1, Image.RgbNames :+ "Z", Array(0.1f, 0.2f, 0.3f, 0.4f))
     def types(options: WriteOptions) =

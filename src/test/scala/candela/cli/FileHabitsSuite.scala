@@ -1,0 +1,97 @@
+package candela.cli
+
+import java.io.ByteArrayOutputStream
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+import java.util.zip.GZIPOutputStream
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.image.{Image, ImageFiles}
+
+/** Files as they come: names in any language, compressed, with Windows line ends, in folders. */
+class FileHabitsSuite extends AnyFunSuite:
+
+  private def zipped(bytes: Array[Byte]): Array[Byte] =
+    val out = ByteArrayOutputStream()
+    val zip = GZIPOutputStream(out)
+    zip.write(bytes)
+    zip.close()
+    out.toByteArray
+
+  private val mesh =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
+      "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n" +
+      "-9 -9 4\n9 -9 4\n0 9 4\n3 0 1 2\n"
+
+  /** A scene with a texture, meshes and includes in folders beside it. */
+  private def write(folder: Path): Path =
+    assume(System.getProperty("sun.jnu.encoding") == "UTF-8", "names of files are ASCII here")
+    def put(name: String, bytes: Array[Byte]) =
+      val file = folder.resolve(name)
+      val _ = Files.createDirectories(file.getParent)
+      Files.write(file, bytes)
+    def lines(texts: String*) = texts.map(_ + "\r\n").mkString.getBytes(UTF_8)
+    val _ = put("Körper/große Fläche.ply", mesh.replace("\n", "\r\n").getBytes)
+    put("Körper/große Fläche.ply.gz", zipped(mesh.getBytes))
+    put(
+      "素材/stoff.pbrt",
+      lines(
+        "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"素材/bild ñ.png\"",
+        "Material \"diffuse\" \"texture reflectance\" \"t\""
+      )
+    )
+    put(
+      "Körper/alle.pbrt.gz",
+      zipped(lines(
+        "# Windows",
+        "Include \"素材/stoff.pbrt\"",
+        "Shape \"plymesh\" \"string filename\" \"Körper/große Fläche.ply.gz\"",
+        "Shape \"plymesh\" \"string filename\" \"Körper/große Fläche.ply\""
+      ))
+    )
+    ImageFiles.write(folder.resolve("素材/bild ñ.png"), Image.rgb(2, 2))
+    put(
+      "die Szene.pbrt",
+      lines(
+        "Film \"rgb\" \"integer xresolution\" 4 \"integer yresolution\" 4",
+        "Sampler \"independent\" \"integer pixelsamples\" 1",
+        "WorldBegin",
+        "LightSource \"infinite\"",
+        "Include \"Körper/alle.pbrt.gz\""
+      )
+    )
+
+  private def run(words: String*): Captured =
+    val captured = Captured()
+    val code = Main.run(words, captured.terminal)
+    assert(code == 0, captured.err)
+    captured
+
+  test("names with spaces and of any language, Windows line ends, includes of other folders"):
+    TempFolder.use: folder =>
+      val scene = write(folder.resolve("ein Ordner é"))
+      val checked = run("check", scene.toString)
+      assert(checked.err.isEmpty && checked.out.contains("2 shapes, 1 light, 1 texture"))
+
+  test("a compressed scene is rendered, and converted with its files"):
+    TempFolder.use: folder =>
+      val scene = write(folder.resolve("ein Ordner é"))
+      val packed = scene.resolveSibling("die Szene.pbrt.gz")
+      val _ = Files.write(packed, zipped(Files.readAllBytes(scene)))
+      val image = folder.resolve("Bild ü.exr")
+      val rendered = run(packed.toString, "--outfile", image.toString)
+      assert(rendered.err.isEmpty)
+      // The mesh covers the middle, with the black texture
+      assert(ImageFiles.read(image)(2, 2, 0) == 0f)
+      val other = folder.resolve("v3 ß.pbrt")
+      val _ = run("convert", packed.toString, "--to", "v3", "--outfile", other.toString)
+      assert(run("check", other.toString).out.contains("2 shapes, 1 light, 1 texture"))
+
+  test("an AttributeBegin that is never ended is reported with its place"):
+    TempFolder.use: folder =>
+      val scene = folder.resolve("a.pbrt")
+      val _ = Files.writeString(scene, "WorldBegin\r\nAttributeBegin\r\nShape \"sphere\"\r\n")
+      val captured = Captured()
+      assert(Main.run(Seq("check", scene.toString), captured.terminal) == 1)
+      assert(captured.err.contains("a.pbrt:2:1: error: AttributeBegin is never closed"))
