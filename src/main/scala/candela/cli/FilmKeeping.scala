@@ -1,11 +1,11 @@
 package candela.cli
 
 import candela.base.{FileName, Problem, SceneError, Severity}
-import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmWriter}
+import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
 
 import java.nio.file.{Files, Path}
 
-/** The film file of one rendering.
+/** The film file of one rendering, which no other rendering can write until it is closed.
   *
   * @param header of the rendering; its number of samples done is not used
   * @param start  the saved rendering to continue, if any
@@ -15,9 +15,12 @@ private[cli] final class FilmKeeping(
     header: FilmHeader,
     val start: Option[FilmFile],
     mayEndEarly: Boolean,
+    lock: Option[FilmLock],
     options: Options,
     report: Report
-):
+) extends AutoCloseable:
+  def close(): Unit = lock.foreach(_.close())
+
   /** Whether there is nothing left to render. */
   def isDone: Boolean = start.exists(f => f.header.isComplete && f.header.samples == header.samples)
 
@@ -43,7 +46,7 @@ private[cli] object FilmKeeping:
     *
     * @param outfiles as asked for
     * @param images   image files to write
-    * @param resumed  the saved rendering of `resume`
+    * @param resumed  the saved rendering of `resume`, which has locked its file
     * @throws SceneError if the file is of another rendering
     */
   def of(
@@ -61,21 +64,33 @@ private[cli] object FilmKeeping:
     for path <- resumed.map(_.path).orElse(named.map(OutputFiles.path)).orElse(beside) yield
       val now = FilmHeaders.of(options, scene, loaded, path, images)
       resumed match
-        case Some(film) => resume(film, now, loaded, options, report)
+        case Some(film) =>
+          val obstacle = film.header.obstacle(loaded.plan)
+          val next = continued(film, now, obstacle)
+          FilmKeeping(path, next, resumed, obstacle.isEmpty, None, options, report)
         case None =>
-          val start = existing(path, now, report)
-          FilmKeeping(path, now, start, now.obstacle(loaded.plan).isEmpty, options, report)
+          val lock = locked(path)
+          try
+            val start = existing(path, now, report)
+            val mayEndEarly = now.obstacle(loaded.plan).isEmpty
+            FilmKeeping(path, now, start, mayEndEarly, Some(lock), options, report)
+          catch
+            case e: Throwable =>
+              lock.close()
+              throw e
 
-  private def resume(
-      film: FilmFile,
-      now: FilmHeader,
-      loaded: LoadedScene,
-      options: Options,
-      report: Report
-  ): FilmKeeping =
+  /** @throws SceneError if another rendering writes this film file */
+  def locked(path: Path): FilmLock =
+    val folder = path.toAbsolutePath.getParent
+    if !Files.isDirectory(folder) then
+      FilmInput.fail(s"can't write `$path`: no such folder: `$folder`")
+    FilmLock.take(path).getOrElse:
+      FilmInput.fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
+
+  /** The rendering that continues a saved one. */
+  private def continued(film: FilmFile, now: FilmHeader, obstacle: Option[String]): FilmHeader =
     FilmInput.verify(film, now.copy(count = film.header.count))
     val header = film.header
-    val obstacle = header.obstacle(loaded.plan)
     if now.samples != header.samples then
       for why <- obstacle do
         FilmInput.fail(
@@ -84,14 +99,10 @@ private[cli] object FilmKeeping:
         )
     if now.samples < header.done then
       FilmInput.fail(s"`${film.path}` has ${header.done} samples per pixel already")
-    val next = header.copy(samples = now.samples)
-    FilmKeeping(film.path, next, Some(film), obstacle.isEmpty, options, report)
+    header.copy(samples = now.samples)
 
   /** The saved rendering at `path`, if there is one. */
   private def existing(path: Path, now: FilmHeader, report: Report): Option[FilmFile] =
-    val folder = path.toAbsolutePath.getParent
-    if !Files.isDirectory(folder) then
-      FilmInput.fail(s"can't write `$path`: no such folder: `$folder`")
     Option.when(Files.exists(path) || Files.exists(FilmFile.previous(path))):
       val film =
         try FilmInput.open(path.toString, report)

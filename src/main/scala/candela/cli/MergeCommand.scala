@@ -3,6 +3,8 @@ package candela.cli
 import candela.render.{RenderState, Renderer}
 import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}
 
+import scala.util.Using
+
 /** `candela merge`: adds up film files of the shards of a rendering. */
 final class MergeCommand(
     options: Options,
@@ -43,12 +45,13 @@ final class MergeCommand(
     def load(state: RenderState): Unit =
       films.foreach(_.load(state))
       for path <- merged do
-        val writer = FilmWriter(path)
-        writer.write(
-          if header.isWhole then header.copy(shards = Set(0), count = 1) else header,
-          state
-        )
-        writer.commit()
+        Using.resource(FilmKeeping.locked(path)): _ =>
+          val writer = FilmWriter(path)
+          writer.write(
+            if header.isWhole then header.copy(shards = Set(0), count = 1) else header,
+            state
+          )
+          writer.commit()
         if !options.quiet then terminal.out.println(s"wrote $path")
     val rendering = Renderer.gather(loaded.plan, load)
     val planned = if options.film.partial then done else header.samples

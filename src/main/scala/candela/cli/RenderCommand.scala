@@ -89,12 +89,22 @@ final class RenderCommand(
   ): ExitCode =
     val name = resumed.fold(scene)(_.header.scene)
     val keeping = FilmKeeping.of(options, report, name, loaded, outfiles, paths, resumed)
+    try render(name, loaded, paths, keeping, sequence)
+    finally keeping.foreach(_.close())
+
+  private def render(
+      name: String,
+      loaded: LoadedScene,
+      paths: Vector[Path],
+      keeping: Option[FilmKeeping],
+      sequence: Sequence
+  ): ExitCode =
     val digest = Option.when(goals.skipDone):
       FilmHeaders.digest(FilmHeaders.of(options, name, loaded, Path.of("film"), paths))
     val isDone = digest.exists(Sequence.isDone(paths, _)) ||
       (goals.skipDone && paths.isEmpty && keeping.exists(_.isDone))
     if isDone then
-      sequence.skip(scene)
+      sequence.skip(name)
       ExitCode.Done
     else
       for k <- keeping; film <- k.start if !options.quiet do

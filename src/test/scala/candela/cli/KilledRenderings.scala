@@ -75,7 +75,8 @@ object KilledRenderings:
     if !process.waitFor(300, TimeUnit.SECONDS) || process.exitValue != 0 then
       throw IllegalStateException(s"exit code ${process.exitValue}: $err")
 
-  private def candela(folder: Path, words: Vector[String]): Process =
+  /** The program, in a process of its own. */
+  def candela(folder: Path, words: Vector[String]): Process =
     val java = ProcessHandle.current.info.command.orElse("java")
     val classes = System.getProperty("java.class.path")
     val command =

@@ -1,0 +1,42 @@
+package candela.render.storage
+
+import java.io.IOException
+import java.nio.channels.{FileChannel, OverlappingFileLockException}
+import java.nio.file.StandardOpenOption.{CREATE, WRITE}
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
+
+/** The right to write a film file, held by one rendering at a time.
+  *
+  * It is a lock of the operating system, which ends with the process, however that ends. File
+  * systems without locks don't guard the file.
+  */
+final class FilmLock private (file: Path, channel: FileChannel) extends AutoCloseable:
+  def close(): Unit =
+    // While it is still locked: no other process can have begun to use it
+    val _ = Try(Files.deleteIfExists(file))
+    channel.close()
+
+object FilmLock:
+
+  /** Takes the right to write `film`; None if another rendering has it.
+    *
+    * @throws IOException if the folder can't be written
+    */
+  def take(film: Path): Option[FilmLock] =
+    val file = film.resolveSibling(s".${film.getFileName}.lock")
+    val channel = FileChannel.open(file, CREATE, WRITE)
+    val isOurs =
+      try channel.tryLock() != null
+      catch
+        case _: OverlappingFileLockException => false // another thread of this process
+        case _: IOException => true // no locks here
+    if !isOurs then
+      channel.close()
+      None
+    else if !Files.exists(file) then
+      // Its last owner deleted it after it was opened here
+      channel.close()
+      take(film)
+    else Some(FilmLock(file, channel))
