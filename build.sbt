@@ -4,6 +4,7 @@ ThisBuild / version := "0.1.0"
 ThisBuild / licenses := Seq(License.Apache2)
 
 val lwjgl = "3.4.3"
+val spark = "4.2.0"
 val lwjglNatives = Seq(
   "natives-linux",
   "natives-linux-arm64",
@@ -32,10 +33,15 @@ val jvmOptions = Seq(
   "--sun-misc-unsafe-memory-access=allow"
 )
 
-lazy val root = (project in file("."))
+lazy val root: Project = (project in file("."))
+  .aggregate(LocalProject("cluster"))
   .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela",
+    aggregate := false, // `run`, `stage`, … are the program's; but all tests and sources count
+    test / aggregate := true,
+    scalafmtAll / aggregate := true,
+    scalafmtCheckAll / aggregate := true,
     description := "A physically based renderer for pbrt scenes",
     scalacOptions ++= Seq("-encoding", "UTF-8"),
     scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
@@ -74,6 +80,35 @@ lazy val root = (project in file("."))
     Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
   )
+
+/** Renders on Apache Spark. The program doesn't depend on it: it looks for it at run time. */
+lazy val cluster: Project = (project in file("cluster"))
+  .dependsOn(root % "compile->compile;test->test")
+  .settings(
+    name := "candela-cluster",
+    scalacOptions ++= (root / scalacOptions).value,
+    libraryDependencies ++= Seq(
+      ("org.apache.spark" %% "spark-core" % spark % Provided).cross(CrossVersion.for3Use2_13)
+    ),
+    excludeDependencies += ExclusionRule("org.scala-lang.modules", "scala-xml_3"), // Spark's is 2.13's
+    sparkJar := {
+      val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
+      val jar = (root / target).value / "universal" / "stage" / "lib" / "candela-spark.jar"
+      val make = FileFunction.cached(streams.value.cacheDirectory / "jar") { _ =>
+        ProgramJar.write(jars, jar, Some("candela.cluster.SparkMain"))
+        Set(jar)
+      }
+      make(jars.toSet).head
+    },
+    Test / fork := true,
+    Test / baseDirectory := (ThisBuild / baseDirectory).value,
+    Test / javaOptions ++= jvmOptions ++
+      Seq(s"-Dcandela.spark.jar=${sparkJar.value}", s"-Dcandela.spark.version=$spark"),
+    Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
+    Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value)
+  )
+
+val sparkJar = taskKey[File]("Makes candela-spark.jar: the program and its Spark module.")
 
 /** JMH benchmarks. Not part of `root`: `sbt test` does not compile them. */
 lazy val bench = (project in file("bench"))

@@ -13,8 +13,10 @@ import sbt.io.IO
   */
 object ProgramJar {
 
-  /** @param jars for equal names the first jar's entry is used; legal texts of all are kept */
-  def write(jars: Seq[File], to: File): Unit = {
+  /** @param jars      for equal names the first jar's entry is used; legal texts of all are kept
+    * @param mainClass for the manifest
+    */
+  def write(jars: Seq[File], to: File, mainClass: Option[String] = None): Unit = {
     IO.createDirectory(to.getParentFile)
     val out = new JarOutputStream(new BufferedOutputStream(new FileOutputStream(to)))
     out.setMethod(ZipEntry.STORED)
@@ -31,7 +33,9 @@ object ProgramJar {
       out.closeEntry()
     }
     try {
-      put(JarFile.MANIFEST_NAME, "Manifest-Version: 1.0\nMulti-Release: true\n\n".getBytes("UTF-8"))
+      val main = mainClass.fold("")(c => s"Main-Class: $c\n")
+      val manifest = s"Manifest-Version: 1.0\n${main}Multi-Release: true\n\n"
+      put(JarFile.MANIFEST_NAME, manifest.getBytes("UTF-8"))
       for (jar <- jars; (name, bytes) <- entries(jar)) name match {
         case Useless() =>
         case Legal(text) => put(s"META-INF/legal/${jar.getName.stripSuffix(".jar")}/$text", bytes)

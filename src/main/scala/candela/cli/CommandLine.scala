@@ -118,6 +118,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param columns pictures per row of a contact sheet
   * @param layers AOVs in addition to the scene's
   * @param film options of saved renderings
+  * @param cluster options of rendering on a cluster
   * @param storeTime whether to store the render time in the image file
   * @param precisions whether AOVs are stored in 16 bits, where asked
   * @param lightGroups how to group lights for their layer
@@ -162,6 +163,7 @@ final case class Options(
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
     film: FilmOptions = FilmOptions(),
+    cluster: ClusterOptions = ClusterOptions(),
     storeTime: Boolean = false,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,

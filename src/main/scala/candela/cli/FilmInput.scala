@@ -31,16 +31,18 @@ private[cli] object FilmInput:
     * @param now options of this command
     */
   def options(film: FilmFile, now: Options): Options =
-    val header = film.header
-    val parsed = CommandLine.parse(Command.Render.word +: header.words :+ at(film, header.scene))
-    val then_ = parsed.getOrElse(fail(s"`${film.path}` has unknown options: ${header.words}"))
-    then_.copy(
-      spp = Some(header.samples),
+    options(film.header, at(film, film.header.scene)).copy(
       threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,
       film = now.film
     )
+
+  /** The options of a rendering, with its scene as found here. */
+  def options(header: FilmHeader, scene: String): Options =
+    CommandLine.parse(Command.Render.word +: header.words :+ scene)
+      .getOrElse(fail(s"the film of `$scene` has unknown options: ${header.words}"))
+      .copy(spp = Some(header.samples))
 
   /** A file named by the rendering, as found from here. */
   def at(film: FilmFile, name: String): String =

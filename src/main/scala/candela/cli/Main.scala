@@ -32,6 +32,8 @@ object Main:
         if !options.quiet then
           for note <- options.notes do terminal.err.println(s"warning: $note")
         options.command match
+          case Command.Render if options.cluster.master.isDefined =>
+            ClusterCommand(options, terminal, report, loader).run()
           case Command.Render => RenderCommand(options, terminal, report, loader).run()
           case Command.Resume => ResumeCommand(options, terminal, report, loader).run()
           case Command.Merge => MergeCommand(options, terminal, report, loader).run()

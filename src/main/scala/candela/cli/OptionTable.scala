@@ -201,7 +201,8 @@ private[cli] object OptionTable:
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
-  ) ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++ DisplayTable.options
+  ) ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++
+    ClusterTable.options ++ DisplayTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,
@@ -379,6 +380,8 @@ private[cli] object OptionTable:
         failure("--columns needs several images")
       else if o.command == Command.Render && FilmTable.problem(o).isDefined then
         failure(FilmTable.problem(o).mkString)
+      else if o.command == Command.Render && ClusterTable.problem(o).isDefined then
+        failure(ClusterTable.problem(o).mkString)
       else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty &&
         o.watch.isEmpty && !o.denoise
       then failure("--reference needs --report FILE, --watch or --denoise")

@@ -24,6 +24,7 @@ final class RenderCommand(
     resumed: Option[FilmFile] = None
 ):
   private val cancellation = Cancellation()
+  private var taken = Map.empty[Path, String]
   private val threads = options.threadCount
   private val goals = options.film
   private lazy val denoising =
@@ -31,7 +32,6 @@ final class RenderCommand(
 
   def run(): ExitCode =
     val sequence = Sequence(options)
-    var taken = Map.empty[Path, String]
     for Frame(scene, outfiles) <- sequence.frames if !cancellation.isRequested do
       sequence.ended(scene):
         report.guarded:
@@ -40,21 +40,13 @@ final class RenderCommand(
           else if options.pixelMaterial.isDefined then
             val (x, y) = options.pixelMaterial.get
             PixelMaterial.run(loaded.plan, x, y, terminal.out)
-          else
-            val files = outputs(loaded.plan.filename, outfiles)
-            val plan = loaded.plan
-            if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
-              files.checkLayers()
-            for path <- files.paths.map(_.toAbsolutePath.normalize) do
-              taken.get(path).foreach(other => throw overwrite(path, scene, other))
-              taken += path -> scene
-            render(scene, loaded, outfiles, files.paths, sequence)
+          else render(scene, loaded, outfiles, outputs(scene, loaded, outfiles), sequence)
     if !options.quiet && !cancellation.isRequested then
       sequence.summary.foreach(terminal.out.println)
     terminal.out.flush()
     sequence.code
 
-  private def load(scene: String, outfiles: Vector[String]): LoadedScene =
+  private[cli] def load(scene: String, outfiles: Vector[String]): LoadedScene =
     // Warns before parsing, which may take long.
     OutputFiles.asked(outfiles).check()
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
@@ -67,14 +59,24 @@ final class RenderCommand(
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
     loaded
 
-  private def outputs(filename: String, outfiles: Vector[String]): OutputFiles =
+  /** The images to write, which can be written, each by one scene. */
+  private[cli] def outputs(
+      scene: String,
+      loaded: LoadedScene,
+      outfiles: Vector[String]
+  ): Vector[Path] =
     val files =
       if outfiles.nonEmpty then OutputFiles.asked(outfiles)
       else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
-      else OutputFiles.ofFilm(filename)
+      else OutputFiles.ofFilm(loaded.plan.filename)
     report.warnings(files.warnings, all = true)
     files.check()
-    files
+    if OutputFiles.needLayers(loaded.plan, options.denoise) && files.paths.nonEmpty then
+      files.checkLayers()
+    for path <- files.paths.map(_.toAbsolutePath.normalize) do
+      taken.get(path).foreach(other => throw overwrite(path, scene, other))
+      taken += path -> scene
+    files.paths
 
   private def overwrite(path: Path, scene: String, other: String): SceneError =
     val message = s"the image of `$scene` would overwrite that of `$other`: $path"
@@ -99,8 +101,7 @@ final class RenderCommand(
       keeping: Option[FilmKeeping],
       sequence: Sequence
   ): ExitCode =
-    val digest = Option.when(goals.skipDone):
-      FilmHeaders.digest(FilmHeaders.of(options, name, loaded, Path.of("film"), paths))
+    val digest = this.digest(name, loaded, paths)
     val isDone = digest.exists(Sequence.isDone(paths, _)) ||
       (goals.skipDone && paths.isEmpty && keeping.exists(_.isDone))
     if isDone then
@@ -109,7 +110,7 @@ final class RenderCommand(
     else
       for k <- keeping; film <- k.start if !options.quiet do
         terminal.err.println(Summary.continues(film))
-      val about = metadata(name, loaded) ++ digest.map(Sequence.Digest -> _)
+      val about = metadata(name, loaded, digest)
       render(name, loaded, paths, keeping, about)
 
   private def render(
@@ -197,10 +198,12 @@ final class RenderCommand(
       scene: String,
       loaded: LoadedScene,
       paths: Vector[Path],
-      rendering: Rendering
+      rendering: Rendering,
+      digest: Option[String] = None
   ): ExitCode =
     val image = finished(loaded, rendering)
-    val written = write(paths, loaded, rendering, image, metadata(scene, loaded))
+    val facts = metadata(scene, loaded, digest.filter(_ => rendering.isComplete))
+    val written = write(paths, loaded, rendering, image, facts)
     summarise(written, loaded, rendering, 0)
     if written.size < paths.size then ExitCode.BadInput else ExitCode.Done
 
@@ -260,7 +263,20 @@ final class RenderCommand(
   private def window(plan: RenderPlan): Option[ImageWindow] = Option.when(isCropped(plan)):
     ImageWindow(plan.crop.x0, plan.crop.y0, plan.width, plan.height)
 
-  private def metadata(scene: String, loaded: LoadedScene): Vector[(String, String)] =
+  /** The digest of the rendering, if what is done is to be skipped. */
+  private[cli] def digest(
+      scene: String,
+      loaded: LoadedScene,
+      paths: Vector[Path]
+  ): Option[String] =
+    Option.when(goals.skipDone):
+      FilmHeaders.digest(FilmHeaders.of(options, scene, loaded, Path.of("film"), paths))
+
+  private def metadata(
+      scene: String,
+      loaded: LoadedScene,
+      digest: Option[String]
+  ): Vector[(String, String)] =
     val plan = loaded.plan
     val PixelBounds(x0, y0, x1, y1) = plan.crop
     val crop = Option.when(isCropped(plan)):
@@ -271,7 +287,8 @@ final class RenderCommand(
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
       "seed" -> options.seed.toString
     ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
-      plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata)
+      plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata) ++
+      digest.map(Sequence.Digest -> _)
 
   private def summarise(
       written: Vector[Path],

@@ -67,6 +67,26 @@ class LauncherSuite extends AnyFunSuite:
       assert(locale("", "de_DE.ISO-8859-1") == "de_DE.ISO-8859-1")
       assert(locale("ja_JP.UTF-8", "C") == "ja_JP.UTF-8")
 
+  test("with --spark and Spark, Spark's script starts the program; else the program does"):
+    staged: p =>
+      val jdk = p.jdk("99")
+      val bin = Files.createDirectories(p.home.resolve("spark/bin"))
+      val script = "#!/bin/sh\nprintf '%s\\n' \"$JAVA_HOME\" \"$@\"\n"
+      val submit = Files.writeString(bin.resolve("spark-submit"), script)
+      assert(submit.toFile.setExecutable(true))
+      val words = Seq("a b.pbrt", "--spark", "spark://x:1", "--spp", "4")
+      val env = Map(None_, "SPARK_HOME" -> bin.getParent.toString, "JAVA_OPTS" -> "-Da=b")
+      assert(p.run(words, env).out.isEmpty && p.starts.size == 1)
+      val jar = Files.writeString(p.lib.resolve("candela-spark.jar"), "jar")
+      val started = p.run(words, env).out.linesIterator.toVector
+      assert(started.take(3) == Vector(jdk.toString, "--master", "spark://x:1"))
+      assert(
+        started.drop(3).take(4) ==
+          Vector("--class", "candela.cli.Main", "--driver-java-options", "-Xss4m -Da=b")
+      )
+      assert(started.drop(7) == jar.toRealPath().toString +: words)
+      assert(p.run(Seq("--spp", "4"), env).out.isEmpty && p.starts.size == 2)
+
   test("bench is told how people start the program, and nothing else is"):
     staged: p =>
       val _ = p.jdk("99")

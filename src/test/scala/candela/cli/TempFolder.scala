@@ -10,9 +10,11 @@ object TempFolder:
   def use[A](body: Path => A): A =
     val folder = Files.createTempDirectory("candela-test")
     try body(folder)
-    finally
-      Using.resource(Files.walk(folder)): files =>
-        files.iterator.asScala.toVector.reverse.foreach(Files.delete)
+    finally delete(folder)
+
+  def delete(folder: Path): Unit =
+    Using.resource(Files.walk(folder)): files =>
+      files.iterator.asScala.toVector.reverse.foreach(Files.delete)
 
   def names(folder: Path): Set[String] =
     Using.resource(Files.list(folder))(_.iterator.asScala.map(_.getFileName.toString).toSet)

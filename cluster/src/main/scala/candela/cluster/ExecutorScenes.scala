@@ -1,0 +1,44 @@
+package candela.cluster
+
+import candela.cli.ShardRenderer
+
+import java.nio.file.{Files, Path}
+
+import scala.collection.mutable
+import scala.jdk.CollectionConverters.*
+import scala.util.{Try, Using}
+
+/** The scenes that an executor has unpacked and built, for all of its tasks. */
+object ExecutorScenes:
+  private lazy val root: Path =
+    val folder = Files.createTempDirectory("candela-executor")
+    val cleanUp: Runnable = () => delete(folder)
+    Runtime.getRuntime.addShutdownHook(Thread(cleanUp))
+    folder
+
+  // By bundle; the latest last. Others wait while one is built.
+  private val scenes = mutable.LinkedHashMap.empty[String, ShardRenderer]
+
+  def renderer(work: Assignment): ShardRenderer = synchronized:
+    val key = s"${work.digest} ${work.header.words} ${work.header.samples}"
+    val known = scenes.remove(key)
+    val renderer = known.getOrElse:
+      val folder = newFolder()
+      // The scene is in memory once it is built.
+      try ShardRenderer(work.header, work.bundle.value.unpack(folder), work.threads)
+      finally delete(folder)
+    scenes += key -> renderer
+    // A sequence renders a few at a time.
+    while scenes.size > Kept do scenes -= scenes.head._1
+    renderer
+
+  def newFolder(): Path = Files.createTempDirectory(root, "work")
+
+  /** Name of a new file in a new folder. */
+  def newFile(): Path = newFolder().resolve("shard.film")
+
+  private val Kept = 2
+
+  private def delete(folder: Path): Unit =
+    val _ = Try:
+      Using.resource(Files.walk(folder))(_.iterator.asScala.toVector.reverse.foreach(Files.delete))

@@ -1,0 +1,82 @@
+package candela.cli
+
+import candela.render.storage.FilmHeader
+
+import java.nio.file.Path
+import java.util.ServiceLoader
+
+import scala.jdk.CollectionConverters.*
+
+/** Connects to clusters. The program knows none: implementations are looked up at run time. */
+abstract class ClusterService:
+
+  /** @param note receives what users should know, line by line */
+  def connect(master: String, note: String => Unit): Cluster
+
+/** Machines that render together. */
+abstract class Cluster extends AutoCloseable:
+
+  /** Begins to render, or queues behind what was submitted before; returns at once. */
+  def submit(work: ClusterWork): ClusterRun
+
+  /** What was used and sent, in one line. */
+  def summary: String
+
+/** A rendering to divide.
+  *
+  * @param header describes the whole
+  * @param scene  the scene file
+  * @param files  of the scene
+  * @param shards number of parts, instead of the cluster's choice
+  * @param total  camera samples of the whole
+  */
+final case class ClusterWork(
+    header: FilmHeader,
+    scene: Path,
+    files: Vector[Path],
+    shards: Option[Int],
+    total: Long
+)
+
+/** A rendering that was submitted. Thread-safe. */
+abstract class ClusterRun:
+  def isDone: Boolean
+
+  /** Camera samples taken until now, about. */
+  def samples: Long
+
+  /** Ends the rendering soon; what is complete of it remains. */
+  def cancel(): Unit
+
+  /** The films of all shards, or, if cancelled, of some. Waits until they are there.
+    *
+    * @param folder for the films
+    * @throws ClusterFailure if the cluster can't render it
+    */
+  def films(folder: Path): Vector[Path]
+
+/** A cluster can't render, for a reason that users can act upon. */
+final class ClusterFailure(message: String, cause: Throwable | Null = null)
+    extends RuntimeException(message, cause)
+
+private[cli] object Cluster:
+  /** @throws ClusterFailure if there is no such cluster, or nothing that can connect to it */
+  def connect(
+      master: String,
+      note: String => Unit,
+      services: => Iterator[ClusterService] = installed
+  ): Cluster =
+    try
+      services.nextOption() match
+        case Some(service) => service.connect(master, note)
+        case None => throw ClusterFailure(Missing)
+    // The jar without Spark
+    catch case e: LinkageError => throw ClusterFailure(Missing, e)
+
+  private def installed: Iterator[ClusterService] =
+    ServiceLoader.load(classOf[ClusterService]).iterator.asScala
+
+  private val Missing =
+    "--spark needs Apache Spark's classes and candela-spark.jar\n" +
+      "`./sbt cluster/sparkJar` makes the jar; then set SPARK_HOME for the launcher bin/candela, " +
+      "or use `spark-submit --master MASTER candela-spark.jar scene.pbrt`"

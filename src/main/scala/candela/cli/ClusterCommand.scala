@@ -1,0 +1,143 @@
+package candela.cli
+
+import candela.base.{Problem, SceneError}
+import candela.render.{Cancellation, Progress, Renderer, RenderState}
+import candela.render.storage.{FilmHeader, FilmWriter}
+import candela.scenefile.SceneFiles
+
+import java.nio.file.{Files, Path}
+import java.util.concurrent.locks.LockSupport
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+/** `candela render --spark MASTER`: renders on a cluster, some scenes at a time. Each image is
+  * written when it is finished.
+  */
+private[cli] final class ClusterCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  import ClusterCommand.*
+  private val renderer = RenderCommand(options, terminal, report, loader)
+  private val cancellation = Cancellation()
+  private val progress = ProgressLine(terminal.err, terminal.isInteractive)
+  private val started = System.nanoTime
+  private val sequence = Sequence(options)
+  private var open = Vector.empty[Submitted]
+  private var samplesDone, samplesAsked = 0L
+
+  def run(): ExitCode =
+    val code = guarded:
+      terminal.interrupts.during(cancellation):
+        Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
+          for frame <- sequence.frames if !cancellation.isRequested do
+            while open.size >= AtOnce do finishOne()
+            begin(frame, cluster)
+          while open.nonEmpty do finishOne()
+          if options.verbose then note(cluster.summary)
+          ExitCode.Done
+    if !options.quiet && !cancellation.isRequested then
+      sequence.summary.foreach(terminal.out.println)
+    terminal.out.flush()
+    sequence.code.worseOf(code)
+
+  private def guarded(body: => ExitCode): ExitCode =
+    report.guarded:
+      try body
+      catch
+        case e: ClusterFailure =>
+          val lines = e.getMessage.split("\n", 2)
+          val help = lines.lift(1).map(_.stripLeading)
+          throw SceneError(Problem.general(lines.head, help))
+
+  private def note(text: String): Unit = if !options.quiet then terminal.err.println(text)
+
+  private def begin(frame: Frame, cluster: Cluster): Unit =
+    val before = open.size
+    val code = guarded:
+      submit(frame, cluster)
+      ExitCode.Done
+    if open.size == before then sequence.ended(frame.scene)(code)
+
+  /** Sends a scene to the cluster, unless its image is done. */
+  private def submit(frame: Frame, cluster: Cluster): Unit =
+    val Frame(scene, outfiles) = frame
+    val loaded = renderer.load(scene, outfiles)
+    val paths = renderer.outputs(scene, loaded, outfiles)
+    val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
+    val digest = renderer.digest(scene, loaded, paths)
+    if digest.exists(Sequence.isDone(paths, _)) then sequence.skip(scene)
+    else
+      val header = FilmHeaders.of(options, scene, loaded, film.getOrElse(Path.of("film")), paths)
+      val total = loaded.plan.sampled.pixels * header.samples
+      val files = SceneFiles.of(loaded.description)
+      val work = ClusterWork(header, Path.of(scene), files, options.cluster.shards, total)
+      samplesAsked += total
+      open :+= Submitted(scene, loaded, paths, film, digest, work, cluster.submit(work))
+
+  /** Waits for one of the renderings, and writes its image. */
+  private def finishOne(): Unit =
+    while !open.exists(_.run.isDone) do
+      show()
+      if cancellation.isRequested then open.foreach(_.run.cancel())
+      LockSupport.parkNanos(Tick)
+    progress.finish()
+    for next <- open.find(_.run.isDone) do
+      open = open.filterNot(_ eq next)
+      samplesDone += next.work.total
+      sequence.ended(next.scene)(guarded(finish(next)))
+
+  private def show(): Unit =
+    if !options.quiet then
+      val seconds = (System.nanoTime - started) * 1e-9
+      val now = samplesDone + open.map(s => Math.min(s.run.samples, s.work.total)).sum
+      progress.update(Progress(now, samplesAsked, seconds))
+
+  private def finish(submitted: Submitted): ExitCode =
+    val folder = Files.createTempDirectory("candela-films")
+    try
+      val (films, shards) = ShardRenderer.distinct(submitted.run.films(folder))
+      val header = submitted.work.header
+      val count = films.headOption.fold(1)(_.header.count)
+      val isWhole = shards.size == count
+      def load(state: RenderState): Unit =
+        films.foreach(_.load(state))
+        for path <- submitted.film do
+          val part = header.copy(shards = shards, count = count, done = state.samplesDone)
+          save(path, if isWhole then part.copy(shards = Set(0), count = 1) else part, state)
+      val rendering = Renderer.gather(submitted.loaded.plan, load)
+      val samples = films.map(_.header.done).minOption.getOrElse(0).toLong * shards.size / count
+      val done = rendering.copy(samplesDone = samples.toInt, samplesPerPixel = header.samples)
+      val Submitted(scene, loaded, paths, _, digest, _, _) = submitted
+      renderer.finish(scene, loaded, paths, done, digest)
+        .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
+    finally
+      Using.resource(Files.list(folder))(_.iterator.asScala.toVector.foreach(Files.delete))
+      Files.delete(folder)
+
+  private def save(path: Path, header: FilmHeader, state: RenderState): Unit =
+    Using.resource(FilmKeeping.locked(path)): _ =>
+      val writer = FilmWriter(path)
+      writer.write(header, state)
+      writer.commit()
+    if !options.quiet then terminal.out.println(s"wrote $path")
+
+private object ClusterCommand:
+  /** Renderings in the cluster: the next ones take over where the first leaves machines idle. */
+  val AtOnce = 3
+
+  /** In nanoseconds. */
+  val Tick = 100_000_000L
+
+  final case class Submitted(
+      scene: String,
+      loaded: LoadedScene,
+      paths: Vector[Path],
+      film: Option[Path],
+      digest: Option[String],
+      work: ClusterWork,
+      run: ClusterRun
+  )
