@@ -4,9 +4,11 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks}
 import candela.bsdf.InterfaceMaterial
-import candela.build.lights.{AreaLightPlan, MeshLights}
+import candela.build.lights.{AreaLightPlan, MeshLights, RectangleLights}
 import candela.build.recipe.*
-import candela.build.shapes.{ShapeGeometry, ShapePlan, Shapes, SoupBuilder}
+import candela.build.shapes.{
+  EmitterHoles, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
+}
 import candela.lights.Light
 import candela.scene.{ShapeInstance, Surfaces}
 import candela.scenefile.{Declaration, Dialect}
@@ -39,12 +41,13 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
   private val lights = ArrayBuffer.empty[(BuildContext, TriangleSoup) => Vector[SampledLight]]
   private var lightCount = 0
 
-  private def addLights(count: Int, statement: Declaration)(
+  /** @param triangles of each light; each has its samples in v2's and v3's direct lighting */
+  private def addLights(count: Int, statement: Declaration, triangles: Int = 1)(
       make: (AreaLightPlan, TriangleSoup) => Vector[Light]
   ): Unit =
     lights += { (context, soup) =>
       context.emission(statement).toVector.flatMap: plan =>
-        make(plan, soup).map(SampledLight(_, plan.samples, statement))
+        make(plan, soup).map(SampledLight(_, plan.samples * triangles, statement))
     }
     lightCount += count
 
@@ -121,12 +124,19 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       else
         val light = lamp.fold(-1)(_ => lightCount)
         val flipNormals = !context.isV2
-        val first =
-          soup.add(mesh, toWorld, isReversed, flipNormals, dressed.material, light, bumps)
+        val corners = lamp.filter(isUniform).fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
+        val isPaired = corners.nonEmpty
+        val first = soup.add(
+          mesh, toWorld, isReversed, flipNormals, dressed.material, light, bumps, isPaired
+        )
         meshMasks += plan.mask
         meshStatements += dressed.declared
         for lamp <- lamp do
-          addLights(count, lamp)(MeshLights(plan.holes, first, count, here).of)
+          if isPaired then addLights(corners.size, lamp, 2)(RectangleLights(first, corners).of)
+          else addLights(count, lamp)(MeshLights(plan.holes, first, count, here).of)
+
+    private def isUniform(lamp: Declaration): Boolean =
+      plan.holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
       case Dialect.V4 => BumpTangents.Along

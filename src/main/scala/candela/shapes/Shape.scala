@@ -73,8 +73,9 @@ final class SurfaceSample:
   /** Pdf, per solid angle at the reference point, or per area. */
   var pdf: Float = 0f
 
-  /** Scratch memory of [[TriangleSampler]]. */
+  /** Scratch memory of [[TriangleSampler]] and [[RectangleSampler]]. */
   val triangle = candela.sampling.SphericalTriangle()
+  val rectangle = candela.sampling.SphericalRectangle()
 
 object SurfaceSampler:
   /** Converts a pdf per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */

@@ -12,6 +12,7 @@ import candela.math.*
   * @param flipped       whether the geometric normal is −(p1−p0)×(p2−p0)
   * @param material      index into the scene's materials
   * @param firstLight    light of its first triangle, the others follow; −1 if it does not emit
+  * @param paired        does a light consist of two triangles each?
   * @param bumps         tangents for displacements, if it has normals
   */
 final class Mesh(
@@ -23,7 +24,8 @@ final class Mesh(
     val flipped: Boolean,
     val material: Int,
     val firstLight: Int,
-    val bumps: BumpTangents = BumpTangents.Along
+    val bumps: BumpTangents = BumpTangents.Along,
+    val paired: Boolean = false
 )
 
 /** All triangles of a scene in world space.
@@ -83,7 +85,10 @@ final class TriangleSoup(
       if at.wantsPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
-      if mesh.firstLight < 0 then -1 else mesh.firstLight + triangle - mesh.firstTriangle
+      if mesh.firstLight < 0 then -1
+      else
+        val i = triangle - mesh.firstTriangle
+        mesh.firstLight + (if mesh.paired then i >> 1 else i)
 
   /** Computes the point and its error bound; `j0` … are the offsets of the corners' coordinates.
     */

@@ -45,6 +45,17 @@ final class AreaLightSuite extends AnyFunSuite:
     val light = AreaLight(t, emitted, twoSided, Bounds3.of(t.vertices), t.normal, 1f)
     Case(name, soup, Seq.empty, light)
 
+  private def ofRectangle(name: String, size: Float, flipped: Boolean): Case =
+    val turn = Transform.rotate(30, 1, 2, 0.5f).get
+    val Seq(a, b, c, d) =
+      Seq((-1f, -1f), (1f, -1f), (1f, 0.5f), (-1f, 0.5f)).map: (x, y) =>
+        Vec3(0, 0, 2) + turn.vector(Vec3(x * size, y * size, 0))
+    val soup = Soups.of(Seq((a, b, c), (c, d, a)), flipped)
+    val corners = RectangleSampler.of(Vector(a, b, c), Vector(c, d, a)).get
+    val r = RectangleSampler(corners, TriangleSampler(soup, 0), TriangleSampler(soup, 1))
+    val light = AreaLight(r, emitted, false, Bounds3.of(r.vertices), r.normal, 1f)
+    Case(name, soup, Seq.empty, light)
+
   private val chart =
     val draws = Draws(9)
     Picture(
@@ -74,6 +85,9 @@ final class AreaLightSuite extends AnyFunSuite:
     ofTriangle("triangle", flipped = false, twoSided = false),
     ofTriangle("flipped triangle", flipped = true, twoSided = false),
     ofTriangle("triangle of two sides", flipped = true, twoSided = true),
+    ofRectangle("rectangle", 1f, flipped = true),
+    ofRectangle("small rectangle", 0.35f, flipped = true),
+    ofRectangle("rectangle facing away", 1f, flipped = false),
     picture("picture on a sphere", sphere),
     picture("picture on a disk", disk(false)),
     pictureOnTriangle

@@ -7,7 +7,7 @@ import candela.geometry.Bounds3
 import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
+import candela.shapes.{RectangleSampler, Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
 
 /** Recipes of area lights. */
 object AreaLights:
@@ -32,6 +32,9 @@ final class AreaLightPlan(
     val samples: Int
 ):
 
+  /** Does each point emit alike? */
+  def isUniform: Boolean = picture.isEmpty
+
   /** Radiance of a shape of this area; v4's `power` sets the total. */
   private def radiance(area: => Float): Rgb =
     if power > 0f then
@@ -42,6 +45,10 @@ final class AreaLightPlan(
   /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4. */
   def ofTriangle(triangle: TriangleSampler, box: Bounds3): SurfaceLight =
     light(triangle, box, triangle.normal, 1f, contrary = false)
+
+  /** Light of two triangles that form a rectangle. */
+  def ofRectangle(rectangle: RectangleSampler, box: Bounds3): SurfaceLight =
+    AreaLight(rectangle, radiance(rectangle.area / 2), twoSided, box, rectangle.normal, 1f)
 
   /** @param contrary see [[candela.lights.Light.isContrary]] */
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
@@ -122,3 +129,24 @@ private[build] final class MeshLights(holes: EmitterHoles, first: Int, count: In
         site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
       emitters = samplers.map(s => (s, Bounds3.of(s.vertices)))
     emitters.map((s, box) => holes.light(plan.ofTriangle(s, box), s))
+
+/** Lights of an emitting mesh of rectangles.
+  *
+  * @param first   index of its first triangle
+  * @param corners of each rectangle, which consists of two triangles
+  */
+private[build] final class RectangleLights(
+    first: Int,
+    corners: Vector[RectangleSampler.Corners]
+):
+  // The geometry, which all colour bases share
+  private var emitters = Vector.empty[(RectangleSampler, Bounds3)]
+
+  def of(plan: AreaLightPlan, triangles: TriangleSoup): Vector[Light] =
+    if emitters.isEmpty then
+      def triangle(i: Int) = TriangleSampler(triangles, i)
+      emitters = corners.zipWithIndex.map: (c, k) =>
+        val i = first + 2 * k
+        val sampler = RectangleSampler(c, triangle(i), triangle(i + 1))
+        (sampler, Bounds3.of(sampler.vertices))
+    emitters.map((s, box) => plan.ofRectangle(s, box))

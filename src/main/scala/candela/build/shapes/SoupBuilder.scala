@@ -22,6 +22,7 @@ final class SoupBuilder:
     * @param flipNormals whether to flip the given shading normals (pbrt-v4 does for
     *                    ReverseOrientation)
     * @param firstLight  index of its first triangle's light; −1: it does not emit
+    * @param paired      does a light consist of two triangles each?
     */
   def add(
       mesh: ShapeGeometry.Triangles,
@@ -30,7 +31,8 @@ final class SoupBuilder:
       flipNormals: Boolean,
       material: Int,
       firstLight: Int,
-      bumps: BumpTangents
+      bumps: BumpTangents,
+      paired: Boolean = false
   ): Int =
     val first = triangles
     val base = vertices
@@ -45,7 +47,8 @@ final class SoupBuilder:
       flipped = reversed != toWorld.swapsHandedness,
       material = material,
       firstLight = firstLight,
-      bumps = bumps
+      bumps = bumps,
+      paired = paired
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3

@@ -1,0 +1,31 @@
+package candela.build.shapes
+
+import candela.math.{Transform, Vec3}
+import candela.shapes.RectangleSampler
+
+/** Finds meshes whose triangles form rectangles, two by two: most lamps do. */
+private[build] object Rectangles:
+
+  /** The rectangles in world space, in the order of the triangles; none if a triangle is left over.
+    */
+  def of(mesh: ShapeGeometry.Triangles, toWorld: Transform): Vector[RectangleSampler.Corners] =
+    val triangles = mesh.indices.length / 3
+    if triangles == 0 || triangles % 2 != 0 then Vector.empty
+    else
+      val points = SoupBuilder.points(mesh.positions, toWorld)
+      def vector(data: Array[Float], i: Int) = Vec3(data(3 * i), data(3 * i + 1), data(3 * i + 2))
+      def corners(t: Int, data: Array[Float]) =
+        Vector.tabulate(3)(k => vector(data, mesh.indices(3 * t + k)))
+
+      /** Does the given normal decide that the triangle is turned over? */
+      def isTurned(t: Int): Boolean =
+        val Vector(a, b, c) = corners(t, mesh.positions): @unchecked
+        mesh.normals.length > 0 &&
+        (((b - a) cross (c - a)) dot corners(t, mesh.normals).reduce(_ + _)) < 0f
+
+      val found = Iterator.range(0, triangles, 2).map: t =>
+        RectangleSampler
+          .of(corners(t, points), corners(t + 1, points))
+          .filter(_ => isTurned(t) == isTurned(t + 1))
+      val all = found.takeWhile(_.isDefined).flatten.toVector
+      if 2 * all.size == triangles then all else Vector.empty
