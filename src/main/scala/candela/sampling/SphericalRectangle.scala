@@ -3,8 +3,8 @@ package candela.sampling
 /** Spherical rectangle: samples directions uniformly over the solid angle of a rectangle.
   *
   * The rectangle is [x0, x1] × [y0, y1] at height `z` ≠ 0 over the reference point. Mutable, one
-  * per worker: `set` replaces it. Computed in Double, without allocation: the solid angle is a small
-  * difference of large angles.
+  * per worker: `set` replaces it. Computed in Double, without allocation: the solid angle is a
+  * small difference of large angles.
   *
   * Source: Ureña, Fajardo, King, "An Area-Preserving Parametrization for Spherical Rectangles",
   * EGSR 2013.
