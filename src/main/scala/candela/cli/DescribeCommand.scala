@@ -182,8 +182,16 @@ final class ReferenceText(described: Described, columns: Int):
 final class ReferenceMarkdown(described: Described):
 
   def page: Vector[String] =
-    ReferenceMarkdown.Introduction.linesIterator.toVector ++
+    ReferenceMarkdown.Introduction.linesIterator.toVector ++ substitutes ++
       Language.categories.filter(described.types(_).nonEmpty).flatMap(category)
+
+  /** Types that are not rendered as they are. */
+  private def substitutes: Vector[String] =
+    val rows =
+      for c <- Language.categories; t <- described.types(c); instead <- t.pending
+      yield row(c.name, s"`${t.name}`", t.dialects, instead)
+    Vector("", "## What is substituted", "", ReferenceMarkdown.Substitutes, "") ++
+      (row("category", "type", "in", "instead") +: rule(4) +: rows)
 
   private def category(c: Category): Vector[String] =
     val types = described.types(c)
@@ -210,6 +218,10 @@ final class ReferenceMarkdown(described: Described):
   private def rule(cells: Int): String = "|" + "---|" * cells
 
 private object ReferenceMarkdown:
+  val Substitutes: String =
+    "These types are replaced, with a warning that says so. Each either renders the same light with " +
+      "less error, or needs what no public scene has."
+
   val Introduction: String =
     """# Scene reference
       |

@@ -57,6 +57,14 @@ class DescribeCommandSuite extends AnyFunSuite:
     assert(unwrapped("igi").contains("Not supported yet: using \"path\""))
     assert(unwrapped("accelerator bvh").contains("no effect: Candela builds its own BVH"))
 
+  test("the page lists what is substituted, each type with what takes its place"):
+    val page = printed("--markdown")
+    val list = page.drop(page.indexOf("## What is substituted"))
+    val rows = list.linesIterator.takeWhile(!_.startsWith("## Shape")).toVector
+    assert(rows.exists(_.startsWith("| Accelerator | `kdtree` | v2 v3 v4 | using \"bvh\"")))
+    assert(rows.exists(r => r.contains("`igi`") && r.contains("virtual point lights")))
+    assert(!rows.exists(_.contains("`bvh` |")))
+
   test("a name in several categories is described in each"):
     val out = printed("mix")
     assert(out.contains("Material \"mix\"") && out.contains("\"float\" \"mix\""))

@@ -97,7 +97,10 @@ object FunctionRecipe
     extends Recipe[IntegratorPlan]("function", "error of samplers; renders no image", onlyV4)
     with PathInstead:
   override def pending: Option[String] =
-    Some("using \"path\", which renders an image of the scene")
+    Some(
+      "using \"path\", which renders an image of the scene; `candela bench` measures how the error " +
+        "of samplers falls"
+    )
   declare(
     oneOf(
       "function",
