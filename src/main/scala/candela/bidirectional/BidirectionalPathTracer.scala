@@ -6,6 +6,7 @@ import candela.film.Splats
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.integrators.{LightConnection, LightTransport, SceneIntegrator}
 import candela.math.*
+import candela.media.SceneMedia
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -22,6 +23,7 @@ import candela.scene.Scene
   * @param rouletteAfter minimum depth before Russian roulette, for either subpath
   * @param compresses    as in [[Subpath]]
   * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
+  * @param through       participating media, if there are any: bounded ones, in vacuum
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
@@ -33,13 +35,17 @@ final class BidirectionalPathTracer(
     maxDepth: Int,
     rouletteAfter: Int,
     compresses: Boolean,
-    regularizes: Boolean = false
+    regularizes: Boolean = false,
+    through: SceneMedia | Null = null
 ) extends SceneIntegrator(scene)
     with ChainPaths:
   import PartialWeights.mis
 
-  private val lightPaths =
-    LightPaths(scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes)
+  private val ownMedia, lightMedia: PathMedia | Null =
+    if through == null then null else PathMedia(scene, through)
+  private val lightPaths = LightPaths(
+    scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes, media = lightMedia
+  )
   private val path = Subpath(carriesLight = false, compresses, rouletteAfter)
   private val vertex = PathVertex(scene)
   private val at = vertex.at
@@ -52,15 +58,20 @@ final class BidirectionalPathTracer(
   // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
 
-  private val camera = CameraConnection(scene, takes, splats)
+  private val camera = CameraConnection(scene, takes, splats, lightMedia)
 
   protected def over(scene: Scene): BidirectionalPathTracer =
     BidirectionalPathTracer(
-      scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes
+      scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes, through
     )
 
   def raysTraced: Long =
-    rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced
+    rays + connection.raysTraced + lightPaths.raysTraced + camera.raysTraced +
+      ofMedia(ownMedia) + ofMedia(lightMedia)
+
+  private def ofMedia(media: PathMedia | Null): Long =
+    if media == null then 0L else media.raysTraced
+
   override def lastMaterial: Int = at.material
 
   def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
@@ -80,9 +91,15 @@ final class BidirectionalPathTracer(
     shadowRay.time = ray.time
     camera.begin(ray.time)
     connection.begin(ray.time)
-    lightPaths.trace(ray.time, light)
+    val hero =
+      if through != null && through.isChromatic then (light.next1D() * 3f).toInt else 0
+    lightPaths.trace(ray.time, light, hero)
     camera.connect(lightPaths, isWeighted = true, light)
-    fromCamera(ray, joins, onward)
+    val media = ownMedia
+    if media == null || through == null then fromCamera(ray, joins, onward)
+    else
+      media.begin(hero, through.camera, ray.time, onward)
+      fromCamera(ray, joins, onward) + media.glow
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
@@ -97,8 +114,11 @@ final class BidirectionalPathTracer(
     while alive do
       rays += 1
       edges += 1
-      if !scene.closest(ray, hit) then
-        found += path.throughput * LightTransport.environment(
+      val isHit = scene.closest(ray, hit)
+      val collision = collide(ray, emits = edges <= maxDepth, onward)
+      if isAbsorbed then alive = false
+      else if collision < 0f && !isHit then
+        found += carried * LightTransport.environment(
           scene,
           ray,
           (i, source) =>
@@ -111,28 +131,65 @@ final class BidirectionalPathTracer(
               hitWeight(sampled.toDouble, lightPaths.chance(i).toDouble * emitted)
         )
         alive = false
+      else if !meet(ray, collision) then edges -= 1
       else
-        vertex.hit(ray, hit)
         val wo = vertex.wo
         val cosine = vertex.cosine(wo)
-        val distance = ray.tMax.toDouble
+        val distance =
+          if through == null then ray.tMax.toDouble else (at.p - lastP).length.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
         else
           val density = camera.density(eye, at.p)
           path.weights.near = if density > 0f then mis(1.0 / (density.toDouble * cosine)) else 0.0
         if at.areaLight >= 0 && cosine > 0f then
-          found += path.throughput * emitted(edges, wo, distance)
+          found += carried * emitted(edges, wo, distance)
         alive = edges <= maxDepth && cosine > 0f
         if alive then
           vertex.edges = edges
-          vertex.evaluate(regularizes && !path.isSpecularSoFar)
-          if scene.isDispersive then path.disperse(vertex)
+          if !vertex.isInMedium then
+            vertex.evaluate(regularizes && !path.isSpecularSoFar)
+            if scene.isDispersive then path.disperse(vertex)
           if !vertex.bsdf.isSpecular then
-            found += path.throughput * (direct(joins) + connected())
+            found += carried * (direct(joins) + connected())
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
           lastP.set(at.p)
-          lastN.set(at.frame.n)
+          lastN.set(vertex.lightNormal)
+          val media = ownMedia
+          if media != null then media.medium = media.towards(vertex, ray.direction)
     found
+
+  /** Throughput of the camera subpath. */
+  private def carried: Rgb =
+    val media = ownMedia
+    if media == null then path.throughput else path.throughput * media.throughput
+
+  private def isAbsorbed: Boolean =
+    val media = ownMedia
+    media != null && media.isAbsorbed
+
+  /** The ray's parameter of a collision with a medium; −1: none. */
+  private def collide(ray: Ray, emits: Boolean, sampler: Sampler): Float =
+    val media = ownMedia
+    if media == null then -1f
+    else
+      val t = media.follow(ray, path.throughput, emits, sampler)
+      path.throughput = Rgb.White
+      t
+
+  /** Puts the vertex at the collision or on the surface that was hit; false if that is an
+    * interface, which the ray passes.
+    */
+  private def meet(ray: Ray, collision: Float): Boolean =
+    val media = ownMedia
+    if media != null && collision >= 0f then media.scatter(vertex, ray, collision)
+    else vertex.hit(ray, hit)
+    if media == null then true
+    else if !vertex.isInMedium && vertex.isInterface then
+      media.passThrough(vertex, ray)
+      false
+    else
+      media.mark(vertex)
+      true
 
   /** MIS weight of emission hit by the camera subpath, given the pdfs of light sampling and of
     * light emission for the same path.
@@ -160,7 +217,11 @@ final class BidirectionalPathTracer(
     val choice = sampler.next1D()
     sampler.next2D()
     val p = at.p
-    if !connection.choose(p, at.frame.n, choice) || !connection.samplePoint(p, sampler.x, sampler.y)
+    if !connection.choose(
+        p,
+        vertex.lightNormal,
+        choice
+      ) || !connection.samplePoint(p, sampler.x, sampler.y)
     then
       Rgb.Black
     else
@@ -168,7 +229,13 @@ final class BidirectionalPathTracer(
       val sample = connection.sample
       val wi = connection.wi
       val f = vertex.received(wi)
-      if f.isBlack || connection.isBlocked(at) then Rgb.Black
+      val media = ownMedia
+      val passed =
+        if f.isBlack then Rgb.Black
+        else if media != null then media.fromLight(vertex, sample)
+        else if connection.isBlocked(at) then Rgb.Black
+        else Rgb.White
+      if passed.isBlack then Rgb.Black
       else
         val target = sample.target
         val meeting =
@@ -182,7 +249,7 @@ final class BidirectionalPathTracer(
         val byBsdf = if source.isDelta then 0.0 else mis(vertex.pdf(wi).toDouble / connection.pdf)
         val others = byBsdf + path.weights.sum(byLight, vertex.reversePdf(wi).toDouble)
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
-        f * sample.radiance.toRgb * weight.toFloat
+        f * sample.radiance.toRgb * weight.toFloat * passed
 
   /** Connects the camera vertex to all light vertices. */
   private def connected(): Rgb =
@@ -216,7 +283,11 @@ final class BidirectionalPathTracer(
         val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
         val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
         val light = f * g * lit.throughput * weight
-        if light.isBlack || isHidden(lit.at, wi, there) then Rgb.Black else light
+        val media = ownMedia
+        if light.isBlack then light
+        else if media != null then light * media.between(vertex, lit, wi)
+        else if isHidden(lit.at, wi, there) then Rgb.Black
+        else light
 
   /** Whether `other`, in the direction `wi`, is occluded from the camera vertex. */
   private def isHidden(other: ShadingPoint, wi: Vec3, cosine: Float): Boolean =

@@ -12,8 +12,14 @@ import candela.scene.Scene
   *
   * @param takes  the image's camera; if it can't project points to the film, nothing is connected
   * @param splats receives what arrives
+  * @param media  through which light goes to the camera, if any
   */
-private[bidirectional] final class CameraConnection(scene: Scene, takes: Camera, splats: Splats):
+private[bidirectional] final class CameraConnection(
+    scene: Scene,
+    takes: Camera,
+    splats: Splats,
+    media: PathMedia | Null = null
+):
   private val camera: Camera | Null = if takes.isTraceable then takes else null
   private val place = FilmPlace()
   private val shadowRay = Ray()
@@ -54,8 +60,12 @@ private[bidirectional] final class CameraConnection(scene: Scene, takes: Camera,
               else lit.weights.sum(arriving.toDouble, lit.reversePdf(toCamera).toDouble)
             val weight = (place.density * lit.sentCosine(toCamera) / (1 + others)).toFloat
             val found = lit.throughput * f * weight
-            if !found.isBlack && isClear(lit.at, toCamera, place.eye) then
-              splats.add(place.x, place.y, found)
+            val within = media
+            if !found.isBlack then
+              if within != null then
+                splats.add(place.x, place.y, found * within.toCamera(lit, toCamera, place.eye))
+              else if isClear(lit.at, toCamera, place.eye) then
+                splats.add(place.x, place.y, found)
         i += 1
 
   private def isClear(from: ShadingPoint, towards: Vec3, end: Vec3): Boolean =

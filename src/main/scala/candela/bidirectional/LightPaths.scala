@@ -1,7 +1,9 @@
 package candela.bidirectional
 
+import candela.color.Rgb
 import candela.geometry.{Hit, Ray}
 import candela.lights.EmittedRay
+import candela.math.*
 import candela.sampling.{Discrete, Sampler}
 import candela.scene.Scene
 
@@ -12,6 +14,7 @@ import candela.scene.Scene
   * @param weighsAll   whether MIS includes camera subpaths that hit lights; if so, no path starts
   *                    at a light whose emission those see on another side
   * @param regularizes as in [[candela.integrators.PathTracer]]
+  * @param media       what the paths go through, if anything
   * @param startsAlone whether the hero wavelength alone is of interest from the start
   */
 private[bidirectional] final class LightPaths(
@@ -21,7 +24,8 @@ private[bidirectional] final class LightPaths(
     compresses: Boolean,
     weighsAll: Boolean,
     regularizes: Boolean = false,
-    startsAlone: Boolean = false
+    startsAlone: Boolean = false,
+    media: PathMedia | Null = null
 ):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
@@ -30,6 +34,7 @@ private[bidirectional] final class LightPaths(
   private val ray = Ray()
   private val hit = Hit()
   private val path = Subpath(carriesLight = true, compresses, rouletteAfter)
+  private val lastP = MutableVec3()
   private var kept = Array.fill(LightPaths.InitialSize)(PathVertex(scene))
   private var used = 0
 
@@ -46,8 +51,11 @@ private[bidirectional] final class LightPaths(
     val picks = choice
     if picks == null then 0f else picks.probability(light)
 
-  /** Traces a new path, replacing the last. */
-  def trace(time: Float, sampler: Sampler): Unit =
+  /** Traces a new path, replacing the last.
+    *
+    * @param hero colour that drives sampling in media
+    */
+  def trace(time: Float, sampler: Sampler, hero: Int = 0): Unit =
     used = 0
     val picks = choice
     if picks != null && maxEdges > 0 then
@@ -62,39 +70,55 @@ private[bidirectional] final class LightPaths(
         ray.time = time
         ray.differential.isKnown = false
         ray.set(start.origin, start.direction, Float.PositiveInfinity)
+        val within = media
+        if within != null then within.begin(hero, within.around(ray), time, sampler)
         walk(light, sampler)
 
   private def walk(light: Int, sampler: Sampler): Unit =
     path.isSpecularSoFar = true
     path.isAlone = startsAlone
+    val within = media
     var edges = 0
     var alive = true
+    lastP.set(ray.origin)
     while alive do
       raysTraced += 1
-      alive = scene.closest(ray, hit)
+      val isHit = scene.closest(ray, hit)
+      var collision = -1f
+      if within != null then
+        collision = within.follow(ray, path.throughput, emits = false, sampler)
+        path.throughput = Rgb.White
+      alive = collision >= 0f || (isHit && (within == null || !within.isAbsorbed))
       if alive then
         edges += 1
         val vertex = next()
-        vertex.hit(ray, hit)
-        if vertex.isInterface then
+        if within != null && collision >= 0f then within.scatter(vertex, ray, collision)
+        else vertex.hit(ray, hit)
+        if !vertex.isInMedium && vertex.isInterface then
           edges -= 1
-          vertex.passThrough(ray)
+          if within == null then vertex.passThrough(ray) else within.passThrough(vertex, ray)
         else
-          vertex.evaluate(regularizes && !path.isSpecularSoFar)
+          if !vertex.isInMedium then vertex.evaluate(regularizes && !path.isSpecularSoFar)
           if scene.isDispersive then path.disperse(vertex)
           vertex.edges = edges
           val cosine = vertex.cosine(vertex.wo)
+          val distance =
+            if within == null then ray.tMax.toDouble else (vertex.at.p - lastP).length.toDouble
           if edges == 1 then begin(light, vertex, cosine)
-          else path.weights.arrive(ray.tMax.toDouble, cosine)
+          else path.weights.arrive(distance, cosine)
           alive = cosine > 0f
+          if within != null then within.mark(vertex)
           if alive then
             if !vertex.bsdf.isSpecular then
-              vertex.throughput = path.throughput
+              vertex.throughput =
+                if within == null then path.throughput else path.throughput * within.throughput
               vertex.isSpecularSoFar = path.isSpecularSoFar
               vertex.isAlone = path.isAlone
               vertex.weights.set(path.weights)
               used += 1
             alive = edges < maxEdges && path.scatter(vertex, ray, sampler)
+            lastP.set(vertex.at.p)
+            if within != null then within.medium = within.towards(vertex, ray.direction)
 
   /** Initial MIS weights at the first surface: next-event estimation samples this light from there,
     * too, with a position-dependent pdf.
@@ -102,7 +126,7 @@ private[bidirectional] final class LightPaths(
   private def begin(light: Int, vertex: PathVertex, cosine: Float): Unit =
     val source = scene.lights(light)
     val at = vertex.at
-    val sampled = scene.selection.probability(at.p, at.frame.n, light).toDouble *
+    val sampled = scene.selection.probability(at.p, vertex.lightNormal, light).toDouble *
       source.meetingPdf(at.p, start)
     val emitted = chance(light).toDouble * start.pdf * cosine
     path.weights.near = PartialWeights.mis(sampled / emitted)

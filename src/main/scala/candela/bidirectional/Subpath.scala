@@ -42,7 +42,8 @@ private[bidirectional] final class Subpath(
       // Refraction scales radiance, but not power (Veach 1997, §5.2)
       val kept = if compresses then bounce.weight * square(bounce.eta) else bounce.weight
       throughput = throughput *
-        (if carriesLight then kept * correction(vertex, wi, bounce.wi.z) else bounce.weight)
+        (if carriesLight && !vertex.isInMedium then kept * correction(vertex, wi, bounce.wi.z)
+         else bounce.weight)
       if !bounce.isSpecular then isSpecularSoFar = false
       val cosine = vertex.cosine(wi)
       if bounce.isSpecular then weights.scatterSpecular(cosine)
@@ -77,6 +78,12 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
 
   /** As [[Subpath.isAlone]]. */
   var isAlone: Boolean = false
+
+  /** Index of the medium where the subpath came from, −1: none. */
+  var medium: Int = -1
+
+  /** Density of the subpath by each colour; see [[candela.media.PathWeights]]. */
+  var ur, ug, ub: Float = 1f
   val weights: PartialWeights = PartialWeights()
 
   /** Cosine factor for light scattered to `wi`, with the correction for shading normals, which make
@@ -84,7 +91,8 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
     */
   def sentCosine(wi: Vec3): Float =
     val slant = cosine(wo)
-    if slant > 0f then cosine(wi) * Math.abs(localWo.z) / slant else 0f
+    if isInMedium then 1f
+    else if slant > 0f then cosine(wi) * Math.abs(localWo.z) / slant else 0f
 
 /** MIS quantities at the end of a subpath, which allow a full path to be weighted against every
   * other strategy in constant time. Mutable.

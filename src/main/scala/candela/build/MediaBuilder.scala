@@ -78,7 +78,7 @@ private[build] final class MediaBuilder(
     (plan.throughMedia, plan.throughVolumes) match
       case (Some(make), _) if isUsed || scene.hasInterfaces =>
         val all = SceneMedia(media, materials.borders, camera, reach)
-        (RenderMethod.Tiles(make(scene, all)), all.describe)
+        (make(scene, all), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)
         val march = VolumeMarch(scene, volumes, volumeMethod.stepSize, volumeMethod.scatters)

@@ -22,6 +22,6 @@ private[build] object Preview:
       "headlight shading",
       followsSpecular = false,
       isLit = false,
-      throughMedia = Some((scene, _) => Headlight(scene, white)),
+      throughMedia = Some((scene, _) => RenderMethod.Tiles(Headlight(scene, white))),
       throughVolumes = Some((scene, _, _) => Headlight(scene, white))
     )

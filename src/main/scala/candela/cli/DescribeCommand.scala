@@ -219,8 +219,7 @@ final class ReferenceMarkdown(described: Described):
 
 private object ReferenceMarkdown:
   val Substitutes: String =
-    "These types are replaced, with a warning that says so. Each either renders the same light with " +
-      "less error, or needs what no public scene has."
+    "These types are replaced, with a warning at each use that says by what."
 
   val Introduction: String =
     """# Scene reference

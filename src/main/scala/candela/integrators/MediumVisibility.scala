@@ -10,7 +10,7 @@ import candela.scene.Scene
   *
   * @param work `shadow` receives the transmittance
   */
-private[integrators] final class MediumVisibility(
+private[candela] final class MediumVisibility(
     scene: Scene,
     media: SceneMedia,
     work: MediumWork
@@ -41,6 +41,15 @@ private[integrators] final class MediumVisibility(
       else
         if light.isInfinite then ray.tMax = media.reach
         dim(medium)
+
+  /** As above, between two points. */
+  def reaches(origin: Vec3, end: Vec3, medium: Int): Boolean =
+    work.shadow.start(work.weights.hero, 1f)
+    if scene.hasInterfaces then passes(origin, end, medium)
+    else
+      ray.set(origin, end - origin, LightConnection.ShadowEnd)
+      rays += 1
+      !scene.isOccluded(ray, hit) && dim(medium)
 
   private def dim(medium: Int): Boolean =
     if medium >= 0 then media.media(medium).dim(ray, work)

@@ -24,8 +24,25 @@ class SurfaceVertex(scene: Scene):
   final def wo: MutableVec3 = ownWo
   final def localWo: MutableVec3 = ownLocalWo
 
+  /** Is it a scattering event in a medium? */
+  final var isInMedium: Boolean = false
+
+  /** Normal for the choice of lights; zero in a medium. */
+  final def lightNormal: Vec3 = if isInMedium then Vec3.Zero else at.frame.n
+
+  /** Puts the vertex in a medium, whose phase function is `phase`. */
+  final def scatterAt(p: Vec3, wo: Vec3, phase: Bsdf): Unit =
+    isInMedium = true
+    at.p = p
+    at.pError = Vec3.Zero
+    at.geometricNormal = wo
+    at.areaLight = -1
+    at.frame.set(Frame.around(wo))
+    scatterBy(phase, wo)
+
   /** Computes the surface geometry where `ray` hit it. */
   final def hit(ray: Ray, hit: Hit): Unit =
+    isInMedium = false
     scene.surface(ray, hit, at)
     ownWo.set(-ray.dx, -ray.dy, -ray.dz)
 
@@ -71,11 +88,11 @@ class SurfaceVertex(scene: Scene):
   /** Solid-angle density with which a path from `wi` would continue to `wo`. */
   final def reversePdf(wi: Vec3): Float = bsdf.pdf(at.frame.toLocal(wi), localWo)
 
-  /** |cos| of the angle to the geometric normal. */
-  final def cosine(w: Vec3): Float = at.geometricNormal absDot w
+  /** |cos| of the angle to the geometric normal; 1 in a medium. */
+  final def cosine(w: Vec3): Float = if isInMedium then 1f else at.geometricNormal absDot w
 
-  /** |cos| of the angle to the shading normal. */
-  final def shadingCosine(w: Vec3): Float = at.frame.n absDot w
+  /** |cos| of the angle to the shading normal; 1 in a medium. */
+  final def shadingCosine(w: Vec3): Float = if isInMedium then 1f else at.frame.n absDot w
 
   /** Does the local direction lie on the other side of the shading normal than `wo`? */
   final def crosses(localWi: Vec3): Boolean = localWi.z * ownLocalWo.z < 0f

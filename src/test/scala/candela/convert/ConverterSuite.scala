@@ -81,6 +81,7 @@ object ConverterSuite:
       "v2-volumes-whitted" -> 1.3,
       "v4-alpha" -> 0.15,
       "v4-ambientocclusion" -> 2.45,
+      "v4-bdpt-media" -> 0.25,
       "v4-bump" -> 0.3,
       "v4-coated-diffuse" -> 0.7,
       "v4-defaults-materials" -> 1.75,

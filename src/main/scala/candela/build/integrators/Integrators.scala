@@ -51,7 +51,7 @@ object Integrators:
   * @param samplesLights whether the integrator finds lights that no ray hits
   * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
   * @param followsSpecular whether textures are also filtered along specular paths
-  * @param throughMedia   creates the integrator for scenes with participating media, if supported
+  * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
   */
 final case class IntegratorPlan(
@@ -65,7 +65,7 @@ final case class IntegratorPlan(
     isLit: Boolean = true,
     samples: Option[Int] = None,
     window: Option[PixelBounds] = None,
-    throughMedia: Option[(Scene, SceneMedia) => Integrator] = None,
+    throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )
 

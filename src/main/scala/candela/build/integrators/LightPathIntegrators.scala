@@ -5,7 +5,9 @@ import candela.build.recipe.*
 import candela.film.{Splats, View}
 import candela.integrators.{PathLimits, PathTracer, VolumePathTracer, WalkOptions}
 import candela.integrators.LightTransport.RouletteAfter
+import candela.media.SceneMedia
 import candela.render.RenderMethod
+import candela.render.RenderMethod.SplattedTiles
 import candela.scene.Scene
 import candela.scenefile.Dialect
 
@@ -88,7 +90,7 @@ object LightPathRecipe
     val most = Math.max(0, maxDepth())
     IntegratorPlan(
       (scene, _) =>
-        RenderMethod.SplattedTiles(v => LightTracer(scene, v.camera, v.splats, most)),
+        SplattedTiles(v => LightTracer(scene, v.camera, v.splats, most)),
       samplesBsdf = false,
       s"$name, up to $most scattering events"
     )
@@ -98,8 +100,8 @@ object FunctionRecipe
     with PathInstead:
   override def pending: Option[String] =
     Some(
-      "using \"path\", which renders an image of the scene; `candela bench` measures how the error " +
-        "of samplers falls"
+      "using \"path\", which renders an image of the scene; `candela bench` measures how the " +
+        "error of samplers falls"
     )
   declare(
     oneOf(
@@ -122,35 +124,57 @@ private[build] object BidirectionalPlans:
     val most = Math.max(0, depth)
     val dialect = site.dialect
     IntegratorPlan(
-      (scene, _) => RenderMethod.SplattedTiles(v => tracer(scene, v, most, regularizes)(v.splats)),
+      (scene, _) => SplattedTiles(v => tracer(scene, v, most, regularizes)(v.splats)),
       samplesBsdf = false,
       s"$name, up to $most scattering events" + (if regularizes then ", regularised" else ""),
       followsSpecular = dialect == Dialect.V4,
       throughMedia = Option.when(dialect != Dialect.V2): (scene, media) =>
-        site.warn(
-          s"\"$name\" does not support participating media yet; using \"volpath\", which $Lack"
-        )
-        VolumePathTracer(
-          scene,
-          media,
-          PathLimits(most, seesThrough = dialect == Dialect.V3),
-          WalkOptions(regularizes, subsurface = scene.hasSubsurface)
-        )
+        limit(scene, media) match
+          case None => SplattedTiles(v => tracer(scene, v, most, regularizes, media)(v.splats))
+          case Some(what) =>
+            RenderMethod.Tiles(inVolpath(name, what, scene, media, most, regularizes))
       ,
       throughVolumes = Some: (scene, _, march) =>
         site.warn(s"\"$name\" does not support volumes yet; using \"path\", which $Lack")
         PathTracer(scene, PathLimits(most), volumes = march)
     )
 
-  private def tracer(scene: Scene, view: View, depth: Int, regularizes: Boolean)(splats: Splats)(
-      using site: Site
-  ): BidirectionalPathTracer =
-    val compresses = site.dialect != Dialect.V2
-    BidirectionalPathTracer(
-      scene, view.camera, splats, depth, RouletteAfter, compresses, regularizes
+  /** What of a scene with media is not supported. */
+  private def limit(scene: Scene, media: SceneMedia): Option[String] =
+    if media.camera >= 0 then Some("a camera within a medium")
+    else if scene.isDispersive then Some("dispersion beside media")
+    else if scene.hasSubsurface then Some("subsurface scattering beside media")
+    else None
+
+  private def inVolpath(
+      name: String,
+      what: String,
+      scene: Scene,
+      media: SceneMedia,
+      depth: Int,
+      regularizes: Boolean
+  )(using site: Site): VolumePathTracer =
+    site.warn(s"\"$name\" does not support $what yet; using \"volpath\", which $Lack")
+    VolumePathTracer(
+      scene,
+      media,
+      PathLimits(depth, seesThrough = site.dialect == Dialect.V3),
+      WalkOptions(regularizes, subsurface = scene.hasSubsurface)
     )
 
-  /** Plan of [[MarkovChains]]. Media and volumes use the fallbacks above.
+  private def tracer(
+      scene: Scene,
+      view: View,
+      depth: Int,
+      regularizes: Boolean,
+      media: SceneMedia | Null = null
+  )(splats: Splats)(using site: Site): BidirectionalPathTracer =
+    val compresses = site.dialect != Dialect.V2
+    BidirectionalPathTracer(
+      scene, view.camera, splats, depth, RouletteAfter, compresses, regularizes, media
+    )
+
+  /** Plan of [[MarkovChains]]. Volumes use the fallback above.
     *
     * @param mutations mutations per pixel
     */
@@ -174,13 +198,20 @@ private[build] object BidirectionalPlans:
       site.error(s"`largestepprobability` must be in [0, 1], found ${settings.largeStep}")
     val most = Math.max(0, depth)
     val seeded = settings.copy(seed = site.resources.seed)
+    def chains(scene: Scene, media: SceneMedia | Null) =
+      RenderMethod.Chains(
+        (view, splats) => tracer(scene, view, most, regularizes, media)(splats),
+        (view, paths) => MarkovChains(paths, seeded, view),
+        v => tracer(scene, v, most, regularizes, media)(v.splats)
+      )
     plan(name, depth, regularizes).copy(
-      method = (scene, _) =>
-        RenderMethod.Chains(
-          (view, splats) => tracer(scene, view, most, regularizes)(splats),
-          (view, paths) => MarkovChains(paths, seeded, view),
-          v => tracer(scene, v, most, regularizes)(v.splats)
-        ),
+      method = (scene, _) => chains(scene, null),
+      throughMedia = Option.when(!isV2): (scene, media) =>
+        limit(scene, media) match
+          case None => chains(scene, media)
+          case Some(what) =>
+            RenderMethod.Tiles(inVolpath(name, what, scene, media, most, regularizes))
+      ,
       describe = s"$name, up to $most scattering events, ${settings.chains} chains",
       samples = Some(Math.max(1, mutations))
     )

@@ -33,12 +33,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
       throughMedia = Option.when(name == "volpath")((scene, media) =>
-        VolumePathTracer(
+        RenderMethod.Tiles(VolumePathTracer(
           scene,
           media,
           limits,
           WalkOptions(regularizes, subsurface = scene.hasSubsurface)
-        )
+        ))
       ),
       throughVolumes = Some((scene, _, march) =>
         PathTracer(scene, limits, volumes = march)
@@ -67,7 +67,11 @@ object SimpleVolPathRecipe
     val options = WalkOptions(samplesLights = false)
     SimplePlans
       .plan(name, most, samplesLights = false, Onward.Bsdf)
-      .copy(throughMedia = Some(VolumePathTracer(_, _, PathLimits(most), options)))
+      .copy(throughMedia =
+        Some((scene, media) =>
+          RenderMethod.Tiles(VolumePathTracer(scene, media, PathLimits(most), options))
+        )
+      )
 
 object RandomWalkRecipe
     extends IntegratorRecipe(

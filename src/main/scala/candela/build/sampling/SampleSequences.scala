@@ -91,7 +91,8 @@ object AdaptiveRecipe
     integer("minsamples", "minimum samples per pixel")(4),
     string("method", "criterion: contrast, shapeid")("contrast")
   )
-  override def pending: Option[String] = Some("using `maxsamples` in every pixel")
+  override def pending: Option[String] =
+    Some("using `maxsamples` in every pixel, the most that it would take")
   protected def make()(using Site): SamplerRequest => Sampler =
     val n = most()
     request => OwenSobolSampler(request.spp.getOrElse(n), request.seed)
