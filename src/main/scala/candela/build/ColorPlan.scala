@@ -35,7 +35,7 @@ private[build] object ColorPlan:
     val census = context.resources.census
     val (least, uniform) = census.bands.fold((Usual, Wavelengths.Uniform))(n => (4 * n, 1.0))
     def spectral(why: String) =
-      val smooth = SmoothSpectra(context.resources.crew)
+      val smooth = SmoothSpectra()
       val (lights, surfaces) = (census.lights, census.surfaces)
       val fewest = Math.max(if census.isDispersive then Many else Usual, least)
       val observed =

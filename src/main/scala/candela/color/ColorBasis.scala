@@ -13,7 +13,7 @@ abstract class ColorBasis:
   def fromSrgb(c: Rgb): Rgb
 
   /** As [[fromSrgb]], or [[unbounded]] if a component is above 1: for colours that are known while
-    * rendering only. To ask for it may compute a table.
+    * rendering only.
     */
   def lookUp: Rgb => Rgb
 

@@ -1,21 +1,21 @@
 package candela.color
 
-import candela.base.Parallel
+import java.util.concurrent.atomic.AtomicReferenceArray
+
 import candela.math.*
 
 /** Smooth spectra of colours in linear sRGB; see [[Upsampling]] for the spectra and their source.
-  *
-  * @param crew computes the table
+  * Safe for threads.
   */
-final class SmoothSpectra(crew: Parallel):
+final class SmoothSpectra:
   private val fitted = scala.collection.mutable.HashMap.empty[Rgb, Float => Float]
 
   /** The spectrum of one colour, fitted exactly: for the few colours of a scene file. */
   def exact(color: Rgb): Float => Float =
     fitted.synchronized(fitted.getOrElseUpdate(color, SmoothSpectra.spectrum(color)))
 
-  /** For colours that are known while rendering only; computed when it is first asked for. */
-  lazy val table: SpectrumTable = SpectrumTable(crew)
+  /** For colours that are known while rendering only. */
+  val table: SpectrumTable = SpectrumTable()
 
 object SmoothSpectra:
   /** Bounds of the largest component of a colour that is fitted. */
@@ -39,15 +39,30 @@ object SmoothSpectra:
     val t = (c0 * x + c1) * x + c2
     0.5f + 0.5f * t / sqrt(1f + t * t)
 
-/** Coefficients of smooth spectra on a grid of colours. Immutable.
+/** Coefficients of smooth spectra on a grid of colours, fitted where they are looked up. Safe for
+  * threads.
   *
   * As in Jakob and Hanika's tables, the grid has three parts by the largest component; its value
   * is the third coordinate, in steps that are finer near black and white, and the other two
   * components are relative to it.
   */
-final class SpectrumTable private (data: Array[Float]):
+final class SpectrumTable:
   import SmoothSpectra.*
   import SpectrumTable.*
+
+  /** The coefficients of all levels, for a part and two relative components; null: not yet fitted.
+    */
+  private val columns = AtomicReferenceArray[Array[Float]](3 * Size * Size)
+
+  private def column(largest: Int, j: Int, i: Int): Array[Float] =
+    val place = (largest * Size + j) * Size + i
+    val made = columns.getAcquire(place)
+    if made != null then made
+    else
+      // Threads that meet here fit the same
+      val fresh = fit(largest, j, i)
+      columns.setRelease(place, fresh)
+      fresh
 
   /** The spectrum of a colour with components in [0, 1], at three wavelengths in nm. */
   def at(r: Float, g: Float, b: Float, nm0: Float, nm1: Float, nm2: Float): Rgb =
@@ -62,22 +77,21 @@ final class SpectrumTable private (data: Array[Float]):
     val tx = x - i
     val ty = y - j
     val tz = (z - Levels(k)) / (Levels(k + 1) - Levels(k))
-    val near = place(largest, k, j, i)
-    val far = near + 3 * Size * Size
-    val c0 = mix(near, far, tx, ty, tz)
-    val c1 = mix(near + 1, far + 1, tx, ty, tz)
-    val c2 = mix(near + 2, far + 2, tx, ty, tz)
+    val c00 = column(largest, j, i)
+    val c10 = column(largest, j, i + 1)
+    val c01 = column(largest, j + 1, i)
+    val c11 = column(largest, j + 1, i + 1)
+    inline def level(n: Int): Float =
+      lerp(ty, lerp(tx, c00(n), c10(n)), lerp(tx, c01(n), c11(n)))
+    inline def mix(n: Int): Float = lerp(tz, level(n), level(n + 3))
+    val n = 3 * k
+    val c0 = mix(n)
+    val c1 = mix(n + 1)
+    val c2 = mix(n + 2)
     Rgb(logistic(c0, c1, c2, nm0), logistic(c0, c1, c2, nm1), logistic(c0, c1, c2, nm2))
 
   private def step(c: Float, largest: Float): Float =
     clamp(c, 0f, largest) / largest * (Size - 1)
-
-  private def mix(near: Int, far: Int, tx: Float, ty: Float, tz: Float): Float =
-    lerp(tz, mix(near, tx, ty), mix(far, tx, ty))
-
-  private def mix(at: Int, tx: Float, ty: Float): Float =
-    val up = at + 3 * Size
-    lerp(ty, lerp(tx, data(at), data(at + 3)), lerp(tx, data(up), data(up + 3)))
 
 object SpectrumTable:
   import SmoothSpectra.{Least, Most}
@@ -96,29 +110,22 @@ object SpectrumTable:
   /** The other components relative to the largest. */
   private def share(i: Int): Double = i.toDouble / (Size - 1)
 
-  private def place(largest: Int, k: Int, j: Int, i: Int): Int =
-    3 * (((largest * Size + k) * Size + j) * Size + i)
-
-  def apply(crew: Parallel): SpectrumTable =
-    val data = new Array[Float](3 * 3 * Size * Size * Size)
-    crew.each(3 * Size)(row => fill(data, row / Size, row % Size))
-    new SpectrumTable(data)
-
-  /** Fits a plane of constant `j`, from the middle level outwards, each colour from the last. */
-  private def fill(data: Array[Float], largest: Int, j: Int): Unit =
+  /** Fits a column, from the middle level outwards, each colour from the last. */
+  private def fit(largest: Int, j: Int, i: Int): Array[Float] =
+    val column = new Array[Float](3 * Size)
     val fit = SpectrumFit()
-    for i <- 0 until Size do
-      def go(levels: Range): Unit =
-        fit.restart()
-        for k <- levels do
-          val z = Levels(k).toDouble
-          val c = Array(z, z, z)
-          c((largest + 1) % 3) = z * share(i)
-          c((largest + 2) % 3) = z * share(j)
-          fit.to(c)
-          for n <- 0 until 3 do data(place(largest, k, j, i) + n) = fit.c(n).toFloat
-      go(Size / 2 until Size)
-      go(Size / 2 - 1 to 0 by -1)
+    def go(levels: Range): Unit =
+      fit.restart()
+      for k <- levels do
+        val z = Levels(k).toDouble
+        val c = Array(z, z, z)
+        c((largest + 1) % 3) = z * share(i)
+        c((largest + 2) % 3) = z * share(j)
+        fit.to(c)
+        for n <- 0 until 3 do column(3 * k + n) = fit.c(n).toFloat
+    go(Size / 2 until Size)
+    go(Size / 2 - 1 to 0 by -1)
+    column
 
 /** Newton's method for the three coefficients of a smooth spectrum, from one colour to the next.
   * Mutable.

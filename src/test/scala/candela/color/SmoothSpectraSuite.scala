@@ -2,12 +2,8 @@ package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Parallel
-
 class SmoothSpectraSuite extends AnyFunSuite:
-  private val t0 = System.nanoTime
-  private val spectra = SmoothSpectra(Parallel.Alone)
-  info(s"${(System.nanoTime - t0) / 1e9} s")
+  private val spectra = SmoothSpectra()
   private val random = java.util.Random(7)
 
   /** Colour of the spectrum under D65. */

@@ -2,10 +2,8 @@ package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Parallel
-
 class WavelengthsSuite extends AnyFunSuite:
-  private val smooth = SmoothSpectra(Parallel.Alone)
+  private val smooth = SmoothSpectra()
 
   /** Colour of light by a set of bases. */
   private def seen(bases: Vector[Wavelengths])(light: Wavelengths => Rgb): Rgb =

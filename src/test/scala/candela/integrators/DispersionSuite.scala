@@ -1,6 +1,5 @@
 package candela.integrators
 
-import candela.base.Parallel
 import candela.bsdf.{Bsdf, BsdfLaws, Lambert, Lobes, Scaled, SentThrough}
 import candela.bsdf.microfacet.{Dielectric, Dispersive, TrowbridgeReitz}
 import candela.build.{BuildOptions, ColorMode}
@@ -52,7 +51,7 @@ class DispersionSuite extends BsdfLaws:
       val x = (nm - 360f) / 470f * steps
       val k = Math.min(x.toInt, steps - 1)
       lerp(x - k, brightness(k), brightness(k + 1))
-    val bases = Wavelengths.covering(1000, SmoothSpectra(Parallel.Alone))
+    val bases = Wavelengths.covering(1000, SmoothSpectra())
     val wanted = bases
       .map: basis =>
         val light = basis.ofLight(Rgb.White).r * shown(basis.nm(0))
