@@ -81,7 +81,7 @@ final class StandaloneSpark(home: Path, folder: Path) extends AutoCloseable:
 
     /** An executor that has begun to render. */
     def executor(): ProcessHandle =
-      def begun(p: ProcessHandle) = p.info.totalCpuDuration.toScala.exists(_.toSeconds >= 5)
+      def begun(p: ProcessHandle) = p.info.totalCpuDuration.toScala.exists(_.toSeconds >= 7)
       waitFor("executor", Some(this))(executors.find(begun))
 
     /** Exit code and output. */
