@@ -172,4 +172,5 @@ object NanoVdb:
 
   /** Writes `scenes/volumes/smoke.nvdb`. */
   def main(args: Array[String]): Unit =
-    val _ = Files.write(Path.of(args.head), file(smoke(0.06, Vector(-0.54, -0.54, 0.05)), zipped = true))
+    val grids = smoke(0.06, Vector(-0.54, -0.54, 0.05))
+    val _ = Files.write(Path.of(args.head), file(grids, zipped = true))

@@ -66,7 +66,9 @@ object NanoVdbFile:
         case Some("ZIP") => InflatedBytes.of(file, at, stored, size)
         case other =>
           val coding = other.getOrElse(s"compression number $codec")
-          throw NanoVdbError(s"grid `$name` is stored with $coding, expected none or ZIP")
+          throw NanoVdbError(
+            s"grid `$name` is stored with $coding, expected none or ZIP (`nanovdb_convert -z`)"
+          )
 
   private def entries(file: GridBytes): Vector[Entry] =
     val found = mutable.ArrayBuffer.empty[Entry]

@@ -104,7 +104,7 @@ final class NanoVdbFileSuite extends AnyFunSuite:
     assert(refusal("no volume at all".getBytes).startsWith("not a NanoVDB file: byte 0"))
     assert(refusal(Array.emptyByteArray) == "the file is empty")
     assert(refusal(changed(11, 5)) == "it has version 40 of the format, expected 32")
-    assert(refusal(changed(14, 2)) == "grid `density` is stored with BLOSC, expected none or ZIP")
+    assert(refusal(changed(14, 2)).startsWith("grid `density` is stored with BLOSC, expected"))
     assert(refusal(changed(body + 636, 15)) == "its values are of type fp16, expected float")
     assert(refusal(changed(body + 632, 1)) == "the grid is a level set, expected a fog volume")
     assert(refusal(file.take(300000)).startsWith("the file is cut short: 307232 bytes at 200"))
