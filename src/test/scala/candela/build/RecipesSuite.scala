@@ -72,7 +72,7 @@ final class RgbTextureRecipesSuite
 final class MediumRecipesSuite
     extends RecipeLaws[Option[Medium]](
       Media.all,
-      demanding = Set("heterogeneous", "uniformgrid", "rgbgrid")
+      demanding = Set("heterogeneous", "uniformgrid", "rgbgrid", "nanovdb")
     )
 
 final class VolumeRecipesSuite

@@ -38,8 +38,10 @@ class FilmHeadersSuite extends AnyFunSuite:
       "nthreads", "pixelmaterial", "sample", "debug", "mse-reference-image", "mse-reference-out",
       "write-partial-images", "report", "reference", "explain", "quiet", "verbose"
     ) ++
-    Set("checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error", "thumbnail",
-      "watch", "watch-after", "display-server")
+    Set(
+      "spark", "shards", "checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error",
+      "thumbnail", "watch", "watch-after", "display-server"
+    )
 
   test("every option of render is known to shape the image or not to"):
     assert(OptionTable.names("render").toSet == shaping.keySet ++ others)

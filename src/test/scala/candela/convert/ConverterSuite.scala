@@ -98,7 +98,7 @@ object ConverterSuite:
       "v4-measured" -> 0.35,
       "v4-media-cloud" -> 0.15,
       "v4-media-emission" -> 9.65,
-      "v4-mlt" -> 0.2,
+      "v4-mlt" -> 0.5,
       "v4-panorama-equalarea" -> 1.05,
       "v4-picture-lights" -> 10.05,
       "v4-pixel-centres" -> 0.25,
