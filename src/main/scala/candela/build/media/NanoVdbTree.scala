@@ -44,12 +44,16 @@ private[media] object NanoVdbTree:
     val table: Int = (children + slots / 8 + 16 + 31) / 32 * 32
     val size: Int = table + 8 * slots
 
+  /** Limits the memory for nodes that hold one value; they are rare. */
+  private val MostConstants = 1000
+
   private val LeafValues = 96
   private val LeafSize = LeafValues + 4 * VoxelNode.LeafSize
 
   private final class Reader(bytes: GridBytes):
     private val nodes = mutable.ArrayBuffer.empty[(Int, Int, Int, VoxelNode)]
     private val constants = mutable.HashMap.empty[Int, Array[Float]]
+    private val constantNodes = mutable.HashMap.empty[Int, VoxelNode]
 
     // More nodes than bytes for them: some are used twice
     private var nodesLeft = bytes.size / Level.Lower.size + bytes.size / Level.Upper.size
@@ -107,7 +111,7 @@ private[media] object NanoVdbTree:
       val value = number(tile.getFloat(20))
       if child != 0 then upper(root + child, corner, background)
       else if value != background then
-        val node = VoxelNode(Array.fill(VoxelNode.Leaves)(constant(value)))
+        val node = constantNode(value)
         loop(Level.Upper.slots)(n => add(corner, n, node))
 
     private def upper(at: Long, corner: Vector[Int], background: Float): Unit =
@@ -117,8 +121,7 @@ private[media] object NanoVdbTree:
         if isChild(node, Level.Upper, n) then add(corner, n, lower(at + node.getLong(entry)))
         else
           val value = number(node.getFloat(entry))
-          if value != background then
-            add(corner, n, VoxelNode(Array.fill(VoxelNode.Leaves)(constant(value))))
+          if value != background then add(corner, n, constantNode(value))
 
     private def lower(at: Long): VoxelNode =
       val node = visit(at, Level.Lower)
@@ -146,6 +149,16 @@ private[media] object NanoVdbTree:
         java.lang.Float.floatToIntBits(value),
         Array.fill(VoxelNode.LeafSize)(value)
       )
+
+    /** Equal ones are one object: damaged files have many. */
+    private def constantNode(value: Float): VoxelNode =
+      val made = constantNodes.getOrElseUpdate(
+        java.lang.Float.floatToIntBits(value),
+        VoxelNode(Array.fill(VoxelNode.Leaves)(constant(value)))
+      )
+      if constantNodes.size > MostConstants then
+        throw NanoVdbError(s"more than $MostConstants of its large tiles differ")
+      made
 
     private def number(value: Float): Float = if java.lang.Float.isFinite(value) then value else 0f
 
