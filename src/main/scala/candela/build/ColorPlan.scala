@@ -37,11 +37,12 @@ private[build] object ColorPlan:
     def spectral(why: String) =
       val smooth = SmoothSpectra()
       val (lights, surfaces) = (census.lights, census.surfaces)
+      val light = census.light
       val fewest = Math.max(if census.isDispersive then Many else Usual, least)
       val observed =
         Iterator
           .iterate(fewest)(2 * _)
-          .map(Wavelengths.covering(_, smooth, census.light))
+          .map(Wavelengths.covering(_, smooth, light))
           .find(bases =>
             bases.size >= Most ||
               ColorError.ofWavelengths(bases, lights, surfaces) < LineTolerance
@@ -52,7 +53,7 @@ private[build] object ColorPlan:
         if camera.isEmpty && census.bands.isEmpty then observed
         else
           val detector = camera.fold(Wavelengths.Observer)(_.responses)
-          Wavelengths.covering(count, smooth, census.light, detector, uniform)
+          Wavelengths.covering(count, smooth, light, detector, uniform)
       ColorPlan(bases, s"spectral, three of ${3 * count} wavelengths a path: $why")
     mode(asked, context.dialect) match
       case ColorMode.Spectral => spectral("as asked for")

@@ -4,7 +4,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks}
 import candela.bsdf.InterfaceMaterial
-import candela.build.lights.{AreaLightPlan, MeshLights, RectangleLights}
+import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
 import candela.build.shapes.{
   EmitterHoles, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
@@ -132,8 +132,10 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         meshMasks += plan.mask
         meshStatements += dressed.declared
         for lamp <- lamp do
-          if isPaired then addLights(corners.size, lamp, 2)(RectangleLights(first, corners).of)
-          else addLights(count, lamp)(MeshLights(plan.holes, first, count, here).of)
+          if isPaired then
+            addLights(corners.size, lamp, 2)(MeshLights.ofRectangles(first, corners).of)
+          else
+            addLights(count, lamp)(MeshLights.ofTriangles(plan.holes, first, count, here).of)
 
     private def isUniform(lamp: Declaration): Boolean =
       plan.holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)

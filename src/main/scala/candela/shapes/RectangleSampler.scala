@@ -1,6 +1,6 @@
 package candela.shapes
 
-import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.sampling.SphericalRectangle
 
@@ -8,9 +8,8 @@ import candela.sampling.SphericalRectangle
   * large, so that distance and slant add no noise; else by area, which is nearly the same and takes
   * a fraction of the time.
   *
-  * @param corner  where both edges begin
-  * @param first   one triangle; its normal is that of the rectangle
-  * @param second  the other one
+  * @param first  one of the triangles; its normal is that of the rectangle
+  * @param second the other one
   *
   * Source: [[SphericalRectangle]].
   */
@@ -34,6 +33,7 @@ final class RectangleSampler(
   val area: Float = width * height
 
   def vertices: Seq[Vec3] = Seq(a, b, c, d)
+  val bounds: Bounds3 = Bounds3.of(vertices)
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     var angle = 0.0
@@ -41,11 +41,11 @@ final class RectangleSampler(
       val x0 = alongX(from)
       val y0 = alongY(from)
       angle = out.rectangle.set(x0, x0 + width, y0, y0 + height, alongZ(from))
-      if isByAngle(angle) then
+      if SurfaceSampler.isByAngle(angle) then
         out.rectangle.sample(u1, u2)
         place((out.rectangle.x - x0) / width, (out.rectangle.y - y0) / height, out)
         out.pdf = (1 / angle).toFloat
-    if !isByAngle(angle) then
+    if !SurfaceSampler.isByAngle(angle) then
       sampleArea(u1, u2, out)
       out.pdf = SurfaceSampler.perSolidAngle(1f / area, from, out.p, normal)
 
@@ -55,7 +55,7 @@ final class RectangleSampler(
       val x0 = alongX(from)
       val y0 = alongY(from)
       angle = SphericalRectangle.solidAngle(x0, x0 + width, y0, y0 + height, alongZ(from))
-    if isByAngle(angle) then (1 / angle).toFloat
+    if SurfaceSampler.isByAngle(angle) then (1 / angle).toFloat
     else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
 
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
@@ -68,9 +68,6 @@ final class RectangleSampler(
     first.meets(ray, hit, at) || second.meets(ray, hit, at)
 
   private def isLarge(from: Vec3): Boolean = area > Large * (center - from).lengthSquared
-
-  private def isByAngle(solidAngle: Double): Boolean =
-    solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle
 
   // From `from` to the corner, in the axes of the rectangle
   private def alongX(from: Vec3): Double = along(axisX, from)
@@ -105,10 +102,6 @@ object RectangleSampler:
 
   /** Area over squared distance, above which sampling by solid angle pays. */
   private inline val Large = 0.1f
-
-  /** As for triangles; see [[TriangleSampler]]. */
-  private inline val MinSolidAngle = 3e-4
-  private inline val MaxSolidAngle = 6.22
 
   /** Rounding of coordinates, relative to the largest. */
   private inline val Tolerance = 2.4e-7f

@@ -78,6 +78,16 @@ final class SurfaceSample:
   val rectangle = candela.sampling.SphericalRectangle()
 
 object SurfaceSampler:
+  /** Range of solid angles in sr, from PBRT 4th ed., §6.5.4: below it the pdf by area is nearly
+    * constant, above it the reference point is almost in the plane of the surface.
+    */
+  private inline val MinSolidAngle = 3e-4
+  private inline val MaxSolidAngle = 6.22
+
+  /** Is a flat surface of this solid angle sampled by it, rather than by area? */
+  private[shapes] def isByAngle(solidAngle: Double): Boolean =
+    solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle
+
   /** Converts a pdf per area into one per solid angle: pdf · distance² / |cos|. Zero edge-on. */
   def perSolidAngle(perArea: Float, from: Vec3, p: Vec3, n: Vec3): Float =
     val d = p - from

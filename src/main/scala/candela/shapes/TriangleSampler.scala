@@ -1,6 +1,6 @@
 package candela.shapes
 
-import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.sampling.{SphericalTriangle, Warp}
 
@@ -12,8 +12,6 @@ import candela.sampling.{SphericalTriangle, Warp}
   * Square", 2019.
   */
 final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSampler:
-  import TriangleSampler.*
-
   private val p0 = soup.vertex(triangle, 0)
   private val p1 = soup.vertex(triangle, 1)
   private val p2 = soup.vertex(triangle, 2)
@@ -30,11 +28,12 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     at.geometricNormal
 
   def vertices: Seq[Vec3] = Seq(p0, p1, p2)
+  val bounds: Bounds3 = Bounds3.of(vertices)
 
   override def sample(from: Vec3, u1: Float, u2: Float, out: SurfaceSample): Unit =
     val angle = out.triangle.set(from, p0, p1, p2)
     out.n = normal
-    if isByAngle(angle) then
+    if SurfaceSampler.isByAngle(angle) then
       place(from, out.triangle.sample(u1, u2), out)
       out.pdf = (1 / angle).toFloat
     else
@@ -44,7 +43,7 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
 
   override def pdf(from: Vec3, p: Vec3, n: Vec3): Float =
     val angle = SphericalTriangle.solidAngle(from, p0, p1, p2)
-    if isByAngle(angle) then (1 / angle).toFloat
+    if SurfaceSampler.isByAngle(angle) then (1 / angle).toFloat
     else SurfaceSampler.perSolidAngle(1f / area, from, p, normal)
 
   def sampleArea(u1: Float, u2: Float, out: SurfaceSample): Unit =
@@ -61,9 +60,6 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
     val isMet = TriangleTest.intersect(corners, 0, ray, hit)
     if isMet then soup.surface(triangle, hit, at)
     isMet
-
-  private def isByAngle(solidAngle: Double): Boolean =
-    solidAngle > MinSolidAngle && solidAngle < MaxSolidAngle
 
   /** Intersects the ray from `from` in direction `w` with the triangle, as barycentric weights that
     * keep the point on it despite rounding.
@@ -99,10 +95,3 @@ final class TriangleSampler(soup: TriangleSoup, triangle: Int) extends SurfaceSa
       (b0 * p0.y + b1 * p1.y + b2 * p2.y).toFloat,
       (b0 * p0.z + b1 * p1.z + b2 * p2.z).toFloat
     )
-
-object TriangleSampler:
-  /** Range of solid angles in sr, from PBRT 4th ed., §6.5.4: below it the pdf by area is nearly
-    * constant, above it the reference point is almost in the triangle's plane.
-    */
-  private inline val MinSolidAngle = 3e-4
-  private inline val MaxSolidAngle = 6.22

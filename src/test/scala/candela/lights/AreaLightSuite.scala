@@ -5,7 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.accel.Primitives
 import candela.accel.tracing.Bvh
 import candela.color.Rgb
-import candela.geometry.{Bounds3, Hit, Ray, ShadingPoint}
+import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.math.*
 import candela.shapes.*
 import candela.testing.{Draws, Soups}
@@ -42,7 +42,7 @@ final class AreaLightSuite extends AnyFunSuite:
   private def ofTriangle(name: String, flipped: Boolean, twoSided: Boolean): Case =
     val soup = Soups.of(Seq(corners), flipped)
     val t = TriangleSampler(soup, 0)
-    val light = AreaLight(t, emitted, twoSided, Bounds3.of(t.vertices), t.normal, 1f)
+    val light = AreaLight(t, emitted, twoSided, t.bounds, t.normal, 1f)
     Case(name, soup, Seq.empty, light)
 
   private def ofRectangle(name: String, size: Float, flipped: Boolean): Case =
@@ -53,7 +53,7 @@ final class AreaLightSuite extends AnyFunSuite:
     val soup = Soups.of(Seq((a, b, c), (c, d, a)), flipped)
     val corners = RectangleSampler.of(Vector(a, b, c), Vector(c, d, a)).get
     val r = RectangleSampler(corners, TriangleSampler(soup, 0), TriangleSampler(soup, 1))
-    val light = AreaLight(r, emitted, false, Bounds3.of(r.vertices), r.normal, 1f)
+    val light = AreaLight(r, emitted, false, r.bounds, r.normal, 1f)
     Case(name, soup, Seq.empty, light)
 
   private val chart =
@@ -71,7 +71,7 @@ final class AreaLightSuite extends AnyFunSuite:
   private val pictureOnTriangle =
     val soup = Soups.of(Seq(corners), true)
     val t = TriangleSampler(soup, 0)
-    val plain = AreaLight(t, emitted, false, Bounds3.of(t.vertices), t.normal, 1f)
+    val plain = AreaLight(t, emitted, false, t.bounds, t.normal, 1f)
     Case("picture on a triangle", soup, Seq.empty, PictureLight(plain, t, chart))
 
   private def disk(reversed: Boolean) = Disk(down, 0f, 1f, 0f, TwoPi, reversed)

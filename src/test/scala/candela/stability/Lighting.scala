@@ -1,7 +1,6 @@
 package candela.stability
 
 import candela.color.Rgb
-import candela.geometry.Bounds3
 import candela.image.Image
 import candela.lights.*
 import candela.math.*
@@ -73,7 +72,7 @@ private object Lit:
       val soup = Soups.of(Soups.around(draws, 1, size)(Vec3.Zero))
       val t = TriangleSampler(soup, 0)
       val from = draws.direction() * (size * draws.magnitude(1e4, 1e6))
-      val lamp = AreaLight(t, emitted, true, Bounds3.of(t.vertices), t.normal, 1f)
+      val lamp = AreaLight(t, emitted, true, t.bounds, t.normal, 1f)
       lamp.sample(from, draws.unit(), draws.unit(), out)
       val cosine = Math.abs(from.normalized dot t.normal)
       if cosine > 0.01f && t.area > 1e-3f * size * size then

@@ -43,12 +43,13 @@ final class AreaLightPlan(
     else emitted
 
   /** Light of one triangle. Each triangle of a mesh has the full power, as in pbrt-v4. */
-  def ofTriangle(triangle: TriangleSampler, box: Bounds3): SurfaceLight =
-    light(triangle, box, triangle.normal, 1f, contrary = false)
+  def ofTriangle(triangle: TriangleSampler): SurfaceLight =
+    light(triangle, triangle.bounds, triangle.normal, 1f, contrary = false)
 
   /** Light of two triangles that form a rectangle. */
-  def ofRectangle(rectangle: RectangleSampler, box: Bounds3): SurfaceLight =
-    AreaLight(rectangle, radiance(rectangle.area / 2), twoSided, box, rectangle.normal, 1f)
+  def ofRectangle(rectangle: RectangleSampler): SurfaceLight =
+    val emitted = radiance(rectangle.area / 2)
+    AreaLight(rectangle, emitted, twoSided, rectangle.bounds, rectangle.normal, 1f)
 
   /** @param contrary see [[candela.lights.Light.isContrary]] */
   def ofShape(shape: Shape, contrary: Boolean): SurfaceLight =
@@ -115,38 +116,41 @@ private object DiffuseLightRecipe:
 
 /** Lights of an emitting mesh, created once all triangles are known.
   *
-  * @param first index of its first triangle
+  * @param find the surface of each, which all colour bases share
   */
-private[build] final class MeshLights(holes: EmitterHoles, first: Int, count: Int, site: Site):
-  // The geometry, which all colour bases share
-  private var emitters = Vector.empty[(TriangleSampler, Bounds3)]
+private[build] final class MeshLights[S](
+    find: TriangleSoup => Vector[S],
+    light: (AreaLightPlan, S) => Light
+):
+  private var surfaces = Vector.empty[S]
 
   def of(plan: AreaLightPlan, triangles: TriangleSoup): Vector[Light] =
-    if emitters.isEmpty then
+    if surfaces.isEmpty then surfaces = find(triangles)
+    surfaces.map(light(plan, _))
+
+private[build] object MeshLights:
+  /** One light for each triangle.
+    *
+    * @param first index of the first triangle
+    */
+  def ofTriangles(holes: EmitterHoles, first: Int, count: Int, site: Site)
+      : MeshLights[TriangleSampler] =
+    def find(triangles: TriangleSoup) =
       val samplers = Vector.tabulate(count)(k => TriangleSampler(triangles, first + k))
       val flat = samplers.count(s => !(s.area > 0f))
       if flat > 0 then
         site.warn(s"$flat of $count triangles of this area light have no area; they emit nothing")
-      emitters = samplers.map(s => (s, Bounds3.of(s.vertices)))
-    emitters.map((s, box) => holes.light(plan.ofTriangle(s, box), s))
+      samplers
+    MeshLights(find, (plan, s) => holes.light(plan.ofTriangle(s), s))
 
-/** Lights of an emitting mesh of rectangles.
-  *
-  * @param first   index of its first triangle
-  * @param corners of each rectangle, which consists of two triangles
-  */
-private[build] final class RectangleLights(
-    first: Int,
-    corners: Vector[RectangleSampler.Corners]
-):
-  // The geometry, which all colour bases share
-  private var emitters = Vector.empty[(RectangleSampler, Bounds3)]
-
-  def of(plan: AreaLightPlan, triangles: TriangleSoup): Vector[Light] =
-    if emitters.isEmpty then
+  /** One light for each rectangle of two triangles.
+    *
+    * @param first index of the first triangle
+    */
+  def ofRectangles(first: Int, corners: Vector[RectangleSampler.Corners])
+      : MeshLights[RectangleSampler] =
+    def find(triangles: TriangleSoup) =
       def triangle(i: Int) = TriangleSampler(triangles, i)
-      emitters = corners.zipWithIndex.map: (c, k) =>
-        val i = first + 2 * k
-        val sampler = RectangleSampler(c, triangle(i), triangle(i + 1))
-        (sampler, Bounds3.of(sampler.vertices))
-    emitters.map((s, box) => plan.ofRectangle(s, box))
+      corners.zipWithIndex.map: (c, k) =>
+        RectangleSampler(c, triangle(first + 2 * k), triangle(first + 2 * k + 1))
+    MeshLights(find, _.ofRectangle(_))
