@@ -15,18 +15,18 @@ import candela.scenefile.SceneDescription
 
 /** Options of the command line, which override or extend the scene.
   *
-  * @param spp        samples per pixel, overrides the scene
-  * @param quick      if true, renders a sixteenth of the pixels with one sample each
-  * @param preview    if true, reduces the image and shades it by a headlight, whatever the scene's
-  *                   integrator, lights and film
-  * @param cropWindow x0, x1, y0, y1 as fractions of the image, overrides the scene
-  * @param keepGoing  if true, replaces missing items
-  * @param layers     requested AOVs, in addition to the scene's
-  * @param color      whether rendering is spectral
+  * @param spp         samples per pixel, overrides the scene
+  * @param quick       if true, renders a sixteenth of the pixels with one sample each
+  * @param preview     if true, reduces the image and shades it by a headlight, whatever the scene's
+  *                     integrator, lights and film
+  * @param cropWindow  x0, x1, y0, y1 as fractions of the image, overrides the scene
+  * @param keepGoing   if true, replaces missing items
+  * @param layers      requested AOVs, in addition to the scene's
+  * @param color       whether rendering is spectral
   * @param lightGroups how to group lights for their layer
-  * @param crew       executes divisible work
-  * @param switches   settings of the whole scene
-  * @param pixels     pixels of the image to render, overrides the scene
+  * @param crew        executes divisible work
+  * @param switches    settings of the whole scene
+  * @param pixels      pixels of the image to render, overrides the scene
   */
 final case class BuildOptions(
     spp: Option[Int] = None,

@@ -132,9 +132,7 @@ final case class BenchOptions(
 )
 
 /** Option table of `bench`, one row each. */
-private[cli] object BenchTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object BenchTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
@@ -155,8 +153,7 @@ private[cli] object BenchTable:
       .action((n, o) => change(o)(_.copy(work = Some(Work.Seconds(n.toVector.distinct.sorted))))),
     opt[Int]("seeds").valueName("N")
       .text("independent images per sample count; overrides the suite")
-      .validate: n =>
-        if n >= 1 then success else failure(s"--seeds must be at least 1, found `$n`")
+      .validate(atLeast("seeds", 1))
       .action((n, o) => change(o)(_.copy(seeds = Some(n)))),
     opt[Seq[String]]("programs").valueName("NAME,...")
       .text("restrict the suite to these programs")

@@ -246,9 +246,7 @@ object Limit:
   )
 
 /** Option table of `compare`, one row each. */
-private[cli] object CompareTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object CompareTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
@@ -299,6 +297,6 @@ private[cli] object CompareTable:
       .action((m, o) => change(o)(_.copy(heatMapMetric = m))),
     opt[Double]("heatmap-max").valueName("X")
       .text("top of its scale (default: 1 for flip, else the 99th percentile)")
-      .validate(x => if x > 0 then success else failure("--heatmap-max must be greater than 0"))
+      .validate(positive("heatmap-max"))
       .action((x, o) => change(o)(_.copy(heatMapMax = Some(x))))
   ) ++ Limit.all.map(limit)

@@ -8,9 +8,7 @@ import scopt.{OParser, Read}
 /** Options of pictures: how linear light is displayed. Each call makes new rows: scopt gives a row
   * one parent.
   */
-private[cli] object DisplayTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object DisplayTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 

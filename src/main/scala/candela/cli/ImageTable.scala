@@ -39,11 +39,9 @@ enum MapShape(val word: String):
   case LatLong extends MapShape("latlong")
 
 /** Options of `image`. */
-private[cli] object ImageTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object ImageTable extends OptionRows:
   private val b = OParser.builder[Options]
-  import b.{failure, opt, success}
+  import b.opt
 
   private given Read[ImageSize] = Read.reads: text =>
     def side(s: String) = s.toIntOption.filter(n => n > 0 && n <= 65536)
@@ -67,9 +65,6 @@ private[cli] object ImageTable:
 
   private def change(o: Options)(f: ImageOptions => ImageOptions): Options =
     o.copy(image = f(o.image))
-
-  private def positive(option: String)(x: Double) =
-    if x > 0 && x < 1e30 then success else failure(s"--$option must be greater than 0, found `$x`")
 
   private val linear = OutputFormat.listed(Contents.Radiance, Contents.Channels)
 

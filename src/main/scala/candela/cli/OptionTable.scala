@@ -10,9 +10,7 @@ import candela.watch.{TevDisplay, WatchAddress}
 import scopt.{OParser, Read}
 
 /** All commands and their options, one row each, for parsing, validation and help. */
-private[cli] object OptionTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object OptionTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{arg, checkConfig, cmd, failure, head, help, note, opt, programName, success, version}
 
@@ -67,10 +65,6 @@ private[cli] object OptionTable:
     ColorMode.values
       .find(_.toString.equalsIgnoreCase(text))
       .getOrElse(throw IllegalArgumentException("expected auto, rgb or spectral"))
-
-  private def atLeast[N](name: String, least: Int)(n: N)(using number: Numeric[N]) =
-    if number.gteq(n, number.fromInt(least)) then success
-    else failure(s"--$name must be at least $least, found `$n`")
 
   private def file(name: String, text: String): OParser[String, Options] =
     arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
@@ -331,8 +325,7 @@ private[cli] object OptionTable:
     ),
     note(""),
     command(Command.Describe, "print the scene reference: types, parameters, defaults")(
-      arg[String]("[category] [type]").optional().unbounded().text("what to describe")
-        .action((f, o) => o.copy(files = o.files :+ f)) +: describeOptions
+      file("[category] [type]", "what to describe").optional().unbounded() +: describeOptions
     ),
     note(""),
     command(Command.Convert, "convert a scene to another dialect")(
@@ -344,24 +337,20 @@ private[cli] object OptionTable:
     ),
     note(""),
     command(Command.View, "show images, or write them as a picture; several: a contact sheet")(
-      arg[String]("image...").unbounded().text("images in any readable format")
-        .action((f, o) => o.copy(files = o.files :+ f)) +: viewOptions
+      file("image...", "images in any readable format").unbounded() +: viewOptions
     ),
     note(""),
     command(Command.Image, "convert an image: format, size, range, primaries, environment map")(
-      arg[String]("image").text("an image in any readable format")
-        .action((f, o) => o.copy(files = o.files :+ f)) +: imageOptions
+      file("image", "an image in any readable format") +: imageOptions
     ),
     note(""),
     command(Command.Average, "average images of one size, such as renderings with several seeds")(
-      arg[String]("image...").unbounded().text("images with the same channels")
-        .action((f, o) => o.copy(files = o.files :+ f)) +: averageOptions
+      file("image...", "images with the same channels").unbounded() +: averageOptions
     ),
     note(""),
     command(Command.Info, "print size, channels, metadata and statistics of images")(
       Vector(
-        arg[String]("image...").unbounded().text("images in any readable format")
-          .action((f, o) => o.copy(files = o.files :+ f))
+        file("image...", "images in any readable format").unbounded()
       )
     ),
     note("""

@@ -10,11 +10,9 @@ final case class PixelRange(x0: Int, x1: Int, y0: Int, y1: Int)
 /** Rows of the option table that pbrt-v4's command line has, too. Each call makes new rows: scopt
   * gives a row one parent.
   */
-private[cli] object SwitchTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object SwitchTable extends OptionRows:
   private val b = OParser.builder[Options]
-  import b.{failure, opt, success}
+  import b.opt
 
   private given Read[PixelRange] = Read.reads: text =>
     text.split(",", -1).map(_.trim.toIntOption) match
@@ -53,8 +51,7 @@ private[cli] object SwitchTable:
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
     opt[Double]("displacement-edge-scale").valueName("X")
       .text("scale of the edge length of displaced meshes (default 1)")
-      .validate: x =>
-        if x > 0 then success else failure(s"--displacement-edge-scale must be above 0, found `$x`")
+      .validate(positive("displacement-edge-scale"))
       .action((x, o) => change(o)(_.copy(edgeScale = Some(x.toFloat)))),
     opt[String]("mse-reference-image").valueName("FILE")
       .text("reference image for --mse-reference-out")

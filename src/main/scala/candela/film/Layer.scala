@@ -26,6 +26,16 @@ enum Layer(
     val needsFloat: Boolean = false,
     val dividesLight: Boolean = false
 ):
+  /** A part of the light, which the integrator must divide. */
+  private def this(word: String, name: String, meaning: String, part: Int) =
+    this(
+      word,
+      Layer.rgb(name),
+      meaning,
+      ScaledMeanOfAll(Tally.light(part)),
+      dividesLight = true
+    )
+
   case Albedo
       extends Layer(
         "albedo",
@@ -82,26 +92,23 @@ enum Layer(
   case Background
       extends Layer(
         "background",
-        Layer.rgb("Background"),
+        "Background",
         "light of infinite lights that reaches the camera unscattered",
-        ScaledMeanOfAll(Tally.light(LightParts.Background)),
-        dividesLight = true
+        LightParts.Background
       )
   case Direct
       extends Layer(
         "direct",
-        Layer.rgb("Direct"),
+        "Direct",
         "light scattered once",
-        ScaledMeanOfAll(Tally.light(LightParts.Direct)),
-        dividesLight = true
+        LightParts.Direct
       )
   case Indirect
       extends Layer(
         "indirect",
-        Layer.rgb("Indirect"),
+        "Indirect",
         "light scattered more than once",
-        ScaledMeanOfAll(Tally.light(LightParts.Indirect)),
-        dividesLight = true
+        LightParts.Indirect
       )
   case Lights
       extends Layer(

@@ -6,7 +6,7 @@ import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
 import org.lwjgl.system.libffi.LibFFI.*
 import org.lwjgl.system.libffi.{FFICIF, FFIType}
-import org.lwjgl.system.{APIUtil, MemoryUtil, SharedLibrary}
+import org.lwjgl.system.MemoryUtil
 
 import java.nio.FloatBuffer
 
@@ -16,15 +16,10 @@ import java.nio.FloatBuffer
   * denoised first, each by a filter of its own; then the colours with these, as noise-free.
   *
   * @param library its shared library
-  * @param path    where it was found
   */
-final class Oidn private (library: SharedLibrary, val path: String):
+final class Oidn private (library: NativeLibrary):
   import Oidn.*
-
-  private def function(name: String): Long =
-    val address = library.getFunctionAddress(name)
-    if address == 0 then throw ImageError(s"$path: not Open Image Denoise 2: it lacks $name")
-    address
+  import library.function
 
   private val newDevice = function("oidnNewDevice")
   private val setDeviceInt = function("oidnSetDeviceInt")
@@ -38,6 +33,9 @@ final class Oidn private (library: SharedLibrary, val path: String):
   private val commitFilter = function("oidnCommitFilter")
   private val executeFilter = function("oidnExecuteFilter")
   private val releaseFilter = function("oidnReleaseFilter")
+
+  /** Where it was found. */
+  def path: String = library.path
 
   /** Such as `2.3.0`. */
   def version: String = withDevice(1): device =>
@@ -150,17 +148,13 @@ object Oidn:
     // The system's loader knows more folders.
     val others = if environment.contains(OidnLibrary.Variable) then Vector.empty
     else OidnLibrary.Names.take(1)
-    (files ++ others).iterator.flatMap(opened).nextOption().getOrElse:
+    NativeLibrary.first("Open Image Denoise 2", files ++ others).map(Oidn(_)).getOrElse:
       throw ImageError(
         environment.get(OidnLibrary.Variable).fold("Open Image Denoise is not installed")(named =>
           s"${OidnLibrary.Variable}=$named: no library of Open Image Denoise 2"
         ) + "; `pip install pyoidn` installs it, or set " +
           s"${OidnLibrary.Variable} to the library or its folder (openimagedenoise.org)"
       )
-
-  private def opened(path: String): Option[Oidn] =
-    try Some(new Oidn(APIUtil.apiCreateLibrary(path), path))
-    catch case _: UnsatisfiedLinkError => None
 
   private def withText[A](text: String)(use: Long => A): A =
     val stack = stackPush()

@@ -4,7 +4,7 @@ import candela.base.loop
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
-import org.lwjgl.system.{APIUtil, MemoryUtil, SharedLibrary}
+import org.lwjgl.system.MemoryUtil
 
 import java.nio.FloatBuffer
 import java.nio.file.Files
@@ -13,12 +13,8 @@ import java.nio.file.Files
   * (`ImfCRgbaFile.h`) returns R, G, B and A, or the luminance, in half precision, of files of any
   * compression, with subsampled channels or as luminance and chroma.
   */
-private[image] final class OpenExr private (library: SharedLibrary, path: String):
-
-  private def function(name: String): Long =
-    val address = library.getFunctionAddress(name)
-    if address == 0 then throw ImageError(s"$path: not OpenEXR 3: it lacks $name")
-    address
+private[image] final class OpenExr private (library: NativeLibrary):
+  import library.function
 
   private val openFile = function("ImfOpenInputFile")
   private val closeFile = function("ImfCloseInputFile")
@@ -98,8 +94,4 @@ private[image] object OpenExr:
   /** The library, if it is installed. */
   def load(environment: Map[String, String] = sys.env): Option[OpenExr] =
     val named = environment.get(Variable).filter(_.nonEmpty)
-    named.fold(Names)(Vector(_)).iterator.flatMap(opened).nextOption()
-
-  private def opened(path: String): Option[OpenExr] =
-    try Some(new OpenExr(APIUtil.apiCreateLibrary(path), path))
-    catch case _: UnsatisfiedLinkError => None
+    NativeLibrary.first("OpenEXR 3", named.fold(Names)(Vector(_))).map(OpenExr(_))

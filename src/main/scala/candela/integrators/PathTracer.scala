@@ -1,7 +1,6 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.film.LightParts
 import candela.geometry.Ray
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -36,18 +35,14 @@ final class PathTracer(
     limits: PathLimits,
     options: WalkOptions = WalkOptions(),
     volumes: VolumeMarch | Null = null
-) extends SceneIntegrator(scene):
+) extends CameraPathIntegrator(scene):
   import limits.*
 
-  private val walk = Walk(scene, volumes, options = options)
+  protected val walk: Walk = Walk(scene, volumes, options = options)
   private val hasVolumes = volumes != null
 
   protected def over(scene: Scene): PathTracer =
     PathTracer(scene, limits, options, VolumeMarch.copy(volumes))
-
-  def raysTraced: Long = walk.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
-  override def lightParts: LightParts | Null = walk.parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

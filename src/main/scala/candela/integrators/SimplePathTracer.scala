@@ -1,7 +1,6 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.film.LightParts
 import candela.geometry.Ray
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -28,15 +27,11 @@ final class SimplePathTracer(
     samplesLights: Boolean,
     onward: Onward,
     crosses: Boolean = true
-) extends SceneIntegrator(scene):
-  private val walk = Walk(scene, options = WalkOptions(samplesLights = samplesLights))
+) extends CameraPathIntegrator(scene):
+  protected val walk: Walk = Walk(scene, options = WalkOptions(samplesLights = samplesLights))
 
   protected def over(scene: Scene): SimplePathTracer =
     SimplePathTracer(scene, maxDepth, samplesLights, onward, crosses)
-
-  def raysTraced: Long = walk.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
-  override def lightParts: LightParts | Null = walk.parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

@@ -1,7 +1,6 @@
 package candela.integrators
 
 import candela.color.Rgb
-import candela.film.LightParts
 import candela.geometry.Ray
 import candela.media.SceneMedia
 import candela.sampling.Sampler
@@ -19,19 +18,15 @@ final class VolumePathTracer(
     media: SceneMedia,
     limits: PathLimits,
     options: WalkOptions = WalkOptions()
-) extends SceneIntegrator(scene):
+) extends CameraPathIntegrator(scene):
   import limits.*
 
   // Media where the last event could be shine, too, if paths find light only where they hit it
   private val endsShine = !options.samplesLights
-  private val walk = VolumeWalk(scene, media, options)
+  protected val walk: VolumeWalk = VolumeWalk(scene, media, options)
 
   protected def over(scene: Scene): VolumePathTracer =
     VolumePathTracer(scene, media, limits, options)
-
-  def raysTraced: Long = walk.raysTraced
-  override def lastMaterial: Int = walk.vertex.at.material
-  override def lightParts: LightParts | Null = walk.parts
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)

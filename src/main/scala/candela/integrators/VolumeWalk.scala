@@ -14,7 +14,8 @@ import candela.scene.Scene
   * kept for each colour, since media scatter colours with different densities
   * ([[candela.media.PathWeights]]). Mutable, one per worker.
   */
-final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions):
+final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
+    extends CameraPath:
   /** Light found so far, but for what media emit. */
   val radiance: MutableRgb = MutableRgb()
 

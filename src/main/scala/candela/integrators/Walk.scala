@@ -31,7 +31,7 @@ final class Walk(
     volumes: VolumeMarch | Null = null,
     steps: Float = VolumeMarch.StepsToLights,
     options: WalkOptions = WalkOptions()
-):
+) extends CameraPath:
   /** Light found so far. */
   val radiance: MutableRgb = MutableRgb()
 

@@ -30,9 +30,7 @@ final class GridMedium(
     val light = glowing
     if light != null then
       light.fill(x, y, z, out)
-      out.glowR *= out.absorbR
-      out.glowG *= out.absorbG
-      out.glowB *= out.absorbB
+      out.absorbGlow()
 
 /** Three grids, one per colour. */
 final class ColorGrid(val r: SampledGrid, val g: SampledGrid, val b: SampledGrid):
@@ -88,9 +86,10 @@ final class ColorGridMedium(
     out.scatterB = if s == null then plain else factor * s.b(x, y, z)
     val light = glowing
     if light != null then
-      out.glowR = out.absorbR * light.r(x, y, z)
-      out.glowG = out.absorbG * light.g(x, y, z)
-      out.glowB = out.absorbB * light.b(x, y, z)
+      out.glowR = light.r(x, y, z)
+      out.glowG = light.g(x, y, z)
+      out.glowB = light.b(x, y, z)
+      out.absorbGlow()
 
 object ColorGridMedium:
   private def bounds(

@@ -54,6 +54,12 @@ final class MediumPoint:
     scatterG = density * scattering.g
     scatterB = density * scattering.b
 
+  /** Makes emission local: from the radiance of an opaque medium to that per length. */
+  def absorbGlow(): Unit =
+    glowR *= absorbR
+    glowG *= absorbG
+    glowB *= absorbB
+
 /** Scratch memory of media traversals, one per worker. */
 final class MediumWork:
   val random = RandomStream()

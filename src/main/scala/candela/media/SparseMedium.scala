@@ -53,6 +53,4 @@ final class SparseMedium(
     val light = glowing
     if light != null then
       light.fill(x, y, z, out)
-      out.glowR *= out.absorbR
-      out.glowG *= out.absorbG
-      out.glowB *= out.absorbB
+      out.absorbGlow()

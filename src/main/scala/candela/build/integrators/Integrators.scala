@@ -75,6 +75,9 @@ abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dia
   protected val maxDepth: Field[Int] =
     integer("maxdepth", "maximum number of scattering events")(5)
 
+  /** `maxdepth`, at least 0. */
+  protected final def events()(using Site): Int = Math.max(0, maxDepth())
+
 /** Integrators whose v3 form limits the rendered pixels, in addition to the film. */
 trait Windowed extends Recipe[IntegratorPlan]:
   private val window =

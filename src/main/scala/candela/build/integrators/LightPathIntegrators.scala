@@ -76,7 +76,7 @@ object SppmRecipe extends IntegratorRecipe("sppm", "progressive photon mapping",
     // In v4 the sampler sets the number of passes
     val count = Option.when(site.dialect == Dialect.V3)(Math.max(1, asked))
     val settings =
-      PhotonSettings(radius(), photons(), Math.max(0, maxDepth()), compresses = true, seed())
+      PhotonSettings(radius(), photons(), events(), compresses = true, seed())
     PhotonPlans.plan(name, maxDepth(), settings, count)
 
 object LightPathRecipe
@@ -87,7 +87,7 @@ object LightPathRecipe
       onlyV4
     ):
   protected def make()(using Site): IntegratorPlan =
-    val most = Math.max(0, maxDepth())
+    val most = events()
     IntegratorPlan(
       (scene, _) =>
         SplattedTiles(v => LightTracer(scene, v.camera, v.splats, most)),

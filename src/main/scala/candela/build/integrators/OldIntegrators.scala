@@ -88,7 +88,7 @@ object DipoleSubsurfaceRecipe
 
   protected def make()(using Site): IntegratorPlan =
     // Specular bounces; "directlighting" also counts the last surface
-    val depth = Math.max(0, maxDepth()) + 1
+    val depth = events() + 1
     IntegratorPlan(
       (scene, samples) =>
         RenderMethod.Tiles(

@@ -15,7 +15,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
-    val depth = Math.max(0, maxDepth()) + (if site.dialect == Dialect.V2 then 1 else 0)
+    val depth = events() + (if site.dialect == Dialect.V2 then 1 else 0)
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val regularizes = regularize()
@@ -63,7 +63,7 @@ object SimpleVolPathRecipe
       onlyV4
     ):
   protected def make()(using Site): IntegratorPlan =
-    val most = Math.max(0, maxDepth())
+    val most = events()
     val options = WalkOptions(samplesLights = false)
     SimplePlans
       .plan(name, most, samplesLights = false, Onward.Bsdf)

@@ -1,0 +1,17 @@
+package candela.cli
+
+import scopt.OParser
+
+/** Parts of the option tables. */
+private[cli] trait OptionRows:
+  protected type Row = OParser[?, Options]
+  private val b = OParser.builder[Options]
+
+  protected final def positive(option: String)(x: Double): Either[String, Unit] =
+    if x > 0 && x < 1e30 then b.success else b.failure(s"--$option must be above 0, found `$x`")
+
+  protected final def atLeast[N](option: String, least: Int)(n: N)(using
+      number: Numeric[N]
+  ): Either[String, Unit] =
+    if number.gteq(n, number.fromInt(least)) then b.success
+    else b.failure(s"--$option must be at least $least, found `$n`")
