@@ -5,6 +5,7 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 import candela.base.Suggest
 import candela.build.{ColorMode, LightGrouping}
 import candela.build.recipe.Switches
+import candela.convert.Baking
 import candela.film.Layer
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
@@ -64,6 +65,8 @@ object CommandLine:
     args.foldRight(List.empty[String]):
       case ("--watch", value :: rest) if WatchAddresses.isOne(value) => s"--watch=$value" :: rest
       case ("--watch", rest) => "--watch=" :: rest
+      case ("--bake", size :: rest) if size.toIntOption.nonEmpty => s"--bake=$size" :: rest
+      case ("--bake", rest) => s"--bake=${Baking.DefaultSize}" :: rest
       case (word, rest) => word :: rest
 
   private def lines(texts: List[String]): String = texts.map(_ + "\n").mkString
@@ -111,6 +114,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param pbrtOptions whether `describe` prints the options of pbrt's command lines
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
+  * @param bake  width and height of images that replace textures, in pixels
   * @param color whether rendering is spectral
   * @param display how pictures show linear light
   * @param denoise whether to add a denoised image
@@ -176,7 +180,8 @@ final case class Options(
     markdown: Boolean = false,
     pbrtOptions: Boolean = false,
     to: Option[Dialect] = None,
-    toPly: Option[Int] = None
+    toPly: Option[Int] = None,
+    bake: Option[Int] = None
 ):
   /** Whether anything follows the rendering. */
   def isWatched: Boolean = watch.isDefined || displayServer.isDefined

@@ -1,7 +1,8 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, WholeFile}
-import candela.convert.{Converter, Declarations, SceneText}
+import candela.build.TextureValues
+import candela.convert.{Baking, Converter, Declarations, SceneText, SideFiles}
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
@@ -18,18 +19,21 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     out.foreach(keepSource(_, scene))
     val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
     val to = options.to.getOrElse(scene.dialect)
-    val converted = Converter.convert(scene, to, folder, options.toPly)
-    val warnings = Excerpts.fill(converted.warnings)
-    report.warnings(scene.warnings ++ warnings, all = options.verbose)
-    out match
-      case Some(path) =>
-        WholeFile.write(path): file =>
-          val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
-          try SceneText.write(converted.scene, writer)
-          finally writer.close()
-        if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
-      case None => print(converted.scene)
-    terminal.out.flush()
+    val files = SideFiles(folder)
+    files.completing:
+      val baking = options.bake.map(Baking(_, TextureValues.last(_).map(f => f(_, _, _))))
+      val converted = Converter.convert(scene, to, files, options.toPly, baking)
+      val warnings = Excerpts.fill(converted.warnings)
+      report.warnings(scene.warnings ++ warnings, all = options.verbose)
+      out match
+        case Some(path) =>
+          WholeFile.write(path): file =>
+            val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
+            try SceneText.write(converted.scene, writer)
+            finally writer.close()
+          if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
+        case None => print(converted.scene)
+      terminal.out.flush()
     ExitCode.Done
 
   private def summary(to: Dialect, warnings: Vector[Problem]): String =

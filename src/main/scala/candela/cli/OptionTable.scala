@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.Version
 import candela.build.{ColorMode, LightGrouping}
+import candela.convert.Baking
 import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.scenefile.Dialect
@@ -238,6 +239,15 @@ private[cli] object OptionTable extends OptionRows:
       .text("write meshes of at least N triangles as binary PLY files")
       .validate(atLeast("to-ply", 1))
       .action((n, o) => o.copy(toPly = Some(n))),
+    opt[Int]("bake").valueName("[N]")
+      .text(
+        s"paint textures that the dialect lacks as images of N × N pixels " +
+          s"(default ${Baking.DefaultSize})"
+      )
+      .validate(atLeast("bake", 1))
+      .validate: n =>
+        if n <= 8192 then success else failure(s"--bake must be at most 8192, found `$n`")
+      .action((n, o) => o.copy(bake = Some(n))),
     parsedAs,
     quiet,
     verbose("")

@@ -21,22 +21,40 @@ final case class Converted(scene: SceneDescription, warnings: Vector[Problem])
 object Converter:
 
   /** @param folder folder of the output scene; files that accompany it are written immediately
-    * @param toPly minimum number of triangles for moving a mesh to a PLY file
+    * @param toPly  minimum number of triangles for moving a mesh to a PLY file
+    * @param baking how to replace textures that the target dialect lacks by images, if at all
     */
   def convert(
       scene: SceneDescription,
       to: Dialect,
       folder: Path,
-      toPly: Option[Int] = None
+      toPly: Option[Int] = None,
+      baking: Option[Baking] = None
+  ): Converted =
+    val files = SideFiles(folder)
+    files.completing(convert(scene, to, files, toPly, baking))
+
+  /** As above, with the files that accompany the output scene. */
+  def convert(
+      scene: SceneDescription,
+      to: Dialect,
+      files: SideFiles,
+      toPly: Option[Int],
+      baking: Option[Baking]
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
-    val files = SideFiles(folder)
-    val moved = Declarations.map(scene)(FileNames(folder).moved)
+    val moved = Declarations.map(scene)(FileNames(files.folder).moved)
     val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
     val start = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val done = passes(scene.dialect, to).foldLeft(start): (before, pass) =>
-      val run = PassRun(pass, before.scene, files)
+    // v2's and v4's marble are the same
+    val solid = baking.filter(_ => Seq(scene.dialect, to).count(_ == Dialect.V3) == 1) match
+      case Some(b) =>
+        val baked = SolidBaking(start.scene, to, files, b).result
+        Converted(baked.scene, start.warnings ++ baked.warnings)
+      case None => start
+    val done = passes(scene.dialect, to).foldLeft(solid): (before, pass) =>
+      val run = PassRun(pass, before.scene, files, baking, scene.dialect -> to)
       val result = run.result()
       Converted(result, before.warnings ++ run.warnings)
     done.copy(scene = toPly.fold(done.scene)(PlyWriter.extract(done.scene, _, files)))

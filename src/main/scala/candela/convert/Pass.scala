@@ -22,8 +22,18 @@ final class Pass(
 ):
   def table(category: String): Table = tables.find(_.category == category).get
 
-/** State of converting one scene. */
-final class PassRun(val pass: Pass, val scene: SceneDescription, val files: SideFiles):
+/** State of converting one scene.
+  *
+  * @param baking how to paint what the target dialect lacks, if at all
+  * @param ends   dialects of the whole conversion, of which the pass may be a part
+  */
+final class PassRun(
+    val pass: Pass,
+    val scene: SceneDescription,
+    val files: SideFiles,
+    val baking: Option[Baking],
+    val ends: (Dialect, Dialect)
+):
   private val problems = mutable.LinkedHashSet.empty[Problem]
   private val textures = mutable.LinkedHashMap.from(
     scene.textures.map(t => (t.name, t.valueType) -> t)

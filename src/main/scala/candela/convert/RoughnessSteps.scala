@@ -1,12 +1,13 @@
 package candela.convert
 
 import candela.bsdf.microfacet.Roughness
+import candela.color.Rgb
 import candela.math.sqrt
 import candela.scenefile.{Dialect, Param, ParamType}
 
 /** Converts roughness. A number becomes the microfacet distribution's `alpha`, with
-  * `remaproughness` false, which is equivalent in v3 and v4. Textures are kept as they are, so
-  * remapped textures change their meaning.
+  * `remaproughness` false, which is equivalent in v3 and v4. Textures are baked, or else kept as
+  * they are, so that remapped textures change their meaning.
   */
 object RoughnessSteps:
 
@@ -32,9 +33,6 @@ object RoughnessSteps:
   def v2(default: Float): Step =
     Step("`roughness`, `uroughness`, `vroughness`", "alpha of equal lobe width"): s =>
       def alpha(r: Float) = sqrt(2f / (1f / Math.max(r, 1e-4f) + 2f))
-      if hasTexture(s) then
-        for n <- Names; p <- s.look(n) do
-          s.warn(p.at, s"texture of `${p.name}` is unchanged, but maps differently in v3")
       write(s, default, remap = true, alpha)
 
   /** Converts v4's parameters to v3's, whose minimum roughness is 0.001. */
@@ -51,11 +49,21 @@ object RoughnessSteps:
   private def isTexture(p: Param, s: Statement) =
     p.paramType == ParamType.Texture && s.numberOf(p).isEmpty
 
-  private def hasTexture(s: Statement) = Names.flatMap(s.look).exists(isTexture(_, s))
+  /** The texture of a roughness as an image of alpha. */
+  private def paint(s: Statement, p: Param, alpha: Float => Float): Option[String] =
+    for
+      t <- s.run.texture(p.strings.headOption.getOrElse(""), "float")
+      why = s"${s.target} maps the texture of `${p.name}` differently"
+      name <- BakedTextures.define(s, t, why)(c => Rgb.gray(alpha(c.r)))
+    yield name
 
   private def write(s: Statement, default: Float, remap: Boolean, alpha: Float => Float): Unit =
     val given_ = Names.flatMap(n => s.take(n).map(n -> _))
-    val textured = given_.exists((_, p) => isTexture(p, s))
+    val baked =
+      val textures = if remap then given_.filter((_, p) => isTexture(p, s)) else Vector.empty
+      val all = textures.flatMap((name, p) => paint(s, p, alpha).map(name -> _))
+      if all.size == textures.size then all.toMap else Map.empty
+    val textured = given_.exists((name, p) => isTexture(p, s) && !baked.contains(name))
     // Beside a remapped texture, numbers are remapped too.
     def said(r: Float) =
       val a = alpha(r)
@@ -63,8 +71,9 @@ object RoughnessSteps:
       else if textured && remap then r
       else a
     for (name, p) <- given_ do
-      if isTexture(p, s) then
-        if remap && s.run.pass.from != Dialect.V2 then
+      if baked.contains(name) then s.addTexture(name, baked(name))(using p.at)
+      else if isTexture(p, s) then
+        if remap then
           s.warn(p.at, s"texture of `$name` is unchanged, but maps differently in ${s.target}")
         s.add(name, p)
       else s.numberOf(p).foreach(r => s.addFloat(name, said(r))(using p.at))

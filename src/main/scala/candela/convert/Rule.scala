@@ -1,5 +1,7 @@
 package candela.convert
 
+import candela.scenefile.Dialect
+
 /** Converts some parameters of a statement.
   *
   * @param source source parameters, for the documentation
@@ -12,12 +14,14 @@ final class Step(val source: String, val target: String)(val run: Statement => U
   *
   * @param to name in the target dialect; a step may override it
   * @param note difference from the source, given in a warning at each use
+  * @param differs whether there is one between these two dialects
   */
 final class Rule(
     val from: Seq[String],
     val to: String,
     val note: Option[String],
-    val steps: Seq[Step]
+    val steps: Seq[Step],
+    val differs: ((Dialect, Dialect)) => Boolean = _ => true
 )
 
 object Rule:
@@ -88,7 +92,10 @@ private[convert] object Noise:
   )
 
   /** pbrt-v3 extrapolates the first segment of the colour spline; v2 and v4 use all six colours. */
-  val marble: Rule = Rule.near(
-    "marble" -> "marble",
-    "pbrt-v3's marble extrapolates the colours of v2's and v4's"
-  )(Steps.keep("octaves", "roughness", "scale", "variation"))
+  val marble: Rule = new Rule(
+    Seq("marble"),
+    "marble",
+    Some("pbrt-v3's marble extrapolates the colours of v2's and v4's"),
+    Seq(Steps.keep("octaves", "roughness", "scale", "variation")),
+    differs = _ != (Dialect.V2, Dialect.V4)
+  )

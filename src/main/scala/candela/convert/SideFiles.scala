@@ -14,16 +14,34 @@ import candela.scenefile.Param
   * name is either equal, or not ours to overwrite.
   */
 final class SideFiles(val folder: Path):
+  private var created = Vector.empty[Path]
 
   /** Writes the bytes to a file atomically; returns its name. */
   def add(kind: String, extension: String, bytes: Array[Byte]): String =
     val hash = MessageDigest.getInstance("SHA-256").digest(bytes)
     val name = s"$kind-${hash.take(8).map(b => f"$b%02x").mkString}.$extension"
     val path = folder.resolve(name)
-    if !Files.exists(path) then WholeFile.write(path, bytes)
+    if !Files.exists(path) then
+      WholeFile.write(path, bytes)
+      created :+= path
     else if !java.util.Arrays.equals(Files.readAllBytes(path), bytes) then
       throw SceneError(Problem.general(s"`$path` exists with different content"))
     name
+
+  /** Deletes what has been created. */
+  def undo(): Unit =
+    for path <- created do
+      val _ = Files.deleteIfExists(path)
+    created = Vector.empty
+
+  /** Deletes what has been created if `body` fails. */
+  def completing[A](body: => A): A =
+    var isDone = false
+    try
+      val result = body
+      isDone = true
+      result
+    finally if !isDone then undo()
 
 /** Rewrites images as linear EXR beside the scene, if the target dialect can't read the format or
   * express the processing of the stored values.

@@ -19,6 +19,10 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   /** The target dialect's name, for messages. */
   def target: String = run.pass.to.toString.toLowerCase
 
+  /** The statement as a texture of the source dialect. */
+  def asTexture(valueType: String): TextureDescription =
+    TextureDescription(name, valueType, declaration, run.textureToWorld)
+
   /** Overrides the rule's target name. */
   def convertTo(name: String): Unit = targetName = name
 
@@ -91,7 +95,7 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
   /** The statement in the target dialect. Defaults from `Attribute` may not apply to this type. */
   def result(): Declaration =
     for step <- rule.steps do step.run(this)
-    for note <- rule.note if targetName == rule.to do
+    for note <- rule.note if targetName == rule.to && rule.differs(run.ends) do
       val what = s"${declaration.category} \"$name\""
       warn(declaration.at, s"$what is converted to \"$targetName\" in $target: $note")
     for p <- open.values if !p.isDefault do

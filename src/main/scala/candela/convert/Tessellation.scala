@@ -3,11 +3,17 @@ package candela.convert
 import candela.math.{clamp, radians, Vec3}
 import candela.scenefile.{Declaration, Param, ParamType}
 
-/** Tessellates shapes that v4 lacks. */
+/** Tessellates shapes that v4 lacks, by their parametric form. */
 object Tessellation:
 
   /** The shape as a trianglemesh, if v4 lacks its type. */
-  def of(d: Declaration): Option[Declaration] =
+  def of(d: Declaration): Option[Declaration] = d.name match
+    case "cone" | "paraboloid" | "hyperboloid" => surface(d).map(grid(d))
+    case "heightfield" => heightfield(d)
+    case _ => None
+
+  /** Points of a quadric by u and v in [0, 1], in its own space. */
+  def surface(d: Declaration): Option[(Float, Float) => Vec3] =
     def number(name: String, default: Float) =
       d.param(name).flatMap(_.floats.headOption).getOrElse(default)
     def point(name: String, default: Vec3) = d.param(name).map(_.floats) match
@@ -18,22 +24,36 @@ object Tessellation:
       val (sin, cos) = (Math.sin(u * phimax.toDouble), Math.cos(u * phimax.toDouble))
       Vec3((x * cos - y * sin).toFloat, (x * sin + y * cos).toFloat, z)
     val radius = number("radius", 1f)
+    def zRange(low: Float, high: Float) =
+      val (a, b) = (number("zmin", low), number("zmax", high))
+      (Math.min(a, b), Math.max(a, b))
     d.name match
+      case "sphere" =>
+        val (z0, z1) = zRange(-radius, radius)
+        def angle(z: Float) = Math.acos(clamp(z / radius, -1f, 1f).toDouble)
+        val (first, last) = (angle(z0), angle(z1))
+        Some: (u, v) =>
+          val theta = first + v * (last - first)
+          turned((radius * Math.sin(theta)).toFloat, 0f, (radius * Math.cos(theta)).toFloat, u)
+      case "cylinder" =>
+        val (z0, z1) = zRange(-1f, 1f)
+        Some((u, v) => turned(radius, 0f, z0 + v * (z1 - z0), u))
+      case "disk" =>
+        val (height, inner) = (number("height", 0f), number("innerradius", 0f))
+        Some((u, v) => turned(radius - v * (radius - inner), 0f, height, u))
       case "cone" =>
         val height = number("height", 1f)
-        Some(grid(d)((u, v) => turned(radius * (1 - v), 0f, v * height, u)))
+        Some((u, v) => turned(radius * (1 - v), 0f, v * height, u))
       case "paraboloid" =>
-        val (a, b) = (number("zmin", 0f), number("zmax", 1f))
-        val (z0, z1) = (Math.min(a, b), Math.max(a, b))
-        Some(grid(d): (u, v) =>
+        val (z0, z1) = zRange(0f, 1f)
+        Some: (u, v) =>
           val z = z0 + v * (z1 - z0)
-          turned(radius * Math.sqrt(Math.max(z / z1, 0f).toDouble).toFloat, 0f, z, u))
+          turned(radius * Math.sqrt(Math.max(z / z1, 0f).toDouble).toFloat, 0f, z, u)
       case "hyperboloid" =>
         val (p1, p2) = (point("p1", Vec3.Zero), point("p2", Vec3(1, 1, 1)))
-        Some(grid(d): (u, v) =>
+        Some: (u, v) =>
           val p = p1 * (1 - v) + p2 * v
-          turned(p.x, p.y, p.z, u))
-      case "heightfield" => heightfield(d)
+          turned(p.x, p.y, p.z, u)
       case _ => None
 
   private val Around = 128

@@ -7,7 +7,8 @@ import candela.scenefile.*
 object ToV4Textures:
   import Steps.*
 
-  private val mapping = keep("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+  private val Placement = Seq("mapping", "uscale", "vscale", "udelta", "vdelta", "v1", "v2")
+  private val mapping = keep(Placement*)
 
   /** By default v3 decodes PNG and TGA, v4 all 8-bit formats; v4 can override this for PNG only.
     * Other encodings are baked into a new image.
@@ -72,18 +73,25 @@ object ToV4Textures:
           case _ =>
             val (base, by) = if color(tex).nonEmpty && gray(factor).isEmpty then (factor, tex)
             else (tex, factor)
-            val tinted = color(by).filter(_ => gray(by).isEmpty).flatMap(tint(s, base, _))
+            val tinted =
+              if gray(by).nonEmpty then None
+              else color(by).flatMap(tint(s, base, _)).orElse(product(s))
             if tinted.nonEmpty then s.addTexture("tex", tinted.get)(using base.at)
             else s.add("tex", base)
             if tinted.isEmpty then
               gray(by) match
                 case Some(g) => s.addFloat("scale", g)(using by.at)
                 case None =>
-                  s.warn(by.at, "v4 can't multiply two colours; using the luminance of one")
+                  s.warn(by.at, s"$NoProducts; using the luminance of one")
                   color(by) match
                     case Some(c) => s.addFloat("scale", c.luminance)(using by.at)
                     case None => s.addTexture("scale", floatTwin(s, by))(using by.at)
       case one => one.foreach(s.add("tex", _))
+
+  private val NoProducts = "v4 can't multiply two colours"
+
+  private def product(s: Statement): Option[String] =
+    BakedTextures.define(s, s.asTexture("spectrum"), NoProducts)()
 
   /** An image map times a colour, as a new image. */
   private def tint(s: Statement, p: Param, by: Rgb): Option[String] =
@@ -135,13 +143,19 @@ object ToV4Textures:
 
   private val uv = Rule.near("uv" -> "bilerp", "does not repeat outside [0, 1]")(
     Step("no colours", "red along u, green along v"): s =>
-      for (name, c) <- Seq(
-          "v00" -> Rgb(0, 0, 0),
-          "v01" -> Rgb(0, 1, 0),
-          "v10" -> Rgb(1, 0, 0),
-          "v11" -> Rgb(1, 1, 0)
-        )
-      do s.addRgb(name, c),
+      BakedTextures.define(s, s.asTexture("spectrum"), "v4 has no \"uv\"")() match
+        case Some(name) =>
+          s.convertTo("scale")
+          s.addTexture("tex", name)
+          Placement.foreach(s.take)
+        case None =>
+          for (name, c) <- Seq(
+              "v00" -> Rgb(0, 0, 0),
+              "v01" -> Rgb(0, 1, 0),
+              "v10" -> Rgb(1, 0, 0),
+              "v11" -> Rgb(1, 1, 0)
+            )
+          do s.addRgb(name, c),
     mapping
   )
 

@@ -52,6 +52,8 @@ class CommandLineSuite extends AnyFunSuite:
     "a.pbrt --report r.html,r.csv --reference b.exr" ->
       one.copy(reports = Vector("r.html", "r.csv"), reference = Some("b.exr")),
     "a.pbrt --watch" -> one.copy(watch = Some(WatchAddress(None, None))),
+    "convert --bake a.pbrt" -> one.copy(command = Command.Convert, bake = Some(1024)),
+    "convert --bake 64 a.pbrt" -> one.copy(command = Command.Convert, bake = Some(64)),
     "--watch a.pbrt --watch-after" ->
       one.copy(watch = Some(WatchAddress(None, None)), watchAfter = true),
     "--watch 80 a.pbrt" -> one.copy(watch = Some(WatchAddress(None, Some(80)))),

@@ -1,0 +1,116 @@
+package candela.convert
+
+import candela.base.Problem
+import candela.color.Rgb
+import candela.math.Transform
+import candela.scenefile.*
+
+import scala.collection.mutable
+
+/** Paints marble, which v3 colours otherwise than v2 and v4, for each shape that shows it: by its u
+  * and v, where these tell its points apart. Shapes of objects are left as they are: each instance
+  * shows another part of the marble.
+  */
+final class SolidBaking(
+    scene: SceneDescription,
+    to: Dialect,
+    files: SideFiles,
+    baking: Baking
+):
+  private val warnings = mutable.LinkedHashSet.empty[Problem]
+  private val added = mutable.ArrayBuffer.empty[TextureDescription]
+  private val made = mutable.HashMap.empty[(Declaration, Transform, String), Option[String]]
+
+  private val solids: Map[String, TextureDescription] =
+    scene.textures
+      .filter(t => t.valueType == "spectrum")
+      .filter(t => BakedTextures.closure(t, scene).exists(_.texture.name == "marble"))
+      .map(t => t.name -> t)
+      .toMap
+  private val named = scene.namedMaterials.toMap
+
+  def result: Converted =
+    if solids.isEmpty then Converted(scene, Vector.empty)
+    else
+      val shapes = scene.shapes.map(baked)
+      Converted(
+        used(scene.copy(shapes = shapes, textures = scene.textures ++ added)),
+        warnings.toVector
+      )
+
+  private def baked(s: ShapeDescription): ShapeDescription =
+    val material = s.material match
+      case MaterialRef.Inline(d) => Some(d)
+      case MaterialRef.Named(name, _) => named.get(name)
+      case MaterialRef.Default => None
+    material.filter(_.params.exists(isSolid)).fold(s): d =>
+      val params = d.params.map: p =>
+        val image = Option.when(isSolid(p))(p.strings.head).flatMap(painted(s, _))
+        image.fold(p)(name => p.withStrings(Vector(name)))
+      s.copy(material = MaterialRef.Inline(d.copy(params = params)))
+
+  private def isSolid(p: Param) =
+    p.paramType == ParamType.Texture && p.strings.headOption.exists(solids.contains)
+
+  private def painted(s: ShapeDescription, texture: String): Option[String] =
+    made.getOrElseUpdate(
+      (s.shape, s.objectToWorld.start, texture), {
+        val points =
+          if s.objectToWorld.isAnimated then None else UvPoints.of(s.shape, baking.size)
+        val image = points.flatMap(paint(s, solids(texture), _))
+        val what = s"pbrt-v3 colours the marble of \"$texture\" differently"
+        warnings += Problem.warning(
+          s.shape.at,
+          if image.isDefined then s"$what; using ${baking.describe} for this shape"
+          else s"$what, and it can't be baked: u and v do not tell this shape's points apart"
+        )
+        image
+      }
+    )
+
+  private def paint(
+      s: ShapeDescription,
+      texture: TextureDescription,
+      points: UvPoints
+  ): Option[String] =
+    val parts = BakedTextures.closure(texture, scene)
+    for value <- baking.values(SceneDescription(scene.dialect, textures = parts)) yield
+      val place = s.objectToWorld.start
+      val file = baking.write(files, parts = 2): (x, y) =>
+        val color = value(points.window.u(x), points.window.v(y), place.point(points.point(x, y)))
+        // What v3 extrapolates may be negative
+        color.map(c => Math.max(c, 0f))
+      if to == Dialect.V4 then
+        warnings += Problem.warning(
+          texture.texture.at,
+          "v4 clamps reflectances to 1, which the colours that pbrt-v3 extrapolates may exceed"
+        )
+      val name = Iterator.from(1).map(i => s"${texture.name} baked $i").find: n =>
+        !(scene.textures ++ added).exists(_.name == n)
+      val image = points.window.image(texture.texture, file, scene.dialect)
+      added += texture.copy(
+        name = name.get,
+        texture = image,
+        textureToWorld = GraphicsState.Identity
+      )
+      name.get
+
+  /** Without materials and textures that have been replaced. */
+  private def used(all: SceneDescription): SceneDescription =
+    val shapes = all.shapes ++ all.objects.values.flatten
+    def textures(d: Declaration) =
+      d.params.filter(_.paramType == ParamType.Texture).flatMap(_.strings)
+    val byName = shapes.map(_.material).collect { case MaterialRef.Named(name, _) => name } ++
+      all.namedMaterials.flatMap(_._2.params).filter(_.paramType == ParamType.String)
+        .flatMap(_.strings)
+    val materials = all.namedMaterials.filter: (name, d) =>
+      byName.contains(name) || !d.params.exists(isSolid)
+    val declarations = materials.map(_._2) ++ shapes.map(_.shape) ++
+      shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
+    val shown = declarations.flatMap(textures).toSet
+    val live = all.textures.filter(t => shown(t.name))
+      .flatMap(BakedTextures.closure(_, all)).map(_.name).toSet
+    all.copy(
+      namedMaterials = materials,
+      textures = all.textures.filter(t => live(t.name) || !solids.contains(t.name))
+    )
