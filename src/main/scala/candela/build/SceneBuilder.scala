@@ -4,6 +4,7 @@ import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.build.recipe.Switches
+import candela.build.sampling.PointChoice
 import candela.film.{
   Development, FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface
 }
@@ -27,6 +28,7 @@ import candela.scenefile.SceneDescription
   * @param crew        executes divisible work
   * @param switches    settings of the whole scene
   * @param pixels      pixels of the image to render, overrides the scene
+  * @param points      which sample points to take
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -40,7 +42,8 @@ final case class BuildOptions(
     lightGroups: LightGrouping = LightGrouping.Statements,
     crew: Parallel = Parallel.Alone,
     switches: Switches = Switches(),
-    pixels: Option[PixelBounds] = None
+    pixels: Option[PixelBounds] = None,
+    points: PointChoice = PointChoice.Best
 ):
   /** A preview shows albedos, for which three numbers do. */
   def colorMode: ColorMode = if preview then ColorMode.Rgb else color
@@ -169,6 +172,7 @@ object SceneBuilder:
       ) ++ world.features ++ Vector(
         "motion" -> moving(camera, world),
         "layers" -> described(image.layers, film.development.bands),
+        "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
       ),
       differentialScale =

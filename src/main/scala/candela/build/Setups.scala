@@ -90,11 +90,13 @@ private[build] object ImageSetup:
 
 /** Settings of sampling.
   *
+  * @param points    which points the sampler takes, and why
   * @param samples   samples per pixel, if not set by the sampler
   * @param footprint size of a sample's footprint, in pixels
   */
 private[build] final case class SamplingSetup(
     sampler: Sampler,
+    points: String,
     samples: Option[Int],
     footprint: Float
 )
@@ -112,12 +114,15 @@ private[build] object SamplingSetup:
     val samples =
       options.spp.orElse(Option.when(options.quick)(1)).orElse(integrator.samples)
     val switches = context.resources.switches
-    val request = SamplerRequest(samples, options.seed ^ switches.seed, image.width, image.height)
+    val request = SamplerRequest(samples, options.seed ^ switches.seed)
     val default = context.defaults.sampler
-    val sampler = context.made(context.description.sampler, Samplers.all, default)(request)
+    val asked = context.made(context.description.sampler, Samplers.all, default)(request)
+    val points = asked.points(options.points)
+    val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
+      asked.describe(options.points),
       samples,
       if switches.centers then 1f
       else if context.isV4 then Math.max(SharpestV4, density)

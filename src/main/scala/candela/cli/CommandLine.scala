@@ -5,6 +5,7 @@ import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 import candela.base.Suggest
 import candela.build.{ColorMode, LightGrouping}
 import candela.build.recipe.Switches
+import candela.build.sampling.PointChoice
 import candela.convert.Baking
 import candela.film.Layer
 import candela.image.DisplayTransform
@@ -116,6 +117,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
   * @param bake  width and height of images that replace textures, in pixels
   * @param color whether rendering is spectral
+  * @param points which sample points to take
   * @param display how pictures show linear light
   * @param denoise whether to add a denoised image
   * @param thumbnail how to show the image in the terminal
@@ -159,6 +161,7 @@ final case class Options(
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
     color: ColorMode = ColorMode.Auto,
+    points: PointChoice = PointChoice.Best,
     layers: Vector[Layer] = Vector.empty,
     precisions: Vector[(Layer, Boolean)] = Vector.empty,
     lightGroups: Option[LightGrouping] = None,

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.Version
 import candela.build.ColorMode
+import candela.build.sampling.PointChoice
 import candela.film.{Layer, PixelBounds}
 import candela.image.Exposure
 import candela.render.RenderPlan
@@ -73,6 +74,7 @@ private[cli] object FilmHeaders:
       one("dialect", o.dialect.map(_.toString.toLowerCase)) ++
       flag("keep-going", o.keepGoing) ++
       one("color", Option.when(o.color != ColorMode.Auto)(o.color.toString.toLowerCase)) ++
+      one("sampler", Option.when(o.points != PointChoice.Best)(o.points.word)) ++
       flag("store-time", o.storeTime) ++
       one("tonemap", Option.when(o.display != Options().display)(o.display.curve.word)) ++
       one("exposure", exposure) ++

@@ -196,7 +196,7 @@ private[cli] object OptionTable extends OptionRows:
     explain,
     quiet,
     verbose(", the time of each phase, and what --explain prints")
-  ) ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++
+  ) ++ PointTable.render ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++
     ClusterTable.options ++ DisplayTable.options
 
   private val resumeOptions: Vector[Row] = Vector(

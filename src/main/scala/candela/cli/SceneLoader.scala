@@ -61,7 +61,8 @@ object SceneLoader:
       o.lightGroups.getOrElse(LightGrouping.Statements),
       Crew(o.threadCount),
       o.switches,
-      pixels.orElse(pixel)
+      pixels.orElse(pixel),
+      o.points
     )
 
   /** The path of an existing scene file. */

@@ -9,7 +9,7 @@ import candela.build.integrators.{
 import candela.build.lights.{AreaLightPlan, AreaLights, LightPlan, Lights}
 import candela.build.materials.Materials
 import candela.build.media.{Media, Volumes}
-import candela.build.sampling.{SamplerRequest, Samplers}
+import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
 import candela.build.recipe.Switches
 import candela.build.settings.{AcceleratorPlan, Accelerators, ColorSpaces, OptionStatements}
 import candela.build.shapes.{ShapePlan, Shapes}
@@ -18,7 +18,6 @@ import candela.color.ColorSpace
 import candela.film.Filter
 import candela.math.Transform
 import candela.media.{Medium, Region}
-import candela.sampling.Sampler
 import candela.scenefile.Directives
 import candela.textures.{FloatTexture, RgbTexture}
 
@@ -27,9 +26,9 @@ final class FilmRecipesSuite extends RecipeLaws[FilmSettings](Films.all)
 final class FilterRecipesSuite extends RecipeLaws[Filter](Filters.all)
 
 final class SamplerRecipesSuite
-    extends RecipeLaws[SamplerRequest => Sampler](
+    extends RecipeLaws[SamplerRequest => SamplerPlan](
       Samplers.all,
-      use = make => make(SamplerRequest(None, 0, 8, 8))
+      use = make => make(SamplerRequest(None, 0))
     )
 
 final class CameraRecipesSuite

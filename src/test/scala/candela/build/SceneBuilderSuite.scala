@@ -7,7 +7,10 @@ import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
 import candela.render.{RenderMethod, RenderPlan}
-import candela.sampling.{HaltonSampler, OwenSobolSampler, ZSobolSampler}
+import candela.build.sampling.{PointChoice, PointSet}
+import candela.sampling.{
+  HaltonSampler, IndependentSampler, OwenSobolSampler, StratifiedSampler, ZSobolSampler
+}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -34,7 +37,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val plan = SceneTexts.plan(nothing, Dialect.V3)
     assert((plan.width, plan.height) == (1280, 720))
     assert(plan.filter.isInstanceOf[BoxFilter] && plan.filter.radiusX == 0.5f)
-    assert(plan.sampler.isInstanceOf[HaltonSampler] && plan.sampler.samplesPerPixel == 16)
+    assert(plan.sampler.isInstanceOf[OwenSobolSampler] && plan.sampler.samplesPerPixel == 16)
     assert(integrator(plan).isInstanceOf[PathTracer])
     assert(plan.basis.isSrgb)
 
@@ -45,6 +48,32 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(plan.sampler.isInstanceOf[ZSobolSampler] && plan.sampler.samplesPerPixel == 16)
     assert(integrator(plan).isInstanceOf[PathTracer])
     assert(!plan.basis.isSrgb)
+
+  test("evenly spread points of any kind are those with the least noise, unless asked otherwise"):
+    def sampler(statement: String, choice: PointChoice) =
+      val plan = SceneTexts.plan(
+        s"Sampler $statement\n$nothing",
+        Dialect.V3,
+        BuildOptions(points = choice)
+      )
+      (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
+    val halton = "\"halton\" \"integer pixelsamples\" 9"
+    assert(sampler(halton, PointChoice.Best) == (
+      classOf[OwenSobolSampler],
+      9,
+      "scrambled Sobol' points, which have less noise than \"halton\" (--sampler scene takes " +
+        "scrambled Halton points)"
+    ))
+    val own = (classOf[HaltonSampler], 9, "scrambled Halton points, for \"halton\"")
+    assert(sampler(halton, PointChoice.Scene) == own)
+    val named = sampler(halton, PointChoice.Named(PointSet.ZSobol))
+    assert(named._1 == classOf[ZSobolSampler] && named._3.endsWith(", by --sampler"))
+    val strata = "\"stratified\" \"integer xsamples\" 3 \"integer ysamples\" 2"
+    assert(sampler(strata, PointChoice.Best)._1 == classOf[OwenSobolSampler])
+    assert(sampler(strata, PointChoice.Scene)._1 == classOf[StratifiedSampler])
+    assert(sampler(s"$strata \"bool jitter\" \"false\"", PointChoice.Best)._1 ==
+      classOf[StratifiedSampler])
+    assert(sampler("\"random\"", PointChoice.Best)._1 == classOf[IndependentSampler])
 
   test("the whole image is rendered unless the scene or the caller crops it"):
     assert(SceneTexts.plan(s"$film\n$nothing").crop == PixelBounds(0, 0, 80, 40))

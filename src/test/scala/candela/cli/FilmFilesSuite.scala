@@ -102,7 +102,7 @@ class FilmFilesSuite extends AnyFunSuite:
         Vector("zsobol" -> Paths, "halton" -> Paths, "independent" -> methods("Markov chains"))
     do
       withScene(integrator, sampler): f =>
-        f.render("--spp", "4", "--outfile", f("a.exr"), "--checkpoint")
+        f.render("--spp", "4", "--outfile", f("a.exr"), "--checkpoint", "--sampler", "scene")
         val why = f.fail(Vector("resume", f("a.film"), "--spp", "64"))
         assert(why.startsWith(s"error: can't change the 4 samples per pixel of `${f("a.film")}`: "))
         assert(why.endsWith("--checkpoint, N being the most you may want, and --time or --error\n"))

@@ -147,7 +147,7 @@ final class SimplePathTracerSuite extends AnyFunSuite:
 
   test("layers of light divide the light of simple paths, too"):
     for integrator <- Seq("\"simplepath\"", unsampled, "\"simplevolpath\"") do
-      val text = corner(integrator, 16)
+      val text = corner(integrator, 64)
       val options = BuildOptions(layers = Vector(Layer.Emission, Layer.Direct, Layer.Indirect))
       val plan = SceneTexts.plan(text, Dialect.V4, options)
       val image = Renderer.render(plan, threads = 1).image(plan.development)

@@ -22,6 +22,19 @@ class HaltonSamplerSuite extends SamplerLaws(HaltonSampler(_, _), sharper = 11):
     val first = singles(HaltonSampler(1000, 3), 1, 2, 1000, 2) // base 5
     for n <- Seq(5, 25, 125, 625) do assert(ElementaryIntervals.eachHoldsOne(first.take(n)))
 
+  test("errors have no heavier tails than those of Sobol' points"):
+    // The mean of (x − ½)(y − ½) for two large bases: a lattice of few lines is far off
+    def kurtosis(s: Sampler, skip: Int): Double =
+      val errors =
+        for px <- 0 until 64; py <- 0 until 64
+        yield points(s, px, py, 16, skip).map((x, y) => (x - 0.5) * (y - 0.5)).sum
+      def moment(k: Int) = errors.map(Math.pow(_, k)).sum / errors.size
+      moment(4) / (moment(2) * moment(2))
+    for skip <- Seq(2, 6, 14) do
+      val (halton, sobol) =
+        (kurtosis(HaltonSampler(16, 3), skip), kurtosis(OwenSobolSampler(16, 3), skip))
+      assert(halton < sobol + 0.5, s"after $skip pairs: $halton, Sobol' $sobol") // ± 0.15
+
   test("past the last prime the numbers are still uniform and independent"):
     val s = HaltonSampler(1, 3)
     val numbers = (0 until 64).flatMap: px =>

@@ -1,15 +1,13 @@
 package candela.build.sampling
 
 import candela.build.recipe.*
-import candela.sampling.*
 import candela.scenefile.Dialect
 
 /** Independent random samples. */
 final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
-  protected def make()(using Site): SamplerRequest => Sampler =
-    val s = seed()
-    request => IndependentSampler(count(request), request.seed ^ s)
+  protected def make()(using Site): SamplerRequest => SamplerPlan =
+    asked(PointSet.Independent, isEven = false)
 
 /** Scrambled (0,2)-sequences, for all samplers of this kind. */
 class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -27,28 +25,26 @@ class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect]
       integer("dimensions", "well-sampled dimensions", onlyV3)(4)
     )
 
-  protected def make()(using site: Site): SamplerRequest => Sampler =
-    val s = seed()
-    request => OwenSobolSampler(count(request), request.seed ^ s)
+  protected def make()(using site: Site): SamplerRequest => SamplerPlan = asked(PointSet.Sobol)
 
 /** Samplers replaced by scrambled Sobol' points. */
 final class SubstitutedRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends ScrambledSobolRecipe(name, meaning, dialects):
-  override protected def make()(using site: Site): SamplerRequest => Sampler =
+  override protected def make()(using site: Site): SamplerRequest => SamplerPlan =
     site.warn(
       s"sampler \"$name\" is not supported; using scrambled Sobol' points, which are at least as " +
         "uniform"
     )
     super.make()
 
+/** Keeps its own points: they have no more noise than others, and it is blue. */
 object ZSobolRecipe
     extends SamplerRecipe("zsobol", "Sobol' points along a space-filling curve", onlyV4):
   noMeaning("Owen scrambling is always used")(
     string("randomization", "scrambling: none, permutedigits, fastowen or owen")("fastowen")
   )
-  protected def make()(using Site): SamplerRequest => Sampler =
-    val s = seed()
-    request => ZSobolSampler(count(request), request.width, request.height, request.seed ^ s)
+  protected def make()(using Site): SamplerRequest => SamplerPlan =
+    asked(PointSet.ZSobol, isEven = false)
 
 object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   noMeaning("digits are always scrambled")(
@@ -57,12 +53,10 @@ object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   notYet("samples cover the whole pixel")(
     bool("samplepixelcenter", "place all samples at the pixel centre", onlyV3)(false)
   )
-  protected def make()(using Site): SamplerRequest => Sampler =
-    val s = seed()
-    request => HaltonSampler(count(request), request.seed ^ s)
+  protected def make()(using Site): SamplerRequest => SamplerPlan = asked(PointSet.Halton)
 
 object StratifiedRecipe
-    extends Recipe[SamplerRequest => Sampler]("stratified", "stratified (jittered) samples"):
+    extends Recipe[SamplerRequest => SamplerPlan]("stratified", "stratified (jittered) samples"):
   private val x = integer("xsamples", "strata along x")(if v2 then 2 else 4)
   private val y = integer("ysamples", "strata along y")(if v2 then 2 else 4)
   private val jitter = bool("jitter", "jitter samples in strata; otherwise at their centres")(true)
@@ -70,18 +64,19 @@ object StratifiedRecipe
   noMeaning("all dimensions are equally well sampled")(
     integer("dimensions", "well-sampled dimensions", onlyV3)(4)
   )
-  protected def make()(using Site): SamplerRequest => Sampler =
-    val (nx, ny, j, s) = (Math.max(1, x()), Math.max(1, y()), jitter(), seed())
+  protected def make()(using Site): SamplerRequest => SamplerPlan =
+    val fixed = Strata(Math.max(1, x()), Math.max(1, y()), jitter())
+    val s = seed()
     request =>
-      // Other counts use the most nearly square strata
-      val (a, b) = request.spp.fold((nx, ny)): n =>
-        val side = (1 to Math.sqrt(n.toDouble).toInt).filter(n % _ == 0).max
-        (n / side, side)
-      StratifiedSampler(a, b, j, request.seed ^ s)
+      val grid = request.spp.fold(fixed)(Strata.square(_, fixed.jitter))
+      val count = Math.multiplyExact(grid.x, grid.y)
+      val points = PointSet.Stratified(Some(grid))
+      // Without jitter, the pattern itself is asked for
+      SamplerPlan(name, count, request.seed ^ s, points, isEven = grid.jitter)
 
 /** v2's adaptive sampler, which takes more samples where neighbours differ. */
 object AdaptiveRecipe
-    extends Recipe[SamplerRequest => Sampler](
+    extends Recipe[SamplerRequest => SamplerPlan](
       "adaptive",
       "adaptive sampling by contrast or shape",
       onlyV2
@@ -93,6 +88,6 @@ object AdaptiveRecipe
   )
   override def pending: Option[String] =
     Some("using `maxsamples` in every pixel, the most that it would take")
-  protected def make()(using Site): SamplerRequest => Sampler =
+  protected def make()(using Site): SamplerRequest => SamplerPlan =
     val n = most()
-    request => OwenSobolSampler(request.spp.getOrElse(n), request.seed)
+    request => SamplerPlan(name, request.spp.getOrElse(n), request.seed, PointSet.Sobol)

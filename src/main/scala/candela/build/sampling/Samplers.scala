@@ -1,15 +1,14 @@
 package candela.build.sampling
 
 import candela.build.recipe.*
-import candela.sampling.*
 import candela.scenefile.Dialect
 
-/** Arguments of sampler creation. */
-final case class SamplerRequest(spp: Option[Int], seed: Int, width: Int, height: Int)
+/** What the command line and the integrator ask of samplers. */
+final case class SamplerRequest(spp: Option[Int], seed: Int)
 
 /** Recipes of samplers. */
 object Samplers:
-  val all: Recipes[SamplerRequest => Sampler] = Recipes(
+  val all: Recipes[SamplerRequest => SamplerPlan] = Recipes(
     "sampler",
     Vector(
       IndependentRecipe("independent", onlyV4),
@@ -38,12 +37,17 @@ abstract class SamplerRecipe(
     meaning: String,
     dialects: Set[Dialect] = every,
     default: Int = 16
-) extends Recipe[SamplerRequest => Sampler](name, meaning, dialects):
+) extends Recipe[SamplerRequest => SamplerPlan](name, meaning, dialects):
   private val samples = integer("pixelsamples", "samples per pixel")(if v2 then 4 else default)
-  protected val seed: Field[Int] =
-    integer("seed", "random seed", onlyV4, shown = "the option's")(0)
+  private val seed = integer("seed", "random seed", onlyV4, shown = "the option's")(0)
 
-  protected def count(request: SamplerRequest)(using site: Site): Int =
+  protected def asked(points: PointSet, isEven: Boolean = true)(using
+      Site
+  ): SamplerRequest => SamplerPlan =
+    val s = seed()
+    request => SamplerPlan(name, count(request), request.seed ^ s, points, isEven)
+
+  private def count(request: SamplerRequest)(using site: Site): Int =
     request.spp.getOrElse:
       val n = samples()
       if n < 1 then site.error(s"`pixelsamples` must be at least 1, found $n")
