@@ -8,9 +8,17 @@ import candela.base.{Problem, SceneError, Suggest}
   *
   * @param evidence records the spellings of the types
   * @param warn receives warnings
+  * @param continuation opens the file of the Include at the current token of a file, if it begins
+  *   with parameters
+  * @param isV4 whether the scene is v4's
   */
-final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
-  private val values = ValueReader(warn)
+final class Parameters(
+    evidence: DialectGuess,
+    warn: Problem => Unit,
+    continuation: Tokenizer => Option[Tokenizer] = _ => None,
+    isV4: () => Boolean = () => true
+):
+  private val values = ValueReader(warn, isV4)
   private val keys = mutable.HashMap.empty[String, Parameters.Key]
 
   /** Tokenizers of the including files, innermost first. */
@@ -25,14 +33,25 @@ final class Parameters(evidence: DialectGuess, warn: Problem => Unit):
   /** Reads the parameters from the current token on. Of duplicates the last is used, as in all
     * three renderers. The parameter list of an included file's last statement continues in the
     * including file: smoke grids are often included as separate files, with the medium's other
-    * parameters after the Include.
+    * parameters after the Include. A list may also begin or continue in an included file, as
+    * pbrt-v2 allows: `Shape "trianglemesh" Include "vertices.pbrt"`.
     */
   def list(in: Tokenizer): Vector[Param] =
-    var params = parametersHere(in, Vector.empty)
+    var params = withIncluded(in, Vector.empty)
     var further = if in.current == Token.End then outer else Nil
     while further.nonEmpty do
       params = parametersHere(further.head, params)
       further = if further.head.current == Token.End then further.tail else Nil
+    params
+
+  private def withIncluded(in: Tokenizer, before: Vector[Param]): Vector[Param] =
+    var params = parametersHere(in, before)
+    var included = continuation(in)
+    while included.nonEmpty do
+      for file <- included do params = parametersHere(file, params)
+      val isWhole = included.forall(_.current == Token.End)
+      if isWhole then params = parametersHere(in, params)
+      included = if isWhole then continuation(in) else None
     params
 
   private def parametersHere(in: Tokenizer, before: Vector[Param]): Vector[Param] =

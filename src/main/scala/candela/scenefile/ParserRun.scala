@@ -19,7 +19,7 @@ private[scenefile] final class ParserRun(
 ):
   private val evidence = DialectGuess()
   private val problems = Problems()
-  private val parameters = Parameters(evidence, problems.add)
+  private val parameters = Parameters(evidence, problems.add, continuation, () => isV4)
   private val scene = SceneWriter(folder, evidence, () => isV4, problems.add)
   private val misplaced = Problems()
 
@@ -28,6 +28,12 @@ private[scenefile] final class ParserRun(
 
   /** Whether the rest of the file is ignored. */
   private var isDone = false
+
+  /** Files being read, innermost first. */
+  private var reading = file.toList
+
+  /** An Include found at the end of a parameter list: it is run after the list's statement. */
+  private var postponed = Option.empty[() => Unit]
 
   /** Whether the dialect made a difference. */
   var askedDialect = false
@@ -40,7 +46,7 @@ private[scenefile] final class ParserRun(
   def guess: Dialect = evidence.dialect
 
   def read(): Unit =
-    statements(source, None, file.toList)
+    statements(Tokenizer(source, None))
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
 
   /** The description with all problems; throws these if there is no world. */
@@ -67,14 +73,14 @@ private[scenefile] final class ParserRun(
           val message = "WorldBegin has no WorldEnd; the file may be incomplete"
           problems.add(Problem.warning(begin, message))
 
-  /** @param files files being read, innermost first */
-  private def statements(from: Source, includedAt: Option[SourcePos], files: List[Path]): Unit =
-    val in = Tokenizer(from, includedAt)
+  private def statements(in: Tokenizer): Unit =
+    attempt(in)(in.advance())
+    statementsFromHere(in)
+
+  private def statementsFromHere(in: Tokenizer): Unit =
     try
-      attempt(in)(in.advance())
-      while !isDone && !problems.isFull && in.current != Token.End do
-        attempt(in)(statement(in, files))
-    finally from.close()
+      while !isDone && !problems.isFull && in.current != Token.End do attempt(in)(statement(in))
+    finally in.source.close()
 
   /** Runs `body`; after an error, skips to the next apparent directive. */
   private def attempt(in: Tokenizer)(body: => Unit): Unit =
@@ -88,7 +94,7 @@ private[scenefile] final class ParserRun(
     val isThere = in.current == Token.Word && Directives.all.contains(in.text)
     if !isThere then in.advanceToName()
 
-  private def statement(in: Tokenizer, files: List[Path]): Unit =
+  private def statement(in: Tokenizer): Unit =
     val at = in.at
     Directives.all.get(in.text).filter(_ => in.current == Token.Word) match
       case None => unknown(in)
@@ -100,17 +106,28 @@ private[scenefile] final class ParserRun(
         evidence.uses("directive", directive.name)
         in.advance()
         if isMisplaced(directive, at) then skipToDirective(in)
-        else run(directive, at, in, files)
+        else run(directive, at, in)
 
-  private def run(directive: Directive, at: SourcePos, in: Tokenizer, files: List[Path]): Unit =
-    val including = include(in, files)
-    try directive.run(Arguments(directive, at, in, parameters, problems.add, including), scene)
+  private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
+    val arguments = Arguments(directive, at, in, parameters, problems.add, include(in))
+    try losing(directive.name)(directive.run(arguments, scene))
     catch
       case e: SceneError =>
-        lost ++= NameKind.madeBy(directive.name)
         // A skipped block statement would make its counterpart look unbalanced.
         if directive.name.endsWith("Begin") || directive.name.endsWith("End") then
           scene.blocks.isDoubtful = true
+        throw e
+    finally
+      val next = postponed
+      postponed = None
+      for include <- next do attempt(in)(losing("Include")(include()))
+
+  /** Runs a directive; if that fails, the names that it may have defined are lost. */
+  private def losing(directive: String)(body: => Unit): Unit =
+    try body
+    catch
+      case e: SceneError =>
+        lost ++= NameKind.madeBy(directive)
         throw e
 
   private def unknown(in: Tokenizer): Nothing =
@@ -142,56 +159,77 @@ private[scenefile] final class ParserRun(
       )
     message.nonEmpty
 
-  /** Reads the statements of another file.
-    *
-    * @param from tokenizer of the including file
-    * @param files files being read, innermost first
-    */
-  private def include(from: Tokenizer, files: List[Path])(
-      name: String,
-      nameAt: SourcePos,
-      at: SourcePos
-  ): Unit =
-    def fail(message: String): Nothing = throw SceneError(Problem.error(nameAt, message))
+  /** Reads the statements of another file, which `from` includes. */
+  private def include(from: Tokenizer)(name: String, nameAt: SourcePos, at: SourcePos): Unit =
     def missing(message: String, help: Option[String] = None): Unit =
       val problem = Problem.missing(nameAt, message, "skipped", keepGoing, help)
       if !keepGoing then throw SceneError(problem)
       problems.add(problem)
       // Skips the parameters that continue the missing file's last statement.
       val _ = parameters.list(from)
-    resolve(name, files.headOption) match
+    resolve(name) match
       case None =>
-        val folders = (folder :: files.headOption.map(Parser.folderOf).toList).distinct
+        val folders = (folder :: reading.headOption.map(Parser.folderOf).toList).distinct
         val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
         val near = folders.flatMap(f => Suggest.file(f.resolve(name))).headOption
         val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
         missing(s"can't include `$name`: no such file", Some(help))
       case Some(path) =>
-        refuseCircles(path, name, files, fail)
+        for why <- circle(path, name) do throw SceneError(Problem.error(nameAt, why))
         Source.read(path) match
-          case Right(source) =>
-            if !sources.contains(path) then sources :+= path
-            parameters.within(from)(statements(source, Some(at), path :: files))
+          case Right(source) => within(from, path)(statements(Tokenizer(source, Some(at))))
           case Left(why) => missing(s"can't include `$name`: $why")
 
-  private def refuseCircles(
-      path: Path,
-      name: String,
-      files: List[Path],
-      fail: String => Nothing
-  ): Unit =
-    if files.exists(Files.isSameFile(_, path)) then
-      val chain = files.takeWhile(!Files.isSameFile(_, path)).reverse
-      fail(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
-    if files.size > ParserRun.DeepestInclude then
-      fail(s"includes are nested more than ${ParserRun.DeepestInclude} deep")
+  /** Runs `body`, which reads the file at `path`. */
+  private def within(from: Tokenizer, path: Path)(body: => Unit): Unit =
+    if !sources.contains(path) then sources :+= path
+    val outer = reading
+    reading = path :: outer
+    try parameters.within(from)(body)
+    finally reading = outer
+
+  /** The file of an Include at the current token of `from`, if it begins with parameters; the
+    * statements after them are postponed. Any other Include is postponed as a whole.
+    */
+  private def continuation(from: Tokenizer): Option[Tokenizer] =
+    val isInclude = from.current == Token.Word && from.text == "Include" && from.nextIsText
+    if !isInclude then None
+    else
+      evidence.uses("directive", "Include")
+      val at = from.at
+      from.advance()
+      val (name, nameAt) = (from.text, from.at)
+      from.advance()
+      val opened = resolve(name).filter(circle(_, name).isEmpty).flatMap(beginsWithParameter(_, at))
+      postponed = Some: () =>
+        opened match
+          case Some((path, file)) => within(from, path)(statementsFromHere(file))
+          case None => include(from)(name, nameAt, at)
+      opened.map((_, file) => file)
+
+  private def beginsWithParameter(path: Path, at: SourcePos): Option[(Path, Tokenizer)] =
+    Source.read(path).toOption.flatMap: source =>
+      val file = Tokenizer(source, Some(at))
+      val isParameter = file.nextIsText
+      if isParameter then file.advance() else source.close()
+      Option.when(isParameter)((path, file))
+
+  /** Why a file can't be included here. */
+  private def circle(path: Path, name: String): Option[String] =
+    if reading.exists(Files.isSameFile(_, path)) then
+      val chain = reading.takeWhile(!Files.isSameFile(_, path)).reverse
+      Some(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
+    else
+      Option.when(reading.size > ParserRun.DeepestInclude):
+        s"includes are nested more than ${ParserRun.DeepestInclude} deep"
 
   /** Resolves against the scene's folder, as in all three renderers; else against the including
     * file's.
     */
-  private def resolve(name: String, from: Option[Path]): Option[Path] =
+  private def resolve(name: String): Option[Path] =
     try
-      val candidates = folder.resolve(name) :: from.map(Parser.folderOf(_).resolve(name)).toList
+      val candidates =
+        folder.resolve(name) :: reading.headOption.map(Parser.folderOf(_).resolve(name)).toList
       candidates.find(Files.exists(_))
     catch case _: InvalidPathException => None
 

@@ -5,8 +5,9 @@ import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
 /** Reads parameter values and checks them against the parameter's type.
   *
   * @param warn receives warnings
+  * @param isV4 whether the scene is v4's, where excess values are an error
   */
-final class ValueReader(warn: Problem => Unit):
+final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   private val floats = FloatBuffer()
   private val ints = IntBuffer()
 
@@ -36,7 +37,6 @@ final class ValueReader(warn: Problem => Unit):
       case Some(_) => throw SceneError(misfit(param, in, open))
       case None => if count(param) == 0 then throw SceneError(misfit(param, in, None))
     checkCount(param)
-    param
 
   // Each reads as many values as match (at most one outside a list), and stops at the first that
   // does not.
@@ -115,8 +115,10 @@ final class ValueReader(warn: Problem => Unit):
       case _ => "[ 0.1 0.2 0.3 ]"
     s"for example \"${param.paramType.spelling} ${param.name}\" $values"
 
-  /** A list must consist of whole pairs or triples; an empty one is reported. */
-  private def checkCount(param: Param): Unit =
+  /** A list must consist of whole pairs or triples; v2 and v3 ignore the rest. An empty list is
+    * reported.
+    */
+  private def checkCount(param: Param): Param =
     val n = count(param)
     val size = param.paramType match
       case ParamType.Point2 | ParamType.Vector2 => 2
@@ -124,12 +126,19 @@ final class ValueReader(warn: Problem => Unit):
       case ParamType.Rgb | ParamType.Xyz => 3
       case ParamType.Spectrum if param.strings.isEmpty => 2
       case _ => 1
-    def fail(message: String) =
-      throw SceneError(Problem.error(param.valuesAt, message, Some(example(param))))
+    val help = Some(example(param))
+    def fail(message: String) = throw SceneError(Problem.error(param.valuesAt, message, help))
     if n == 0 then warn(Problem.warning(param.valuesAt, s"`${param.name}` is an empty list"))
-    if n % size != 0 then
-      val group = if size == 2 then "pairs" else "triples"
-      val noun = if n == 1 then "number" else "numbers"
-      fail(s"values of `${param.name}` must come in $group, found $n $noun")
     if param.paramType == ParamType.Texture && n > 1 then
       fail(s"`${param.name}` must be one texture, found $n names")
+    val excess = n % size
+    if excess == 0 then param
+    else
+      val group = if size == 2 then "pairs" else "triples"
+      val noun = if n == 1 then "number" else "numbers"
+      val message = s"values of `${param.name}` must come in $group, found $n $noun"
+      if n < size || isV4() then fail(message)
+      else
+        val ignored = if excess == 1 then "the last is" else s"the last $excess are"
+        warn(Problem.warning(param.valuesAt, s"$message; $ignored ignored", help))
+        param.withFloats(param.floats.dropRight(excess))

@@ -68,14 +68,33 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val message = "`scheme` of \"loopsubdiv\" must be one string, found 1 of type integer"
     assertError(p, message, "write \"string scheme\"")
 
-  test("unknown shapes, materials and lights are errors with the nearest name"):
-    assertError(only("Shape \"shpere\""), "unknown shape \"shpere\"", "`sphere`")
-    assertError(only(s"Material \"mate\" $sphere"), "unknown material \"mate\"", "`matte`")
-    assertError(only("LightSource \"piont\""), "unknown light \"piont\"", "`point`")
-    val area = only(s"AreaLightSource \"difuse\" $sphere")
+  test("unknown types are errors with the nearest name"):
+    def v4(statement: String) = only(statement, Dialect.V4)
+    assertError(v4("Shape \"shpere\""), "unknown shape \"shpere\"", "`sphere`")
+    assertError(v4(s"Material \"difuse\" $sphere"), "unknown material \"difuse\"", "`diffuse`")
+    val area = v4(s"AreaLightSource \"difuse\" $sphere")
     assertError(area, "unknown area light \"difuse\"", "`diffuse`")
+    assertError(only("LightSource \"piont\""), "unknown light \"piont\"", "`point`")
     val texture = "Texture \"t\" \"float\" \"constnat\""
     assertError(only(texture), "unknown float texture \"constnat\"", "`constant`")
+
+  test("unknown types that pbrt-v2 and pbrt-v3 replace are replaced here, with a warning"):
+    val skipped = "; skipped, as pbrt does"
+    assertWarning(only("Shape \"shpere\""), s"unknown shape \"shpere\"$skipped", "`sphere`")
+    val area = only(s"AreaLightSource \"portal\" $sphere")
+    assertWarning(area, s"unknown area light \"portal\"$skipped")
+    val volume = only("Volume \"rainbow\"", Dialect.V2)
+    assertWarning(volume, s"unknown volume \"rainbow\"$skipped")
+    val mate = only(s"Material \"mate\" $sphere")
+    assertWarning(mate, "unknown material \"mate\"; using \"matte\", as pbrt does", "`matte`")
+    val tree = s"Accelerator \"octree\" WorldBegin $sphere LightSource \"point\""
+    val message = "unknown accelerator \"octree\"; using \"bvh\", as pbrt does"
+    assert(SceneTexts.problems(tree).map(_.message) == Vector(message))
+    def mean(material: String) =
+      val film = "Film \"image\" \"integer xresolution\" 4 \"integer yresolution\" 4 "
+      val look = "Camera \"perspective\" WorldBegin LightSource \"infinite\" Translate 0 0 2 "
+      SceneTexts.mean(s"$film$look Material \"$material\" \"color Kd\" [1 0 0] $sphere")
+    assert(mean("iris") == mean("matte") && mean("iris") != mean("mirror"))
 
   test("what pbrt knows and Candela does not yet is a warning that says what happens instead"):
     assertWarning(only(s"Texture \"t\" \"float\" \"ptex\" $sphere"), "using the constant 0.5")
@@ -152,15 +171,15 @@ final class BuildErrorsSuite extends AnyFunSuite:
 
   test("all errors of a scene are named in one go, in the order of their places"):
     val text = "WorldBegin\nShape \"shpere\"\nLightSource \"piont\"\nShape \"dsik\"\n"
-    val errors = SceneTexts.problems(text).filter(_.severity == Severity.Error)
+    val errors = SceneTexts.problems(text, Dialect.V4).filter(_.severity == Severity.Error)
     assert(errors.flatMap(_.at).map(_.line) == Vector(2, 3, 4))
 
   test("a problem in a file shows the line that it is about"):
     val file = Files.createTempFile("shpere", ".pbrt")
     try
-      Files.writeString(file, "WorldBegin\nShape \"shpere\"\nWorldEnd\n"): Unit
+      Files.writeString(file, "WorldBegin\nLightSource \"piont\"\nWorldEnd\n"): Unit
       val error = intercept[SceneError](SceneBuilder.build(Parser.parse(file), BuildOptions()))
-      assert(error.problems.flatMap(_.excerpt) == Vector("Shape \"shpere\""))
+      assert(error.problems.flatMap(_.excerpt) == Vector("LightSource \"piont\""))
     finally Files.delete(file)
 
   test("an unknown film or integrator falls back with a message"):

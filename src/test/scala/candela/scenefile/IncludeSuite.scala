@@ -58,6 +58,21 @@ class IncludeSuite extends AnyFunSuite:
       val kept = Parser.parseText("test", missing, folder, None, keepGoing = true)
       assert(kept.shapes.map(_.shape.name) == Vector("next") && kept.warnings.size == 1)
 
+  test("a parameter list may go on in included files, and the statement ends there"):
+    withFolder(
+      "a.pbrt" -> "\"float a\" 1",
+      "b.pbrt" -> "# more\n\"float b\" 2 Shape \"next\"",
+      "other.pbrt" -> "Shape \"other\""
+    ): folder =>
+      val list = "Include \"a.pbrt\" \"float c\" 3 Include \"b.pbrt\" \"float d\" 4"
+      val text = s"WorldBegin Shape \"first\" $list Include \"other.pbrt\""
+      val scene = Parser.parseText("test", text, folder)
+      assert(scene.shapes.map(_.shape.name) == Vector("first", "next", "other"))
+      assert(scene.shapes.map(_.shape.params.map(_.name).mkString) == Vector("acb", "d", ""))
+      assert(scene.warnings.isEmpty && scene.errors.isEmpty)
+      val at = scene.shapes(1).shape.at
+      assert(at.file.endsWith("b.pbrt") && at.includedFrom.exists(_.column == 55), at)
+
   test("files that include one another are an error that names them"):
     withFolder(
       "main.pbrt" -> "WorldBegin Include \"a.pbrt\"",

@@ -7,11 +7,12 @@ class ParametersSuite extends AnyFunSuite:
 
   private var warnings = Vector.empty[Problem]
 
-  private def params(text: String): Vector[Param] =
+  private def params(text: String, isV4: Boolean = true): Vector[Param] =
     warnings = Vector.empty
     val in = Tokenizer(Source.fromText("test", text), None)
     in.advance()
-    val read = Parameters(DialectGuess(), p => warnings = warnings :+ p).list(in)
+    def warn(problem: Problem) = warnings = warnings :+ problem
+    val read = Parameters(DialectGuess(), warn, isV4 = () => isV4).list(in)
     assert(in.current == Token.End)
     read
 
@@ -99,6 +100,15 @@ class ParametersSuite extends AnyFunSuite:
     assert(error("\"integer n\" 3000000000").startsWith("13: "))
     assert(error("\"integer n\" [1 3000000000]").startsWith("16: "))
     assert(error("\"rgb L\" [1 2 nan]").startsWith("14: "))
+
+  test("excess values of pairs or triples are ignored in v2 and v3, with a warning"):
+    val spectrum = params("\"spectrum Kd\" [.8 .7 .6]", isV4 = false).head
+    assert(spectrum.floats.toSeq == Seq(.8f, .7f))
+    val message = "values of `Kd` must come in pairs, found 3 numbers; the last is ignored"
+    assert(warnings.map(_.message) == Vector(message))
+    val points = params("\"point P\" [1 2 3 4 5]", isV4 = false).head
+    assert(points.floats.toSeq == Seq(1f, 2f, 3f))
+    assert(warnings.head.message.endsWith("found 5 numbers; the last 2 are ignored"))
 
   test("lists that are no whole number of pairs or triples, are errors"):
     assert(error("\"rgb L\" [1 2]").contains("must come in triples, found 2 numbers"))

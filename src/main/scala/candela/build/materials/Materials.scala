@@ -48,7 +48,10 @@ object Materials:
     DiffuseMaterial(candela.textures.ConstantRgb(Rgb.gray(0.5f))).folded
 
   def build(site: Site): Material =
-    all.build(site).getOrElse(StandIns.material(site.resources.basis))
+    all
+      .build(site)
+      .orElse(Option.when(site.dialect != Dialect.V4)(site.of(MatteRecipe.name)).flatMap(all.build))
+      .getOrElse(StandIns.material(site.resources.basis))
 
 /** Base of material recipes.
   *

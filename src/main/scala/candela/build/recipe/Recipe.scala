@@ -97,8 +97,8 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     val candidates = all.filter(_.name == name)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
-  /** Builds the declared type. A pending type is a warning; an unknown one is an error, which
-    * suggests the nearest known name.
+  /** Builds the declared type. A pending type is a warning; an unknown one is an error, or a
+    * warning where this dialect's pbrt only warns. Both suggest the nearest known name.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
@@ -109,8 +109,11 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
         val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
-        val standIn = StandIns.ofCategory(category)
-        site.missing(s"unknown $category \"$name\"", standIn, Suggest.help(name, known))
+        val message = s"unknown $category \"$name\""
+        val help = Suggest.help(name, known)
+        StandIns.ofPbrt(category, site.dialect) match
+          case Some(standIn) => site.warn(s"$message; $standIn, as pbrt does", help)
+          case None => site.missing(message, StandIns.ofCategory(category), help)
         None
 
   /** A type of another dialect is built by the rules of that dialect. */

@@ -31,6 +31,10 @@ final class Site(
 
   def in(other: Dialect): Site = Site(declaration, other, resources, problems, toWorld)
 
+  /** The same statement with another type. */
+  def of(otherType: String): Site =
+    Site(declaration.copy(name = otherType), dialect, resources, problems, toWorld)
+
   def warn(message: String, help: Option[String] = None): Unit =
     problems.warn(declaration.at, message, help)
   def error(message: String, help: Option[String] = None): Unit =
@@ -115,3 +119,14 @@ object StandIns:
     case "float texture" => Ones
     case "shape" | "light" | "area light" => LeftOut
     case _ => Default
+
+  /** What pbrt-v2 and pbrt-v3 replace an unknown type with, after a warning. Forks of pbrt add
+    * types, and the originals render their scenes, too.
+    */
+  def ofPbrt(category: String, dialect: Dialect): Option[String] =
+    category match
+      case _ if dialect == Dialect.V4 => None
+      case "material" => Some("using \"matte\"")
+      case "accelerator" => Some("using \"bvh\"")
+      case "shape" | "area light" | "volume" => Some(LeftOut)
+      case _ => None
