@@ -117,6 +117,8 @@ final class Distribution1D(values: Array[Float]):
   * @param values values of the function in row order, x along rows
   */
 final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int):
+  import Distribution2D.Stride
+
   require(columns > 0 && rows > 0, s"a grid of $columns by $rows has no cells")
   require(
     values.length == Math.multiplyExact(columns, rows),
@@ -127,6 +129,12 @@ final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int
   private val inRow = new Array[Float](Math.multiplyExact(columns + 1, rows))
   private val rowCdf = new Array[Float](rows + 1)
 
+  /** Every `Stride`-th entry of each row: it stays in the cache, where the rows of a large map don't,
+    * so that a search misses the cache once or twice instead of seven times.
+    */
+  private val steps = (columns + Stride - 1) / Stride
+  private val coarse = new Array[Float](Math.multiplyExact(steps, rows))
+
   /** ∫ of the piecewise-constant function over the square. */
   val integral: Double =
     val totals = new Array[Double](rows)
@@ -134,18 +142,25 @@ final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int
     // Row weights need a common scale only; this one can't overflow.
     val largest = totals.max
     val shares = totals.map(t => if largest > 0 then (t / largest).toFloat else 0f)
+    loop(rows * steps): i =>
+      coarse(i) = inRow(i / steps * (columns + 1) + i % steps * Stride)
     Cdf.write(shares, 0, rows, rowCdf, 0) * largest / (columns.toDouble * rows)
 
   /** (x, y, pdf): the position sampled by (`u1`, `u2`) in the half-open unit square. */
   def sample(u1: Float, u2: Float): Vec3 =
     val row = Cdf.find(rowCdf, 0, rows, u2)
     val at = row * (columns + 1)
-    val column = Cdf.find(inRow, at, columns, u1)
+    val column = columnOf(row, u1)
     Vec3(
       Cdf.place(column, Cdf.within(inRow, at, column, u1), columns),
       Cdf.place(row, Cdf.within(rowCdf, 0, row, u2), rows),
       density(column, row)
     )
+
+  private def columnOf(row: Int, u: Float): Int =
+    val first = Cdf.find(coarse, row * steps, steps, u) * Stride
+    val count = Math.min(Stride, columns - first)
+    first + Cdf.find(inRow, row * (columns + 1) + first, count, u)
 
   /** Pdf of `sample` at (`x`, `y`); 0 outside the square. */
   def pdf(x: Float, y: Float): Float =
@@ -155,3 +170,7 @@ final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int
   private def density(column: Int, row: Int): Float =
     val at = row * (columns + 1) + column
     (inRow(at + 1) - inRow(at)) * columns * ((rowCdf(row + 1) - rowCdf(row)) * rows)
+
+object Distribution2D:
+  /** Entries of a CDF in four lines of the cache. */
+  private inline val Stride = 64

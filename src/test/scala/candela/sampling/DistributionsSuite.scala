@@ -118,6 +118,18 @@ class Distribution2DSuite extends AnyFunSuite:
       assert(s.x >= 0f && s.x < 1f && s.y >= 0f && s.y < 1f)
       assert(s.z > 0f && s.z == big.pdf(s.x, s.y), s"$s")
 
+  test("evenly spread numbers meet each of many columns as often as its weight says"):
+    val weights = Array.tabulate(200)(i => (i % 7).toFloat)
+    val wide = Distribution2D(weights, 200, 1)
+    val counts = new Array[Int](200)
+    val n = 60000
+    for k <- 0 until n do
+      counts((wide.sample((k + 0.5f) / n, 0.5f).x * 200).toInt) += 1
+    for i <- 0 until 200 do
+      val expected = n * weights(i) / weights.sum
+      // Each border between columns moves by one number at most
+      assert(abs(counts(i) - expected) <= 2f, s"column $i: ${counts(i)} of $n, not $expected")
+
   test("the density integrates to 1"):
     val n = 97
     val many = Distribution2D(Array.tabulate(n * n)(i => 1f + (i * 31L % 1009).toFloat), n, n)
