@@ -2,6 +2,13 @@
 // The live page: asks the server how far the rendering is, and for the image when it has changed.
 // #layer=…&curve=filmic&ev=1&x=10&y=20 sets the initial view, beside the theme and the chart.
 const byId = id => document.getElementById(id), live = byId("live");
+// Sets a text only if it changes, since browsers paint anew what is set
+const write = (id, text) => { if (byId(id).textContent !== text) byId(id).textContent = text; };
+let waited = 0; // for the server, in milliseconds
+async function ask(what) {
+  const began = performance.now();
+  try { return await fetch(what); } finally { waited += performance.now() - began; }
+}
 const me = Math.random().toString(36).slice(2);
 
 // By name: what they do to a channel, at the places √(v / (1 + v)) of its values v; the matrices before
@@ -116,7 +123,7 @@ function liveView(size) {
   }
 
   async function load(state) {
-    const answer = await fetch(`image?layer=${encodeURIComponent(s.layer)}`);
+    const answer = await ask(`image?layer=${encodeURIComponent(s.layer)}`);
     if (!answer.ok) return;
     channels = +answer.headers.get("X-Channels");
     const toSrgb = answer.headers.get("X-To-Srgb");
@@ -140,7 +147,7 @@ function liveView(size) {
     else draw();
     if (state.points !== s.points) {
       s.points = state.points;
-      byId("charts").innerHTML = await (await fetch("charts")).text();
+      byId("charts").innerHTML = await (await ask("charts")).text();
       byId("charts").querySelectorAll(".charts").forEach(charts);
     }
   }
@@ -202,11 +209,11 @@ function figures(state) {
   byId("stage").textContent = `${words[state.stage]}${state.saved ? `; saved ${state.saved}` : ""}` +
     (state.viewers > 1 ? `; ${state.viewers} viewers` : "");
   byId("done").style.width = `${100 * state.part}%`;
-  byId("samples").textContent = `${state.samples} / ${state.planned}`;
-  byId("seconds").textContent = clock(state.seconds);
-  byId("left").textContent = state.left === null ? "–" : clock(state.left);
-  byId("rate").textContent = metric(state.rate);
-  byId("error").textContent = state.error === null ? "–" : short(state.error);
+  write("samples", `${state.samples} / ${state.planned}`);
+  write("seconds", clock(state.seconds));
+  write("left", state.left === null ? "–" : clock(state.left));
+  write("rate", metric(state.rate));
+  write("error", state.error === null ? "–" : short(state.error));
   const isOver = state.stage === "done" || state.stage === "stopped";
   byId("stop").disabled = state.stage !== "rendering";
   byId("keep").hidden = state.keepsOn === null;
@@ -216,22 +223,31 @@ function figures(state) {
   live.dataset.stage = state.stage;
 }
 
+// Pauses between two looks, in milliseconds; the server forgets pages that don't ask for six seconds
+const Soonest = 400, Latest = 4000;
+// Of the time, for this page's scripts; and pause in relation to the time so far
+const Share = 0.02, Growth = 0.05;
+
 async function poll() {
   if (polling) return;
   polling = true;
   clearTimeout(timer);
   const began = performance.now();
-  let pause = 250;
+  let pause = Soonest;
+  waited = 0;
   try {
     const version = view ? view.s.version : -1;
-    const state = await (await fetch(`state?viewer=${me}&shown=${version}`)).json();
+    const state = await (await ask(`state?viewer=${me}&shown=${version}`)).json();
     if (run && run !== state.run) { location.reload(); return; }
     run = state.run;
     figures(state);
     view ||= liveView(state);
     await view.show(state);
-    // The page takes little of the machine that renders.
-    pause = Math.min(2000, Math.max(250, 10 * (performance.now() - began)));
+    // The machine that renders draws the page, too: drawing gets little of its time, and less often
+    // the longer the rendering takes.
+    const busy = performance.now() - began - waited;
+    const end = state.left === null ? Latest : Math.max(Soonest, 1000 * state.left);
+    pause = Math.min(Latest, end, Math.max(Soonest, busy / Share, 1000 * Growth * state.seconds));
     live.dataset.lost = "";
   } catch (e) {
     const isOver = ["done", "stopped"].includes(live.dataset.stage);

@@ -26,8 +26,9 @@ final case class Development(
     space: ColorSpace = ColorSpace.Srgb
 ):
 
-  def apply(film: Film): Image =
-    val image = film.toImage(scale)
+  /** @param weights see [[Film.toImage]] */
+  def apply(film: Film, weights: Option[Array[Float]] = None): Image =
+    val image = film.toImage(scale, weights)
     if sensor.isDefined || balance.isDefined then
       loop(image.width * image.height)(pixel => color(image.data, 3 * pixel))
     if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))

@@ -48,6 +48,11 @@ final class ExactSums(val size: Int):
   def apply(at: Int): Double =
     if rest.isEmpty || !rest.containsKey(at) then high(at) + low(at) else exact(at).doubleValue
 
+  /** Adds the sums from `from` on to `to` at `at`, each rounded once. */
+  def addTo(to: Array[Double], at: Int, from: Int, count: Int): Unit =
+    if rest.isEmpty then loop(count)(i => to(at + i) += high(from + i) + low(from + i))
+    else loop(count)(i => to(at + i) += this(from + i))
+
   /** The difference of the sum and its rounded value, rounded. */
   def remainder(at: Int): Double =
     if rest.isEmpty || !rest.containsKey(at) then

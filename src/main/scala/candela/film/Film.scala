@@ -74,30 +74,31 @@ final class Film(
     splats.foreach(_.load(from))
     bands.foreach(_.load(from))
 
-  /** For each pixel, row by row, the sum of its samples' weights. Without camera samples: the
-    * number of light paths, in all pixels.
-    */
-  def weights: Array[Float] =
-    val shared = shares.map(_.sums)
-    val weights = new Array[Float](width * height)
-    loop(weights.length): pixel =>
-      val at = 4 * pixel + 3
-      weights(pixel) = shared.fold(sums(at))(_(at)).toFloat
-    if weights.forall(_ == 0) then
-      for s <- splats do Arrays.fill(weights, s.pathCount.toFloat)
-    weights
-
   /** The weighted averages, times `scale`; pixels without samples are black. May be called while
     * others add; the image then holds the current state.
+    *
+    * @param weights set to the sum of the weights of each pixel's samples, row by row, at the same
+    *                moment; without camera samples to the number of light paths, in all pixels
     */
-  def toImage(scale: Float): Image =
+  def toImage(scale: Float, weights: Option[Array[Float]] = None): Image =
     val image = Image.rgb(width, height)
-    val shared = shares.map(_.sums)
-    def all(i: Int) = shared.fold(sums(i))(_(i))
-    loop(width * height): pixel =>
-      val weight = all(4 * pixel + 3)
-      if weight != 0 then
-        loop(3): c =>
-          image.data(3 * pixel + c) = (all(4 * pixel + c) / weight * scale).toFloat
-    splats.foreach(_.addTo(image.data, scale))
+    val row = new Array[Double](4 * width)
+    loop(height): y =>
+      read(y, row)
+      loop(width): x =>
+        val pixel = y * width + x
+        val weight = row(4 * x + 3)
+        for w <- weights do w(pixel) = weight.toFloat
+        if weight != 0 then
+          loop(3)(c => image.data(3 * pixel + c) = (row(4 * x + c) / weight * scale).toFloat)
+    for s <- splats do
+      s.addTo(image.data, scale)
+      for w <- weights if w.forall(_ == 0) do Arrays.fill(w, s.pathCount.toFloat)
     image
+
+  private def read(y: Int, row: Array[Double]): Unit =
+    shares match
+      case Some(s) => s.read(y0 + y, row)
+      case None =>
+        Arrays.fill(row, 0.0)
+        sums.addTo(row, 0, 4 * y * width, 4 * width)

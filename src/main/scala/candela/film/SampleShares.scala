@@ -1,6 +1,8 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.base.{CheckedInput, CheckedOutput}
+
+import java.util.Arrays
 
 /** Accumulates samples that contribute to all pixels within the filter's radius, by filter weight:
   * the pixel value is the weighted average.
@@ -26,12 +28,12 @@ final class SampleShares private (
   /** Adds samples; one for each worker. */
   def pass(): SharedPass = SharedPass(blocks)
 
-  /** For each pixel, row by row: weighted red, green, blue, sum of weights. */
-  def sums: Array[Double] =
-    val width = x1 - x0
-    val all = new Array[Double](Math.multiplyExact(4, Math.multiplyExact(width, y1 - y0)))
-    blocks.foreach(_.addTo(all, x0, y0, width))
-    all
+  /** Sets `row` to what the pixels of the film's row `y` hold: for each one weighted red, green,
+    * blue, sum of weights.
+    */
+  def read(y: Int, row: Array[Double]): Unit =
+    Arrays.fill(row, 0.0)
+    blocks.foreach(b => if y >= b.y0 && y < b.y1 then b.addTo(row, y, x0))
 
   def copy(): SampleShares = new SampleShares(x0, y0, x1, y1, blocks.map(_.copy()))
 
@@ -90,12 +92,9 @@ private final class SharedBlock(
   def top(y: Float): Int = Math.max(y0, Math.ceil(y - 0.5 - reach.radiusY).toInt)
   def bottom(y: Float): Int = Math.min(y1 - 1, Math.floor(y - 0.5 + reach.radiusY).toInt)
 
-  /** Adds the block to the accumulators of a film that begins at (`filmX`, `filmY`). */
-  def addTo(film: Array[Double], filmX: Int, filmY: Int, filmWidth: Int): Unit =
-    loop(height): y =>
-      val to = 4 * ((y + y0 - filmY) * filmWidth + x0 - filmX)
-      val from = 4 * y * width
-      loop(4 * width)(i => film(to + i) += sums(from + i))
+  /** Adds row `y` of the block to a row of a film that begins at `filmX`. */
+  def addTo(row: Array[Double], y: Int, filmX: Int): Unit =
+    sums.addTo(row, 4 * (x0 - filmX), 4 * (y - y0) * width, 4 * width)
 
   def copy(): SharedBlock =
     val block = SharedBlock(x0, y0, x1, y1, reach)

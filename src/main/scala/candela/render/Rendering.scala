@@ -48,8 +48,10 @@ final case class Rendering(
     layers: Option[LayerFilm] = None
 ):
   /** Colour channels, then AOVs, then wavelength bands. */
-  def image(development: Development): Image =
-    val colors = development(film)
+  def image(development: Development): Image = image(development, development(film))
+
+  /** Likewise, if the colours are developed. */
+  def image(development: Development, colors: Image): Image =
     val layered = layers.fold(colors)(_.behind(colors, development))
     development.bands.fold(layered): bands =>
       film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered))

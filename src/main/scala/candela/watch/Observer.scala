@@ -30,6 +30,7 @@ final class Observer(
 
   // Changed only by the observer's thread, or after its end
   private var seenSamples, measuredSamples, nextNanos = 0L
+  private var noise: Option[Image] = None
   @volatile private var taken: Option[Snapshot] = None
   @volatile private var found = Vector.empty[CurvePoint]
   @volatile private var result: Option[(Rendering, Progress)] = None
@@ -79,17 +80,16 @@ final class Observer(
 
   private def take(rendering: Rendering, measures: Boolean): Unit =
     seenSamples = rendering.samplesTaken
-    val state = if measures then rendering.copy(film = rendering.film.copy()) else rendering
-    val colors = plan.development(state.film)
-    if measures then measure(state, colors)
-    val hasMore = plan.layers.nonEmpty || plan.development.bands.nonEmpty
-    val image = if hasMore then state.image(plan.development) else colors
-    val noise = Option.when(variance.isKnown)(variance.noise(colors.channelNames, colors.width))
+    val weights = Option.when(measures)(new Array[Float](plan.crop.pixels.toInt))
+    val colors = plan.development(rendering.film, weights)
+    weights.foreach(measure(rendering, colors, _))
+    val image = rendering.image(plan.development, colors)
     taken = Some(Snapshot(taken.fold(1)(_.version + 1), image, noise))
 
-  private def measure(state: Rendering, colors: Image): Unit =
+  private def measure(state: Rendering, colors: Image, weights: Array[Float]): Unit =
     measuredSamples = state.samplesTaken
-    variance.add(colors, state.film.weights)
+    variance.add(colors, weights)
+    noise = Option.when(variance.isKnown)(variance.noise(colors.channelNames, colors.width))
     val errors = reference match
       case Some(r) => Some(Errors.quickly(r)(colors))
       case None => Option.when(variance.isKnown)(variance.errors)

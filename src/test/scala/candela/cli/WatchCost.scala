@@ -1,22 +1,25 @@
 package candela.cli
 
 import candela.image.ImageFiles
-import candela.testing.Chromium
+import candela.testing.{Chromium, OpenPage}
 
 import java.lang.management.ManagementFactory
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
-import java.util.concurrent.TimeUnit
 
 import scala.jdk.CollectionConverters.*
 
 /** Measures what the live page costs: renders a scene without it, with it, and with viewers, in
-  * turn, and compares the render times. The viewers are pages in a Chromium of the same machine;
-  * what they draw is part of the cost.
+  * turn, and compares the render times and Candela's own processor times. The viewers are pages in
+  * Chromiums of the same machine, started before; what they draw is part of the render time, and
+  * given as their processor time.
   *
   * Usage: `./sbt "Test/runMain candela.cli.WatchCost --rounds 7"`; more in docs/WATCHING.md.
   */
 object WatchCost:
+  /** In seconds: of rendering, of Candela's processor time, of the browsers' meanwhile. */
+  private final case class Cost(render: Double, own: Double, browsers: Double)
+
   def main(args: Array[String]): Unit =
     val options = args.grouped(2).collect { case Array(key, value) => key -> value }.toMap
     val rounds = options.get("--rounds").fold(7)(_.toInt)
@@ -24,38 +27,68 @@ object WatchCost:
     val spp = options.getOrElse("--spp", "32")
     val ways = Vector("not watched" -> None, "watched, no viewer" -> Some(0)) ++
       Vector("one viewer" -> Some(1), "two viewers" -> Some(2))
-    val seconds = (1 to rounds).toVector.map: round =>
+    val costs = (1 to rounds).toVector.map: round =>
       // Each way comes first now and then, so that a machine that gets warmer is fair to all
       val order = ways.indices.map(i => (i + round) % ways.size)
-      val found = order.map(i => i -> render(scene, spp, ways(i)._2)).toMap
-      println(ways.indices.map(i => f"${found(i)}%.2f s").mkString(s"round $round: ", ", ", ""))
+      val found = order.map(i => i -> cost(scene, spp, ways(i)._2)).toMap
+      println(ways.indices.map(i => f"${found(i).render}%.2f s").mkString(
+        s"round $round: ",
+        ", ",
+        ""
+      ))
       found
     def median(all: Vector[Double]) = all.sorted.apply(all.size / 2)
+    def more(i: Int)(time: Cost => Double) =
+      median(costs.map(c => 100 * (time(c(i)) / time(c(0)) - 1)))
+    println("                         render           processor        browsers")
     for (way, i) <- ways.map(_._1).zipWithIndex do
-      val more = median(seconds.map(s => 100 * (s(i) / s(0) - 1)))
-      println(f"$way%-20s ${median(seconds.map(_(i)))}%8.2f s  $more%+6.2f %%")
+      def seconds(time: Cost => Double) = median(costs.map(c => time(c(i))))
+      println(
+        f"$way%-20s ${seconds(_.render)}%7.2f s ${more(i)(_.render)}%+6.2f %%" +
+          f" ${seconds(_.own)}%7.2f s ${more(i)(_.own)}%+6.2f %% ${seconds(_.browsers)}%7.2f s"
+      )
 
-  /** Seconds of rendering, as the image's metadata tells them. */
-  private def render(scene: String, spp: String, viewers: Option[Int]): Double =
-    TempFolder.use: folder =>
-      val image = folder.resolve("a.exr")
-      val watch = viewers.fold(Vector.empty)(_ => Vector("--watch", "0"))
-      val words = Vector(scene, "--spp", spp, "--outfile", s"$image", "--store-time")
-      val process = start(folder, words ++ watch)
-      for count <- viewers if count > 0 do
-        val browser =
-          Chromium.installed.getOrElse(sys.error(s"none of ${Chromium.names} is installed"))
-        looking(browser, link(folder), count)(process.waitFor(): Unit)
-      if !process.waitFor(1, TimeUnit.HOURS) || process.exitValue != 0 then
-        sys.error(Files.readString(folder.resolve("err.txt")))
-      assert(ImageFiles.read(image).data.exists(_ > 0f))
-      raw"renderSeconds\x00string\x00.{4}([0-9.]+)".r
-        .findFirstMatchIn(Files.readString(image, ISO_8859_1))
-        .fold(sys.error("no time in the image"))(_.group(1).toDouble)
+  private def cost(scene: String, spp: String, viewers: Option[Int]): Cost =
+    val browser = Chromium.installed.getOrElse:
+      sys.error(s"none of ${Chromium.names} is installed")
+    opened(browser, viewers.getOrElse(0)): pages =>
+      TempFolder.use: folder =>
+        val image = folder.resolve("a.exr")
+        val watch = viewers.fold(Vector.empty)(_ => Vector("--watch", "0"))
+        val words = Vector(scene, "--spp", spp, "--outfile", s"$image", "--store-time")
+        // They are the only descendants so far
+        val browsers = ProcessHandle.current.descendants.iterator.asScala.toVector
+        val before = browsers.map(processorSeconds).sum
+        val process = start(folder, words ++ watch)
+        if pages.nonEmpty then
+          val address = link(folder)
+          pages.foreach(_.value(s"void (location.href = '$address')"))
+        var own = 0.0
+        while process.isAlive do
+          own = Math.max(own, processorSeconds(process.toHandle))
+          Thread.sleep(20)
+        if process.exitValue != 0 then sys.error(Files.readString(folder.resolve("err.txt")))
+        assert(ImageFiles.read(image).data.exists(_ > 0f))
+        val now = ProcessHandle.current.descendants.iterator.asScala.toVector
+        Cost(renderSeconds(image), own, now.map(processorSeconds).sum - before)
 
-  private def looking(browser: Path, link: String, count: Int)(body: => Unit): Unit =
-    if count == 0 then body
-    else Chromium.use(browser, link)(_ => looking(browser, link, count - 1)(body))
+  /** As the image's metadata tell them. */
+  private def renderSeconds(image: Path): Double =
+    raw"renderSeconds\x00string\x00.{4}([0-9.]+)".r
+      .findFirstMatchIn(Files.readString(image, ISO_8859_1))
+      .fold(sys.error("no time in the image"))(_.group(1).toDouble)
+
+  private def processorSeconds(process: ProcessHandle): Double =
+    process.info.totalCpuDuration.map(_.toNanos * 1e-9).orElse(0.0)
+
+  /** Empty pages of browsers that have done their starting. */
+  private def opened[A](browser: Path, count: Int, pages: Vector[OpenPage] = Vector.empty)(
+      use: Vector[OpenPage] => A
+  ): A =
+    if pages.size == count then
+      if count > 0 then Thread.sleep(2000)
+      use(pages)
+    else Chromium.use(browser, "about:blank")(page => opened(browser, count, pages :+ page)(use))
 
   private def start(folder: Path, words: Vector[String]): Process =
     val program = ProcessHandle.current.info.command.orElse("java")

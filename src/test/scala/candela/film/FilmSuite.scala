@@ -12,6 +12,15 @@ class FilmSuite extends AnyFunSuite:
     assert((image.width, image.height) == (3, 2))
     assert((0 until 3).map(image(1, 1, _)) == Vector(8f, 10f, 12f))
 
+  test("the weights of the image's pixels are those of its samples"):
+    val film = Film(0, 0, 2, 2)
+    film.add(1, 0, 1f, 1f, 1f, 0.5f)
+    film.add(0, 1, 1f, 1f, 1f, 1f)
+    film.add(0, 1, 1f, 1f, 1f, 2f)
+    val weights = new Array[Float](4)
+    val _ = film.toImage(1f, Some(weights))
+    assert(weights.toVector == Vector(0f, 0.5f, 3f, 0f))
+
   test("pixels without samples, or with weights that cancel, are black"):
     val film = Film(0, 0, 2, 1)
     film.add(0, 0, 4f, 4f, 4f, 1f)
