@@ -102,7 +102,7 @@ object Observer:
   private val Tick = 100L
 
   /** Share of the processors' time that snapshots may take. */
-  private val Share = 0.01
+  private val Share = 0.005
 
   /** Number of snapshots after which they are no longer early. */
   private val Early = 6

@@ -27,10 +27,11 @@ object WatchCost:
     val spp = options.getOrElse("--spp", "32")
     val ways = Vector("not watched" -> None, "watched, no viewer" -> Some(0)) ++
       Vector("one viewer" -> Some(1), "two viewers" -> Some(2))
+    val program = options.get("--program").fold(compiled)(Vector(_))
     val costs = (1 to rounds).toVector.map: round =>
       // Each way comes first now and then, so that a machine that gets warmer is fair to all
       val order = ways.indices.map(i => (i + round) % ways.size)
-      val found = order.map(i => i -> cost(scene, spp, ways(i)._2)).toMap
+      val found = order.map(i => i -> cost(program, scene, spp, ways(i)._2)).toMap
       println(ways.indices.map(i => f"${found(i).render}%.2f s").mkString(
         s"round $round: ",
         ", ",
@@ -48,7 +49,12 @@ object WatchCost:
           f" ${seconds(_.own)}%7.2f s ${more(i)(_.own)}%+6.2f %% ${seconds(_.browsers)}%7.2f s"
       )
 
-  private def cost(scene: String, spp: String, viewers: Option[Int]): Cost =
+  private def cost(
+      program: Vector[String],
+      scene: String,
+      spp: String,
+      viewers: Option[Int]
+  ): Cost =
     val browser = Chromium.installed.getOrElse:
       sys.error(s"none of ${Chromium.names} is installed")
     opened(browser, viewers.getOrElse(0)): pages =>
@@ -59,7 +65,7 @@ object WatchCost:
         // They are the only descendants so far
         val browsers = ProcessHandle.current.descendants.iterator.asScala.toVector
         val before = browsers.map(processorSeconds).sum
-        val process = start(folder, words ++ watch)
+        val process = start(folder, (program :+ "render") ++ words ++ watch)
         if pages.nonEmpty then
           val address = link(folder)
           pages.foreach(_.value(s"void (location.href = '$address')"))
@@ -90,11 +96,14 @@ object WatchCost:
       use(pages)
     else Chromium.use(browser, "about:blank")(page => opened(browser, count, pages :+ page)(use))
 
-  private def start(folder: Path, words: Vector[String]): Process =
-    val program = ProcessHandle.current.info.command.orElse("java")
+  /** The classes that run here. */
+  private def compiled: Vector[String] =
+    val java = ProcessHandle.current.info.command.orElse("java")
     val flags = ManagementFactory.getRuntimeMXBean.getInputArguments
-    val command = (program +: flags.asScala.toVector) ++
-      Vector("-cp", System.getProperty("java.class.path"), "candela.cli.Main") ++ words
+    (java +: flags.asScala.toVector) ++
+      Vector("-cp", System.getProperty("java.class.path"), "candela.cli.Main")
+
+  private def start(folder: Path, command: Vector[String]): Process =
     ProcessBuilder(command.asJava)
       .redirectOutput(folder.resolve("out.txt").toFile)
       .redirectError(folder.resolve("err.txt").toFile).start()
