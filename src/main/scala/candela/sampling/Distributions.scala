@@ -129,8 +129,8 @@ final class Distribution2D(values: Array[Float], val columns: Int, val rows: Int
   private val inRow = new Array[Float](Math.multiplyExact(columns + 1, rows))
   private val rowCdf = new Array[Float](rows + 1)
 
-  /** Every `Stride`-th entry of each row: it stays in the cache, where the rows of a large map don't,
-    * so that a search misses the cache once or twice instead of seven times.
+  /** Every `Stride`-th entry of each row: this stays in the cache, where the rows of a large map
+    * don't, so that a search misses the cache once or twice instead of seven times.
     */
   private val steps = (columns + Stride - 1) / Stride
   private val coarse = new Array[Float](Math.multiplyExact(steps, rows))
