@@ -31,10 +31,12 @@ final class Parameters(
     finally outer = outer.tail
 
   /** Reads the parameters from the current token on. Of duplicates the last is used, as in all
-    * three renderers. The parameter list of an included file's last statement continues in the
-    * including file: smoke grids are often included as separate files, with the medium's other
-    * parameters after the Include. A list may also begin or continue in an included file, as
-    * pbrt-v2 allows: `Shape "trianglemesh" Include "vertices.pbrt"`.
+    * three renderers; but in v2 and v3 a texture is used instead of a constant.
+    *
+    * The parameter list of an included file's last statement continues in the including file: smoke
+    * grids are often included as separate files, with the medium's other parameters after the
+    * Include. A list may also begin or continue in an included file, as pbrt-v2 allows:
+    * `Shape "trianglemesh" Include "vertices.pbrt"`.
     */
   def list(in: Tokenizer): Vector[Param] =
     var params = withIncluded(in, Vector.empty)
@@ -61,12 +63,18 @@ final class Parameters(
       val key = keys.getOrElseUpdate(in.text, keyHere(in))
       in.advance()
       val param = values.read(key.paramType, key.name, at, in)
-      params.find(_.name == param.name).foreach: earlier =>
-        val message = s"`${param.name}` is repeated at ${param.at}; this value is ignored"
-        warn(Problem.warning(earlier.at, message))
-        params = params.filterNot(_ eq earlier)
-      params = params :+ param
+      params.find(_.name == param.name) match
+        case None => params = params :+ param
+        case Some(earlier) =>
+          val (ignored, used) =
+            if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
+            else (earlier, param)
+          val message = s"`${param.name}` is repeated at ${used.at}; this value is ignored"
+          warn(Problem.warning(ignored.at, message))
+          params = params.filterNot(_ eq earlier) :+ used
     params
+
+  private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
 
   /** Reads one value or list from the current token on, without a preceding `"type name"`. */
   def value(paramType: ParamType, name: String, in: Tokenizer): Param =

@@ -101,6 +101,13 @@ class ParametersSuite extends AnyFunSuite:
     assert(error("\"integer n\" [1 3000000000]").startsWith("16: "))
     assert(error("\"rgb L\" [1 2 nan]").startsWith("14: "))
 
+  test("in v2 and v3 a texture is used instead of a constant, whichever comes first"):
+    val (texture, color) = ("\"texture Kd\" \"grid\"", "\"color Kd\" [.4 .2 .1]")
+    for text <- Seq(s"$texture $color", s"$color $texture") do
+      assert(params(text, isV4 = false).map(_.strings) == Vector(Vector("grid")))
+      assert(warnings.map(_.at.get.column) == Vector(text.indexOf("\"color") + 1))
+    assert(params(s"$texture $color").map(_.paramType) == Vector(ParamType.Rgb))
+
   test("excess values of pairs or triples are ignored in v2 and v3, with a warning"):
     val spectrum = params("\"spectrum Kd\" [.8 .7 .6]", isV4 = false).head
     assert(spectrum.floats.toSeq == Seq(.8f, .7f))
