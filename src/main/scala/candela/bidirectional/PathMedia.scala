@@ -16,7 +16,7 @@ import candela.scene.Scene
   * Multiple importance sampling leaves the densities of distances in media out, for all strategies
   * alike.
   */
-private[bidirectional] final class PathMedia(scene: Scene, media: SceneMedia):
+private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
   private val work = MediumWork()
   private val weights = work.weights
   private val visibility = MediumVisibility(scene, media, work)
@@ -25,6 +25,7 @@ private[bidirectional] final class PathMedia(scene: Scene, media: SceneMedia):
   private val hit = Hit()
   private val border = ShadingPoint()
   private var rays = 0L
+  private val beyondAll = PathMedia.beyondAll(scene, media)
 
   /** Index of the medium around the path, −1: none. */
   var medium: Int = -1
@@ -47,12 +48,12 @@ private[bidirectional] final class PathMedia(scene: Scene, media: SceneMedia):
     medium = start
 
   /** Index of the medium at the ray's origin: that on the near side of the first border of media in
-    * its direction; beyond all borders there is none.
+    * its direction, or else that beyond all borders.
     */
   def around(ray: Ray): Int =
     ahead.time = ray.time
     ahead.set(ray.origin, ray.direction, Float.PositiveInfinity)
-    var found = -1
+    var found = beyondAll
     var goesOn = true
     while goesOn do
       rays += 1
@@ -121,6 +122,19 @@ private[bidirectional] final class PathMedia(scene: Scene, media: SceneMedia):
     val s = work.shadow
     val density = (ur * s.lr + ug * s.lg + ub * s.lb) * (1f / 3f)
     if density > 0f then s.throughput * (1f / density) else Rgb.Black
+
+private[candela] object PathMedia:
+  /** Index of the medium beyond all borders, found from the camera; −1: none. */
+  def beyondAll(scene: Scene, media: SceneMedia): Int =
+    val (ahead, hit, border) = (Ray(), Hit(), ShadingPoint())
+    val direction = Vec3.Z
+    ahead.set(media.eye, direction, Float.PositiveInfinity)
+    var found = media.camera
+    while scene.closest(ahead, hit) do
+      scene.surface(ahead, hit, border)
+      found = media.beyond(border, direction, found)
+      ahead.set(border.offsetOrigin(direction), direction, Float.PositiveInfinity)
+    found
 
 /** A phase function as the BSDF of a vertex without a surface, whose cosines are 1. */
 private[bidirectional] final class PhaseLobe(phase: HenyeyGreenstein) extends Bsdf:

@@ -5,6 +5,7 @@ import candela.build.integrators.{IntegratorPlan, VolumeIntegrators, VolumeMetho
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
 import candela.integrators.VolumeMarch
+import candela.math.Vec3
 import candela.media.{Medium, MediumBorder, Region, Regions, SceneMedia}
 import candela.render.RenderMethod
 import candela.scene.Scene
@@ -77,7 +78,8 @@ private[build] final class MediaBuilder(
     warnOfBlindness(isUsed)
     (plan.throughMedia, plan.throughVolumes) match
       case (Some(make), _) if isUsed || scene.hasInterfaces =>
-        val all = SceneMedia(media, materials.borders, camera, reach)
+        val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
+        val all = SceneMedia(media, materials.borders, camera, eye, reach)
         (make(scene, all), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)

@@ -13,6 +13,7 @@ final case class MediumBorder(inside: Int, outside: Int)
   * @param media         media other than vacuum
   * @param borders       indexed by the scene's materials
   * @param camera        index of the medium around the camera; −1 for vacuum
+  * @param eye           where the camera is, at shutter open
   * @param reach         distance that light from infinity travels through media: the scene's
   *   diameter, as in pbrt-v3 and v4
   */
@@ -20,6 +21,7 @@ final class SceneMedia(
     val media: Array[Medium],
     borders: Array[MediumBorder],
     val camera: Int,
+    val eye: Vec3,
     val reach: Float
 ):
   private val inside = borders.map(_.inside)

@@ -96,12 +96,38 @@ final class PathMediaSuite extends AnyFunSuite:
     val (bdpt, path) = (caustic("\"bdpt\""), caustic("\"volpath\""))
     assert(bdpt > 1.05f * path, s"$bdpt, volpath $path")
 
-  test("what is not supported is said: a camera within a medium"):
-    val fog = scene("\"bdpt\"", coloured, lamp, 1, 3).replace(
-      "LookAt",
-      s"MakeNamedMedium \"f\" \"string type\" $coloured\nMediumInterface \"\" \"f\"\nLookAt"
-    )
-    val said = SceneTexts.problems(fog, Dialect.V4).map(_.message)
-    assert(said.exists(_.contains("does not support a camera within a medium yet")), said)
+  /** The camera, the lights and the ball are in fog without end. */
+  private def inFog(text: String) =
+    val fog = "\"homogeneous\" \"rgb sigma_s\" [.02 .1 .15] \"rgb sigma_a\" [.02 .02 .02]"
+    text
+      .replace(
+        "LookAt",
+        s"MakeNamedMedium \"f\" \"string type\" $fog\nMediumInterface \"\" \"f\"\nLookAt"
+      )
+      .replace("MediumInterface \"m\" \"\"", "MediumInterface \"m\" \"f\"")
+
+  test("bdpt sees what volpath sees from within fog without end"):
+    val bdpt = color(inFog(scene("\"bdpt\"", coloured, lamp, 1000, 3)))
+    val path = color(inFog(scene("\"volpath\"", coloured, lamp, 4000, 3)))
+    // As above
+    for (b, p) <- Seq(bdpt.r -> path.r, bdpt.g -> path.g, bdpt.b -> path.b) do
+      assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
+
+  test("and from within a ball of smoke, under a sky"):
+    val medium = s"MakeNamedMedium \"m\" \"string type\" $coloured \"float g\" .3\n"
+    def within(integrator: String, spp: Int) =
+      scene(integrator, coloured, sky, spp, 3)
+        .replace(medium, "")
+        .replace("LookAt 0 -5 2.5", s"${medium}MediumInterface \"\" \"m\"\nLookAt .3 -.6 1")
+        .replace("WorldBegin", "MediumInterface \"\" \"\"\nWorldBegin")
+    val bdpt = color(within("\"bdpt\"", 1000))
+    val path = color(within("\"volpath\"", 4000))
+    for (b, p) <- Seq(bdpt.r -> path.r, bdpt.g -> path.g, bdpt.b -> path.b) do
+      assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
+
+  test("what is not supported is said: light from infinity in fog without end"):
+    val said =
+      SceneTexts.problems(inFog(scene("\"bdpt\"", coloured, sky, 1, 3)), Dialect.V4).map(_.message)
+    assert(said.exists(_.contains("light from infinity in a medium without end yet")), said)
     val outside = scene("\"bdpt\"", coloured, lamp, 1, 3)
     assert(SceneTexts.problems(outside, Dialect.V4, options = BuildOptions()).isEmpty)

@@ -54,21 +54,27 @@ object InstantGlobalIlluminationRecipe
     integer("gathersamples", "rays that compensate for the limit")(16)
   )
   override def pending: Option[String] =
-    Some("using \"path\", which has no artefacts of virtual point lights")
-  override protected def depth()(using Site): Int = maxDepth()
+    Some("using \"path\": all bounces as well, without the artefacts of virtual point lights")
+
+  /** `maxdepth` counts specular bounces alone; paths to virtual lights have no limit. */
+  override protected def depth()(using Site): Int = 1000
 
 object IrradianceCacheRecipe
     extends Recipe[IntegratorPlan]("irradiancecache", "interpolated indirect light", onlyV2)
     with PathInstead:
   override def pending: Option[String] =
-    Some("using \"path\", which does not interpolate and includes glossy indirect light")
+    Some(
+      "using \"path\" with as many bounces, which does not interpolate and includes glossy " +
+        "indirect light"
+    )
+  private val bounces = integer("maxindirectdepth", "maximum diffuse bounces")(3)
+  override protected def depth()(using Site): Int = 1 + bounces()
   declare(
     float("minweight", "minimum weight of a cached sample")(0.5f),
     float("minpixelspacing", "minimum distance of samples", unit = "pixels")(2.5f),
     float("maxpixelspacing", "maximum distance of samples", unit = "pixels")(15f),
     float("maxangledifference", "maximum angle between normals", unit = "degrees")(10f),
     integer("maxspeculardepth", "maximum specular bounces")(5),
-    integer("maxindirectdepth", "maximum diffuse bounces")(3),
     integer("nsamples", "rays per sample")(4096)
   )
 
