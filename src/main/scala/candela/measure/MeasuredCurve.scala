@@ -1,7 +1,17 @@
 package candela.measure
 
-/** One rendered image: seed, time in seconds, error. */
-final case class Measurement(samples: Int, seed: Int, seconds: Double, errors: Errors)
+/** One rendered image.
+  *
+  * @param seconds of the whole process
+  * @param memory  its peak resident memory in bytes, if known
+  */
+final case class Measurement(
+    samples: Int,
+    seed: Int,
+    seconds: Double,
+    errors: Errors,
+    memory: Option[Long] = None
+)
 
 /** All images of one sample count.
   *
@@ -55,6 +65,9 @@ final class MeasuredCurve(measurements: Vector[Measurement], times: Map[Int, Vec
     Option.when(curve.nonEmpty)((curve.map(_._1).min, curve.map(_._1).max))
 
   def least: Double = curve.map(_._2).minOption.getOrElse(Double.PositiveInfinity)
+
+  /** The largest peak memory of all runs, in bytes, if known. */
+  def memory: Option[Long] = measurements.flatMap(_.memory).maxOption
 
   /** Mean ratio of the longest renderings, averaged over the seeds. */
   def meanRatio: Vector[Double] =

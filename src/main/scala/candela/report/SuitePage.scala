@@ -80,13 +80,16 @@ object SuitePage:
         cls := "soft",
         "± and ranges: 95 % confidence over seeds (Student's t); none for one seed. Slope " +
           "of relative MSE against samples: −1 for independent samples, 0 where bias (or the " +
-          s"reference's noise) dominates. Reference: ${s.referenceName}."
+          s"reference's noise) dominates. First image: the whole process, with one sample per " +
+          "pixel, median over seeds. Peak memory: resident, of all runs the largest. " +
+          s"Reference: ${s.referenceName}."
       ),
       Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
     )
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
-    Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target")
+    Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target") ++
+    Vector("first image, s", "peak memory, MB")
 
   private def row(s: SceneResult, p: ProgramResult): Vector[Frag] =
     val last = p.curve.points.last
@@ -99,7 +102,9 @@ object SuitePage:
       p.curve.meanRatio.map(Numbers.fixed(_, 4)).mkString(", "),
       p.curve.slope.fold("–")(Numbers.plusMinus(_, Numbers.fixed(_, 2))),
       p.curve.efficiency.fold("–")(range),
-      p.curve.secondsUntil(s.target).fold("–")(Numbers.short)
+      p.curve.secondsUntil(s.target).fold("–")(Numbers.short),
+      p.firstImage.fold("–")(Numbers.short),
+      p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0))
     ).map(stringFrag)
 
   private def range(i: Interval): String =

@@ -8,6 +8,7 @@ import candela.measure.{Interval, MeasuredCurve, MeasuredPoint, Metric}
   * @param command command line of the first image
   * @param isThin whether its curve is dashed, beside another program of the same colour
   * @param picture image of the longest run with the first seed
+  * @param firstImage seconds until it has written an image of one sample per pixel, a median
   */
 final case class ProgramResult(
     name: String,
@@ -16,7 +17,8 @@ final case class ProgramResult(
     isThin: Boolean,
     command: String,
     curve: MeasuredCurve,
-    picture: Image
+    picture: Image,
+    firstImage: Option[Double] = None
 )
 
 /** Results of all programs on one scene, against the named reference.
@@ -74,7 +76,7 @@ object SuiteData:
     ujson.write(all, indent = 2) + "\n"
 
   def csv(r: SuiteReport): String =
-    val head = "scene,program,samples,seed,seconds,relmse,mse,mae,psnr,flip"
+    val head = "scene,program,samples,seed,seconds,memory,relmse,mse,mae,psnr,flip"
     val rows =
       for
         s <- r.scenes
@@ -84,7 +86,9 @@ object SuiteData:
       yield
         val figures = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Psnr, Metric.Flip)
           .map(m => run.errors(m).fold("")(_.toString))
-        (Vector(s.name, p.name, run.samples, run.seed, run.seconds) ++ figures).mkString(",")
+        val memory = run.memory.fold("")(_.toString)
+        (Vector(s.name, p.name, run.samples, run.seed, run.seconds, memory) ++ figures)
+          .mkString(",")
     (head +: rows).map(_ + "\n").mkString
 
   private def scene(s: SceneResult): ujson.Obj = ujson.Obj(
@@ -102,6 +106,8 @@ object SuiteData:
     "points" -> ujson.Arr.from(p.curve.points.map(point)),
     "slope" -> known(p.curve.slope),
     "efficiency" -> known(p.curve.efficiency),
+    "firstImage" -> p.firstImage.fold(ujson.Null: ujson.Value)(RenderData.number),
+    "memory" -> p.curve.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
     "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
     "secondsToTarget" ->
       p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number),
@@ -119,6 +125,7 @@ object SuiteData:
       ujson.Obj(
         "seed" -> run.seed,
         "seconds" -> run.seconds,
+        "memory" -> run.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
         "relmse" -> RenderData.number(run.errors.relativeMse)
       ))
   )

@@ -6,9 +6,11 @@ import java.util.concurrent.TimeUnit
 
 import scala.jdk.CollectionConverters.*
 
-/** Result of a run: its time in seconds, or why it wrote no image. */
+/** Result of a run: its time in seconds and its peak memory in bytes, if known; or why it wrote no
+  * image.
+  */
 enum Outcome:
-  case Done(seconds: Double)
+  case Done(seconds: Double, memory: Option[Long])
   case Failed(why: String)
 
   /** Ended by cancellation. */
@@ -37,7 +39,9 @@ final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boo
       case "{candela}" => self
       case word => Vector(Commands.filled(word, values))
 
-  /** Runs a command to its end and measures its wall-clock time. It must write `out`. */
+  /** Runs a command to its end and measures its wall-clock time and peak memory. It must write
+    * `out`.
+    */
   def run(words: Vector[String], out: Path, timeout: Double): Outcome =
     val _ = Files.deleteIfExists(out)
     val log = scratch.resolve("log.txt").toFile
@@ -50,18 +54,21 @@ final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boo
       def elapsed = (System.nanoTime - started) * 1e-9
       // Returns as soon as the program ends.
       def ended(): Boolean = process.waitFor(Commands.Patience, TimeUnit.MILLISECONDS)
+      var memory = PeakMemory.of(process.toHandle)
       var hasEnded = ended()
-      while !hasEnded && elapsed < timeout && !isCancelled() do hasEnded = ended()
+      while !hasEnded && elapsed < timeout && !isCancelled() do
+        memory = PeakMemory.of(process.toHandle).orElse(memory)
+        hasEnded = ended()
       val seconds = elapsed
       // A Ctrl-C that ends the program may be noticed a moment later.
-      if hasEnded && process.exitValue != 0 then TimeUnit.MILLISECONDS.sleep(Commands.Patience)
+      if hasEnded && process.exitValue != 0 then TimeUnit.MILLISECONDS.sleep(Commands.Afterthought)
       if isCancelled() then Outcome.Cancelled
       else if !hasEnded then Outcome.Failed(s"took longer than $timeout s")
       else if process.exitValue != 0 then
         Outcome.Failed(s"exit code ${process.exitValue}: ${lastWords(log.toPath)}")
       else if !Files.isRegularFile(out) then
         Outcome.Failed(s"wrote no image: ${lastWords(log.toPath)}")
-      else Outcome.Done(seconds)
+      else Outcome.Done(seconds, memory)
     finally
       // Also if the wait is interrupted: no process outlives the run.
       val _ = process.destroyForcibly().waitFor()
@@ -78,8 +85,11 @@ final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boo
         .find(Files.isExecutable(_))
 
 object Commands:
-  /** Polling interval for cancellation, in milliseconds. */
-  private val Patience = 100L
+  /** Polling interval for cancellation and memory, in milliseconds. */
+  private val Patience = 20L
+
+  /** After a failure, in milliseconds. */
+  private val Afterthought = 100L
 
   private val NullDevice = if File.separatorChar == '\\' then "NUL" else "/dev/null"
 

@@ -19,10 +19,13 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
     left.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
     for s <- seconds do times(run) = times.getOrElse(run, Vector.empty) :+ s
 
-  /** Drops the runs of `entry` from `step` on. */
-  def dropFrom(entry: Entry, step: Int): Unit =
+  /** Drops the runs of `entry` from `step` on, and those of first images, if it has none. */
+  def dropFrom(entry: Entry, step: Int, hasFirstImage: Boolean): Unit =
     def isOf(run: Run) = run.program == entry.program.name && run.scene == entry.scene.name
-    left.filterInPlace((run, _) => !isOf(run) || 0 <= run.step && run.step < step): Unit
+    left.filterInPlace((run, _) =>
+      !isOf(run) ||
+        (if run.step == Job.FirstImage then hasFirstImage else 0 <= run.step && run.step < step)
+    ): Unit
 
   /** None until some program has completed one of the steps. */
   def secondsLeft: Option[Double] =
@@ -46,13 +49,14 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
 
 private[suite] object Forecast:
 
-  /** @param step step of the [[Job]]; −1 for warm-up */
+  /** @param step step of the [[Job]] */
   final case class Run(program: String, scene: String, step: Int)
 
   /** All runs of a program on a scene. */
   def runs(entry: Entry, suite: Suite): Vector[Run] =
-    val (pilots, steps) = entry.scene.work.getOrElse(suite.work) match
-      case Work.Samples(counts) => (1, counts.size)
-      case Work.Seconds(budgets) => (2, budgets.size)
+    val (pilots, steps, firstImages) = entry.scene.work.getOrElse(suite.work) match
+      case Work.Samples(counts) => (1, counts.size, if counts.contains(1) then 0 else suite.seeds)
+      case Work.Seconds(budgets) => (2, budgets.size, suite.seeds)
     def run(step: Int) = Run(entry.program.name, entry.scene.name, step)
-    Vector.fill(pilots)(run(-1)) ++ (0 until steps).flatMap(k => Vector.fill(suite.seeds)(run(k)))
+    Vector.fill(pilots)(run(Job.WarmUp)) ++ Vector.fill(firstImages)(run(Job.FirstImage)) ++
+      (0 until steps).flatMap(k => Vector.fill(suite.seeds)(run(k)))

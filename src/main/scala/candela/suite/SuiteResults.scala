@@ -1,7 +1,7 @@
 package candela.suite
 
 import candela.image.ImageFiles
-import candela.measure.MeasuredCurve
+import candela.measure.{Interval, MeasuredCurve}
 import candela.report.{Machine, ProgramResult, SceneResult, SuiteReport}
 
 import java.nio.file.Path
@@ -34,7 +34,9 @@ object SuiteResults:
       val seconds = (System.nanoTime - started) * 1e-9
       val scenes = suite.scenes.flatMap: scene =>
         val ofScene = results.filter(_.job.entry.scene == scene)
-        Option.when(ofScene.nonEmpty)(sceneResult(scene, suite, ofScene, runner, names))
+        Option.when(ofScene.exists(_.job.isPoint))(sceneResult(
+          scene, suite, ofScene, runner, names
+        ))
       SuiteReport(
         suite.title,
         version,
@@ -54,7 +56,7 @@ object SuiteResults:
       runner: SuiteRunner,
       names: PublicNames
   ): SceneResult =
-    val byEntry = results.groupBy(_.job.entry)
+    val byEntry = results.groupBy(_.job.entry).filter((_, all) => all.exists(_.job.isPoint))
     val programs = suite.programs.flatMap: program =>
       byEntry.collectFirst { case (entry, all) if entry.program == program => entry -> all }
         .map((entry, all) => programResult(entry, all, runner, names))
@@ -82,7 +84,8 @@ object SuiteResults:
       names: PublicNames
   ): ProgramResult =
     val program = entry.program
-    val measurements = results.map(_.measurement)
+    val measurements = results.filter(_.job.isPoint).map(_.measurement)
+    val first = results.filter(_.job.samples == 1).map(_.measurement.seconds)
     val times = measurements.groupMap(_.samples)(_.seconds)
     // Repeating the same image adds no information about the error.
     val kept = if program.isSeeded then measurements else measurements.distinctBy(_.samples)
@@ -94,5 +97,6 @@ object SuiteResults:
       names.of(program.command.mkString(" "), program.needs).replace("{candela}", "candela") +
         program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
       MeasuredCurve(kept, times),
-      runner.picture(entry)
+      runner.picture(entry),
+      Option.when(first.nonEmpty)(Interval.median(first))
     )

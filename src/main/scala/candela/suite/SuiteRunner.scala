@@ -7,9 +7,17 @@ import java.nio.file.{Files, Path}
 
 /** One image to render.
   *
-  * @param step index of its sample count, from 0
+  * @param step index of its sample count, from 0; or one of those below
   */
-private[suite] final case class Job(entry: Entry, step: Int, samples: Int, seed: Int)
+private[suite] final case class Job(entry: Entry, step: Int, samples: Int, seed: Int):
+  /** Is it a point of the program's curve? */
+  def isPoint: Boolean = step >= 0
+
+private[suite] object Job:
+  val WarmUp = -1
+
+  /** The first image: one sample per pixel. */
+  val FirstImage = -2
 
 /** A program and the scene file that it renders. */
 private[suite] final case class Entry(program: Program, scene: SuiteScene, file: Path)
@@ -70,12 +78,16 @@ final class SuiteRunner(
     val plans = entries.flatMap(entry => planned(entry, reference).map(entry -> _))
     for
       seed <- (1 to suite.seeds).toVector
-      step <- plans.flatMap(_._2.indices).distinct.sorted
+      step <- Job.FirstImage +: plans.flatMap(_._2.indices).distinct.sorted
       // Rotates the order, so that disturbances of the machine affect all programs alike.
-      (entry, samples) <- rotated(plans, seed + step)
-      if step < samples.size
-      result <- measured(Job(entry, step, samples(step), seed), reference)
+      (entry, counts) <- rotated(plans, seed + Math.max(0, step))
+      samples <- if step == Job.FirstImage then firstImage(counts) else counts.lift(step)
+      result <- measured(Job(entry, step, samples, seed), reference)
     yield result
+
+  /** A count of its own, if one sample is none of the others. */
+  private def firstImage(counts: Vector[Int]): Option[Int] =
+    Option.when(!counts.contains(1))(1)
 
   private def leaveOut(what: String, why: String): Unit =
     val publicly = names.of(why)
@@ -106,7 +118,7 @@ final class SuiteRunner(
   /** The sample counts to render, from a warm-up run. */
   private def planned(entry: Entry, reference: Image): Option[Vector[Int]] =
     def seconds(samples: Int): Option[Double] =
-      measured(Job(entry, -1, samples, 1), reference).map(_.measurement.seconds)
+      measured(Job(entry, Job.WarmUp, samples, 1), reference).map(_.measurement.seconds)
     val counts = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
       case Work.Seconds(budgets) =>
@@ -114,7 +126,7 @@ final class SuiteRunner(
           one <- seconds(1)
           many <- seconds(SuiteRunner.Pilot)
         yield budgets.map(SuiteRunner.samplesFor(_, one, many)).distinct
-    forecast.dropFrom(entry, counts.fold(0)(_.size))
+    forecast.dropFrom(entry, counts.fold(0)(_.size), counts.exists(firstImage(_).isDefined))
     counts
 
   private def rotated[A](items: Vector[A], by: Int): Vector[A] =
@@ -134,16 +146,16 @@ final class SuiteRunner(
         forecast.ended(job, None)
         leaveOut(name, why)
         None
-      case Outcome.Done(seconds) =>
+      case Outcome.Done(seconds, memory) =>
         try
           val image = shown(ImageFiles.read(out), program)
           val errors = Errors.against(reference)(image)
-          val counted = if job.step < 0 then "warm-up" else s"seed ${job.seed}"
+          val counted = if job.step == Job.WarmUp then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
           say(f"$name%-48s $counted%-8s $seconds%8.2f s  relative MSE ${errors.relativeMse}%.3g  " +
             forecast.words)
           keep(job, image)
-          Some(Result(job, Measurement(job.samples, job.seed, seconds, errors)))
+          Some(Result(job, Measurement(job.samples, job.seed, seconds, errors, memory)))
         catch
           case e: ImageError =>
             forecast.ended(job, None)
@@ -158,7 +170,7 @@ final class SuiteRunner(
 
   private def keep(job: Job, image: Image): Unit =
     val longer = pictures.get(job.entry).forall((kept, _) => job.samples > kept.samples)
-    if job.step >= 0 && longer then pictures(job.entry) = (job, image)
+    if job.isPoint && longer then pictures(job.entry) = (job, image)
 
   private[suite] def words(job: Job, out: Path): Vector[String] =
     val program = job.entry.program

@@ -38,8 +38,19 @@ class ForecastSuite extends AnyFunSuite:
   test("what can't be run takes no time"):
     val f = forecast()
     for step <- -1 to 1 do f.ended(job(entries(0), step), Some(1))
-    for entry <- entries.tail do f.dropFrom(entry, 0)
+    for entry <- entries.tail do f.dropFrom(entry, 0, hasFirstImage = false)
     assert(f.words == "[3 of 5, about 2 s left]")
     f.ended(job(entries(0), 0), None)
-    f.dropFrom(entries(0), 1)
+    f.dropFrom(entries(0), 1, hasFirstImage = false)
     assert(f.words == "[4 of 4, about 0 s left]")
+
+  test("first images are foretold, unless a count is one"):
+    def left(samples: Vector[Int], found: Option[Boolean]) =
+      val one = suite.copy(scenes = scenes.take(1), work = Work.Samples(samples))
+      val f = Forecast(Forecast.runs(entries.head, one))
+      for has <- found do f.dropFrom(entries.head, samples.size, has)
+      f.words
+    assert(left(Vector(4, 16), None) == "[0 of 7]" && left(Vector(1, 16), None) == "[0 of 5]")
+    // The warm-up is over when they are known
+    assert(left(Vector(4, 16), Some(true)) == "[0 of 6]")
+    assert(left(Vector(4, 16), Some(false)) == "[0 of 4]")

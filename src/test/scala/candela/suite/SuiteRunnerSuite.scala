@@ -115,6 +115,34 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val order = runs.drop(2).map(_.split(", ")(1))
       assert(order == Vector("two", "one", "one", "two", "one", "two", "two", "one"))
 
+  test("the first image has one sample, and runs of its own only where no count is one"):
+    inFolder: folder =>
+      def first(counts: Int*): (Option[Double], Vector[Int], Int) =
+        val said = Vector.newBuilder[String]
+        val work = Work.Samples(counts.toVector)
+        val suite =
+          Suite("T", Vector(program("a", "cp {scene} {out}")), Vector(sceneIn(folder)), work, 2, 30)
+        val report = SuiteResults.of(suite, Vector("self"), folder, "1", s => said += s)
+        val p = report.scenes.head.programs.head
+        (p.firstImage, p.curve.points.map(_.samples), said.result().count(_.contains("1 spp")))
+      val (own, points, runs) = first(2, 4)
+      assert(own.exists(_ > 0) && points == Vector(2, 4) && runs == 2)
+      val (shared, all, ones) = first(1, 4)
+      // With the warm-up run
+      assert(shared.exists(_ > 0) && all == Vector(1, 4) && ones == 3)
+
+  test("peak memory is that of the largest process, where the system tells it"):
+    val own = PeakMemory.of(ProcessHandle.current)
+    val sleeping = ProcessBuilder("sh", "-c", "sleep 30; true").start()
+    try
+      if Files.isDirectory(java.nio.file.Path.of("/proc/self")) then
+        val used = Runtime.getRuntime.totalMemory - Runtime.getRuntime.freeMemory
+        assert(own.exists(_ >= used / 2))
+        assert(PeakMemory.of(sleeping.toHandle).exists(m => m > 10000 && m < 50000000))
+      else assert(own.isEmpty)
+    finally sleeping.destroyForcibly().waitFor(): Unit
+    assert(PeakMemory.of(sleeping.toHandle).isEmpty)
+
   test("what is not installed, fails or lacks its scene is left out with the reason"):
     inFolder: folder =>
       val (report, said) = run(
