@@ -21,7 +21,13 @@ object CommandLine:
   def parse(args: Seq[String]): Either[Answer, Options] =
     translated(args) match
       case Left(instead) => Left(Answer("", s"error: $instead\n", ExitCode.BadUsage))
-      case Right(words, notes) => parseOurs(words).map(_.copy(notes = notes))
+      case Right(words, notes) => parseOurs(words).map(o => progressive(o).copy(notes = notes))
+
+  /** Where the number of samples is not known in advance, points must not depend on it. */
+  private def progressive(o: Options): Options =
+    if o.film.endsEarly && o.points == PointChoice.Best && o.command == Command.Render then
+      o.copy(points = PointChoice.Progressive)
+    else o
 
   /** Translates pbrt's words for rendering; other commands have options of their own. */
   private def translated(args: Seq[String]): Either[String, (Seq[String], Vector[String])] =

@@ -28,7 +28,9 @@ final case class FilmOptions(
     partial: Boolean = false,
     frames: Option[Range] = None,
     skipDone: Boolean = false
-)
+):
+  /** Whether the number of samples is not known in advance. */
+  def endsEarly: Boolean = time.isDefined || error.isDefined
 
 object FilmOptions:
   def isFilm(name: String): Boolean =
@@ -77,7 +79,7 @@ private[cli] object FilmTable:
 
   private def goals: Vector[Row] = Vector(
     opt[Seconds]("time").valueName("TIME")
-      .text("end after this time, e.g. 10m, when all pixels have equally many samples")
+      .text("end about this time, e.g. 10m, when all pixels have equally many samples")
       .action((s, o) => change(o)(_.copy(time = Some(s.value)))),
     opt[Double]("error").valueName("X")
       .text("end when the relative MSE, estimated from the noise, is below X")

@@ -121,14 +121,16 @@ final class RenderCommand(
       about: Vector[(String, String)]
   ): ExitCode =
     val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
-    def recorder = Option.when(goals.error.isDefined)(RenderRecorder.of(loaded.plan, None))
-    val goal = Option.when(goals.time.isDefined || goals.error.isDefined):
-      Goal(goals, reporting.map(_.recorder).orElse(recorder))
+    val goal = Option.when(goals.endsEarly):
+      def recorder = RenderRecorder.of(loaded.plan, None)
+      val planned = loaded.plan.sampler.samplesPerPixel
+      Goal(goals, planned, reporting.fold(recorder)(_.recorder))
     val reference = options.reference.filter(_ => options.denoise)
       .map(RenderRecorder.fitting(loaded.plan, _))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
-      val show: Progress => Unit = if options.quiet then _ => () else progress.update
+      val show: Progress => Unit =
+        if options.quiet then _ => () else p => progress.update(p, goal.map(_.outlook(p)))
       val keeper = keeping.map(_.keeper(() => goal.exists(_.isEnough)))
       val watching = Option.when(options.isWatched)(watched(scene, loaded, paths, about))
       var current = Option.empty[Live]

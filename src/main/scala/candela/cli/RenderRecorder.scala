@@ -3,11 +3,11 @@ package candela.cli
 import candela.base.{Problem, SceneError}
 import candela.film.{Development, Film}
 import candela.image.{Image, ImageFiles}
-import candela.measure.{CurvePoint, Errors, PixelWindow}
+import candela.measure.{CurvePoint, ErrorEstimate, Errors, PixelWindow}
 import candela.render.{Pass, RenderPlan, Witness}
 import candela.report.{PassSpan, Picture}
 
-/** Measures the error of the image after each pass.
+/** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   */
@@ -15,7 +15,7 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
   private val foundPoints = Vector.newBuilder[CurvePoint]
   private val foundPasses = Vector.newBuilder[PassSpan]
   private var first, last: Option[(Image, Int)] = None
-  private var earlier: Option[(Film, Int)] = None
+  private val estimate = ErrorEstimate()
   private var spent = 0.0
 
   def points: Vector[CurvePoint] = foundPoints.result()
@@ -31,20 +31,36 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
     last.map(named).toVector ++ begin.map(named) ++
       reference.map(Picture("reference", _, isReference = true))
 
+  /** The estimate compares parts of the samples. */
+  override def seesWaves: Boolean = reference.isEmpty
+
   override def begins(samples: Int, film: Film): Unit =
-    if reference.isEmpty && samples > 0 then earlier = Some((film.copy(), samples))
+    if reference.isEmpty && samples > 0 then
+      val weights = new Array[Float](film.width * film.height)
+      val _ = estimate.add(samples, development(film, Some(weights)), weights, isLast = false)
+
+  /** The relative MSE after so many samples per pixel, as far as known. */
+  def errorAt(samples: Double): Option[Double] =
+    if reference.isEmpty then estimate.at(samples).map(_.relativeMse)
+    else points.lastOption.map(_.errors.relativeMse)
+
+  /** Samples per pixel at which the relative MSE falls to this, by its trend. */
+  def samplesUntil(relativeMse: Double): Option[Double] =
+    if reference.isEmpty then estimate.samplesUntil(relativeMse)
+    else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
 
   def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime
-    val image = development(film)
+    val weights = new Array[Float](film.width * film.height)
+    val image = development(film, Some(weights))
+    val isMain = pass.isLast || Integer.bitCount(pass.samples) == 1
     val errors = reference match
-      case Some(r) => Some(Errors.against(r)(image))
-      case None => earlier.map: (before, samples) =>
-          val added = development(film.since(before))
-          Errors.ofParts(development(before), samples, added, pass.samples - samples)
+      case Some(r) => Option.when(isMain)(Errors.against(r)(image))
+      case None =>
+        val anew = estimate.add(pass.samples, image, weights, pass.isLast)
+        anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
     errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
     foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
-    if reference.isEmpty then earlier = Some((film.copy(), pass.samples))
     if first.isEmpty then first = Some((image, pass.samples))
     last = Some((image, pass.samples))
     spent += (System.nanoTime - started) * 1e-9

@@ -60,7 +60,9 @@ object Renderer:
       for w <- witness if !board.isStopped do
         val isLast = end >= schedule.waves
         val busy = workers.map(_.seconds)
-        val pass = Pass(schedule.firstSample(end), begin, seconds, busy, isLast)
+        val done = schedule.firstSample(end)
+        val next = schedule.firstSample(end + 1) - done
+        val pass = Pass(done, begin, seconds, busy, isLast, next)
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped

@@ -68,13 +68,15 @@ final class RenderFailure(val x: Int, val y: Int, val sample: Int, cause: Throwa
   * @param begin   seconds since the start of rendering, without the observer's time
   * @param workers busy time of each worker, in seconds
   * @param isLast  whether it completes the rendering
+  * @param next    samples per pixel of the next part
   */
 final case class Pass(
     samples: Int,
     begin: Double,
     end: Double,
     workers: Vector[Double],
-    isLast: Boolean = false
+    isLast: Boolean = false,
+    next: Int = 0
 )
 
 /** An image observer, called after 1, 2, 4, 8, … samples per pixel, and at the end.

@@ -6,8 +6,9 @@ import java.util.concurrent.atomic.AtomicLongArray
 
 /** Execution order of a rendering: sample passes ("waves"), each over all pieces.
   *
-  * Waves grow (1, 1, 2, 4, … 64 samples per pixel), so that a cancelled image has uniform noise,
-  * while a long rendering rarely revisits a piece.
+  * Waves grow (1, 1, 1, 1, 2, 2, 4, 4, … 64 samples per pixel), so that a cancelled image has
+  * uniform noise, while a long rendering rarely revisits a piece. Totals of 2ᵏ and 3 · 2ᵏ samples
+  * are what an estimate of the error compares.
   *
   * @param largestWave maximum samples per pixel of a wave
   * @param openWaves   maximum number of waves in progress: wave w begins only when wave w −
@@ -20,10 +21,11 @@ private[render] abstract class Schedule(
     val openWaves: Int = Int.MaxValue
 ):
 
-  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1), doubling the total.
+  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1); two double the total.
   private val waveStarts: Array[Int] =
     Iterator
-      .iterate(0)(start => start + Math.min(Math.max(start, 1), largestWave))
+      .iterate(0): start =>
+        start + Math.min(Math.max(Integer.highestOneBit(start) / 2, 1), largestWave)
       .takeWhile(_ < samplesPerPixel)
       .toArray :+ samplesPerPixel
 

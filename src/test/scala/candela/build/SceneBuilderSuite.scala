@@ -73,7 +73,14 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(sampler(strata, PointChoice.Scene)._1 == classOf[StratifiedSampler])
     assert(sampler(s"$strata \"bool jitter\" \"false\"", PointChoice.Best)._1 ==
       classOf[StratifiedSampler])
-    assert(sampler("\"random\"", PointChoice.Best)._1 == classOf[IndependentSampler])
+    for choice <- Seq(PointChoice.Best, PointChoice.Progressive) do
+      assert(sampler("\"random\"", choice)._1 == classOf[IndependentSampler])
+
+  test("points whose number is fixed are replaced where any number must be evenly spread"):
+    def sampler(choice: PointChoice) =
+      SceneTexts.plan(nothing, Dialect.V4, BuildOptions(points = choice)).sampler
+    assert(sampler(PointChoice.Best).isInstanceOf[ZSobolSampler])
+    assert(sampler(PointChoice.Progressive).isInstanceOf[OwenSobolSampler])
 
   test("the whole image is rendered unless the scene or the caller crops it"):
     assert(SceneTexts.plan(s"$film\n$nothing").crop == PixelBounds(0, 0, 80, 40))

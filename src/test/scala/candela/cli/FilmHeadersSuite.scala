@@ -15,7 +15,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "dialect" -> Vector("v3"),
     "keep-going" -> Vector(""),
     "color" -> Vector("rgb", "spectral"),
-    "sampler" -> Vector("scene", "halton", "stratified"),
+    "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
     "store-time" -> Vector(""),
     "tonemap" -> Vector("filmic", "aces"),
     "exposure" -> Vector("auto", "-2", "1.5"),

@@ -21,6 +21,15 @@ class ProgressLineSuite extends AnyFunSuite:
     assert(ProgressLine.bar(Progress(1000, 1000, 2.0)) ==
       "render 100% [============================] 500 samples/s, 0:00 left")
 
+  test("a rendering that ends by time or error shows what remains until then, and the error"):
+    val outlook = Some(Outlook(Some(6.0), Some(0.01234)))
+    val progress = Progress(4_000_000, 1_000_000_000, 2.0)
+    assert(ProgressLine.line(progress, outlook) ==
+      "render  25%  2.0 s, 2.00 M samples/s, error 0.01234, 0:06 left")
+    assert(ProgressLine.bar(progress, outlook) ==
+      "render  25% [===>        ] 2.00 M samples/s, error 0.01234, 0:06 left")
+    assert(ProgressLine.bar(progress, Some(Outlook(Some(6.0), None))).endsWith("/s, 0:06 left"))
+
   test("before the first sample there is no speed"):
     assert(ProgressLine.bar(Progress(0, 1000, 0.5)) ==
       "render   0% [>                           ] starting")

@@ -23,7 +23,7 @@ object SamplerTable:
     val width = options.getOrElse("width", "32").toInt
     println("| scene | points | noise | kurtosis | slope | processor ms |")
     println("|---|---|---|---|---|---|")
-    for file <- list("scenes", Scenes.mkString(",")) do
+    for file <- list("scenes", NoiseScenes.all.mkString(",")) do
       val scene = SmallScene(file, width)
       for points <- list("points", PointSet.all.map(_.word).mkString(",")) do
         val choice = PointChoice.all.find(_.word == points).get
@@ -31,18 +31,10 @@ object SamplerTable:
         val slope = LogLogFit.slope(noises.map(n => (n.samples.toDouble, n.variance)))
         def row(figure: NoiseOf => String) = noises.map(figure).mkString(", ")
         println(
-          s"| ${file.split('/').takeRight(2).mkString("/")} | $points | " +
+          s"| ${NoiseScenes.name(file)} | $points | " +
             row(n => f"${n.variance}%.3g") + " | " + row(n => f"${n.kurtosis}%.1f") +
             f" | ${slope.getOrElse(0.0)}%.2f | ${noises.last.seconds * 1e3}%.0f |"
         )
-
-  private val Scenes = Vector(
-    "bench/scenes/grey-room.v4.pbrt",
-    "bench/scenes/lamps.v4.pbrt",
-    "scenes/v3-glass.pbrt",
-    "scenes/v4-environment-map.pbrt",
-    "scenes/v3-matte-directlighting.pbrt"
-  )
 
 /** Noise of a rendering.
   *

@@ -7,10 +7,10 @@ import org.scalatest.funsuite.AnyFunSuite
 class ScheduleSuite extends AnyFunSuite:
   private val crop = PixelBounds(3, 5, 50, 41)
 
-  test("waves double what there is, up to 64 samples at a time"):
+  test("two waves double what there is, up to 64 samples at a time"):
     val schedule = TileSchedule(crop, 300)
     val starts = (0 to schedule.waves).map(schedule.firstSample)
-    assert(starts == Vector(0, 1, 2, 4, 8, 16, 32, 64, 128, 192, 256, 300))
+    assert(starts == Vector(0, 1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 48, 64, 96, 128, 192, 256, 300))
 
   test("waves cover every sample once, for any count"):
     for samples <- 1 to 140 do

@@ -41,20 +41,22 @@ object Strata:
   *
   *   - `Best`: the scene's, or [[SamplerPlan.Best]] where it asks for evenly spread points of any
   *     kind
+  *   - `Progressive`: likewise, but points whose number is fixed in advance are replaced, too
   *   - `Scene`: the scene's
   *   - `Named`: these
   */
 enum PointChoice:
-  case Best, Scene
+  case Best, Progressive, Scene
   case Named(points: PointSet)
 
   def word: String = this match
     case Best => "best"
+    case Progressive => "progressive"
     case Scene => "scene"
     case Named(points) => points.word
 
 object PointChoice:
-  val all: Vector[PointChoice] = Vector(Best, Scene) ++ PointSet.all.map(Named(_))
+  val all: Vector[PointChoice] = Vector(Best, Progressive, Scene) ++ PointSet.all.map(Named(_))
 
 /** What a Sampler statement asks for.
   *
@@ -72,6 +74,8 @@ final case class SamplerPlan(
 ):
   def points(choice: PointChoice): PointSet = choice match
     case PointChoice.Best => if isEven then SamplerPlan.Best else own
+    case PointChoice.Progressive =>
+      if isEven || own == PointSet.ZSobol then SamplerPlan.Best else own
     case PointChoice.Scene => own
     case PointChoice.Named(points) => points
 
@@ -83,6 +87,8 @@ final case class SamplerPlan(
       case PointChoice.Best if taken != own =>
         s"${taken.meaning}, which have less noise than \"$name\" (--sampler scene takes " +
           s"${own.meaning})"
+      case PointChoice.Progressive if taken != own =>
+        s"${taken.meaning}, any number of which are evenly spread, unlike those of \"$name\""
       case _ => s"${taken.meaning}, for \"$name\""
 
 object SamplerPlan:

@@ -1,0 +1,117 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.Image
+
+/** Estimates the error of an image from its own samples: after 2, 4, 8, … samples per pixel from
+  * the scatter between halves of the samples and its [[ScatterTrend]], in between by that trend.
+  *
+  * A rare bright path adds its own square to the scatter, which is its error, whichever half it is
+  * in. Its pixel would seem to have no large relative error, as it is bright itself: relative
+  * errors divide by [[QuietMeans]]. What no path has found is unknown.
+  */
+final class ErrorEstimate:
+  import ErrorEstimate.State
+  private var base, middle = Option.empty[State]
+  private var whole, halves = Option.empty[Array[Float]] // scatter D(n) and D(n/2) of the last
+  private var last = Option.empty[(Int, Errors, ScatterTrend)]
+
+  /** Adds the state of the image after so many samples per pixel, more than before. Uses those
+    * after 2ᵏ and 3 · 2ᵏ, and of a continued rendering the first.
+    *
+    * @param weights of each pixel's samples
+    * @return the error, if it was estimated anew
+    */
+  def add(samples: Int, image: Image, weights: Array[Float], isLast: Boolean): Option[Errors] =
+    val state = State(samples, image, weights)
+    base match
+      case None =>
+        base = Some(state)
+        None
+      case Some(half) if Integer.bitCount(samples) == 1 || (isLast && last.isEmpty) =>
+        val (errors, trend) = estimate(half, state)
+        last = Some((samples, errors, trend))
+        base = Some(state)
+        middle = None
+        Some(errors)
+      case Some(half) =>
+        if 2 * samples == 3 * half.samples then middle = Some(state)
+        None
+
+  /** The error after so many samples per pixel; none before the first estimate. */
+  def at(samples: Double): Option[Errors] = last.map: (known, errors, trend) =>
+    val factor = Math.pow(samples / known, slope(trend))
+    errors.copy(mse = errors.mse * factor, relativeMse = errors.relativeMse * factor)
+
+  /** Samples per pixel at which the relative MSE is this. */
+  def samplesUntil(relativeMse: Double): Option[Double] = last.map: (known, errors, trend) =>
+    known * Math.pow(Math.max(relativeMse, 1e-30) / errors.relativeMse, 1 / slope(trend))
+
+  /** Of the relative MSE over samples, in logarithms. */
+  private def slope(trend: ScatterTrend): Double = Math.log(trend.ratio) / Math.log(2)
+
+  private def estimate(half: State, now: State): (Errors, ScatterTrend) =
+    val doubled = now.samples == 2 * half.samples
+    val all = ErrorEstimate.scatter(None, half, now)
+    val second = middle.map(ErrorEstimate.scatter(Some(half), _, now))
+    val inner = whole.filter(_ => doubled).map: first =>
+      second.fold(first)(ErrorEstimate.mean(first, _))
+    val means = QuietMeans(now.image, inner.fold(all)(ErrorEstimate.pooled(all, _)))
+    val scatters = Vector(Some(all), inner, halves.filter(_ => doubled))
+    val trend =
+      if scatters.forall(_.isDefined) then
+        ScatterTrend.of(scatters.flatten.map(ErrorEstimate.inParts(_, now.image, means)))
+      else ScatterTrend.Independent
+    whole = Some(all)
+    halves = inner
+    var squares, relatives = 0.0
+    loop(all.length): i =>
+      squares += all(i)
+      relatives += all(i) * means.weight(i)
+    val scale = trend.factor / all.length
+    val errors = Errors(squares * scale, relatives * scale, None, None, None, Vector.empty)
+    (errors, trend)
+
+object ErrorEstimate:
+  private final case class State(samples: Int, image: Image, weights: Array[Float])
+
+  /** Of each value the squared difference of the samples from `begin` until `middle`, and until
+    * `end`: times the product of their shares of the weight.
+    */
+  private def scatter(begin: Option[State], middle: State, end: State): Array[Float] =
+    val values = new Array[Float](end.image.data.length)
+    val channels = end.image.channels
+    loop(end.weights.length): pixel =>
+      val w0 = begin.fold(0f)(_.weights(pixel)).toDouble
+      val w1 = middle.weights(pixel).toDouble
+      val w2 = end.weights(pixel).toDouble
+      if w1 != w0 && w2 != w1 && w2 != w0 then
+        val share = (w1 - w0) * (w2 - w1) / ((w2 - w0) * (w2 - w0))
+        loop(channels): c =>
+          val i = pixel * channels + c
+          val s0 = begin.fold(0.0)(_.image.data(i) * w0)
+          val s1 = middle.image.data(i) * w1
+          val difference = (s1 - s0) / (w1 - w0) - (end.image.data(i) * w2 - s1) / (w2 - w1)
+          values(i) = (difference * difference * Math.max(share, 0)).toFloat
+    values
+
+  private def mean(a: Array[Float], b: Array[Float]): Array[Float] =
+    Array.tabulate(a.length)(i => (a(i) + b(i)) / 2)
+
+  /** The variance of the mean of all samples, were they independent, from four quarters. */
+  private def pooled(all: Array[Float], halves: Array[Float]): Array[Float] =
+    Array.tabulate(all.length)(i => (all(i) + halves(i)) / 3)
+
+  /** Relative scatter, added up over squares of 8 × 8 pixels. */
+  private def inParts(scatter: Array[Float], image: Image, means: QuietMeans): Array[Double] =
+    val columns = (image.width + Part - 1) / Part
+    val sums = new Array[Double](columns * ((image.height + Part - 1) / Part))
+    loop(image.height): y =>
+      loop(image.width): x =>
+        val part = y / Part * columns + x / Part
+        loop(image.channels): c =>
+          val i = (y * image.width + x) * image.channels + c
+          sums(part) += scatter(i) * means.weight(i)
+    sums
+
+  private val Part = 8

@@ -1,0 +1,54 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.Image
+
+/** Pixel means for relative errors. A pixel whose noise is as large as itself takes the mean of
+  * those neighbours that differ from it by noise: a firefly must not hide its own error.
+  *
+  * @param variance of each value
+  */
+final class QuietMeans(image: Image, variance: Array[Float]):
+  private val channels = image.channels
+
+  // 1 / (mean + 0.01)²
+  private val weights = new Array[Float](image.data.length)
+  loop(image.height): y =>
+    loop(image.width): x =>
+      loop(channels): c =>
+        val at = (y * image.width + x) * channels + c
+        val own = Math.max(image.data(at), 0f).toDouble
+        val noise = 2 * variance(at) / square(own + Metrics.RelativeEpsilon)
+        val share = Math.min(1, noise * noise)
+        val mean = if share < 0.01 then own else own + (around(x, y, c) - own) * share
+        weights(at) = (1 / square(mean + Metrics.RelativeEpsilon)).toFloat
+
+  /** The weight of a squared error, by which it is relative. */
+  def weight(i: Int): Float = weights(i)
+
+  /** Mean of the neighbours that differ by noise. */
+  private def around(x: Int, y: Int, c: Int): Double =
+    val at = (y * image.width + x) * channels + c
+    val (own, noise) = (image.data(at).toDouble, variance(at).toDouble)
+    var sum = 0.0
+    var all = 0
+    var ny = Math.max(0, y - QuietMeans.Radius)
+    while ny <= Math.min(image.height - 1, y + QuietMeans.Radius) do
+      var nx = Math.max(0, x - QuietMeans.Radius)
+      while nx <= Math.min(image.width - 1, x + QuietMeans.Radius) do
+        val i = (ny * image.width + nx) * channels + c
+        val both = noise + variance(i)
+        if i != at && square(image.data(i) - own) <= QuietMeans.Spread * both then
+          sum += Math.max(image.data(i), 0f)
+          all += 1
+        nx += 1
+      ny += 1
+    if all > 0 then sum / all else Math.max(own, 0)
+
+  private def square(a: Double): Double = a * a
+
+private object QuietMeans:
+  val Radius = 2
+
+  /** Squared difference over variance: three standard deviations. */
+  val Spread = 9

@@ -1,0 +1,79 @@
+package candela.measure
+
+/** The trend of the scatter between two halves of n samples, n = N, N/2 and N/4, and what of the
+  * variance it leaves.
+  *
+  * The mean of n samples has the variance V(n), and so has that of each half V(n/2). The squared
+  * difference of the halves over 4, their scatter D(n), has the expectation V(n/2) − V(n). So V(N)
+  * is the sum of D(2N), D(4N), D(8N), …, which is to be extrapolated. For independent samples each
+  * is half of that before, and V(N) = D(N). For low-discrepancy samples the ratio is smaller, by a
+  * gap that shrinks with n where independent noise remains, such as that of indirect light.
+  *
+  * Ratios of few pixels are noisy. Their variance is known from parts of the image, and gap and
+  * shrinkage are means of what is measured and what is usual, weighted by their precisions.
+  */
+final class ScatterTrend private (gap: Double, shrinkage: Double):
+
+  /** V(N) / D(N): 1 for independent samples, less for others. */
+  val factor: Double =
+    var (sum, product, rest) = (0.0, 1.0, gap)
+    for _ <- 0 until ScatterTrend.Terms do
+      rest *= shrinkage
+      product *= 0.5 - rest
+      sum += product
+    // What is left halves from term to term
+    sum + product
+
+  /** V(2N) / V(N). */
+  def ratio: Double =
+    val next = 0.5 - gap * shrinkage
+    next * ScatterTrend(gap * shrinkage, shrinkage).factor / factor
+
+object ScatterTrend:
+  private val Terms = 24
+
+  /** Of independent samples. */
+  val Independent: ScatterTrend = new ScatterTrend(0, UsualShrinkage.mean)
+
+  // Means and variances about as in the scenes of docs/NOISE.md
+  private def UsualShrinkage = Known(0.7, 0.04)
+  private def UsualGap = Known(0.08, 0.01)
+
+  private def apply(gap: Double, shrinkage: Double) = new ScatterTrend(gap, shrinkage)
+
+  /** @param scatters sums of D(N), D(N/2), D(N/4) over each of several parts of the image */
+  def of(scatters: Vector[Array[Double]]): ScatterTrend =
+    val Vector(now, half, quarter) = scatters: @unchecked
+    (gapOf(now, half), gapOf(half, quarter)) match
+      case (Some(last), Some(before)) =>
+        val old = before.and(UsualGap).atLeast(1e-3)
+        val usual = UsualShrinkage
+        val measured = (last.variance + usual.mean * usual.mean * old.variance) / old.square
+        val found = Known(last.mean / old.mean, measured).and(usual)
+        val shrinkage = Math.max(0.4, Math.min(1, found.mean))
+        val expected = Known(
+          shrinkage * old.mean,
+          shrinkage * shrinkage * old.variance + old.square * found.variance
+        )
+        val gap = last.and(expected).mean
+        ScatterTrend(Math.max(0, Math.min(0.25, gap)), shrinkage)
+      case _ => Independent
+
+  /** ½ − ΣD(n) / ΣD(n/2). */
+  private def gapOf(now: Array[Double], before: Array[Double]): Option[Known] =
+    val sum = before.sum
+    Option.when(sum > 0):
+      val ratio = now.sum / sum
+      val residuals = now.indices.map(i => now(i) - ratio * before(i))
+      Known(0.5 - ratio, residuals.map(r => r * r).sum / (sum * sum))
+
+  /** An estimate and its variance. */
+  private final case class Known(mean: Double, variance: Double):
+    def square: Double = mean * mean
+    def atLeast(least: Double): Known = copy(mean = Math.max(mean, least))
+
+    /** Both together, weighted by their precisions. */
+    def and(other: Known): Known =
+      val all = Math.max(variance + other.variance, 1e-30)
+      val share = variance / all
+      Known(mean + (other.mean - mean) * share, variance * other.variance / all)

@@ -1,0 +1,64 @@
+package candela.measure
+
+import candela.image.Image
+import candela.sampling.{IndependentSampler, OwenSobolSampler, Sampler}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ErrorEstimateSuite extends AnyFunSuite:
+  private val side = 48
+
+  /** The true relative MSE at `samples` over the estimated one. */
+  private def ratio(sampler: Sampler, samples: Int, exact: Double)(f: Sampler => Double): Double =
+    val sums = new Array[Double](side * side)
+    val estimate = ErrorEstimate()
+    var image = Image.rgb(side, side)
+    for n <- 1 to samples do
+      image = Image.rgb(side, side)
+      for i <- sums.indices do
+        sampler.start(i % side, i / side, n - 1)
+        sums(i) += f(sampler)
+        for c <- 0 until 3 do image.data(3 * i + c) = (sums(i) / n).toFloat
+      if Integer.bitCount(n) == 1 || Integer.bitCount(n) == 2 && (n & (n >> 1)) != 0 then
+        val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), n == samples)
+    val squares = image.data.map(v => Metrics.relativeSquare(v, exact.toFloat))
+    squares.sum / squares.length / estimate.at(samples).get.relativeMse
+
+  private def smooth(s: Sampler): Double =
+    s.next2D()
+    Math.exp(s.x + s.y / 2)
+  private val smoothMean = (Math.E - 1) * 2 * (Math.sqrt(Math.E) - 1)
+
+  // 2304 pixels: their squared errors have a mean within 3 %; the scatter, likewise
+  test("the error of independent samples is estimated within 15 %"):
+    for n <- Vector(8, 16, 64) do
+      val found = ratio(IndependentSampler(n, 5), n, smoothMean)(smooth)
+      assert(Math.abs(found - 1) < 0.15, s"$n samples")
+
+  test("that of low-discrepancy points is less than their halves differ"):
+    // The halves alone give 1.7 to 1.8 times the error; an extrapolation is less precise
+    for seed <- 1 to 4 do
+      val found = ratio(OwenSobolSampler(64, seed), 64, smoothMean + 1.0 / 16): s =>
+        val light = smooth(s)
+        light + (0 until 8).map(_ => s.next1D()).map(0.5 + _).product / 16
+      assert(found > 1 / 1.5 && found < 1.5, s"seed $seed: $found")
+
+  test("a bright path that is rare does not hide its own error"):
+    // One of 200 pixels has a firefly of 300: relative to itself its error would be 1
+    def firefly(s: Sampler) = 1 + (if s.next1D() < 1.0 / 3200 then 300.0 else 0.0)
+    for seed <- 1 to 4 do
+      val found = ratio(IndependentSampler(16, seed), 16, 1 + 300.0 / 3200)(firefly)
+      assert(Math.abs(found - 1) < 0.35, s"seed $seed: $found")
+
+  test("in between and beyond, the error goes on as it did"):
+    val estimate = ErrorEstimate()
+    val random = scala.util.Random(3)
+    val sums = new Array[Double](side * side * 3)
+    for n <- 1 to 32 do
+      for i <- sums.indices do sums(i) += random.nextDouble()
+      val image = Image.rgb(side, side)
+      for i <- sums.indices do image.data(i) = (sums(i) / n).toFloat
+      val _ = estimate.add(n, image, Array.fill(side * side)(n.toFloat), isLast = false)
+    val known = estimate.at(32).get.relativeMse
+    assert(Math.abs(estimate.at(64).get.relativeMse / known - 0.5) < 0.04)
+    assert(Math.abs(estimate.samplesUntil(known / 4).get - 128) < 12)

@@ -1,0 +1,58 @@
+package candela.noise
+
+import candela.build.BuildOptions
+import candela.build.sampling.PointChoice
+import candela.cli.RenderRecorder
+import candela.measure.Metrics
+import candela.render.{Pass, Renderer, Witness}
+import candela.film.Film
+import candela.image.Image
+
+/** Compares the error that a rendering estimates of itself with the true one, for docs/NOISE.md.
+  *
+  * Options: `--scenes A.pbrt,B.pbrt` `--samples 16,64` `--seeds N` `--width N` (of the image, in
+  * pixels) `--truth N` (samples of the reference).
+  */
+object ErrorHonesty:
+  def main(args: Array[String]): Unit =
+    val options = args.grouped(2).collect { case Array(k, v) => k.drop(2) -> v }.toMap
+    def list(name: String, default: String) = options.getOrElse(name, default).split(',').toVector
+    def number(name: String, default: Int) = options.get(name).fold(default)(_.toInt)
+    val samples = list("samples", "16,64").map(_.toInt)
+    println("| scene | samples | true error | true / estimate: median, 10 %, 90 % | " +
+      "within 15 % | root within 15 % |")
+    println("|---|---|---|---|---|---|")
+    for file <- list("scenes", NoiseScenes.all.mkString(",")) do
+      val scene = SmallScene(file, number("width", 64))
+      def plan(spp: Int, seed: Int) =
+        scene.plan(BuildOptions(spp = Some(spp), seed = seed, points = PointChoice.Progressive))
+      val most = plan(number("truth", 4096), 12345)
+      val truth = Renderer.render(most, 2).image(most.development)
+      val seen = (1 to number("seeds", 20)).toVector.map: seed =>
+        val eye = HonestyOf(plan(samples.max, seed).development, truth)
+        val _ = Renderer.render(plan(samples.max, seed), 2, witness = Some(eye))
+        eye.ratios
+      for n <- samples do
+        val found = seen.flatMap(_.get(n))
+        val ratios = found.map(_._2).sorted
+        def share(f: Double => Double) = ratios.count(r => Math.abs(f(r) - 1) <= 0.15)
+        def at(part: Double) = ratios((part * (ratios.size - 1)).round.toInt)
+        println(
+          s"| ${NoiseScenes.name(file)} | $n | " + f"${found.map(_._1).sum / found.size}%.3g | " +
+            f"${at(0.5)}%.2f, ${at(0.1)}%.2f, ${at(0.9)}%.2f | " +
+            s"${share(identity)} of ${ratios.size} | ${share(Math.sqrt)} of ${ratios.size} |"
+        )
+
+/** Records the true error of each pass, and its ratio to the estimate. */
+private final class HonestyOf(development: candela.film.Development, truth: Image) extends Witness:
+  private val recorder = RenderRecorder(development, None)
+  private var found = Map.empty[Int, (Double, Double)]
+
+  def ratios: Map[Int, (Double, Double)] = found
+  override def seesWaves: Boolean = true
+
+  def passed(pass: Pass, film: Film): Unit =
+    recorder.passed(pass, film)
+    for estimate <- recorder.errorAt(pass.samples) do
+      val error = Metrics.compare(development(film), truth).relativeMse
+      found += pass.samples -> (error, error / estimate)
