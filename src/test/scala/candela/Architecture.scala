@@ -64,6 +64,8 @@ object Architecture:
   private val measure = Set("base", "math", "color", "image")
   private val report = measure + "measure"
   private val convert = measure ++ Set("bsdf.microfacet", "lights", "scenefile")
+  private val mitsuba =
+    Set("base", "math", "color", "bsdf", "scenefile", "build.shapes")
   private val towers = (runtime ++ file).toSet
 
   /** What each package may use beside itself. */
@@ -73,10 +75,13 @@ object Architecture:
     below(runtime).toMap ++ below(file) ++ rooms ++ Map(
       "measure" -> measure,
       "convert" -> convert,
+      "mitsuba" -> mitsuba,
       "report" -> report,
       "suite" -> (report + "report"),
       "watch" -> (report ++ Set("film", "render", "report")),
-      "cli" -> (towers ++ bridge ++ Set("measure", "convert", "report", "suite", "watch"))
+      "cli" -> (towers ++ bridge ++ Set(
+        "measure", "convert", "mitsuba", "report", "suite", "watch"
+      ))
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */

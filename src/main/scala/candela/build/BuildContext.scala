@@ -35,7 +35,7 @@ private[build] final class BuildContext(
     emissions.computeIfAbsent(statement, d => AreaLights.all.build(site(d)).flatten)
 
   def site(d: Declaration, toWorld: Transform = Transform.Identity): Site =
-    Site(d, dialect, resources, problems, toWorld)
+    Site(d, d.dialect.getOrElse(dialect), resources, problems, toWorld)
 
   /** Site of a statement that can't be animated: uses the transform at the start.
     *
@@ -61,9 +61,10 @@ private[build] object BuildContext:
 
   def apply(description: SceneDescription, options: BuildOptions): BuildContext =
     // pbrt-v4 multiplies spectra, the older ones sRGB components
-    val basis = if description.dialect == Dialect.V4 then ColorBasis.Sharp else ColorBasis.Srgb
+    val isSharp = description.dialect == Dialect.V4 && !description.multipliesSrgb
+    val basis = if isSharp then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
-    val mode = ColorPlan.mode(options.colorMode, description.dialect)
+    val mode = ColorPlan.mode(options.colorMode, description)
     def context(switches: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
       val resources = new Resources(basis, options.crew, options.seed, mayBeSpectral, switches)

@@ -3,7 +3,7 @@ package candela.build
 import java.util.Locale
 
 import candela.color.{CameraSensor, ColorError, SmoothSpectra, Wavelengths}
-import candela.scenefile.Dialect
+import candela.scenefile.{Dialect, SceneDescription}
 
 /** What paths carry: three numbers, or light at three wavelengths; the scene decides if `Auto`. */
 enum ColorMode:
@@ -24,8 +24,9 @@ private[build] final case class ColorPlan(bases: Vector[Wavelengths], describe: 
 private[build] object ColorPlan:
 
   /** pbrt-v2 and v3 multiply three numbers. */
-  def mode(asked: ColorMode, dialect: Dialect): ColorMode =
-    if asked == ColorMode.Auto && dialect != Dialect.V4 then ColorMode.Rgb else asked
+  def mode(asked: ColorMode, scene: SceneDescription): ColorMode =
+    val isPlain = scene.dialect != Dialect.V4 || scene.multipliesSrgb
+    if asked == ColorMode.Auto && isPlain then ColorMode.Rgb else asked
 
   /** Decides once the scene is built in three numbers.
     *
@@ -55,12 +56,14 @@ private[build] object ColorPlan:
           val detector = camera.fold(Wavelengths.Observer)(_.responses)
           Wavelengths.covering(count, smooth, light, detector, uniform)
       ColorPlan(bases, s"spectral, three of ${3 * count} wavelengths a path: $why")
-    mode(asked, context.dialect) match
+    mode(asked, context.description) match
       case ColorMode.Spectral => spectral("as asked for")
       case ColorMode.Rgb if asked == ColorMode.Rgb =>
         ColorPlan(Vector.empty, "three numbers: as asked for")
       case ColorMode.Rgb =>
-        val program = s"pbrt-${context.dialect.toString.toLowerCase}"
+        val program =
+          if context.description.multipliesSrgb then "Mitsuba"
+          else s"pbrt-${context.dialect.toString.toLowerCase}"
         ColorPlan(Vector.empty, s"three numbers: as in $program")
       case ColorMode.Auto if census.isDispersive => spectral("glass disperses light")
       case ColorMode.Auto if census.detectors.isDefined => spectral(census.detectors.get)

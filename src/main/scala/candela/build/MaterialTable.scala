@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable
 
-import candela.bsdf.{DiffuseEquivalent, InterfaceMaterial, Material}
+import candela.bsdf.{DiffuseEquivalent, InterfaceMaterial, Material, OneSidedMaterial}
 import candela.build.integrators.IntegratorPlan
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
@@ -61,23 +61,31 @@ private[build] object MaterialTable:
     def split(s: ShapeDescription) = shapeMaterials.split(s.shape, s.material)
 
     val borders = shapes.map(media.border)
-    val worn = shapes.zip(borders).map((s, b) => (split(s)._2, media.seen(b))).distinct
+    def wear(s: ShapeDescription, b: MediumBorder) =
+      (Finish(split(s)._2, s.oneSided), media.seen(b))
+    val worn = shapes.zip(borders).map(wear).distinct
     val number = worn.zipWithIndex.toMap
     def make(context: BuildContext): Array[Material] =
       for (name, d) <- named do
         context.resources.materials.define(name, () => Materials.build(context.site(d)))
       val made = mutable.HashMap.empty[MaterialRef, Material]
-      worn.map((ref, _) => made.getOrElseUpdate(ref, switched(context, ref))).toArray
+      worn.map: (finish, _) =>
+        finish.of(made.getOrElseUpdate(finish.ref, switched(context, finish.ref)))
+      .toArray
     new MaterialTable(
       make(context),
       worn.map(_._2).toArray,
       borders.exists(b => b.inside >= 0 || b.outside >= 0),
-      worn.map((ref, _) => name(ref)),
+      worn.map((finish, _) => name(finish.ref)),
       make,
       s =>
-        val (declared, ref) = split(s)
-        DressedShape(s, declared, number((ref, media.seen(media.border(s)))))
+        DressedShape(s, split(s)._1, number(wear(s, media.border(s))))
     )
+
+  /** A material and whether it is black from behind. */
+  private final case class Finish(ref: MaterialRef, isOneSided: Boolean):
+    def of(made: Material): Material =
+      if !isOneSided || (made eq InterfaceMaterial) then made else OneSidedMaterial(made).folded
 
   private def name(ref: MaterialRef): String = ref match
     case MaterialRef.Default => "default"

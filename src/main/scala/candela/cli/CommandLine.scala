@@ -74,6 +74,8 @@ object CommandLine:
       case ("--watch", rest) => "--watch=" :: rest
       case ("--bake", size :: rest) if size.toIntOption.nonEmpty => s"--bake=$size" :: rest
       case ("--bake", rest) => s"--bake=${Baking.DefaultSize}" :: rest
+      // As Mitsuba's command line has it; scopt would split the word into short options
+      case (s"-D$definition", rest) if definition.contains('=') => "--define" :: definition :: rest
       case (word, rest) => word :: rest
 
   private def lines(texts: List[String]): String = texts.map(_ + "\n").mkString
@@ -166,6 +168,7 @@ final case class Options(
     debug: Boolean = false,
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
+    defines: Map[String, String] = Map.empty,
     color: ColorMode = ColorMode.Auto,
     points: PointChoice = PointChoice.Best,
     layers: Vector[Layer] = Vector.empty,

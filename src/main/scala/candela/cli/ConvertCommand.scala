@@ -3,6 +3,7 @@ package candela.cli
 import candela.base.{Problem, SceneError, WholeFile}
 import candela.build.TextureValues
 import candela.convert.{Baking, Converter, Declarations, SceneText, SideFiles}
+import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
@@ -15,14 +16,15 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
   def run(): ExitCode = report.guarded:
     val out = options.outfiles.headOption.map(OutputFiles.path)
     out.foreach(check)
-    val scene = Parser.parse(SceneLoader.existing(options.files.head), options.dialect)
+    val scene =
+      Parser.whole(SceneLoader.readable(SceneLoader.existing(options.files.head), options))
     out.foreach(keepSource(_, scene))
     val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
     val to = options.to.getOrElse(scene.dialect)
     val files = SideFiles(folder)
     files.completing:
       val baking = options.bake.map(Baking(_, TextureValues.last(_).map(f => f(_, _, _))))
-      val converted = Converter.convert(scene, to, files, options.toPly, baking)
+      val converted = Converter.convert(scene, to, files, options.toPly.orElse(meshSize), baking)
       val warnings = Excerpts.fill(converted.warnings)
       report.warnings(scene.warnings ++ warnings, all = options.verbose)
       out match
@@ -35,6 +37,10 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
         case None => print(converted.scene)
       terminal.out.flush()
     ExitCode.Done
+
+  /** Meshes of Mitsuba scenes come from files, and go to files. */
+  private def meshSize: Option[Int] =
+    Option.when(MitsubaScene.isNamed(Path.of(options.files.head)))(ConvertCommand.LargeMesh)
 
   private def summary(to: Dialect, warnings: Vector[Problem]): String =
     val dialect = to.toString.toLowerCase
@@ -66,3 +72,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     if isSource then
       val help = Some("choose another name with --outfile FILE")
       throw SceneError(Problem.general(s"`$path` is an input file; refusing to overwrite it", help))
+
+object ConvertCommand:
+  /** Triangles from which on a mesh of a Mitsuba scene becomes a PLY file. */
+  private val LargeMesh = 100

@@ -72,6 +72,7 @@ private[cli] object FilmHeaders:
       one("light-groups", o.lightGroups.map(LightGroupWords(_))) ++
       flag("denoise", o.denoise) ++
       one("dialect", o.dialect.map(_.toString.toLowerCase)) ++
+      o.defines.toVector.sorted.flatMap((name, value) => Vector("--define", s"$name=$value")) ++
       flag("keep-going", o.keepGoing) ++
       one("color", Option.when(o.color != ColorMode.Auto)(o.color.toString.toLowerCase)) ++
       one("sampler", Option.when(o.points != PointChoice.Best)(o.points.word)) ++

@@ -85,6 +85,13 @@ private[cli] object OptionTable extends OptionRows:
     .text("replace missing files and types with placeholders, with a warning each")
     .action((_, o) => o.copy(keepGoing = true))
 
+  private def defines: Row = opt[String]('D', "define").unbounded().valueName("NAME=VALUE")
+    .text("value of a parameter `$NAME` of a Mitsuba scene; also -DNAME=VALUE")
+    .validate(d => if d.indexOf('=') > 0 then success else failure("--define must be NAME=VALUE"))
+    .action: (d, o) =>
+      val Array(name, value) = d.split("=", 2): @unchecked
+      o.copy(defines = o.defines.updated(name, value))
+
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
     .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
     .action((mode, o) => o.copy(color = mode))
@@ -191,6 +198,7 @@ private[cli] object OptionTable extends OptionRows:
       .text(s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})")
       .action((a, o) => o.copy(displayServer = Some(a))),
     parsedAs,
+    defines,
     keepGoing,
     color,
     explain,
@@ -211,7 +219,9 @@ private[cli] object OptionTable extends OptionRows:
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
 
   private val checkOptions: Vector[Row] =
-    Vector(parsedAs, keepGoing, color, explain, quiet, verbose(", and what --explain prints"))
+    Vector(
+      parsedAs, defines, keepGoing, color, explain, quiet, verbose(", and what --explain prints")
+    )
 
   private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 
@@ -249,6 +259,7 @@ private[cli] object OptionTable extends OptionRows:
         if n <= 8192 then success else failure(s"--bake must be at most 8192, found `$n`")
       .action((n, o) => o.copy(bake = Some(n))),
     parsedAs,
+    defines,
     quiet,
     verbose("")
   )
@@ -271,6 +282,7 @@ private[cli] object OptionTable extends OptionRows:
     threads,
     crop,
     parsedAs,
+    defines,
     explain,
     quiet,
     verbose("")

@@ -3,6 +3,7 @@ package candela.cli
 import candela.base.{Problem, SceneError, Suggest}
 import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
+import candela.mitsuba.MitsubaScene
 import candela.render.{Crew, RenderPlan}
 import candela.scenefile.{Parser, SceneDescription}
 
@@ -37,12 +38,21 @@ object SceneLoader:
     def load(scene: String, options: Options): LoadedScene =
       val file = existing(scene)
       val started = System.nanoTime
-      val description = Parser.readable(file, options.dialect, options.keepGoing)
+      val description = readable(file, options)
       val parsed = System.nanoTime
       val (plan, warnings) = SceneBuilder.build(description, buildOptions(options))
       val built = System.nanoTime
       val all = description.warnings ++ warnings
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
+
+  /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
+  def readable(file: Path, options: Options): SceneDescription =
+    if MitsubaScene.isNamed(file) then
+      MitsubaScene.readable(file, options.defines, options.keepGoing)
+    else if options.defines.nonEmpty then
+      val help = "-D sets parameters of Mitsuba's XML files"
+      throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
+    else Parser.readable(file, options.dialect, options.keepGoing)
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
@@ -87,4 +97,4 @@ object SceneLoader:
     else
       Using.resource(Files.list(folder)): files =>
         val names = files.iterator.asScala.map(_.getFileName.toString)
-        names.filter(_.endsWith(".pbrt")).toVector.sorted
+        names.filter(n => n.endsWith(".pbrt") || n.endsWith(".xml")).toVector.sorted

@@ -53,11 +53,37 @@ object Converter:
         val baked = SolidBaking(start.scene, to, files, b).result
         Converted(baked.scene, start.warnings ++ baked.warnings)
       case None => start
-    val done = passes(scene.dialect, to).foldLeft(solid): (before, pass) =>
+    val done = (loans(scene) ++ passes(scene.dialect, to)).foldLeft(solid): (before, pass) =>
       val run = PassRun(pass, before.scene, files, baking, scene.dialect -> to)
       val result = run.result()
       Converted(result, before.warnings ++ run.warnings)
-    done.copy(scene = toPly.fold(done.scene)(PlyWriter.extract(done.scene, _, files)))
+    val plain = withoutBacks(done)
+    plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
+
+  /** pbrt has no surfaces that are black from behind. */
+  private def withoutBacks(from: Converted): Converted =
+    val scene = from.scene
+    val oneSided = (scene.shapes ++ scene.objects.values.flatten).filter(_.oneSided)
+    def both(shapes: Vector[ShapeDescription]) = shapes.map(_.copy(oneSided = false))
+    val lost = oneSided.headOption.map: first =>
+      val count = if oneSided.size == 1 then "1 shape is" else s"${oneSided.size} shapes are"
+      Problem.warning(first.shape.at, s"$count black from behind in Mitsuba, but not in pbrt")
+    Converted(
+      scene.copy(
+        shapes = both(scene.shapes),
+        objects = scene.objects.map((name, shapes) => name -> both(shapes)),
+        multipliesSrgb = false
+      ),
+      from.warnings ++ lost
+    )
+
+  /** Declarations of another dialect than the scene's come first: then it is of one dialect. */
+  private def loans(scene: SceneDescription): Vector[Pass] =
+    var isMixed = false
+    val _ = Declarations.map(scene): d =>
+      isMixed ||= d.dialect.exists(_ != scene.dialect)
+      d
+    Option.when(isMixed && scene.dialect == Dialect.V4)(ToV4View.pass.ofLoans).toVector
 
   private def passes(from: Dialect, to: Dialect): Vector[Pass] = (from, to) match
     case (a, b) if a == b => Vector.empty

@@ -22,6 +22,9 @@ final class Pass(
 ):
   def table(category: String): Table = tables.find(_.category == category).get
 
+  /** Converts only those declarations of a scene in dialect `to` that are not in it. */
+  def ofLoans: Pass = new Pass(from, to, tables, Map.empty)
+
 /** State of converting one scene.
   *
   * @param baking how to paint what the target dialect lacks, if at all
@@ -67,6 +70,10 @@ final class PassRun(
     name
 
   def convert(d: Declaration, category: String): Option[Declaration] =
+    if d.dialect.getOrElse(scene.dialect) == pass.to then Some(d)
+    else converted(d.copy(dialect = None), category)
+
+  private def converted(d: Declaration, category: String): Option[Declaration] =
     val table = pass.table(category)
     table.rule(d.name) match
       case Some(rule) => Some(Statement(d, this, rule).result())

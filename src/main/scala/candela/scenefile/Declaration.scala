@@ -70,12 +70,28 @@ final class Param(
     val own = Option.when(paramType == ParamType.Rgb)(space)
     Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, own)
 
+object Param:
+  def float(name: String, at: SourcePos, values: Float*): Param =
+    Param(ParamType.Float, name, at, at, floats = values.toArray)
+  def int(name: String, at: SourcePos, values: Int*): Param =
+    Param(ParamType.Integer, name, at, at, ints = values.toArray)
+  def bool(name: String, at: SourcePos, value: Boolean): Param =
+    Param(ParamType.Bool, name, at, at, bools = Vector(value))
+  def string(name: String, at: SourcePos, values: String*): Param =
+    Param(ParamType.String, name, at, at, strings = values.toVector)
+  def texture(name: String, at: SourcePos, texture: String): Param =
+    Param(ParamType.Texture, name, at, at, strings = Vector(texture))
+  def floats(kind: ParamType, name: String, at: SourcePos, values: Array[Float]): Param =
+    Param(kind, name, at, at, floats = values)
+
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *
   * @param category statement, for messages: `Shape`, `Material`, `Camera`, …
   * @param at position of the quoted name
   * @param folder folder of the main scene file; file names in parameters are relative to it
   * @param colorSpace v4's name for the colour space of the parameters
+  * @param dialect its dialect, if not that of the scene: a scene of another format is described by
+  *   the nearest types of any
   */
 final case class Declaration(
     category: String,
@@ -83,7 +99,8 @@ final case class Declaration(
     params: Vector[Param],
     at: SourcePos,
     folder: java.nio.file.Path,
-    colorSpace: String = "srgb"
+    colorSpace: String = "srgb",
+    dialect: Option[Dialect] = None
 ):
   def param(name: String): Option[Param] = params.find(_.name == name)
 

@@ -39,7 +39,8 @@ object Parser:
   ): SceneDescription =
     whole(read(Source.fromText(name, text), folder, None, dialect, keepGoing))
 
-  private def whole(scene: SceneDescription): SceneDescription =
+  /** The scene, if it has no errors. */
+  def whole(scene: SceneDescription): SceneDescription =
     if scene.errors.isEmpty then scene
     else throw SceneError(scene.errors ++ scene.warnings)
 

@@ -20,7 +20,11 @@ enum MaterialRef:
   /** `NamedMaterial "name"`, defined in [[SceneDescription.namedMaterials]]. */
   case Named(name: String, at: SourcePos)
 
-/** A `Shape` statement with the graphics state that applies to it. */
+/** A `Shape` statement with the graphics state that applies to it.
+  *
+  * @param oneSided whether it is black from behind, unless light passes through it: pbrt has no
+  *   such surfaces, Mitsuba has
+  */
 final case class ShapeDescription(
     shape: Declaration,
     objectToWorld: AnimatedTransform,
@@ -28,7 +32,8 @@ final case class ShapeDescription(
     material: MaterialRef,
     areaLight: Option[Declaration],
     insideMedium: String = "",
-    outsideMedium: String = ""
+    outsideMedium: String = "",
+    oneSided: Boolean = false
 )
 
 /** @param medium name of the medium around the light; empty: none */
@@ -77,6 +82,8 @@ final case class TextureDescription(
   *   rendered
   * @param lost kinds of names that those statements may have defined
   * @param sources the scene file and the files that it includes
+  * @param multipliesSrgb whether colours multiply by their sRGB components, as in pbrt-v2 and v3,
+  *   whatever the dialect
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -103,7 +110,8 @@ final case class SceneDescription(
     warnings: Vector[Problem] = Vector.empty,
     errors: Vector[Problem] = Vector.empty,
     lost: Set[NameKind] = Set.empty,
-    sources: Vector[Path] = Vector.empty
+    sources: Vector[Path] = Vector.empty,
+    multipliesSrgb: Boolean = false
 )
 
 /** Kinds of names that statements define. */

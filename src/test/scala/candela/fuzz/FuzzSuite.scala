@@ -20,7 +20,8 @@ class FuzzSuite extends AnyFunSuite with BeforeAndAfterAll:
       Kind.Builds -> 150,
       Kind.Meshes -> 1500,
       Kind.Pictures -> 500,
-      Kind.Volumes -> 200
+      Kind.Volumes -> 200,
+      Kind.Mitsuba -> 400
     )
   do
     test(s"$count broken files end in an answer or a clean refusal: ${kind.name}"):

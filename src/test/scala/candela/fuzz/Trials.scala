@@ -12,6 +12,7 @@ import candela.build.{BuildOptions, SceneBuilder}
 import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
+import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
 import candela.testing.{NanoVdb, VdbGrid}
 
@@ -22,6 +23,7 @@ enum Kind(val name: String):
   case Meshes extends Kind("meshes")
   case Pictures extends Kind("pictures")
   case Volumes extends Kind("volumes")
+  case Mitsuba extends Kind("mitsuba")
 
 /** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
   * refusal; whatever else happens is a finding.
@@ -58,6 +60,8 @@ final class Trials(from: Path, folder: Path, random: Random):
     )
 
   private val volumes = Mutator(Trials.volumes, random)
+  private val documents = Mutator(files(".xml") ++ Trials.documents, random)
+  private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
   /** The next broken file; `judge` reads it. */
   def next(kind: Kind): Path =
@@ -70,6 +74,15 @@ final class Trials(from: Path, folder: Path, random: Random):
       case Kind.Pictures =>
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
       case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
+      case Kind.Mitsuba =>
+        // one in three: a sound scene of broken meshes
+        for mesh <- Vector("broken.obj", "broken.serialized") do
+          Files.write(folder.resolve(mesh), objects.bytes())
+        val bytes = random.nextInt(3) match
+          case 0 => documents.text()
+          case 1 => documents.meaning()
+          case _ => Trials.documents.last
+        (bytes, "mitsuba/self.xml")
     Files.write(folder.resolve(name), bytes)
 
   /** What is wrong with the answer to a broken file, if it is. */
@@ -79,6 +92,10 @@ final class Trials(from: Path, folder: Path, random: Random):
         case Kind.Scenes => Option.when(Parser.parse(file).shapes.contains(null))("no shape")
         case Kind.Builds =>
           val _ = SceneBuilder.build(Parser.parse(file), BuildOptions(spp = Some(1), quick = true))
+          None
+        case Kind.Mitsuba =>
+          val scene = Parser.whole(MitsubaScene.readable(file, Map.empty, keepGoing = false))
+          val _ = SceneBuilder.build(scene, BuildOptions(spp = Some(1), quick = true))
           None
         case Kind.Meshes =>
           val mesh = PlyFile.read(file)
@@ -156,6 +173,31 @@ object Trials:
       binary("binary_little_endian", ByteOrder.LITTLE_ENDIAN),
       binary("binary_big_endian", ByteOrder.BIG_ENDIAN)
     )
+
+  /** Hostile scenes of Mitsuba's: entities that grow, references and includes in circles; last, one
+    * of the two broken meshes.
+    */
+  private def documents: Vector[Array[Byte]] =
+    def scene(body: String) =
+      s"""<scene version="3.0.0"><sensor type="perspective"/>$body</scene>"""
+    val entities = (1 to 9).map(i => s"<!ENTITY e$i '${s"&e${i - 1};" * 10}'>").mkString
+    Vector(
+      s"<!DOCTYPE scene [<!ENTITY e0 'x'>$entities]>" +
+        scene("<shape type='&e9;'/>"),
+      "<!DOCTYPE scene [<!ENTITY f SYSTEM 'file:///etc/hostname'>]>" + scene("&f;"),
+      scene("<include filename='self.xml'/>"),
+      scene("<bsdf type='twosided' id='a'><ref id='b'/></bsdf>" +
+        "<bsdf type='mask' id='b'><ref id='a'/></bsdf>" +
+        "<shape type='sphere'><ref id='a'/></shape>"),
+      scene("<texture type='checkerboard' id='t'><ref name='color0' id='t'/></texture>" +
+        "<bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>"),
+      scene("<shape type='shapegroup' id='g'><shape type='merge'><ref id='g'/></shape>" +
+        "</shape><shape type='instance'><ref id='g'/></shape>"),
+      scene("<shape type='merge'>" * 3000),
+      scene("<shape type='obj'><string name='filename' value='../broken.obj'/></shape>" +
+        "<shape type='serialized'><string name='filename' value='../broken.serialized'/>" +
+        "</shape>")
+    ).map(_.getBytes("UTF-8"))
 
   /** Two grids, as they are and compressed. */
   private def volumes: Vector[Array[Byte]] =

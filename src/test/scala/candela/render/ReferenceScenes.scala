@@ -7,18 +7,22 @@ import scala.util.Using
 
 import candela.image.{Image, ImageFiles}
 
-/** A scene of the `scenes` folder with the image that pbrt makes of it.
+/** A scene of the `scenes` folder with the image that pbrt, or Mitsuba, makes of it.
   *
   * @param noise     variance of the reference's pixels, measured between two independent halves
   * @param allowance relative systematic difference that is known, measured and explained
   */
 final case class ReferenceScene(name: String, noise: Double, allowance: Double):
-  def file: Path = ReferenceScenes.Scenes.resolve(s"$name.pbrt")
+  def isMitsubas: Boolean = name.startsWith("mi-")
+  def file: Path =
+    if isMitsubas then ReferenceScenes.OfMitsuba.resolve(s"$name.xml")
+    else ReferenceScenes.Scenes.resolve(s"$name.pbrt")
   def image: Image = ImageFiles.read(ReferenceScenes.References.resolve(s"$name.exr"))
 
 /** Finds the scenes that have a reference. */
 object ReferenceScenes:
   val Scenes: Path = Path.of("scenes")
+  val OfMitsuba: Path = Scenes.resolve("mitsuba")
   val References: Path = Path.of("reference-images")
 
   /** Names without their ending. */
@@ -35,7 +39,7 @@ object ReferenceScenes:
 
   lazy val all: Vector[ReferenceScene] =
     val rows = manifest.map(row => row("scene") -> row).toMap
-    for name <- names(Scenes, ".pbrt") if rows.contains(name) yield
+    for name <- names(OfMitsuba, ".xml") ++ names(Scenes, ".pbrt") if rows.contains(name) yield
       val row = rows(name)
       ReferenceScene(name, row("noise_variance").toDouble, row("allowance").toDouble)
 

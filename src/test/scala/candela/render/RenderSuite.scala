@@ -4,6 +4,7 @@ import java.nio.file.{Files, Path}
 
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.image.{Image, ImageFiles}
+import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -112,7 +113,10 @@ object RenderSuite:
     rendering.image(plan.development)
 
   private def planned(scene: ReferenceScene, text: String, seed: Int, spp: Int): RenderPlan =
-    val description = Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
+    val description =
+      if scene.isMitsubas then
+        Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
+      else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
     SceneBuilder.build(description, BuildOptions(spp = Some(spp), seed = seed))._1
 
   /** Leaves images to look at; their paths. */

@@ -1,0 +1,113 @@
+package candela.mitsuba
+
+import candela.base.SourcePos
+import candela.color.{Colorimetry, Rgb, Spectrum}
+
+/** How spectra become colours: as in Mitsuba's RGB variants. */
+enum Role:
+  /** Lit by D65: a constant 1 is white. */
+  case Reflectance
+
+  /** A constant 1, given as a number, is white; pairs of wavelengths and values are as measured. */
+  case Emission
+
+  /** Indices of refraction, coefficients of media. */
+  case Plain
+
+  private[mitsuba] def white: Colorimetry.White =
+    if this == Reflectance then Colorimetry.White.D65 else Colorimetry.White.EqualEnergy
+
+/** A colour or a texture. */
+enum Shade:
+  case Constant(c: Rgb)
+  case Textured(texture: Plugin)
+
+  /** The colour, if it is constant. */
+  def constant: Option[Rgb] = this match
+    case Constant(c) => Some(c)
+    case Textured(_) => None
+
+/** Reads colours. */
+final class Colors(session: Session):
+
+  def shade(in: Asked, name: String, default: Rgb, role: Role): Shade =
+    given_(in, name, role).getOrElse(Shade.Constant(default))
+
+  def given_(in: Asked, name: String, role: Role): Option[Shade] =
+    in.property(name).flatMap: p =>
+      p.value match
+        case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
+        case Value.Color(c) => Some(Shade.Constant(c))
+        case Value.Wavelengths(s) => Some(Shade.Constant(color(s, role)))
+        case Value.Nested(_) | Value.Reference(_) =>
+          in.objectNamed(name).flatMap(ofPlugin(_, role, in, name))
+        case other =>
+          session.error(p.at, s"`$name` must be a colour or a texture, found ${other.shown}")
+          None
+
+  private def ofPlugin(p: Plugin, role: Role, in: Asked, name: String): Option[Shade] =
+    if p.kind != "texture" && p.kind != "spectrum" then
+      session.error(p.at, s"`$name` of ${in.plugin.shown} must be a colour or a texture")
+      None
+    else Some(constant(p, role).fold(Shade.Textured(p))(Shade.Constant(_)))
+
+  /** The colour of a spectrum; None for textures. */
+  private def constant(p: Plugin, role: Role): Option[Rgb] =
+    p.name match
+      case "srgb" => Some(session.of(p)(in => fixed(in, "color", Rgb.gray(0.5f), role)))
+      case "uniform" => Some(session.of(p)(in => Rgb.gray(in.number("value", 1).toFloat)))
+      case "d65" =>
+        Some(session.of(p): in =>
+          fixed(in, "color", Rgb.White, role) * in.number("scale", 1).toFloat)
+      case "blackbody" =>
+        Some(session.of(p): in =>
+          in.ignore("wavelength_min", "wavelength_max")
+          blackbody(in.number("temperature", 5000).toFloat, in.at) *
+            in.number("scale", 1).toFloat)
+      case "irregular" => Some(session.of(p)(in => color(irregular(in), role)))
+      case "regular" => Some(session.of(p)(in => color(regular(in), role)))
+      case _ => None
+
+  /** A constant colour. */
+  def fixed(in: Asked, name: String, default: Rgb, role: Role): Rgb =
+    shade(in, name, default, role) match
+      case Shade.Constant(c) => c
+      case Shade.Textured(t) =>
+        session.warn(
+          t.at,
+          s"`$name` of ${in.plugin.shown} must be constant here; using the default"
+        )
+        default
+
+  private def list(in: Asked, name: String): Vector[Double] =
+    in.text(name).fold(Vector.empty)(Values.numbers(_, in.atOf(name)))
+
+  private def irregular(in: Asked): Spectrum =
+    in.text("filename") match
+      case Some(name) => Values(session.find, session.report).file(name, in.at)
+      case None =>
+        val (lambda, values) = (list(in, "wavelengths"), list(in, "values"))
+        if lambda.size != values.size then
+          Values.fail(in.at, s"${lambda.size} wavelengths, but ${values.size} values")
+        Values.spectrum(lambda.zip(values).flatMap((l, v) => Vector(l, v)), in.at)
+
+  private def regular(in: Asked): Spectrum =
+    val (from, to) = (in.number("wavelength_min", 360), in.number("wavelength_max", 830))
+    val values = list(in, "values")
+    val step = (to - from) / (values.size - 1).max(1)
+    Values.spectrum(
+      values.indices.flatMap(i => Vector(from + i * step, values(i))).toVector,
+      in.at
+    )
+
+  private def color(s: Spectrum, role: Role): Rgb = Colorimetry.rgb(s, role.white)
+
+  /** In W/(m² sr nm), as Mitsuba's. */
+  private def blackbody(kelvin: Float, at: SourcePos): Rgb =
+    if !(kelvin > 0) then Values.fail(at, "the temperature of a black body must be positive")
+    val relative = Spectrum.blackbody(kelvin)
+    // Wien's displacement law, and Planck's at that wavelength
+    val peak = 2.8977721e-3 / kelvin
+    val (c, h, k) = (299792458.0, 6.62607015e-34, 1.380649e-23)
+    val radiance = 2 * h * c * c / Math.pow(peak, 5) / Math.expm1(h * c / (peak * k * kelvin))
+    color(relative, Role.Emission) * (radiance * 1e-9).toFloat

@@ -1,0 +1,98 @@
+package candela.mitsuba
+
+import candela.base.{Problem, SceneError, SourcePos}
+
+import java.io.IOException
+import java.nio.file.{Files, Path}
+import javax.xml.stream.{Location, XMLInputFactory, XMLStreamException, XMLStreamReader}
+
+import scala.collection.mutable.ArrayBuffer
+import scala.util.Using
+
+/** An XML element.
+  *
+  * @param at position of its start tag
+  */
+final case class Element(
+    tag: String,
+    attributes: Map[String, String],
+    children: Vector[Element],
+    at: SourcePos
+):
+  def apply(attribute: String): Option[String] = attributes.get(attribute)
+
+/** Reads XML files. Document types, and thereby entities, are refused. */
+object XmlFile:
+
+  /** The root element.
+    *
+    * @param includedFrom the element that includes the file
+    */
+  def read(file: Path, includedFrom: Option[SourcePos]): Element =
+    val name = file.toString
+    def place(l: Location) =
+      SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
+    try
+      Using.resource(Files.newInputStream(file)): in =>
+        val reader = factory.createXMLStreamReader(in)
+        try Document(reader, place).root()
+        finally reader.close()
+    catch
+      case e: XMLStreamException =>
+        val at = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(place)
+        throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
+      case e: IOException =>
+        val why = s"can't read `$name`: ${Option(e.getMessage).getOrElse(e)}"
+        throw SceneError(includedFrom.fold(Problem.general(why))(Problem.error(_, why)))
+
+  private def factory: XMLInputFactory =
+    val made = XMLInputFactory.newDefaultFactory()
+    made.setProperty(XMLInputFactory.SUPPORT_DTD, false)
+    made.setProperty(XMLInputFactory.IS_SUPPORTING_EXTERNAL_ENTITIES, false)
+    made
+
+  /** The parser repeats the position before its message, and names its own properties after it. */
+  private def message(e: XMLStreamException): String =
+    val all = Option(e.getMessage).getOrElse(e.toString)
+    all.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
+
+  /** More than any scene has; fewer than a stack has room for. */
+  private val Deepest = 100
+
+  private final class Document(reader: XMLStreamReader, place: Location => SourcePos):
+
+    def root(): Element =
+      var at = place(reader.getLocation)
+      while reader.next() != START do at = place(reader.getLocation)
+      val found = element(at, 1)
+      while reader.hasNext do
+        val _ = reader.next()
+      found
+
+    /** The current element. The position of an event is its end: that of a tag's start is the end
+      * of the event before.
+      */
+    private def element(at: SourcePos, depth: Int): Element =
+      if depth > Deepest then
+        throw SceneError(Problem.error(at, s"more than $Deepest elements within each other"))
+      val tag = reader.getLocalName
+      val attributes = (0 until reader.getAttributeCount)
+        .map(i => reader.getAttributeLocalName(i) -> reader.getAttributeValue(i)).toMap
+      val children = ArrayBuffer.empty[Element]
+      var before = place(reader.getLocation)
+      var event = reader.next()
+      while event != END do
+        if event == START then children += element(before, depth + 1)
+        else if event == ENTITY then
+          val name = reader.getLocalName
+          throw SceneError(Problem.error(before, s"unknown entity `&$name;`"))
+        val end = place(reader.getLocation)
+        // The parser knows that text ends once it has read the character after it
+        before = if event == TEXT then end.copy(column = (end.column - 1).max(1)) else end
+        event = reader.next()
+      Element(tag, attributes, children.toVector, at)
+
+  private inline val START = javax.xml.stream.XMLStreamConstants.START_ELEMENT
+  private inline val END = javax.xml.stream.XMLStreamConstants.END_ELEMENT
+  private inline val TEXT = javax.xml.stream.XMLStreamConstants.CHARACTERS
+  private inline val ENTITY = javax.xml.stream.XMLStreamConstants.ENTITY_REFERENCE

@@ -1,0 +1,125 @@
+package candela.mitsuba
+
+import candela.color.Rgb
+import candela.math.Transform
+import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
+
+/** Translates emitters. */
+final class Emitters(session: Session, colors: Colors, medium: Plugin => String):
+
+  /** The area light of a shape. */
+  def area(p: Plugin): Option[Declaration] =
+    if p.name != "area" then
+      session.error(p.at, s"a shape can't contain an ${p.shown}; expected \"area\"")
+      None
+    else
+      session.of(p): in =>
+        in.ignore("sampling_weight")
+        val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
+          case Shade.Constant(c) => Some(Seq(Textures.rgb("L", c, in.at)))
+          case Shade.Textured(t) => picture(t).map((_, params) => params)
+        params.map(session.declare("AreaLightSource", "diffuse", p.at, _))
+
+  /** A light of its own. */
+  def apply(p: Plugin): Option[LightDescription] = session.attempt:
+    session.of(p): in =>
+      in.ignore("sampling_weight")
+      val around = in.nested("medium").headOption.fold("")(medium)
+      p.name match
+        case "constant" =>
+          val c = colors.fixed(in, "radiance", Rgb.White, Role.Emission)
+          Some(light(in, "infinite", Transform.Identity, around)(Textures.rgb("L", c, in.at)))
+        case "envmap" => environment(in)
+        case "point" =>
+          val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
+          val at = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
+            Transform.translate(x, y, z)
+          Some(light(in, "point", at, around)(Textures.rgb("I", c, in.at)))
+        case "spot" => Some(spot(in, around))
+        case "directional" => Some(directional(in))
+        case "projector" => projector(in, around)
+        case "area" =>
+          session.error(in.at, "an emitter \"area\" must be within a shape")
+          in.ignore("radiance")
+          None
+        case _ =>
+          Plugins.unsupported(p, "ignored", session)
+          in.ignore(p.properties.map(_.name)*)
+          None
+  .flatten
+
+  private def light(
+      in: Asked,
+      name: String,
+      toWorld: Transform,
+      medium: String,
+      dialect: Option[Dialect] = None
+  )(params: Param*): LightDescription =
+    val d = session.declare("LightSource", name, in.at, params, dialect)
+    LightDescription(d, GraphicsState.still(toWorld), medium)
+
+  /** pbrt's poles are ±z, Mitsuba's ±y, and pbrt's azimuth begins at x, Mitsuba's at −z. */
+  private def environment(in: Asked): Option[LightDescription] =
+    val axes = Transform.fromRows(Vector(0, 1, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, 0, 1)).get
+    in.ignore("mis_compensation")
+    val scale = in.number("scale", 1).toFloat
+    for
+      name <- in.text("filename").orElse:
+        session.error(in.at, "an envmap must have a `filename`")
+        None
+      path <- session.file(name, in.atOf("filename"), "skipped")
+    yield
+      // v4's maps are equal-area, v3's are latitude and longitude, as Mitsuba's
+      light(in, "infinite", in.transform("to_world") * axes, "", Some(Dialect.V3))(
+        Param.string("mapname", in.atOf("filename"), session.named(path)),
+        Textures.rgb("L", Rgb.gray(scale), in.at)
+      )
+
+  private def spot(in: Asked, around: String): LightDescription =
+    val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
+    val cutoff = in.number("cutoff_angle", 20)
+    val beam = in.number("beam_width", cutoff * 0.75)
+    in.lose("using white", "texture")
+    if beam < cutoff then
+      session.warn(in.at, "the edge of a spot light falls off smoothly here, not linearly")
+    light(in, "spot", in.transform("to_world"), around)(
+      Textures.rgb("I", c, in.at),
+      Param.float("coneangle", in.at, cutoff.toFloat),
+      Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
+    )
+
+  private def directional(in: Asked): LightDescription =
+    val c = colors.fixed(in, "irradiance", Rgb.White, Role.Emission)
+    val (x, y, z) = in.triple("direction").getOrElse((0.0, 0.0, 1.0))
+    light(in, "distant", in.transform("to_world"), "")(
+      Textures.rgb("L", c, in.at),
+      Param.floats(ParamType.Point3, "from", in.at, Array(0f, 0f, 0f)),
+      Param.floats(ParamType.Point3, "to", in.at, Array(x.toFloat, y.toFloat, z.toFloat))
+    )
+
+  private def projector(in: Asked, around: String): Option[LightDescription] =
+    val scale = in.number("scale", 1).toFloat
+    val fov = in.number("fov", 45).toFloat
+    in.ignore("to_world_scale")
+    session.warn(in.at, "a projector is approximated by pbrt's \"projection\"")
+    val irradiance = in.objectNamed("irradiance").flatMap(picture)
+    irradiance.map: (_, params) =>
+      val mirrored = in.transform("to_world") * Transform.scale(-1, 1, 1).get
+      light(in, "projection", mirrored, around)(
+        (params.filterNot(_.name == "scale") ++
+          Seq(Param.float("fov", in.at, fov), Param.float("scale", in.at, scale)))*
+      )
+
+  /** The file of a bitmap that emits. */
+  private def picture(p: Plugin): Option[(String, Seq[Param])] =
+    if p.name != "bitmap" then
+      session.warn(p.at, s"${p.shown} can't emit here; using nothing")
+      None
+    else
+      session.of(p): in =>
+        in.ignore("filter_type", "wrap_mode", "raw", "format", "accel")
+        in.lose("ignored", "to_uv")
+        for
+          name <- in.text("filename")
+          path <- session.file(name, in.atOf("filename"), "skipped")
+        yield (name, Seq(Param.string("filename", in.atOf("filename"), session.named(path))))

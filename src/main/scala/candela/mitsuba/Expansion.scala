@@ -1,0 +1,158 @@
+package candela.mitsuba
+
+import candela.base.{Problem, SceneError, SourcePos, Suggest}
+
+import java.nio.file.{Files, InvalidPathException, Path}
+
+import scala.collection.mutable
+
+/** The elements of a scene after `default`, `$name`, `include`, `path` and `alias` took effect.
+  *
+  * @param elements children of `scene`
+  * @param aliases  ids by their aliases
+  * @param folders  where to look for files, first those of `path`
+  * @param sources  the scene file and its includes
+  */
+final class Expanded(
+    val elements: Vector[Element],
+    val aliases: Map[String, String],
+    val folders: Vector[Path],
+    val sources: Vector[Path]
+)
+
+/** Expands one scene file.
+  *
+  * @param defines values of `$name` that override those of `default`
+  */
+final class Expansion(file: Path, defines: Map[String, String]):
+  private val values = mutable.HashMap.from(defines)
+  private val used = mutable.HashSet.empty[String]
+  private val aliases = mutable.HashMap.empty[String, String]
+  private val paths = mutable.ArrayBuffer.empty[Path]
+  private val sources = mutable.ArrayBuffer(file)
+  private val here = Option(file.getParent).getOrElse(Path.of(""))
+
+  def result(): Expanded =
+    val elements = contents(XmlFile.read(file, None), List(file))
+    val unused = defines.keySet -- used
+    if unused.nonEmpty then
+      val name = unused.min
+      val help = Suggest.help(name, values.keySet.toSet -- unused)
+      throw SceneError(Problem.general(s"the scene has no parameter `$$$name`", help))
+    Expanded(elements, aliases.toMap, paths.toVector :+ here, sources.toVector)
+
+  /** @param files files being read, innermost first */
+  private def contents(root: Element, files: List[Path]): Vector[Element] =
+    if root.tag != "scene" then fail(root, s"expected <scene>, found <${root.tag}>")
+    val isOld = root("version").flatMap(_.takeWhile(_ != '.').toIntOption).exists(_ < 2)
+    root.children.flatMap: child =>
+      child.tag match
+        case "default" =>
+          val e = substituted(child)
+          val (name, value) = (required(e, "name"), required(e, "value"))
+          used += name
+          if !values.contains(name) then values(name) = value
+          Vector.empty
+        case "include" => included(substituted(child), files)
+        case "path" =>
+          val e = substituted(child)
+          paths += resolved(e, required(e, "value"))
+          Vector.empty
+        case "alias" =>
+          val e = substituted(child)
+          aliases(required(e, "as")) = required(e, "id")
+          Vector.empty
+        case _ =>
+          Vector(if isOld then OldNames.upgraded(substituted(child)) else substituted(child))
+
+  private def included(e: Element, files: List[Path]): Vector[Element] =
+    val name = required(e, "filename")
+    val path = resolved(e, name)
+    if files.exists(f => f.toAbsolutePath.normalize == path.toAbsolutePath.normalize) then
+      fail(e, s"`$name` includes itself")
+    else if files.size > Expansion.MostIncludes then
+      fail(e, s"more than ${Expansion.MostIncludes} files include each other")
+    else if sources.size > Expansion.MostFiles then
+      fail(e, s"more than ${Expansion.MostFiles} files are included")
+    else if !Files.isRegularFile(path) then
+      fail(e, s"no such file: `$name`", Suggest.file(path))
+    sources += path
+    contents(XmlFile.read(path, Some(e.at)), path :: files)
+
+  private def resolved(e: Element, name: String): Path =
+    try
+      val folders = paths.toVector :+ here
+      folders.map(_.resolve(name.replace('\\', '/'))).find(Files.exists(_))
+        .getOrElse(here.resolve(name.replace('\\', '/')))
+    catch case _: InvalidPathException => fail(e, s"`$name` is not a valid file name")
+
+  private def required(e: Element, attribute: String): String =
+    e(attribute).getOrElse(fail(e, s"<${e.tag}> must have the attribute `$attribute`"))
+
+  private def substituted(e: Element): Element =
+    val attributes =
+      if !e.attributes.values.exists(_.contains('$')) then e.attributes
+      else e.attributes.map((name, text) => name -> substituted(text, e.at))
+    e.copy(attributes = attributes, children = e.children.map(substituted))
+
+  private def substituted(text: String, at: SourcePos): String =
+    Expansion.Variable.replaceAllIn(
+      text,
+      found =>
+        val name = found.group(1)
+        used += name
+        val value = values.getOrElse(
+          name,
+          throw SceneError(
+            Problem.error(
+              at,
+              s"undefined parameter `$$$name`",
+              Suggest.nearest(name, values.keys).map(n => s"did you mean `$$$n`?").orElse(
+                Some(s"""write <default name="$name" value="…"/> before it, or use -D$name=…""")
+              )
+            )
+          )
+        )
+        java.util.regex.Matcher.quoteReplacement(value)
+    )
+
+  private def fail(e: Element, message: String, help: Option[String] = None): Nothing =
+    throw SceneError(Problem.error(e.at, message, help))
+
+object Expansion:
+  private val Variable = raw"\$$(\w+)".r
+  private val MostIncludes = 15
+  private val MostFiles = 10_000
+
+/** Names of Mitsuba 0.6, which Mitsuba 3 upgrades in files of a version before 2. */
+private[mitsuba] object OldNames:
+
+  def upgraded(e: Element): Element =
+    val attributes = e.attributes.map:
+      case ("name", text) => "name" -> snake(text)
+      case other => other
+    val children = e.children.map(upgraded)
+    val tag = if e.tag == "lookAt" then "lookat" else e.tag
+    val (moved, others) = children.partition(c => Moved(c("name").getOrElse("")))
+    val isTexture = tag == "texture" && moved.nonEmpty
+    Element(tag, attributes, if isTexture then others :+ toUv(moved, e) else children, e.at)
+
+  private val Moved = Set("uoffset", "voffset", "uscale", "vscale")
+
+  /** Offsets and scales of texture coordinates, as the transform that replaced them. */
+  private def toUv(moved: Vector[Element], e: Element): Element =
+    def value(name: String, default: String) =
+      moved.find(_("name").contains(name)).flatMap(_("value")).getOrElse(default)
+    def step(tag: String, x: String, y: String) =
+      Element(tag, Map("x" -> x, "y" -> y), Vector.empty, e.at)
+    val steps = Vector(
+      step("scale", value("uscale", "1"), value("vscale", "1")),
+      step("translate", value("uoffset", "0"), value("voffset", "0"))
+    )
+    Element("transform", Map("name" -> "to_uv"), steps, e.at)
+
+  /** `toWorld` as `to_world`, `intIOR` as `int_ior`. */
+  def snake(name: String): String =
+    name.replaceAll("(?<=[a-z])(?=[A-Z])", "_").split("(?<=_)").map: part =>
+      if part.headOption.exists(_.isUpper) then part.toLowerCase else part
+    .mkString

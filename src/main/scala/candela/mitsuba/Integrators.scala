@@ -1,0 +1,49 @@
+package candela.mitsuba
+
+import candela.base.SourcePos
+import candela.scenefile.{Declaration, Param}
+
+/** Translates integrators. */
+final class Integrators(session: Session):
+
+  def apply(p: Plugin): Declaration = session.of(p): in =>
+    in.ignore("rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "block_size",
+      "samples_per_pass", "timeout", "use_nee", "sampling_integrator")
+    if in.flag("hide_emitters", false) then
+      session.warn(in.atOf("hide_emitters"), "lamps can't be hidden here; they are visible")
+    p.name match
+      case "path" | "prb" | "prb_basic" => limited(in, "path")
+      case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath")
+      case "ptracer" => limited(in, "lightpath")
+      case "direct" =>
+        session.declare("Integrator", "path", in.at, Seq(Param.int("maxdepth", in.at, 1)))
+      case "aov" | "moment" | "stokes" =>
+        in.ignore("aovs")
+        if p.name == "aov" then
+          val layers = Some("--aov writes layers: depth, normal, albedo and others")
+          session.warn(in.at, "the layers of \"aov\" are chosen on the command line", layers)
+        in.nested("integrator").headOption.fold(Integrators.default(session, in.at))(apply)
+      case _ =>
+        val depth = "using \"path\""
+        Plugins.unsupported(p, depth, session)
+        in.ignore(p.properties.map(_.name)*)
+        Integrators.default(session, in.at)
+
+  /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
+  private def limited(in: Asked, name: String): Declaration =
+    val depth = in.integer("max_depth", -1)
+    val edges = if depth < 0 then Integrators.Unlimited else Math.max(0, depth - 1)
+    if depth == 0 then session.warn(in.atOf("max_depth"), "a depth of 0 is black in Mitsuba")
+    session.declare(
+      "Integrator",
+      name,
+      in.at,
+      Seq(Param.int("maxdepth", in.atOf("max_depth"), edges))
+    )
+
+object Integrators:
+  /** Russian roulette ends paths long before. */
+  private val Unlimited = 10_000
+
+  def default(session: Session, at: SourcePos): Declaration =
+    session.declare("Integrator", "path", at, Seq(Param.int("maxdepth", at, Unlimited)))

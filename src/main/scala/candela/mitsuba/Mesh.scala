@@ -1,0 +1,91 @@
+package candela.mitsuba
+
+import candela.base.loop
+import candela.math.{Transform, Vec3}
+
+/** Triangles of a mesh file. Normals and coordinates may be empty.
+  *
+  * @param uvs with v as in Mitsuba
+  */
+final class Mesh(
+    val positions: Array[Float],
+    val normals: Array[Float],
+    val uvs: Array[Float],
+    val indices: Array[Int]
+):
+
+  /** In world space, as Mitsuba keeps meshes: reflections turn triangles over. */
+  def placed(toWorld: Transform): Mesh =
+    if toWorld.isIdentity then this
+    else Mesh(mapped(positions)(toWorld.point), mapped(normals)(toWorld.normal), uvs, indices)
+
+  private def mapped(values: Array[Float])(f: Vec3 => Vec3): Array[Float] =
+    val made = new Array[Float](values.length)
+    loop(values.length / 3): i =>
+      val v = f(Vec3(values(3 * i), values(3 * i + 1), values(3 * i + 2)))
+      made(3 * i) = v.x
+      made(3 * i + 1) = v.y
+      made(3 * i + 2) = v.z
+    made
+
+  /** Without vertex normals. */
+  def faceted: Mesh = Mesh(positions, Array.emptyFloatArray, uvs, indices)
+
+  /** With vertex normals, if it has none: those of the triangles, weighted by their angles at the
+    * vertex.
+    *
+    * Source: Thürmer and Wüthrich, "Computing Vertex Normals from Polygonal Facets", Journal of
+    * Graphics Tools 3(1), 1998.
+    */
+  def smooth: Mesh =
+    if normals.nonEmpty then this
+    else
+      val sums = new Array[Float](positions.length)
+      def point(i: Int) = Vec3(positions(3 * i), positions(3 * i + 1), positions(3 * i + 2))
+      loop(indices.length / 3): t =>
+        val corners = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2))
+        val p = corners.map(point)
+        val n = ((p(1) - p(0)) cross (p(2) - p(0)))
+        if n.lengthSquared > 0f then
+          val unit = n.normalized
+          loop(3): c =>
+            val a = (p((c + 1) % 3) - p(c)).normalized
+            val b = (p((c + 2) % 3) - p(c)).normalized
+            val angle = Math.acos(Math.max(-1.0, Math.min(1.0, a.dot(b).toDouble))).toFloat
+            if angle.isFinite then
+              val at = 3 * corners(c)
+              sums(at) += unit.x * angle
+              sums(at + 1) += unit.y * angle
+              sums(at + 2) += unit.z * angle
+      Mesh(positions, sums, uvs, indices).unit
+
+  private def unit: Mesh =
+    Mesh(
+      positions,
+      mapped(normals)(n => if n.lengthSquared > 0f then n.normalized else Vec3.Z),
+      uvs,
+      indices
+    )
+
+object Mesh:
+  /** The square of ±1 in the xy-plane, facing +z. */
+  val rectangle: Mesh = Mesh(
+    Array(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0),
+    Array.emptyFloatArray,
+    Array(0, 0, 1, 0, 1, 1, 0, 1),
+    Array(0, 1, 2, 0, 2, 3)
+  )
+
+  /** The cube of ±1, with the coordinates of Mitsuba's on each side. */
+  val cube: Mesh =
+    val sides = Vector(
+      "+-- +-+ --+ ---", "++- -+- -++ +++", "+-- ++- +++ +-+",
+      "+-+ +++ -++ --+", "--+ -++ -+- ---", "++- +-- --- -+-"
+    )
+    val corners = sides.flatMap(_.split(' '))
+    val positions = corners.flatMap(_.map(c => if c == '+' then 1f else -1f))
+    val normals = Vector((0, -1, 0), (0, 1, 0), (1, 0, 0), (0, 0, 1), (-1, 0, 0), (0, 0, -1))
+      .flatMap((x, y, z) => Vector.fill(4)(Vector(x, y, z))).flatten.map(_.toFloat)
+    val uvs = Vector.fill(6)(Vector(0f, 1f, 1f, 1f, 1f, 0f, 0f, 0f)).flatten
+    val indices = (0 until 24 by 4).flatMap(i => Vector(i, i + 1, i + 2, i + 3, i, i + 2))
+    Mesh(positions.toArray, normals.toArray, uvs.toArray, indices.toArray)

@@ -1,0 +1,73 @@
+package candela.mitsuba
+
+import candela.base.{FileName, SceneError, Severity, SourcePos}
+import candela.scenefile.{Dialect, Excerpts, SceneDescription}
+
+import java.nio.file.Path
+
+/** Reads scenes of Mitsuba 3: XML files. */
+object MitsubaScene:
+
+  /** Whether a file is one, by its name. */
+  def isNamed(file: Path): Boolean = FileName.suffix(file) == "xml"
+
+  /** The scene, as pbrt-v4 describes the same; types that only v3 has are declared as such.
+    *
+    * @param defines   values of `$name` in the file
+    * @param keepGoing if true, replaces missing files
+    * @throws SceneError if the file contains no scene at all
+    */
+  def readable(file: Path, defines: Map[String, String], keepGoing: Boolean): SceneDescription =
+    val folder = Option(file.getParent).getOrElse(Path.of(""))
+    val expanded =
+      try Expansion(file, defines).result()
+      catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
+    val session = Session(expanded, folder, keepGoing)
+    val scene = Translation(session, file).result()
+    val (errors, warnings) = Excerpts.fill(session.found).partition(_.severity == Severity.Error)
+    scene.copy(
+      warnings = warnings,
+      errors = errors,
+      sources = expanded.sources ++ session.read
+    )
+
+private final class Translation(session: Session, file: Path):
+  private val colors = Colors(session)
+  private val textures = Textures(session, colors)
+  private val surfaces = Surfaces(session, colors, textures)
+  private val media = Media(session, colors)
+  private val emitters = Emitters(session, colors, media(_))
+  private val shapes = Shapes(session, surfaces, emitters, media)
+  private val views = Views(session, media, file)
+
+  private val all = session.objects.map(_.value).collect { case Value.Nested(p) => p }
+  private def of(kind: String) = all.filter(_.kind == kind)
+
+  def result(): SceneDescription =
+    of("shape").foreach(shapes.add)
+    // Errors of BSDFs that no shape uses are errors, too
+    of("bsdf").foreach(p => session.attempt(surfaces(p)))
+    val lights = of("emitter").flatMap(emitters(_))
+    val start = SourcePos(file.toString, 1, 1)
+    val scene = SceneDescription(Dialect.V4, multipliesSrgb = true)
+    val seen = of("sensor").toList match
+      case Nil =>
+        session.error(start, "the scene has no sensor", Some("add <sensor type=\"perspective\">"))
+        scene
+      case first :: others =>
+        others.foreach(o =>
+          session.warn(o.at, "only the first sensor is rendered; this one is ignored")
+        )
+        session.attempt(views.seen(first, scene)).getOrElse(scene)
+    val integrator =
+      of("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
+    seen.copy(
+      integrator = Some(integrator.getOrElse(Integrators.default(session, start))),
+      textures = textures.result(),
+      namedMaterials = surfaces.result(),
+      lights = lights,
+      shapes = shapes.shapes,
+      objects = shapes.objects,
+      instances = shapes.instances,
+      media = media.result()
+    )

@@ -1,0 +1,119 @@
+package candela.mitsuba
+
+import candela.base.{FloatBuffer, IntBuffer, loop, SourcePos}
+
+import java.io.IOException
+import java.nio.ByteBuffer
+import java.nio.file.Path
+
+import scala.collection.mutable
+
+/** Reads meshes in Wavefront's OBJ format: vertices, normals, coordinates and faces; everything
+  * else is ignored. Faces of more than three corners become fans.
+  */
+object ObjFile:
+
+  /** @param flipped whether v in the file has its origin at the bottom of images
+    * @param at      position of the reference in the scene
+    */
+  def read(path: Path, flipped: Boolean, at: SourcePos): Mesh =
+    try new ObjReader(MappedFile.read(path), path.toString, at).read(flipped)
+    catch
+      case e: IOException =>
+        Values.fail(at, s"can't read the mesh `$path`: ${Option(e.getMessage).getOrElse(e)}")
+
+private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
+  private val p, n, t = FloatBuffer()
+  private val positions, normals, uvs = FloatBuffer()
+  private val indices = IntBuffer()
+
+  /** Index of each corner: position, coordinates, normal. */
+  private val corners = mutable.HashMap.empty[(Int, Int, Int), Int]
+  private var line = 1
+  private var hasNormals, hasUvs = true
+  private val token = StringBuilder()
+
+  private def fail(why: String): Nothing = Values.fail(at, s"mesh `$name`, line $line: $why")
+
+  def read(flipped: Boolean): Mesh =
+    while in.hasRemaining do
+      word() match
+        case "v" => numbers(p, 3)
+        case "vn" => numbers(n, 3)
+        case "vt" => numbers(t, 2)
+        case "f" => face()
+        case _ => ()
+      skipLine()
+    val uv = if hasUvs then uvs.take() else Array.emptyFloatArray
+    if flipped then loop(uv.length / 2)(i => uv(2 * i + 1) = 1 - uv(2 * i + 1))
+    val normal = if hasNormals then normals.take() else Array.emptyFloatArray
+    if indices.length == 0 then fail("it has no faces")
+    Mesh(positions.take(), normal, uv, indices.take())
+
+  /** The next word of the line; empty at its end. */
+  private def word(): String =
+    token.clear()
+    var c = skipBlanks()
+    while c > ' ' do
+      token.append(c.toChar)
+      if token.length > 200 then fail("a word of more than 200 characters")
+      val _ = in.get()
+      c = peek
+    token.result()
+
+  private def peek: Int = if in.hasRemaining then in.get(in.position()) & 0xff else '\n'
+
+  private def skipBlanks(): Int =
+    while in.hasRemaining && (peek == ' ' || peek == '\t') do
+      val _ = in.get()
+    peek
+
+  private def skipLine(): Unit =
+    while in.hasRemaining && peek != '\n' do
+      val _ = in.get()
+    if in.hasRemaining then
+      val _ = in.get()
+    line += 1
+
+  private def numbers(to: FloatBuffer, count: Int): Unit =
+    loop(count): _ =>
+      val text = word()
+      val x = text.toFloatOption.getOrElse(fail(s"expected a number, found `$text`"))
+      if !x.isFinite then fail(s"expected a finite number, found `$text`")
+      to += x
+
+  private def face(): Unit =
+    val first = corner(word())
+    var last = corner(word())
+    var text = word()
+    while text.nonEmpty do
+      val next = corner(text)
+      indices += first
+      indices += last
+      indices += next
+      last = next
+      text = word()
+
+  /** `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or back from the last. */
+  private def corner(text: String): Int =
+    val parts = text.split('/')
+    def index(i: Int, count: Int): Int =
+      if i >= parts.length || parts(i).isEmpty then -1
+      else
+        val k = parts(i).toIntOption.getOrElse(fail(s"expected a face's corner, found `$text`"))
+        val found = if k < 0 then count + k else k - 1
+        if found < 0 || found >= count then fail(s"the index $k is not one of 1 to $count")
+        found
+    val key = (index(0, p.length / 3), index(1, t.length / 2), index(2, n.length / 3))
+    if key._1 < 0 then fail(s"expected a face's corner, found `$text`")
+    corners.getOrElseUpdate(
+      key, {
+        val (vertex, uv, normal) = key
+        loop(3)(k => positions += p(3 * vertex + k))
+        if uv < 0 then hasUvs = false
+        loop(2)(k => uvs += (if uv < 0 then 0f else t(2 * uv + k)))
+        if normal < 0 then hasNormals = false
+        loop(3)(k => normals += (if normal < 0 then 0f else n(3 * normal + k)))
+        positions.length / 3 - 1
+      }
+    )

@@ -1,0 +1,34 @@
+package candela.mitsuba
+
+import candela.base.SourcePos
+import candela.color.{Rgb, Spectrum}
+import candela.math.Transform
+
+/** A value of a property. */
+enum Value(val shown: String):
+  case Number(x: Double) extends Value("a number")
+  case Flag(isSet: Boolean) extends Value("a boolean")
+  case Text(text: String) extends Value("a string")
+  case Triple(x: Double, y: Double, z: Double) extends Value("a vector")
+  case Color(c: Rgb) extends Value("a colour")
+  case Wavelengths(s: Spectrum) extends Value("a spectrum")
+  case Placed(t: Transform) extends Value("a transform")
+  case Nested(plugin: Plugin) extends Value("an object")
+  case Reference(id: String) extends Value("a reference")
+
+/** A named value; nested objects often have no name. */
+final class Property(val name: String, val value: Value, val at: SourcePos)
+
+/** An object of a scene.
+  *
+  * @param kind element: `shape`, `bsdf`, `emitter`, …
+  * @param name its type: `sphere`, `diffuse`, `area`, …
+  */
+final class Plugin(
+    val kind: String,
+    val name: String,
+    val id: Option[String],
+    val at: SourcePos,
+    val properties: Vector[Property]
+):
+  def shown: String = s"$kind \"$name\""

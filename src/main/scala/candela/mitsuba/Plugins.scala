@@ -1,0 +1,69 @@
+package candela.mitsuba
+
+/** The types of Mitsuba 3 that are read, by the element that names them. Those it has besides are
+  * known, too, so that messages can tell them from misspelled ones.
+  */
+object Plugins:
+  val bsdfs: Vector[String] = Vector(
+    "blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse",
+    "mask", "measured", "normalmap", "null", "plastic", "principled", "principledthin",
+    "roughconductor", "roughdielectric", "roughplastic", "thindielectric", "twosided"
+  )
+  val shapes: Vector[String] = Vector("cube", "cylinder", "disk", "instance", "merge", "obj", "ply",
+    "rectangle", "serialized", "shapegroup", "sphere")
+  val emitters: Vector[String] =
+    Vector("area", "constant", "directional", "envmap", "point", "projector", "spot")
+  val textures: Vector[String] = Vector("bitmap", "blackbody", "checkerboard", "d65", "irregular",
+    "regular", "srgb", "uniform")
+  val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
+  val integrators: Vector[String] = Vector("aov", "direct", "moment", "path", "prb", "prb_basic",
+    "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis")
+  val media: Vector[String] = Vector("heterogeneous", "homogeneous")
+  val samplers: Vector[String] =
+    Vector("independent", "ldsampler", "multijitter", "orthogonal", "stratified")
+  val filters: Vector[String] =
+    Vector("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")
+  val films: Vector[String] = Vector("hdrfilm", "ldrfilm")
+  val phases: Vector[String] = Vector("hg", "isotropic")
+  val volumes: Vector[String] = Vector("constvolume", "gridvolume")
+
+  /** Types that exist in Mitsuba 3, but are not read. */
+  val others: Map[String, Vector[String]] = Map(
+    "bsdf" -> Vector("acousticbsdf", "circular", "hair", "pplastic", "polarizer", "retarder"),
+    "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
+    "emitter" -> Vector("directionalarea", "sunsky", "timed_sunsky", "volumelight"),
+    "texture" -> Vector("mesh_attribute", "raw", "volume"),
+    "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
+    "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
+      "prb_projective", "volprim_rf_basic"),
+    "film" -> Vector("specfilm"),
+    "phase" -> Vector("blendphase", "rayleigh", "sggx", "tabphase")
+  )
+
+  /** By element. */
+  val read: Map[String, Vector[String]] = Map(
+    "bsdf" -> bsdfs,
+    "shape" -> shapes,
+    "emitter" -> emitters,
+    "texture" -> textures,
+    "sensor" -> sensors,
+    "integrator" -> integrators,
+    "medium" -> media,
+    "sampler" -> samplers,
+    "rfilter" -> filters,
+    "film" -> films,
+    "phase" -> phases,
+    "volume" -> volumes
+  )
+
+  /** Reports a type that is not read: a warning if Mitsuba has it. */
+  def unsupported(p: Plugin, instead: String, session: Session): Unit =
+    if others.getOrElse(p.kind, Vector.empty).contains(p.name) then
+      session.warn(p.at, s"${p.shown} is not supported; $instead")
+    else
+      session.missing(
+        p.at,
+        s"unknown ${p.shown}",
+        instead,
+        candela.base.Suggest.help(p.name, read.getOrElse(p.kind, Vector.empty))
+      )

@@ -1,0 +1,220 @@
+package candela.mitsuba
+
+import candela.base.loop
+import candela.build.shapes.PlyFile
+import candela.math.Transform
+import candela.scenefile.*
+
+import scala.collection.mutable
+
+/** Translates shapes, groups and instances. */
+final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, media: Media):
+  private val world = Vector.newBuilder[ShapeDescription]
+  private val groups = mutable.LinkedHashMap.empty[Plugin, (String, Vector[ShapeDescription])]
+  private val placed = Vector.newBuilder[InstanceDescription]
+
+  private var depth = 0
+
+  def shapes: Vector[ShapeDescription] = world.result()
+  def objects: Map[String, Vector[ShapeDescription]] =
+    scala.collection.immutable.VectorMap.from(groups.values)
+  def instances: Vector[InstanceDescription] = placed.result()
+
+  def add(p: Plugin): Unit =
+    session.attempt(parts(p)).foreach(world ++= _)
+
+  private def parts(p: Plugin): Vector[ShapeDescription] = p.name match
+    case "shapegroup" =>
+      group(p)
+      Vector.empty
+    case "instance" =>
+      session.of(p): in =>
+        for g <- in.nested("shape").headOption do
+          val place = GraphicsState.still(in.transform("to_world"))
+          if g.name != "shapegroup" then
+            session.error(in.at, "an instance must contain a shapegroup, or refer to one")
+          else placed += InstanceDescription(group(g), in.at, place)
+      Vector.empty
+    case "merge" =>
+      depth += 1
+      if depth > Session.Deepest then
+        Values.fail(p.at, s"more than ${Session.Deepest} shapes within each other")
+      try session.of(p)(_.nested("shape").flatMap(parts))
+      finally depth -= 1
+    case _ => session.of(p)(one).toVector
+
+  /** The name of a group of shapes. */
+  private def group(p: Plugin): String =
+    groups.getOrElseUpdate(
+      p, {
+        val taken = groups.values.map(_._1).toSet
+        val wanted = p.id.getOrElse("group")
+        val name =
+          (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!taken(_)).get
+        val inner = session.of(p)(_.nested("shape"))
+        val flat = inner.filterNot: s =>
+          val isNested = s.name == "instance" || s.name == "shapegroup"
+          if isNested then session.error(s.at, s"a shapegroup can't contain an ${s.shown}")
+          isNested
+        (name, flat.flatMap(parts))
+      }
+    )._1
+
+  private def one(in: Asked): Option[ShapeDescription] =
+    in.ignore("silhouette_sampling_weight", "filename_id")
+    val emitter = in.nested("emitter").headOption
+    val bsdf = in.nested("bsdf")
+    bsdf.drop(1).foreach(b => session.warn(b.at, "a shape has one bsdf; this one is ignored"))
+    val (surface, material) = bsdf.headOption match
+      case Some(p) =>
+        val s = surfaces(p)
+        (s, surfaces.ref(p, s))
+      case None =>
+        val s = bare(in, emitter.isDefined)
+        (s, MaterialRef.Inline(s.material))
+    for Form(name, params, toWorld, isReversed) <- form(in, surface) yield
+      val alpha = surface.alpha.toVector
+      def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
+      ShapeDescription(
+        session.declare("Shape", name, in.at, params ++ alpha),
+        GraphicsState.still(toWorld),
+        isReversed,
+        material,
+        emitter.flatMap(emitters.area),
+        medium("interior"),
+        medium("exterior"),
+        surface.isOneSided
+      )
+
+  /** Without a BSDF, lamps are black. */
+  private def bare(in: Asked, emits: Boolean): Surface =
+    val grey = candela.color.Rgb.gray(if emits then 0f else 0.5f)
+    val material =
+      session.declare("Material", "diffuse", in.at, Seq(Textures.rgb("reflectance", grey, in.at)))
+    Surface(material, isOneSided = true)
+
+  private final case class Form(
+      name: String,
+      params: Seq[Param],
+      toWorld: Transform,
+      isReversed: Boolean
+  )
+
+  private def form(in: Asked, surface: Surface): Option[Form] =
+    val toWorld = in.transform("to_world")
+    val isFlipped = in.flag("flip_normals", false)
+    def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
+    // pbrt turns the normals of reflected quadrics
+    def quadric(name: String, place: Transform, params: Param*) =
+      Some(Form(name, params, place, isFlipped != place.swapsHandedness))
+    in.plugin.name match
+      case "sphere" =>
+        val centre = in.triple("center").fold(Transform.Identity)(Transform.translate(_, _, _))
+        quadric("sphere", toWorld * centre, number("radius", in.number("radius", 1)))
+      case "cylinder" =>
+        for (place, length) <- axis(in, toWorld) yield
+          // Upside down, so that v runs as on Mitsuba's; lamps have none, and pbrt's light of
+          // reflected ones is not consistent
+          val isLamp = in.nested("emitter").nonEmpty
+          val down = if isLamp then Transform.Identity else Transform.scale(1, 1, -1).get
+          val whole = place * down
+          val ends = if down.isIdentity then Seq(0.0, length) else Seq(-length, 0.0)
+          val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
+          Form("cylinder", size.map(number(_, _)), whole, isFlipped != whole.swapsHandedness)
+      case "disk" =>
+        if surface.material.params.exists(_.paramType == ParamType.Texture) then
+          session.warn(in.at, "textures lie otherwise on pbrt's disks than on Mitsuba's")
+        quadric("disk", toWorld, number("radius", 1))
+      case "rectangle" =>
+        val mesh = Mesh.rectangle.placed(toWorld)
+        Some(Form(
+          "trianglemesh",
+          params(mesh, in),
+          Transform.Identity,
+          isFlipped != toWorld.swapsHandedness
+        ))
+      case "cube" => Some(meshForm(in, Mesh.cube, isFlipped, toWorld))
+      case "obj" =>
+        val isUp = in.flag("flip_tex_coords", true)
+        mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.at))
+      case "ply" =>
+        val isUp = in.flag("flip_tex_coords", false)
+        mesh(in, toWorld, isFlipped): path =>
+          val ply = PlyFile.read(path, Some(in.at))
+          if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
+          Mesh(ply.positions, ply.normals, ply.uvs, ply.indices)
+      case "serialized" =>
+        val index = in.integer("shape_index", 0)
+        in.ignore("flip_tex_coords")
+        mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.at))
+      case _ =>
+        Plugins.unsupported(in.plugin, "skipped", session)
+        in.ignore(in.plugin.properties.map(_.name)*)
+        None
+
+  /** The place and length of a cylinder along z. */
+  private def axis(in: Asked, toWorld: Transform): Option[(Transform, Double)] =
+    val (x0, y0, z0) = in.triple("p0").getOrElse((0.0, 0.0, 0.0))
+    val (x1, y1, z1) = in.triple("p1").getOrElse((0.0, 0.0, 1.0))
+    val (dx, dy, dz) = (x1 - x0, y1 - y0, z1 - z0)
+    val length = Math.sqrt(dx * dx + dy * dy + dz * dz)
+    if !(length > 0) then session.error(in.at, "the ends of a cylinder must differ")
+    Option.when(length > 0):
+      val frame = Shapes.frame(dx / length, dy / length, dz / length)
+      (toWorld * Transform.translate(x0, y0, z0) * frame, length)
+
+  private def mesh(in: Asked, toWorld: Transform, isFlipped: Boolean)(
+      read: java.nio.file.Path => Mesh
+  ): Option[Form] =
+    in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
+    in.text("filename") match
+      case None =>
+        session.error(in.at, s"${in.plugin.shown} must have a `filename`")
+        None
+      case Some(name) =>
+        session.file(name, in.atOf("filename"), "skipped").map: path =>
+          meshForm(in, read(path), isFlipped, toWorld)
+
+  private def meshForm(in: Asked, mesh: Mesh, isFlipped: Boolean, toWorld: Transform): Form =
+    val there = mesh.placed(toWorld)
+    val shaded = if in.flag("face_normals", false) then there.faceted else there.smooth
+    Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
+
+  private def params(m: Mesh, in: Asked): Seq[Param] =
+    val uvs = m.uvs.clone
+    loop(uvs.length / 2)(i => uvs(2 * i + 1) = 1 - uvs(2 * i + 1))
+    Seq(
+      Param.int("indices", in.at, m.indices*),
+      Param.floats(ParamType.Point3, "P", in.at, m.positions)
+    ) ++
+      Option.when(m.normals.nonEmpty)(Param.floats(ParamType.Normal, "N", in.at, m.normals)) ++
+      Option.when(uvs.nonEmpty)(Param.floats(ParamType.Point2, "uv", in.at, uvs))
+
+object Shapes:
+
+  /** A frame about a unit vector.
+    *
+    * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+    */
+  private def frame(x: Double, y: Double, z: Double): Transform =
+    val sign = if z < 0 then -1.0 else 1.0
+    val a = -1 / (sign + z)
+    val b = x * y * a
+    Transform.fromRows(Vector(
+      1 + sign * x * x * a,
+      b,
+      x,
+      0,
+      sign * b,
+      sign + y * y * a,
+      y,
+      0,
+      -sign * x,
+      -y,
+      z,
+      0,
+      0,
+      0,
+      0,
+      1
+    )).get

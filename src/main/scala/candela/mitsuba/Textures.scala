@@ -1,0 +1,130 @@
+package candela.mitsuba
+
+import candela.base.SourcePos
+import candela.color.Rgb
+import candela.scenefile.{GraphicsState, Param, ParamType, TextureDescription}
+
+import scala.collection.mutable
+
+/** Translates textures, each once.
+  *
+  * Mitsuba's v has its origin at the top of images, pbrt's at the bottom. Translated shapes have
+  * pbrt's v, 1 − v of Mitsuba's.
+  */
+final class Textures(session: Session, colors: Colors):
+  private val made = Vector.newBuilder[TextureDescription]
+  private val names = mutable.HashMap.empty[(Plugin, String, Float), Option[String]]
+  private val taken = mutable.HashSet.empty[String]
+  private var depth = 0
+
+  def result(): Vector[TextureDescription] = made.result()
+
+  /** A colour parameter. */
+  def color(name: String, shade: Shade, at: SourcePos): Param = shade match
+    case Shade.Constant(c) => Textures.rgb(name, c, at)
+    case Shade.Textured(t) =>
+      this(
+        t,
+        "spectrum"
+      ).fold(Textures.rgb(name, Textures.Fallback, at))(Param.texture(name, at, _))
+
+  /** A number or texture. */
+  def number(name: String, in: Asked, property: String, default: Double): Param =
+    number(
+      name,
+      colors.shade(in, property, Rgb.gray(default.toFloat), Role.Plain),
+      in.atOf(property)
+    )
+
+  def number(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
+    case Shade.Constant(c) => Param.float(name, at, c.luminance * scale)
+    case Shade.Textured(t) =>
+      this(t, "float", scale).fold(Param.float(name, at, Textures.Fallback.r * scale)):
+        Param.texture(name, at, _)
+
+  /** Name of the texture; None if it is not supported. */
+  private def apply(p: Plugin, valueType: String, scale: Float = 1f): Option[String] =
+    names.getOrElseUpdate(
+      (p, valueType, scale), {
+        depth += 1
+        if depth > Session.Deepest then
+          Values.fail(p.at, s"more than ${Session.Deepest} textures refer to each other")
+        try define(p, valueType, scale)
+        finally depth -= 1
+      }
+    )
+
+  private def define(p: Plugin, valueType: String, scale: Float): Option[String] =
+    val parameters = p.name match
+      case "bitmap" => session.of(p)(bitmap)
+      case "checkerboard" => session.of(p)(checkerboard(_, valueType))
+      case _ =>
+        Plugins.unsupported(p, s"using ${Textures.Fallback.r}", session)
+        None
+    parameters.map: (name, params) =>
+      val t = session.declare("Texture", name, p.at, params)
+      val plain = add(p.id.getOrElse("texture"), valueType, t)
+      if scale == 1f then plain
+      else
+        val scaled = session.declare(
+          "Texture",
+          "scale",
+          p.at,
+          Seq(Param.texture("tex", p.at, plain), Param.float("scale", p.at, scale))
+        )
+        add(plain, valueType, scaled)
+
+  private def add(name: String, valueType: String, t: candela.scenefile.Declaration): String =
+    val unique = (Iterator(name) ++ Iterator.from(2).map(i => s"$name $i")).find(taken.add).get
+    made += TextureDescription(unique, valueType, t, GraphicsState.Identity)
+    unique
+
+  private def bitmap(in: Asked): Option[(String, Seq[Param])] =
+    val at = in.at
+    val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
+    val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
+    if wrap == "mirror" then
+      session.warn(in.atOf("wrap_mode"), "the wrap mode `mirror` is not supported; using `repeat`")
+    val isRaw = in.flag("raw", false)
+    in.ignore("format", "accel")
+    val mapping = coordinates(in, flipped = true)
+    for
+      name <- in.text("filename").orElse:
+        session.error(at, "a bitmap must have a `filename`")
+        None
+      path <- session.file(name, in.atOf("filename"), s"using ${Textures.Fallback.r}")
+    yield "imagemap" -> (Seq(
+      Param.string("filename", in.atOf("filename"), session.named(path)),
+      Param.string("filter", at, if filter == "nearest" then "point" else "bilinear"),
+      Param.string("wrap", at, if wrap == "clamp" then "clamp" else "repeat"),
+      Param.string("encoding", at, if isRaw then "linear" else "sRGB")
+    ) ++ mapping)
+
+  private def checkerboard(in: Asked, valueType: String): Option[(String, Seq[Param])] =
+    def square(ours: String, name: String, default: Float): Param =
+      val shade = colors.shade(in, name, Rgb.gray(default), Role.Reflectance)
+      if valueType == "float" then number(ours, shade, in.atOf(name))
+      else color(ours, shade, in.atOf(name))
+    // Two squares of pbrt's are one period of Mitsuba's
+    val mapping = coordinates(in, flipped = false, factor = 2f)
+    Some("checkerboard" ->
+      (Seq(square("tex1", "color0", 0.4f), square("tex2", "color1", 0.2f)) ++ mapping))
+
+  /** @param flipped whether the texture's own v has its origin at the top, as images have */
+  private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =
+    val m = in.transform("to_uv").m
+    if m(1) != 0 || m(4) != 0 then
+      session.warn(in.atOf("to_uv"), "rotated texture coordinates are not supported; left upright")
+    val (su, du, sv, dv) = (m(0), m(3), m(5), m(7))
+    val (a, b) = if flipped then (sv, 1 - sv - dv) else (-sv, sv + dv)
+    Seq("uscale" -> su, "udelta" -> du, "vscale" -> a, "vdelta" -> b)
+      .map((name, x) => (name, x.toFloat * factor))
+      .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
+      .map((name, x) => Param.float(name, in.at, x))
+
+object Textures:
+  /** Instead of a texture that is not supported. */
+  val Fallback: Rgb = Rgb.gray(0.5f)
+
+  def rgb(name: String, c: Rgb, at: SourcePos): Param =
+    Param.floats(ParamType.Rgb, name, at, Array(c.r, c.g, c.b))

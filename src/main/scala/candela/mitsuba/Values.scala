@@ -1,0 +1,197 @@
+package candela.mitsuba
+
+import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.color.{Rgb, Spectrum}
+import candela.math.Transform
+
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
+
+/** Turns elements into objects and values.
+  *
+  * @param find   the path of a file
+  * @param report receives errors; the property or object is then left out
+  */
+final class Values(find: String => Path, report: Problem => Unit):
+  import Values.*
+
+  /** The object of an element; children with errors are left out. */
+  def plugin(e: Element): Option[Plugin] = attempt:
+    if !Kinds.contains(e.tag) then
+      fail(e.at, s"unknown element <${e.tag}>", Suggest.help(e.tag, Kinds ++ Tags))
+    val name = e("type").getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `type`"))
+    Plugin(e.tag, name, e("id"), e.at, e.children.flatMap(property))
+
+  private def attempt[A](body: => A): Option[A] =
+    try Some(body)
+    catch
+      case e: SceneError =>
+        e.problems.foreach(report)
+        None
+
+  private def property(e: Element): Option[Property] =
+    val isObject = Kinds.contains(e.tag) && (e.tag != "spectrum" || e("type").nonEmpty)
+    if isObject then
+      plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
+    else
+      attempt(value(e)).map: v =>
+        Property(e("name").getOrElse(""), v, e.at)
+
+  private def value(e: Element): Value =
+    def text = e("value").getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `value`"))
+    if e.tag != "ref" && e("name").isEmpty then
+      if !Tags.contains(e.tag) then
+        fail(e.at, s"unknown element <${e.tag}>", Suggest.help(e.tag, Kinds ++ Tags))
+      else fail(e.at, s"<${e.tag}> must have the attribute `name`")
+    e.tag match
+      case "float" | "integer" => Value.Number(number(text, e.at))
+      case "boolean" =>
+        text.trim.toLowerCase match
+          case "true" => Value.Flag(true)
+          case "false" => Value.Flag(false)
+          case other => fail(e.at, s"expected true or false, found `$other`")
+      case "string" => Value.Text(text)
+      case "vector" | "point" =>
+        e("value") match
+          case Some(t) => triple(numbers(t, e.at), e.at)
+          case None =>
+            def c(name: String) = e(name).fold(0.0)(number(_, e.at))
+            Value.Triple(c("x"), c("y"), c("z"))
+      case "rgb" | "srgb" => Value.Color(color(text, e.at))
+      case "spectrum" => spectrum(e)
+      case "blackbody" =>
+        val kelvin = number(e("temperature").getOrElse(text).stripSuffix("K"), e.at)
+        val at = e.at
+        Value.Nested(
+          Plugin(
+            "spectrum",
+            "blackbody",
+            None,
+            at,
+            Vector(
+              Property("temperature", Value.Number(kelvin), at)
+            )
+          )
+        )
+      case "transform" => Value.Placed(Transforms.of(e))
+      case "ref" =>
+        Value.Reference(e("id").getOrElse(fail(e.at, "<ref> must have the attribute `id`")))
+      case other => fail(e.at, s"unknown element <$other>", Suggest.help(other, Kinds ++ Tags))
+
+  private def triple(xs: Vector[Double], at: SourcePos): Value = xs match
+    case Vector(x) => Value.Triple(x, x, x)
+    case Vector(x, y, z) => Value.Triple(x, y, z)
+    case _ => fail(at, s"expected three numbers, found ${xs.size}")
+
+  /** Three numbers, one for all, or `#rrggbb`. */
+  private def color(text: String, at: SourcePos): Rgb =
+    if text.trim.startsWith("#") then
+      val code = Try(Integer.parseInt(text.trim.drop(1), 16)).toOption
+      val c = code.filter(_ => text.trim.length == 7)
+        .getOrElse(fail(at, s"expected a colour such as #ff8000, found `$text`"))
+      Rgb((c >> 16 & 255) / 255f, (c >> 8 & 255) / 255f, (c & 255) / 255f)
+    else
+      numbers(text, at).map(_.toFloat) match
+        case Vector(v) => Rgb.gray(v)
+        case Vector(r, g, b) => Rgb(r, g, b)
+        case more => fail(at, s"expected three numbers, found ${more.size}")
+
+  /** One number, or pairs `wavelength:value`, or those of a file. */
+  private def spectrum(e: Element): Value =
+    (e("value"), e("filename")) match
+      case (Some(text), _) if text.contains(':') =>
+        Value.Wavelengths(pairs(words(text).flatMap(_.split(':')), e.at))
+      case (Some(text), _) => Value.Number(number(text, e.at))
+      case (None, Some(name)) => Value.Wavelengths(file(name, e.at))
+      case _ => fail(e.at, "<spectrum> must have the attribute `value` or `filename`")
+
+  def file(name: String, at: SourcePos): Spectrum =
+    val lines =
+      try Files.readString(find(name), java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
+      catch
+        case _: java.io.IOException | _: java.nio.file.InvalidPathException =>
+          fail(at, s"can't read the spectrum `$name`", Suggest.file(find(name)))
+    pairs(lines.filterNot(_.trim.startsWith("#")).flatMap(words).toVector, at)
+
+  private def pairs(texts: Iterable[String], at: SourcePos): Spectrum =
+    val xs = texts.map(number(_, at)).toVector
+    Values.spectrum(xs, at)
+
+object Values:
+  /** Elements that are objects. */
+  val Kinds: Set[String] =
+    Set("bsdf", "emitter", "film", "integrator", "medium", "phase", "rfilter", "sampler", "sensor",
+      "shape", "spectrum", "texture", "volume")
+
+  /** Elements that are values. */
+  private val Tags =
+    Set("boolean", "float", "integer", "point", "ref", "rgb", "string", "transform", "vector")
+
+  def fail(at: SourcePos, message: String, help: Option[String] = None): Nothing =
+    throw SceneError(Problem.error(at, message, help))
+
+  private def words(text: String): Vector[String] =
+    text.split("[\\s,]+").toVector.filter(_.nonEmpty)
+
+  def numbers(text: String, at: SourcePos): Vector[Double] = words(text).map(number(_, at))
+
+  def number(text: String, at: SourcePos): Double =
+    text.trim.toDoubleOption.filter(java.lang.Double.isFinite(_))
+      .getOrElse(fail(at, s"expected a number, found `${text.trim}`"))
+
+  /** Of wavelengths and values in turn. */
+  def spectrum(xs: Vector[Double], at: SourcePos): Spectrum =
+    if xs.size % 2 != 0 then fail(at, "a wavelength has no value")
+    val (lambda, values) = xs.grouped(2).map(p => (p(0).toFloat, p(1).toFloat)).toVector.unzip
+    if lambda.isEmpty || lambda.zip(lambda.drop(1)).exists((a, b) => a >= b) then
+      fail(at, "expected ascending wavelengths, each with a value")
+    Spectrum(lambda.toArray, values.toArray, Spectrum.Outside.Zero)
+
+/** Transforms, as elements. */
+private[mitsuba] object Transforms:
+  import Values.{fail, number, numbers}
+
+  /** Steps apply in order. */
+  def of(e: Element): Transform = e.children.foldLeft(Transform.Identity)((t, s) => step(s) * t)
+
+  private def step(e: Element): Transform =
+    def or(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
+    def list(name: String) =
+      e(name).map(numbers(_, e.at)).filter(_.size == 3)
+        .getOrElse(fail(e.at, s"<${e.tag}> must have the attribute `$name`, of three numbers"))
+    def regular(t: Option[Transform], why: String) =
+      t.getOrElse(fail(e.at, s"transform can't be inverted: $why"))
+    def axes(default: Double) =
+      e("value").map(numbers(_, e.at)) match
+        case Some(Vector(s)) => Vector(s, s, s)
+        case Some(v) if v.size == 3 => v
+        case Some(v) => fail(e.at, s"expected three numbers, found ${v.size}")
+        case None => Vector(or("x", default), or("y", default), or("z", default))
+    e.tag match
+      case "translate" =>
+        val v = axes(0)
+        Transform.translate(v(0), v(1), v(2))
+      case "scale" =>
+        val v = axes(1)
+        regular(Transform.scale(v(0), v(1), v(2)), "zero scale")
+      case "rotate" =>
+        val v = axes(0)
+        val degrees = e("angle").fold(fail(e.at, "<rotate> must have the attribute `angle`")):
+          number(_, e.at)
+        regular(Transform.rotate(degrees, v(0), v(1), v(2)), "axis of length 0")
+      case "lookat" =>
+        val why = "origin equals target, or up is parallel to the view direction"
+        val up = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 1.0)
+        regular(Transform.lookAt(list("origin"), list("target"), up), why).inverse
+      case "matrix" =>
+        val m = numbers(e("value").getOrElse(""), e.at)
+        val rows = m.size match
+          case 16 => m
+          case 9 => Vector(m.take(3) :+ 0.0, m.slice(3, 6) :+ 0.0, m.drop(6) :+ 0.0).flatten ++
+              Vector(0.0, 0.0, 0.0, 1.0)
+          case n => fail(e.at, s"expected 16 numbers, found $n")
+        regular(Transform.fromRows(rows), "matrix of determinant 0")
+      case other =>
+        val known = List("lookat", "matrix", "rotate", "scale", "translate")
+        fail(e.at, s"unknown element <$other>", candela.base.Suggest.help(other, known))

@@ -1,0 +1,159 @@
+package candela.mitsuba
+
+import candela.base.{FileName, SourcePos}
+import candela.math.Transform
+import candela.scenefile.{Declaration, GraphicsState, Param, SceneDescription}
+
+import java.nio.file.Path
+
+/** Translates sensors with their films, filters and samplers. */
+final class Views(session: Session, media: Media, scene: Path):
+
+  /** The scene as seen by a sensor. */
+  def seen(p: Plugin, from: SceneDescription): SceneDescription =
+    session.of(p): in =>
+      val (width, height, film) = in.nested("film").headOption match
+        case Some(f) => session.of(f)(filmOf)
+        case None => filmOf(Asked(plain("film", "hdrfilm", in.at), session))
+      val filter = in.nested("film").headOption
+        .flatMap(f => Asked(f, session).nested("rfilter").headOption)
+        .getOrElse(plain("rfilter", "gaussian", in.at))
+      val sampler =
+        in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.at))
+      in.ignore("near_clip", "far_clip", "srf")
+      val toWorld = in.transform("to_world")
+      val medium = in.nested("medium").headOption.fold("")(media(_))
+      // Mitsuba's x points left, pbrt's right
+      val toCamera = (toWorld * Transform.scale(-1, 1, 1).get).inverse
+      from.copy(
+        camera = Some(camera(in, width, height)),
+        worldToCamera = GraphicsState.still(toCamera),
+        cameraMedium = medium,
+        film = Some(film),
+        filter = Some(session.of(filter)(filterOf)),
+        sampler = Some(session.of(sampler)(samplerOf))
+      )
+
+  private def plain(kind: String, name: String, at: SourcePos): Plugin =
+    Plugin(kind, name, None, at, Vector.empty)
+
+  private def camera(in: Asked, width: Int, height: Int): Declaration =
+    val shutter = Seq("shutter_open" -> "shutteropen", "shutter_close" -> "shutterclose").flatMap:
+      (name, ours) => in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
+    val aspect = width.toDouble / height
+    val dx = in.number("principal_point_offset_x", 0)
+    val dy = in.number("principal_point_offset_y", 0)
+    val (halfX, halfY) = if aspect >= 1 then (aspect, 1.0) else (1.0, 1 / aspect)
+    def window(halfX: Double, halfY: Double) =
+      val (cx, cy) = (-2 * dx * halfX, 2 * dy * halfY)
+      val sides = Seq(cx - halfX, cx + halfX, cy - halfY, cy + halfY).map(_.toFloat)
+      Param.float("screenwindow", in.at, sides*)
+    in.plugin.name match
+      case "orthographic" =>
+        session.declare("Camera", "orthographic", in.at, shutter :+ window(1, 1 / aspect))
+      case name =>
+        if name != "perspective" && name != "thinlens" then
+          Plugins.unsupported(in.plugin, "using \"perspective\"", session)
+          in.ignore(in.plugin.properties.map(_.name)*)
+        val view = Seq(Param.float("fov", in.atOf("fov"), fov(in, aspect).toFloat)) ++
+          Option.when(dx != 0 || dy != 0)(window(halfX, halfY))
+        val focus = in.number("focus_distance")
+        val lens =
+          if name != "thinlens" then Nil
+          else
+            Seq(
+              Param.float("lensradius", in.at, in.number("aperture_radius", 0).toFloat),
+              Param.float("focaldistance", in.at, focus.getOrElse(1.0).toFloat)
+            )
+        session.declare("Camera", "perspective", in.at, view ++ lens ++ shutter)
+
+  /** Angle along the shorter side, in degrees. */
+  private def fov(in: Asked, aspect: Double): Double =
+    val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
+    val focal = in.property("focal_length").map(p => (p.value, p.at))
+    val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
+    def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
+    // Half of the width at distance 1
+    val half = (in.number("fov"), focal) match
+      case (Some(degrees), _) =>
+        if !(degrees > 0 && degrees < 180) then
+          session.error(in.atOf("fov"), "`fov` must be between 0 and 180 degrees")
+        axis match
+          case "x" => tan(degrees)
+          case "y" => tan(degrees) * aspect
+          case "diagonal" => tan(degrees) / diagonal
+          case "smaller" => tan(degrees) * Math.max(1, aspect)
+          case _ => tan(degrees) * Math.min(1, aspect)
+      case (None, given_) =>
+        // On film of 36 × 24 mm, along the diagonal
+        val millimetres = given_ match
+          case Some((Value.Text(text), at)) => Values.number(text.trim.stripSuffix("mm"), at)
+          case Some((Value.Number(x), _)) => x
+          case _ => 50.0
+        Math.sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres) / diagonal
+    Math.toDegrees(2 * Math.atan(half / Math.max(1, aspect)))
+
+  /** Width and height in pixels, and the film. */
+  private def filmOf(in: Asked): (Int, Int, Declaration) =
+    if !Plugins.films.contains(in.plugin.name) then
+      Plugins.unsupported(in.plugin, "using \"hdrfilm\"", session)
+    val (width, height) = (in.integer("width", 768), in.integer("height", 576))
+    if width < 1 || height < 1 then Values.fail(in.at, s"a film can't have $width × $height pixels")
+    in.nested("rfilter"): Unit
+    in.ignore(
+      "file_format", "pixel_format", "banner", "compensate", "sample_border", "gamma",
+      "tonemap_method", "attach_log", "exposure", "key", "burn", "high_quality_edges"
+    )
+    val crop = Seq("crop_offset_x", "crop_offset_y", "crop_width", "crop_height")
+    val bounds = Option.when(crop.exists(in.has)):
+      val (x, y) = (in.integer("crop_offset_x", 0), in.integer("crop_offset_y", 0))
+      val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
+      Param.int("pixelbounds", in.at, x, x + w, y, y + h)
+    val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
+    val params = Seq(
+      Param.int("xresolution", in.atOf("width"), width),
+      Param.int("yresolution", in.atOf("height"), height),
+      Param.string("filename", in.at, s"${FileName.stem(scene)}.exr"),
+      Param.bool("savefp16", in.at, isHalf)
+    ) ++ bounds
+    (width, height, session.declare("Film", "rgb", in.at, params))
+
+  private def filterOf(in: Asked): Declaration =
+    def filter(name: String, radius: Double, more: Param*) =
+      val size = Seq("xradius", "yradius").map(Param.float(_, in.at, radius.toFloat))
+      session.declare("PixelFilter", name, in.at, size ++ more)
+    def number(name: String, x: Double) = Param.float(name, in.at, x.toFloat)
+    in.plugin.name match
+      case "box" => filter("box", 0.5)
+      case "tent" => filter("triangle", in.number("radius", 1))
+      case "mitchell" =>
+        filter(
+          "mitchell",
+          2,
+          number("B", in.number("B", 1.0 / 3)),
+          number("C", in.number("C", 1.0 / 3))
+        )
+      case "catmullrom" => filter("mitchell", 2, number("B", 0), number("C", 0.5))
+      case "lanczos" =>
+        val lobes = in.integer("lobes", 3)
+        filter("sinc", lobes, number("tau", lobes))
+      case other =>
+        if other != "gaussian" then Plugins.unsupported(in.plugin, "using \"gaussian\"", session)
+        val sigma = in.number("stddev", 0.5)
+        filter("gaussian", 4 * sigma, number("sigma", sigma))
+
+  private def samplerOf(in: Asked): Declaration =
+    in.ignore("seed", "jitter", "strength")
+    val count = in.integer("sample_count", 4)
+    if count < 1 then Values.fail(in.atOf("sample_count"), "`sample_count` must be at least 1")
+    def sampler(name: String, params: Param*) = session.declare("Sampler", name, in.at, params)
+    val at = in.atOf("sample_count")
+    in.plugin.name match
+      case "ldsampler" => sampler("paddedsobol", Param.int("pixelsamples", at, count))
+      case "stratified" | "multijitter" | "orthogonal" =>
+        val x = Math.ceil(Math.sqrt(count)).toInt
+        sampler("stratified", Param.int("xsamples", at, x), Param.int("ysamples", at, x))
+      case other =>
+        if other != "independent" then
+          Plugins.unsupported(in.plugin, "using \"independent\"", session)
+        sampler("independent", Param.int("pixelsamples", at, count))

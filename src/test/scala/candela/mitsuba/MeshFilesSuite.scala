@@ -1,0 +1,71 @@
+package candela.mitsuba
+
+import candela.base.{SceneError, SourcePos}
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class MeshFilesSuite extends AnyFunSuite:
+  private val at = SourcePos("scene.xml", 1, 1)
+  private val folder = Path.of("scenes", "mitsuba")
+
+  private def written[A](bytes: Array[Byte])(use: Path => A): A =
+    val file = Files.createTempFile("candela", ".mesh")
+    try use(Files.write(file, bytes))
+    finally Files.delete(file)
+
+  private def obj(text: String): Mesh =
+    written(text.getBytes("UTF-8"))(ObjFile.read(_, flipped = false, at))
+  private def why(body: => Any): String = intercept[SceneError](body).problems.head.message
+
+  test("a corner of a face is a vertex of its own combination of indices"):
+    val mesh = obj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 1\n" +
+      "f 1/1 2/1 3/2 4/2\nf 1/1 2/1 -2/2\n")
+    assert(mesh.indices.toVector == Vector(0, 1, 2, 0, 2, 3, 0, 1, 2))
+    assert(mesh.positions.length == 12)
+    assert(mesh.uvs.toVector == Vector(0f, 0f, 0f, 0f, 1f, 1f, 1f, 1f))
+    assert(mesh.normals.isEmpty)
+
+  test("faults of an OBJ file are reported with its line"):
+    assert(why(obj("v 0 0 0\nf 1 2 3\n")).endsWith("line 2: the index 2 is not one of 1 to 1"))
+    assert(why(obj("v 0 x 0\n")).endsWith("line 1: expected a number, found `x`"))
+    assert(why(obj("v 0 0 0\n")).endsWith("it has no faces"))
+
+  test("the same tent as OBJ and as serialized mesh"):
+    val a = ObjFile.read(folder.resolve("tent.obj"), flipped = false, at)
+    val b = SerializedFile.read(folder.resolve("tent.serialized"), 0, at)
+    def corners(m: Mesh) =
+      m.indices.toVector.map(i => m.positions.slice(3 * i, 3 * i + 3).toVector)
+    assert(corners(a).toSet == corners(b).toSet)
+    assert(a.indices.length == 12 && b.indices.length == 12)
+
+  test("a serialized mesh that claims more than it can hold is refused"):
+    val good = Files.readAllBytes(folder.resolve("tent.serialized"))
+    assert(why(written(good.take(40))(SerializedFile.read(_, 0, at))).contains("damaged"))
+    assert(why(SerializedFile.read(folder.resolve("tent.serialized"), 1, at)).contains("1 meshes"))
+    val body = java.io.ByteArrayOutputStream()
+    val zip = java.util.zip.DeflaterOutputStream(body)
+    val claim = java.nio.ByteBuffer.allocate(21).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    zip.write(claim.putInt(0x1000).put(0.toByte).putLong(700_000_000L).putLong(1L).array)
+    zip.close()
+    val packed = body.toByteArray
+    val file =
+      java.nio.ByteBuffer.allocate(packed.length + 16).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    file.putShort(0x041c).putShort(4).put(packed).putLong(0L).putInt(1)
+    assert(why(written(file.array)(SerializedFile.read(
+      _,
+      0,
+      at
+    ))).contains("more than it can hold"))
+
+  test("vertex normals are the triangles', weighted by angle"):
+    // A cube's corner: three right angles, whatever the number of triangles
+    val cube = Mesh(
+      Array(0f, 0f, 0f, 1f, 0f, 0f, 1f, 1f, 0f, 0f, 1f, 0f, 0f, 0f, 1f, 1f, 0f, 1f, 0f, 1f, 1f),
+      Array.emptyFloatArray,
+      Array.emptyFloatArray,
+      Array(0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 0, 4, 6, 0, 6, 3)
+    )
+    val n = cube.smooth.normals.take(3)
+    n.foreach(c => assert(Math.abs(c + 1 / Math.sqrt(3)) < 1e-6))
