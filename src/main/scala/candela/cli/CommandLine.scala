@@ -195,6 +195,11 @@ final case class Options(
     toPly: Option[Int] = None,
     bake: Option[Int] = None
 ):
+  /** With a parameter of a Mitsuba scene, given as NAME=VALUE. */
+  def defining(text: String): Options =
+    val (name, value) = text.span(_ != '=')
+    copy(defines = defines.updated(name, value.drop(1)))
+
   /** Whether anything follows the rendering. */
   def isWatched: Boolean = watch.isDefined || displayServer.isDefined
 

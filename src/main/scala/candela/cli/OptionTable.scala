@@ -86,11 +86,7 @@ private[cli] object OptionTable extends OptionRows:
     .action((_, o) => o.copy(keepGoing = true))
 
   private def defines: Row = opt[String]('D', "define").unbounded().valueName("NAME=VALUE")
-    .text("value of a parameter `$NAME` of a Mitsuba scene; also -DNAME=VALUE")
-    .validate(d => if d.indexOf('=') > 0 then success else failure("--define must be NAME=VALUE"))
-    .action: (d, o) =>
-      val Array(name, value) = d.split("=", 2): @unchecked
-      o.copy(defines = o.defines.updated(name, value))
+    .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE").action((d, o) => o.defining(d))
 
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
     .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")

@@ -41,6 +41,11 @@ object XmlFile:
       case e: XMLStreamException =>
         val at = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(place)
         throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
+      case e: SceneError => throw e
+      // The JDK's parser has faults of its own with damaged document types
+      case e: RuntimeException =>
+        val at = SourcePos(name, 1, 1, includedFrom)
+        throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
       case e: IOException =>
         val why = s"can't read `$name`: ${Option(e.getMessage).getOrElse(e)}"
         throw SceneError(includedFrom.fold(Problem.general(why))(Problem.error(_, why)))
@@ -52,7 +57,7 @@ object XmlFile:
     made
 
   /** The parser repeats the position before its message, and names its own properties after it. */
-  private def message(e: XMLStreamException): String =
+  private def message(e: Exception): String =
     val all = Option(e.getMessage).getOrElse(e.toString)
     all.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
 
