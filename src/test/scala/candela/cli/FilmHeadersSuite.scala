@@ -13,6 +13,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "light-groups" -> Vector("type", "statement", "key=point_3+spot_4,sky=infinite"),
     "film" -> Vector("gbuffer"),
     "dialect" -> Vector("v3"),
+    "define" -> Vector("spp=16"),
     "keep-going" -> Vector(""),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),

@@ -130,6 +130,7 @@ object ConverterSuite:
       "v2-volumes-whitted" -> 1.3,
       "v3-ambientocclusion" -> 2.8,
       "v3-bump" -> 0.4,
+      "v3-defaults-materials" -> 0.13,
       "v3-defaults-shapes" -> 0.15,
       "v3-defaults-spelling" -> 0.2,
       "v3-disney-subsurface" -> 0.25,
