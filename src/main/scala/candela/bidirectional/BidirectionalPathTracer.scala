@@ -23,7 +23,7 @@ import candela.scene.Scene
   * @param rouletteAfter minimum depth before Russian roulette, for either subpath
   * @param compresses    as in [[Subpath]]
   * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
-  * @param through       participating media, if there are any: bounded ones, in vacuum
+  * @param through       participating media, if there are any
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].

@@ -71,7 +71,7 @@ private[bidirectional] final class LightPaths(
         ray.differential.isKnown = false
         ray.set(start.origin, start.direction, Float.PositiveInfinity)
         val within = media
-        if within != null then within.begin(hero, within.around(ray), time, sampler)
+        if within != null then within.begin(hero, within.around(light, ray), time, sampler)
         walk(light, sampler)
 
   private def walk(light: Int, sampler: Sampler): Unit =

@@ -47,10 +47,17 @@ private[candela] final class PathMedia(scene: Scene, media: SceneMedia):
     visibility.start(time)
     medium = start
 
+  /** Index of the medium at the origin of a light's ray: as declared around a light without a
+    * surface, as in pbrt; otherwise as the borders tell.
+    */
+  def around(light: Int, ray: Ray): Int =
+    val declared = media.lights(light)
+    if declared >= 0 then declared else around(ray)
+
   /** Index of the medium at the ray's origin: that on the near side of the first border of media in
     * its direction, or else that beyond all borders.
     */
-  def around(ray: Ray): Int =
+  private def around(ray: Ray): Int =
     ahead.time = ray.time
     ahead.set(ray.origin, ray.direction, Float.PositiveInfinity)
     var found = beyondAll

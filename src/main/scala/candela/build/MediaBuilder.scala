@@ -66,11 +66,13 @@ private[build] final class MediaBuilder(
 
   /** Returns the render method for the scene's media and volumes, and their description.
     *
+    * @param pointLike lights without a surface, the last of the scene's lights
     * @param reach diameter of the scene
     */
   def method(
       scene: Scene,
       lightSamples: Array[Int],
+      pointLike: Vector[LightDescription],
       materials: MaterialTable,
       reach: Float
   ): (RenderMethod, String) =
@@ -79,7 +81,9 @@ private[build] final class MediaBuilder(
     (plan.throughMedia, plan.throughVolumes) match
       case (Some(make), _) if isUsed || scene.hasInterfaces =>
         val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
-        val all = SceneMedia(media, materials.borders, camera, eye, reach)
+        val around = pointLike.map(l => index(l.medium, l.light.at)).toArray
+        val lights = Array.fill(scene.lights.length - around.length)(-1) ++ around
+        val all = SceneMedia(media, materials.borders, camera, lights, eye, reach)
         (make(scene, all), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)

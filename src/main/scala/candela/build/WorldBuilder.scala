@@ -96,14 +96,16 @@ private[build] final class WorldBuilder(
     warnOfDarkness(scene)
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
-    val (plain, inMedia) = media.method(scene, samples, materials, reach)
+    val (plain, inMedia) = media.method(scene, samples, shining.map(_._1), materials, reach)
     def recolored(basis: ColorBasis): RenderMethod =
       val other = context.in(basis)
       defineTextures(other)
       val otherLights = lit.lights(other) ++
         shining.flatMap((l, _) => light(l, lightPlan(l, other)))
       val otherScene = scene.recolored(materials.in(other), otherLights.map(_.light).toArray)
-      MediaBuilder(other, integratorIn(other)).method(otherScene, samples, materials, reach)._1
+      MediaBuilder(other, integratorIn(other))
+        .method(otherScene, samples, shining.map(_._1), materials, reach)
+        ._1
     val found = ColorPlan.of(context, mode, sensor)
     val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
     val method =

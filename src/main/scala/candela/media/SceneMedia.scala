@@ -13,6 +13,7 @@ final case class MediumBorder(inside: Int, outside: Int)
   * @param media         media other than vacuum
   * @param borders       indexed by the scene's materials
   * @param camera        index of the medium around the camera; −1 for vacuum
+  * @param lights        index of the medium declared around each light without a surface; −1: none
   * @param eye           where the camera is, at shutter open
   * @param reach         distance that light from infinity travels through media: the scene's
   *   diameter, as in pbrt-v3 and v4
@@ -21,6 +22,7 @@ final class SceneMedia(
     val media: Array[Medium],
     borders: Array[MediumBorder],
     val camera: Int,
+    val lights: Array[Int],
     val eye: Vec3,
     val reach: Float
 ):

@@ -113,6 +113,18 @@ final class PathMediaSuite extends AnyFunSuite:
     for (b, p) <- Seq(bdpt.r -> path.r, bdpt.g -> path.g, bdpt.b -> path.b) do
       assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
 
+  test("a point light is in the medium declared around it, whatever side the ground shows it"):
+    def overGround(integrator: String, spp: Int) =
+      val text = inFog(scene(integrator, coloured, point, spp, 1))
+      text
+        .take(text.indexOf("AttributeBegin\nMaterial \"interface\""))
+        .replace("[.6 .5 .4]\nShape", "[0 0 0]\nReverseOrientation\nShape")
+    val bdpt = color(overGround("\"bdpt\"", 1000))
+    val path = color(overGround("\"volpath\"", 4000))
+    // As above
+    for (b, p) <- Seq(bdpt.g -> path.g, bdpt.b -> path.b) do
+      assert(p > 0.01f && Math.abs(b - p) < 0.04f * p, s"$bdpt, volpath $path")
+
   test("and from within a ball of smoke, under a sky"):
     val medium = s"MakeNamedMedium \"m\" \"string type\" $coloured \"float g\" .3\n"
     def within(integrator: String, spp: Int) =
