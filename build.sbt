@@ -30,7 +30,12 @@ val jvmOptions = Seq(
   "--add-exports=java.base/jdk.internal.module=ALL-UNNAMED",
   // JDK 24 and later warn about Scala's lazy values; JDK 17 does not know the option against it.
   "-XX:+IgnoreUnrecognizedVMOptions",
-  "--sun-misc-unsafe-memory-access=allow"
+  "--sun-misc-unsafe-memory-access=allow",
+  // The SIMD kernel is a hundred times slower until it is compiled: compile it after a few calls of
+  // its warm-up, ahead of other code, and let callers wait for it.
+  "-XX:CompileCommand=quiet",
+  "-XX:CompileCommand=CompileThresholdScaling,candela.accel.tracing.VectorKernel$::*,0.01",
+  "-XX:CompileCommand=BackgroundCompilation,candela.accel.tracing.VectorKernel$::*,false"
 )
 
 lazy val root: Project = (project in file("."))

@@ -13,6 +13,9 @@ abstract class Parallel:
     */
   def each(count: Int)(task: Int => Unit): Unit
 
+  /** Runs a task of advantage but no result beside the caller, who does not wait for it. */
+  def aside(name: String)(task: => Unit): Unit
+
   /** Runs `task` for ranges (from, until) that partition 0 until `count`, each large enough to
     * amortise the call. The partition is unspecified.
     */
@@ -25,10 +28,11 @@ abstract class Parallel:
 
 object Parallel:
 
-  /** Runs tasks sequentially in the caller's thread. */
+  /** Runs tasks sequentially in the caller's thread, and none aside. */
   val Alone: Parallel = new Parallel:
     def threads: Int = 1
     def each(count: Int)(task: Int => Unit): Unit = loop(count)(task(_))
+    def aside(name: String)(task: => Unit): Unit = ()
 
   /** Tasks per thread, for load balance. */
   private val Pieces = 4

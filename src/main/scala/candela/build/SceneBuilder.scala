@@ -1,5 +1,6 @@
 package candela.build
 
+import candela.accel.tracing.Hierarchies
 import candela.base.{Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
@@ -73,6 +74,7 @@ object SceneBuilder:
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, options)
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
+    Hierarchies.expect(samples, options.crew)
     val world =
       WorldBuilder(
         context,

@@ -33,9 +33,6 @@ final class Ray:
   /** Scratch memory of a traversal: results for the children of a node. */
   val lanes: Array[Int] = new Array[Int](16)
 
-  /** Number of traversals with this ray, as far as the accelerator counts them. */
-  var walks = 0
-
   /** Set only if textures need it. */
   val differential: RayDifferential = RayDifferential()
 

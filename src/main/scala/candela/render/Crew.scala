@@ -26,12 +26,18 @@ final class Crew(val threads: Int) extends Parallel:
         catch
           case e: Throwable =>
             val _ = failure.compareAndSet(null, e)
-      val others = Vector.tabulate(Math.min(threads, count) - 1): i =>
-        val thread = Thread(work, s"candela-helper-${i + 1}")
-        thread.setDaemon(true)
-        thread.start()
-        thread
+      val others =
+        Vector.tabulate(Math.min(threads, count) - 1)(i => start(s"helper-${i + 1}", work))
       work.run()
       others.foreach(_.join())
       val thrown = failure.get
       if thrown != null then throw thrown
+
+  def aside(name: String)(task: => Unit): Unit =
+    val _ = start(name, () => task)
+
+  private def start(name: String, work: Runnable): Thread =
+    val thread = Thread(work, s"candela-$name")
+    thread.setDaemon(true)
+    thread.start()
+    thread

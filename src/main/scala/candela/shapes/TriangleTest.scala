@@ -71,14 +71,14 @@ object TriangleTest:
     var e0 = x1 * y2 - y1 * x2
     var e1 = x2 * y0 - y2 * x0
     var e2 = x0 * y1 - y0 * x1
-    if e0 == 0f || e1 == 0f || e2 == 0f then
+    // Conditions by the signs of bits, one branch each: the JVM compiles a method again when a
+    // branch is taken for the first time
+    if isAnyZero(e0, e1, e2) then
       // On an edge in Float: products of Floats are exact in Double, so the sign is right
       e0 = (x1.toDouble * y2.toDouble - y1.toDouble * x2.toDouble).toFloat
       e1 = (x2.toDouble * y0.toDouble - y2.toDouble * x0.toDouble).toFloat
       e2 = (x0.toDouble * y1.toDouble - y0.toDouble * x1.toDouble).toFloat
-    if ((e0 < 0f || e1 < 0f || e2 < 0f) && (e0 > 0f || e1 > 0f || e2 > 0f)) ||
-      e0 + e1 + e2 == 0f
-    then false
+    if areMixed(e0, e1, e2) || e0 + e1 + e2 == 0f then false
     else
       // The hit is recomputed in Double from the corners (Möller and Trumbore, "Fast, Minimum
       // Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats are off by 1e-7 of the distance
@@ -111,9 +111,12 @@ object TriangleTest:
       val t = (bx * rx + by * ry + bz * rz) * inverse
       val sides = (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz) *
         (dx * dx + dy * dy + dz * dz)
-      val isClear = volume * volume > DoubtfulHit.Slim * sides &&
-        b1 >= -DoubtfulHit.Rounded && b2 >= -DoubtfulHit.Rounded &&
-        b1 + b2 <= 1.0 + DoubtfulHit.Rounded
+      val isClear = areSigns(
+        DoubtfulHit.Slim * sides - volume * volume,
+        b1 + DoubtfulHit.Rounded,
+        b2 + DoubtfulHit.Rounded,
+        1.0 + DoubtfulHit.Rounded - (b1 + b2)
+      )
       if !isClear then
         DoubtfulHit.test(
           v,
@@ -142,5 +145,34 @@ object TriangleTest:
             hit.v = b2
           true
 
+  private[shapes] inline def isAnyZero(a: Float, b: Float, c: Float): Boolean =
+    ((magnitude(a) - 1) | (magnitude(b) - 1) | (magnitude(c) - 1)) < 0
+
+  /** Whether one is below and another one above zero. */
+  private[shapes] inline def areMixed(a: Float, b: Float, c: Float): Boolean =
+    val below = (bits(a) & sided(a)) | (bits(b) & sided(b)) | (bits(c) & sided(c))
+    val above = (~bits(a) & sided(a)) | (~bits(b) & sided(b)) | (~bits(c) & sided(c))
+    (below & above) < 0
+
+  /** Negative if x is neither zero nor NaN. */
+  private inline def sided(x: Float): Int = -magnitude(x) & (magnitude(x) - NaN)
+
+  private inline def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
+
+  private inline def magnitude(x: Float): Int = bits(x) & Int.MaxValue
+
+  /** Whether `below` has a minus sign, and the others have none. */
+  private inline def areSigns(below: Double, a: Double, b: Double, c: Double): Boolean =
+    (sign(below) & ~(sign(a) | sign(b) | sign(c))) < 0L
+
+  /** The smallest bits of a NaN without its sign. */
+  private inline val NaN = 0x7f800001
+
+  private inline def sign(x: Double): Long = java.lang.Double.doubleToRawLongBits(x)
+
+  /** Whether a hit at t > 0 precedes the closest one so far: a comparison of pairs. */
   inline def isCloser(t: Float, primitive: Int, ray: Ray, hit: Hit): Boolean =
-    t < ray.tMax || (t == ray.tMax && primitive < hit.primitive)
+    t <= ray.tMax && pair(t, primitive) < pair(ray.tMax, hit.primitive)
+
+  private inline def pair(t: Float, primitive: Int): Long =
+    (bits(t).toLong << 32) + (primitive.toLong - Int.MinValue)

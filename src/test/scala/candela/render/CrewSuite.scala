@@ -35,3 +35,13 @@ class CrewSuite extends AnyFunSuite:
     Crew(2).each(2): _ =>
       both.countDown()
       if !both.await(10, java.util.concurrent.TimeUnit.SECONDS) then fail("one waits for the other")
+
+  test("a task aside runs while the caller goes on, on a thread that does not keep the JVM alive"):
+    val latch = java.util.concurrent.CountDownLatch(1)
+    val thread = java.util.concurrent.CompletableFuture[Thread]()
+    Crew(1).aside("some-task"):
+      latch.await()
+      thread.complete(Thread.currentThread): Unit
+    latch.countDown()
+    val found = thread.get(10, java.util.concurrent.TimeUnit.SECONDS)
+    assert(found.getName == "candela-some-task" && found.isDaemon)

@@ -82,3 +82,30 @@ class TriangleTestSuite extends AnyFunSuite:
       val v = corners(a, a + d, other)
       val hasNoArea = ((a + d - a) cross (other - a)).isZero
       assert(!hasNoArea || !meets(v, o, target - o))
+
+  test("conditions by bits agree with comparisons, also of zeros, infinities and NaN"):
+    val special =
+      Seq(0f, -0f, 1f, -1f, Float.MinPositiveValue, -Float.MinPositiveValue, Float.NaN) ++
+        Seq(Float.MaxValue, -Float.MaxValue, Float.PositiveInfinity, Float.NegativeInfinity)
+    val nans = Seq(0x7fc00000, 0xffc00000, 0x7f800001).map(java.lang.Float.intBitsToFloat)
+    for a <- special ++ nans; b <- special ++ nans; c <- special ++ nans do
+      val all = Seq(a, b, c)
+      assert(TriangleTest.isAnyZero(a, b, c) == all.contains(0f), s"$all")
+      val mixed = all.exists(_ < 0f) && all.exists(_ > 0f)
+      assert(TriangleTest.areMixed(a, b, c) == mixed, s"$all"): Unit
+
+  test("of two hits the closer one precedes, then the one of the lower number"):
+    val (near, far) = (1f, Math.nextUp(1f))
+    for
+      t <- Seq(near, far, Float.MinPositiveValue)
+      end <- Seq(near, far, Float.MaxValue, Float.PositiveInfinity, Float.NaN)
+      number <- Seq(0, 1, 7, Int.MaxValue)
+      other <- Seq(-1, 0, 1, 7, Int.MaxValue)
+    do
+      ray.set(Vec3.Zero, Vec3.X, end)
+      hit.primitive = other
+      val precedes = t < end || (t == end && number < other)
+      assert(
+        TriangleTest.isCloser(t, number, ray, hit) == precedes,
+        s"$t $number $end $other"
+      ): Unit

@@ -38,7 +38,7 @@ object RayKernels:
   def kernels(primitives: Primitives): Seq[(String, () => Accelerator)] =
     val vector =
       if Hierarchies.hasVectors then
-        Seq("vector" -> (() => Hierarchies.vector(primitives, patience = 0)))
+        Seq("vector" -> (() => Hierarchies.vector(primitives, atOnce = true)))
       else Nil
     val few = if primitives.count > 10000 then Nil else Seq("brute" -> (() => BruteForce(primitives)))
     vector ++ Seq(

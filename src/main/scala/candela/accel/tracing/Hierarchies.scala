@@ -7,6 +7,10 @@ import candela.base.Parallel
 /** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:
 
+  /** Prepares for hierarchies of a scene with this many camera samples, while it is built. */
+  def expect(samples: Long, parallel: Parallel): Unit =
+    if samples >= Many then WarmUp.begin(parallel, hasVectors)
+
   /** @param samples upper bound of the number of camera samples */
   def of(
       primitives: Primitives,
@@ -24,31 +28,27 @@ object Hierarchies:
       width: Int = 4,
       parallel: Parallel = Parallel.Alone
   ): Accelerator =
-    WideBvh(WideBuilder.of(primitives, width, 4, MaxLeaf, parallel), ScalarKernel, Int.MaxValue)
+    WideBvh(WideBuilder.of(primitives, width, 4, MaxLeaf, parallel), ScalarKernel, atOnce = true)
 
-  /** Wide BVH traversed by SIMD code from the given ray on; requires [[hasVectors]]. */
+  /** Wide BVH traversed by SIMD code, at once or as soon as another thread has had it compiled;
+    * requires [[hasVectors]].
+    */
   def vector(
       primitives: Primitives,
-      patience: Int = Patience,
+      atOnce: Boolean = false,
       parallel: Parallel = Parallel.Alone
   ): Accelerator =
+    if !atOnce then WarmUp.begin(parallel, true)
     val tree = WideBuilder.of(primitives, VectorKernel.width, VectorKernel.lanes, MaxLeaf, parallel)
-    WideBvh(tree, VectorKernel, patience)
+    WideBvh(tree, VectorKernel, atOnce)
 
   private[tracing] def careful(primitives: Primitives): Accelerator =
-    WideBvh(WideBuilder.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, 0)
+    WideBvh(WideBuilder.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, atOnce = true)
 
   /** Whether the JVM's incubating Vector API is available, and this machine's SIMD worth using. */
   lazy val hasVectors: Boolean = VectorModule.isLoaded && VectorKernel.isWorthIt
 
   private inline val MaxLeaf = 4
-
-  /** Rays after which the SIMD kernel is tried. Compiling it costs about half a second of compiler
-    * time and of the thread that tries it; a ray then takes half as long as by scalar code. That
-    * breaks even after about this many rays of each thread and kind
-    * (docs/decisions/0010-ray-kernels.md).
-    */
-  private inline val Patience = 100000
 
   /** Primitive count below which a tree has too few nodes for SIMD to repay its compilation. A room
     * of 36 triangles gains a tenth of the processor time of 21 million samples.

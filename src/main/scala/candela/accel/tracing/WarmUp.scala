@@ -1,63 +1,144 @@
 package candela.accel.tracing
 
+import java.util.SplittableRandom
 import java.util.concurrent.atomic.AtomicBoolean
 
-/** Decides when a kernel that is slow until the JVM has compiled it starts to pay: as soon as it is
-  * measured to be faster than the scalar kernel on the same rays.
+import candela.accel.{Primitives, WideTree}
+import candela.accel.building.WideBuilder
+import candela.base.Parallel
+import candela.geometry.{Hit, Ray}
+import candela.math.{Transform, TwoPi, Vec3}
+import candela.shapes.{Shape, Sphere, TriangleSoup}
+
+/** Has the JVM compile a query of the SIMD kernel, which is a hundred times slower than scalar code
+  * until then.
   *
-  * Uncompiled SIMD code is about a hundred times slower. So one thread at a time runs a trial, a
-  * [[WarmUp.Batch]] of rays by both kernels, while the others continue with scalar code. The first
-  * [[WarmUp.Enough]] trials make the JVM compile the kernel; later ones check, for no more than a
-  * fraction of the time, whether it has. Compiled code remains so for all scenes.
+  * A thread of its own traces the same rays by both kernels while the scene is built, and while
+  * renders begin with scalar code. It ends when the SIMD kernel is faster.
+  *
+  * @param clock time in nanoseconds
   */
-private[tracing] final class WarmUp:
+private[tracing] final class WarmUp(
+    query: WarmUp.Query,
+    clock: () => Long = () => System.nanoTime
+):
   import WarmUp.*
 
-  /** Whether the kernel has been faster. Never reverts. */
+  /** Whether the kernel has been faster, for all scenes of the process. Never reverts. */
   @volatile var isOver = false
 
-  private val isTrying = AtomicBoolean()
-
-  // State of the thread that runs trials
-  private var tries = 0
-  private var scalarNanos, fastNanos = 0L
-
-  /** Traversals until the next trial; threads write it unsynchronised, as a few more or less do not
-    * matter.
+  /** Traces a batch of rays by both kernels; the SIMD kernel must be faster for most of them.
+    * Returns the time of all.
     */
-  private var pause = 0
-
-  /** Whether it is the caller's turn to run a trial; it must then call [[record]]. */
-  def claimsTrial(): Boolean =
-    if pause > 0 then
-      pause -= 1
-      false
-    else isTrying.compareAndSet(false, true)
-
-  /** Records the time that both kernels took for one ray. */
-  def record(scalar: Long, fast: Long): Unit =
-    scalarNanos += scalar
-    fastNanos += fast
-    tries += 1
-    if tries % Batch == 0 then
-      if fastNanos < scalarNanos then isOver = true
-      else if tries >= Enough then
-        pause = (Batch * Rest * Math.min(fastNanos / Math.max(1L, scalarNanos), Most)).toInt
-      scalarNanos = 0L
-      fastNanos = 0L
-    isTrying.set(false)
+  def attempt(tree: WideTree, fast: WideKernel, rays: TestRays): Long =
+    val start = clock()
+    var wins = 0
+    var i = 0
+    while i < Batch do
+      rays.next()
+      val begin = clock()
+      query(ScalarKernel, tree, rays.ray, rays.hit): Unit
+      val middle = clock()
+      rays.again()
+      query(fast, tree, rays.ray, rays.hit): Unit
+      if clock() - middle < middle - begin then wins += 1
+      i += 1
+    val nanos = clock() - start
+    if wins >= Most then isOver = true
+    nanos
 
 private[tracing] object WarmUp:
-  final val Batch = 64
+  final val Batch = 16
 
-  /** Traversals after which the JVM compiles a method with a loop (its Tier4 thresholds). */
-  final val Enough = 5120
+  /** Rays of a batch for which the SIMD kernel must be faster. */
+  private final val Most = 12
 
-  /** Time spent in scalar traversal between trials, relative to a trial. */
-  private final val Rest = 8
+  /** Batches after which the launcher's JVM compiles the kernel (see `lib/options`; others do after
+    * 5,000 calls).
+    */
+  final val Enough = 20
 
-  /** Cap on a measured slowdown, so that one interruption does not delay the decision for ever. */
-  private final val Most = 1000L
+  /** Rest after each later batch, relative to its time. */
+  private final val Rest = 3L
 
-  /** One for each query of the one kernel that needs to warm up. */
-  val closest, occluded = WarmUp()
+  /** Longest rest in milliseconds: a batch takes long if it waits for the compiler. */
+  private final val Longest = 20L
+
+  /** Seconds after which a kernel that is not faster is given up. */
+  private final val Patience = 60L
+
+  private final val Triangles = 500
+
+  /** Corners are at multiples of 1/Steps. */
+  private final val Steps = 16
+  private final val Spheres = 20
+  private final val Radius = 0.05f
+
+  /** Either query of a kernel. */
+  trait Query:
+    def apply(kernel: WideKernel, tree: WideTree, ray: Ray, hit: Hit): Boolean
+
+  val closest: WarmUp = WarmUp(_.closest(_, _, _))
+  val occluded: WarmUp = WarmUp(_.isOccluded(_, _, _))
+
+  private val hasBegun = AtomicBoolean()
+
+  /** Begins, unless it did before. The thread asks whether there are vectors: that takes time. */
+  def begin(parallel: Parallel, hasVectors: => Boolean): Unit =
+    if parallel != Parallel.Alone && hasBegun.compareAndSet(false, true) then
+      parallel.aside("warm-up")(if hasVectors then run(VectorKernel))
+
+  private def run(fast: VectorKernel.type): Unit =
+    val random = SplittableRandom(1)
+    val tree = testTree(random, fast.width, fast.lanes)
+    val rays = TestRays(random)
+    val end = System.nanoTime + Patience * 1000000000L
+    var batches = 0
+    while !(closest.isOver && occluded.isOver) && System.nanoTime < end do
+      var nanos = 0L
+      if !closest.isOver then nanos += closest.attempt(tree, fast, rays)
+      if !occluded.isOver then nanos += occluded.attempt(tree, fast, rays)
+      batches += 1
+      if batches > Enough then Thread.sleep(Math.min(nanos * Rest / 1000000L, Longest))
+
+  /** Small random triangles with corners at multiples of 1/[[Steps]], and a few spheres, in the
+    * unit cube. Rays miss whole nodes, pass through edges and corners, hit two triangles at once
+    * and triangles without area: branches that the JVM has seen here do not cost it a compilation
+    * when a scene takes them.
+    */
+  def testTree(random: SplittableRandom, width: Int, lanes: Int): WideTree =
+    val positions = Array.newBuilder[Float]
+    for _ <- 0 until Triangles do
+      val center = Vector.fill(3)(random.nextInt(Steps + 1))
+      for _ <- 0 until 3; x <- center do
+        positions += (x + random.nextInt(3) - 1).toFloat / Steps
+    val indices = Array.tabulate(3 * Triangles)(i => i)
+    val soup = TriangleSoup(positions.result, indices, Array.empty, Array.empty, false)
+    val spheres = Array.fill[Shape](Spheres):
+      def next() = random.nextDouble()
+      Sphere(Transform.translate(next(), next(), next()), Radius, -Radius, Radius, TwoPi, false)
+    WideBuilder.of(Primitives(soup, spheres), width, lanes, 4, Parallel.Alone)
+
+  /** Rays between random points of the unit cube; every other one is a segment. */
+  final class TestRays(random: SplittableRandom):
+    val ray: Ray = Ray()
+    val hit: Hit = Hit()
+    private var end = 0f
+
+    def next(): Unit =
+      val from = point()
+      end = if random.nextBoolean() then 0.999f else Float.PositiveInfinity
+      ray.set(from, point() - from, end)
+      hit.primitive = -1
+
+    /** The same ray, untraced. */
+    def again(): Unit =
+      ray.tMax = end
+      hit.primitive = -1
+
+    /** Every other point is one of those where corners are. */
+    private def point(): Vec3 =
+      val isCorner = random.nextBoolean()
+      def next() =
+        if isCorner then random.nextInt(Steps + 1).toFloat / Steps else random.nextDouble().toFloat
+      Vec3(next(), next(), next())

@@ -165,7 +165,7 @@ class CarefulSuite extends AcceleratorLaws(Hierarchies.careful(_))
 /** The best that this JVM has. */
 class HierarchySuite
     extends AcceleratorLaws(p =>
-      if Hierarchies.hasVectors then Hierarchies.vector(p, patience = 10) else Hierarchies.of(p)
+      if Hierarchies.hasVectors then Hierarchies.vector(p) else Hierarchies.of(p)
     )
 
 class GridSuite extends AcceleratorLaws(Grid(_)):

@@ -1,47 +1,85 @@
 package candela.accel.tracing
 
+import java.util.SplittableRandom
+
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.accel.WideTree
+import candela.geometry.{Hit, Ray}
+
 class WarmUpSuite extends AnyFunSuite:
-  import WarmUp.{Batch, Enough}
+  import WarmUp.{Batch, TestRays}
 
-  private def tell(warmUp: WarmUp, times: Int, fast: Long): Unit =
-    for _ <- 0 until times do
-      while !warmUp.claimsTrial() do ()
-      warmUp.record(100L, fast)
+  private def random = SplittableRandom(1)
+  private val tree = WarmUp.testTree(random, 4, 4)
 
-  test("a kernel is taken after the first batch in which it was faster"):
-    val warmUp = WarmUp()
-    tell(warmUp, Enough, 101L)
+  private object Fast extends WideKernel:
+    def closest(tree: WideTree, ray: Ray, hit: Hit): Boolean = false
+    def isOccluded(tree: WideTree, ray: Ray, hit: Hit): Boolean = false
+    def name: String = "fast"
+
+  /** A clock that each query advances; `times` is the time of the nth query by `Fast`. */
+  private final class Clock(times: Int => Long):
+    private var now = 0L
+    private var queries = 0
+    val warmUp: WarmUp = WarmUp(
+      (kernel, _, _, _) =>
+        if kernel eq Fast then
+          now += times(queries)
+          queries += 1
+        else now += 100
+        true
+      ,
+      () => now
+    )
+    def attempt(): Long = warmUp.attempt(tree, Fast, TestRays(random))
+
+  test("a kernel is taken when most rays of a batch were faster"):
+    val clock = Clock(i => if i < Batch + 4 then 101L else 99L)
+    clock.attempt(): Unit
+    assert(!clock.warmUp.isOver)
+    clock.attempt(): Unit
+    assert(clock.warmUp.isOver)
+
+  test("a kernel of equal speed is not taken"):
+    val clock = Clock(_ => 100L)
+    clock.attempt(): Unit
+    assert(!clock.warmUp.isOver)
+
+  test("one long interruption of the other kernel decides nothing"):
+    var scalar = 0
+    var now = 0L
+    val warmUp = WarmUp(
+      (kernel, _, _, _) =>
+        if kernel eq Fast then now += 10000
+        else
+          now += (if scalar == 3 then 100000000L else 100L)
+          scalar += 1
+        true
+      ,
+      () => now
+    )
+    warmUp.attempt(tree, Fast, TestRays(random)): Unit
     assert(!warmUp.isOver)
-    tell(warmUp, Batch - 1, 99L)
-    assert(!warmUp.isOver)
-    tell(warmUp, 1, 99L)
-    assert(warmUp.isOver)
 
-  test("one thread at a time tries"):
-    val warmUp = WarmUp()
-    assert(warmUp.claimsTrial() && !warmUp.claimsTrial())
-    warmUp.record(1L, 1L)
-    assert(warmUp.claimsTrial())
+  test("an attempt returns the time of both kernels"):
+    assert(Clock(_ => 400L).attempt() == Batch * 500L)
 
-  test("nobody waits until the JVM has a reason to compile"):
-    val warmUp = WarmUp()
-    for _ <- 0 until Enough do
-      assert(warmUp.claimsTrial())
-      warmUp.record(100L, 5000L)
-    assert(!warmUp.claimsTrial())
-
-  test("later tries take a small part of the time, however slow they are"):
-    for slowness <- Seq(2L, 50L, 900L) do
-      val warmUp = WarmUp()
-      tell(warmUp, Enough, 100 * slowness)
-      var (scalar, fast) = (0L, 0L)
-      for _ <- 0 until 2_000_000 do
-        if warmUp.claimsTrial() then
-          warmUp.record(100L, 100 * slowness)
-          fast += 100 * slowness
-        else scalar += 100L
-      val part = fast.toDouble / (fast + scalar)
-      assert(part > 0.05 && part < 0.13, s"$slowness times slower: $part"): Unit
-      assert(!warmUp.isOver): Unit
+  test("both kernels trace the same rays: misses, triangles, their edges and corners, spheres"):
+    val rays = TestRays(random)
+    var misses, triangles, spheres, edges, segments = 0
+    for _ <- 0 until 2000 do
+      rays.next()
+      val (end, d) = (rays.ray.tMax, rays.ray.direction)
+      val found = ScalarKernel.closest(tree, rays.ray, rays.hit)
+      if !found then misses += 1
+      else if rays.hit.primitive >= 500 then spheres += 1
+      else
+        triangles += 1
+        val (u, v) = (rays.hit.u, rays.hit.v)
+        if u.abs < 1e-6 || v.abs < 1e-6 || (1 - u - v).abs < 1e-6 then edges += 1
+      if !end.isInfinite then segments += 1
+      rays.again()
+      assert(rays.ray.tMax == end && rays.ray.direction == d && rays.hit.primitive == -1)
+    for (what, n) <- Seq(misses, triangles, spheres, edges, segments).zipWithIndex do
+      assert(what > 20, s"${Seq("misses", "triangles", "spheres", "edges", "segments")(n)}"): Unit
