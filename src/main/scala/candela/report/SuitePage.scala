@@ -69,7 +69,11 @@ object SuitePage:
         axis <- Vector("seconds", "samples")
       yield (metric.word, metric.title, axis, SuiteChart.of(s, metric, axis).svg)
     val pictures = s.programs.map(p => Picture(p.title, p.picture)) :+
-      Picture("reference", s.reference, isReference = true)
+      Picture(
+        if s.referenceName.isDefined then "reference" else "mean of all",
+        s.reference,
+        isReference = true
+      )
     frag(
       h2(s.title),
       Option.when(s.note.nonEmpty)(p(cls := "soft", s.note)),
@@ -82,7 +86,10 @@ object SuitePage:
           "of relative MSE against samples: −1 for independent samples, 0 where bias (or the " +
           s"reference's noise) dominates. First image: the whole process, with one sample per " +
           "pixel, median over seeds. Peak memory: resident, of all runs the largest. " +
-          s"Reference: ${s.referenceName}."
+          s.referenceName.fold(
+            "No reference: errors are the variance between the seeds, which reveals no bias; " +
+              "mean ratios are those to the mean of the longest renderings of all programs."
+          )(name => s"Reference: $name.")
       ),
       Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
     )
@@ -121,7 +128,8 @@ object SuitePage:
     ),
     p(
       "All images of a scene are compared with one reference; docs/METRICS.md defines the " +
-        "metrics. Errors below the reference's noise are not resolved."
+        "metrics. Errors below the reference's noise are not resolved. Without a reference, " +
+        "images of several seeds are compared with each other."
     )
   )
 

@@ -21,7 +21,8 @@ final case class ProgramResult(
     firstImage: Option[Double] = None
 )
 
-/** Results of all programs on one scene, against the named reference.
+/** Results of all programs on one scene, against the named reference, or of seeds against each
+  * other: the reference is then the mean of the longest renderings.
   *
   * @param target the relative MSE to reach
   */
@@ -30,7 +31,7 @@ final case class SceneResult(
     title: String,
     note: String,
     reference: Image,
-    referenceName: String,
+    referenceName: Option[String],
     target: Double,
     programs: Vector[ProgramResult]
 ):
@@ -93,7 +94,7 @@ object SuiteData:
 
   private def scene(s: SceneResult): ujson.Obj = ujson.Obj(
     "name" -> s.name,
-    "reference" -> s.referenceName,
+    "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
     "target" -> RenderData.number(s.target),
     "equalTime" -> s.equalTime.fold(ujson.Null: ujson.Value)(RenderData.number),
     "programs" -> ujson.Arr.from(s.programs.map(program(s, _)))

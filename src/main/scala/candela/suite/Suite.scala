@@ -60,7 +60,7 @@ final case class SuiteScene(
     title: String,
     note: String,
     files: Map[String, Path],
-    reference: Path,
+    reference: Option[Path],
     work: Option[Work],
     target: Option[Double],
     programs: Option[Vector[String]],

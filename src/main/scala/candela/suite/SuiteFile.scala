@@ -82,7 +82,7 @@ object SuiteFile:
       text(c, "title", name),
       text(c, "note", ""),
       files.root.keySet.asScala.map(k => k -> folder.resolve(files.getString(k))).toMap,
-      folder.resolve(c.getString("reference")),
+      Option.when(c.hasPath("reference"))(folder.resolve(c.getString("reference"))),
       work(c),
       Option.when(c.hasPath("target"))(c.getDouble("target")),
       Option.when(c.hasPath("programs"))(texts(c, "programs")),
@@ -117,19 +117,17 @@ object SuiteFile:
 
   private def wrong(message: String): SceneError = SceneError(Problem.general(message))
 
-/** A folder of scenes as a suite: each `NAME.pbrt` with a reference `NAME.exr`. */
+/** A folder of scenes as a suite: each `NAME.pbrt`, with a reference `NAME.exr` if there is one. */
 object SuiteFolder:
 
-  /** @throws SceneError if no scene has a reference */
+  /** @throws SceneError if there is no scene */
   def read(folder: Path, references: Path): Suite =
     val scenes = scala.util.Using.resource(Files.list(folder)): files =>
       files.iterator.asScala.toVector.filter(_.toString.endsWith(".pbrt")).sorted
-    val pairs = scenes
-      .map(s => s -> references.resolve(s.getFileName.toString.stripSuffix(".pbrt") + ".exr"))
-      .filter((_, reference) => Files.isRegularFile(reference))
-    if pairs.isEmpty then
-      val message = s"no scene of $folder has a reference NAME.exr in $references"
-      throw SceneError(Problem.general(message))
+    if scenes.isEmpty then throw SceneError(Problem.general(s"no scene NAME.pbrt in $folder"))
+    val pairs = scenes.map: s =>
+      val reference = references.resolve(s.getFileName.toString.stripSuffix(".pbrt") + ".exr")
+      s -> Option.when(Files.isRegularFile(reference))(reference)
     Suite(
       folder.toAbsolutePath.getFileName.toString,
       Vector(candela),
@@ -155,7 +153,7 @@ object SuiteFolder:
       isThin = false
     )
 
-  private def scene(file: Path, reference: Path): SuiteScene =
+  private def scene(file: Path, reference: Option[Path]): SuiteScene =
     val name = file.getFileName.toString.stripSuffix(".pbrt")
     SuiteScene(
       name,

@@ -1,6 +1,5 @@
 package candela.suite
 
-import candela.image.ImageFiles
 import candela.measure.{Interval, MeasuredCurve}
 import candela.report.{Machine, ProgramResult, SceneResult, SuiteReport}
 
@@ -64,8 +63,8 @@ object SuiteResults:
       scene.name,
       scene.title,
       scene.note,
-      ImageFiles.read(scene.reference).toRgb,
-      scene.reference.getFileName.toString,
+      runner.reference(scene),
+      scene.reference.map(_.getFileName.toString),
       scene.target.getOrElse(reachable(programs.map(_.curve.least))),
       programs
     )

@@ -1,7 +1,7 @@
 package candela.suite
 
 import candela.image.{Image, ImageError, ImageFiles}
-import candela.measure.{Errors, Measurement}
+import candela.measure.{Measurement, SeedNoise}
 
 import java.nio.file.{Files, Path}
 
@@ -42,6 +42,7 @@ final class SuiteRunner(
   private val copies = SceneCopy(scratch)
   private val leftOut = Vector.newBuilder[(String, String)]
   private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
+  private val judges = scala.collection.mutable.Map.empty[SuiteScene, Judge]
 
   private var waiting = Vector.empty[SuiteScene]
   private var forecast = Forecast(Vector.empty)
@@ -55,6 +56,9 @@ final class SuiteRunner(
 
   /** Image of the longest rendering with the first seed. */
   private[suite] def picture(entry: Entry): Image = pictures(entry)._2
+
+  /** What the scene's images were compared with. */
+  private[suite] def reference(scene: SuiteScene): Image = judges(scene).reference
 
   /** @param afterScene receives the results so far after each scene */
   private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
@@ -74,16 +78,18 @@ final class SuiteRunner(
       all
 
   private def ofScene(scene: SuiteScene, entries: Vector[Entry]): Vector[Result] =
-    val reference = ImageFiles.read(scene.reference).toRgb
-    val plans = entries.flatMap(entry => planned(entry, reference).map(entry -> _))
+    val judge = scene.reference.fold[Judge](SeedJudge(scratch)): file =>
+      ReferenceJudge(ImageFiles.read(file).toRgb)
+    judges(scene) = judge
+    val plans = entries.flatMap(entry => planned(entry, judge).map(entry -> _))
     for
       seed <- (1 to suite.seeds).toVector
       step <- Job.FirstImage +: plans.flatMap(_._2.indices).distinct.sorted
       // Rotates the order, so that disturbances of the machine affect all programs alike.
       (entry, counts) <- rotated(plans, seed + Math.max(0, step))
       samples <- if step == Job.FirstImage then firstImage(counts) else counts.lift(step)
-      result <- measured(Job(entry, step, samples, seed), reference)
-    yield result
+    do measured(Job(entry, step, samples, seed), judge): Unit
+    judge.results
 
   /** A count of its own, if one sample is none of the others. */
   private def firstImage(counts: Vector[Int]): Option[Int] =
@@ -98,8 +104,10 @@ final class SuiteRunner(
     val unset = scene.needs.filterNot(sys.env.contains)
     val why =
       if unset.nonEmpty then Some(Commands.notSet(unset))
-      else if !Files.isRegularFile(scene.reference) then
-        Some(s"no such reference: ${scene.reference}")
+      else if scene.reference.exists(!Files.isRegularFile(_)) then
+        scene.reference.map(f => s"no such reference: $f")
+      else if scene.reference.isEmpty && suite.seeds < SeedNoise.Fewest then
+        Some(s"without a reference, its noise takes at least ${SeedNoise.Fewest} seeds")
       else scene.files.values.find(!Files.isRegularFile(_)).map(f => s"no such file: $f")
     why.foreach(leaveOut(scene.title, _))
     why.isEmpty
@@ -112,13 +120,19 @@ final class SuiteRunner(
       useless = SceneCopy.useless(f, program.edits)
       _ = useless.foreach: edit =>
         leaveOut(s"${program.title} on ${scene.title}", s"edit matches nothing: `${edit.find}`")
-      if useless.isEmpty
+      isFixed = !program.isSeeded && scene.reference.isEmpty
+      _ = if isFixed then
+        leaveOut(
+          s"${program.title} on ${scene.title}",
+          "it has no seeds: without a reference, its noise is unknown"
+        )
+      if useless.isEmpty && !isFixed
     yield Entry(program, scene, f)
 
   /** The sample counts to render, from a warm-up run. */
-  private def planned(entry: Entry, reference: Image): Option[Vector[Int]] =
+  private def planned(entry: Entry, judge: Judge): Option[Vector[Int]] =
     def seconds(samples: Int): Option[Double] =
-      measured(Job(entry, Job.WarmUp, samples, 1), reference).map(_.measurement.seconds)
+      measured(Job(entry, Job.WarmUp, samples, 1), judge)
     val counts = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
       case Work.Seconds(budgets) =>
@@ -133,10 +147,11 @@ final class SuiteRunner(
     if items.isEmpty then items
     else items.drop(by % items.size) ++ items.take(by % items.size)
 
-  private def measured(job: Job, reference: Image): Option[Result] =
-    if isCancelled() then None else render(job, reference)
+  /** Renders and returns the seconds; the judge takes the image. */
+  private def measured(job: Job, judge: Judge): Option[Double] =
+    if isCancelled() then None else render(job, judge)
 
-  private def render(job: Job, reference: Image): Option[Result] =
+  private def render(job: Job, judge: Judge): Option[Double] =
     val Entry(program, scene, _) = job.entry
     val out = scratch.resolve("out.exr")
     val name = s"${scene.title}, ${program.title}, ${job.samples} spp"
@@ -149,13 +164,12 @@ final class SuiteRunner(
       case Outcome.Done(seconds, memory) =>
         try
           val image = shown(ImageFiles.read(out), program)
-          val errors = Errors.against(reference)(image)
+          val error = judge.take(job, seconds, memory, image)
           val counted = if job.step == Job.WarmUp then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
-          say(f"$name%-48s $counted%-8s $seconds%8.2f s  relative MSE ${errors.relativeMse}%.3g  " +
-            forecast.words)
+          say(f"$name%-48s $counted%-8s $seconds%8.2f s  $error  " + forecast.words)
           keep(job, image)
-          Some(Result(job, Measurement(job.samples, job.seed, seconds, errors, memory)))
+          Some(seconds)
         catch
           case e: ImageError =>
             forecast.ended(job, None)

@@ -47,7 +47,7 @@ object Reports:
       "A box",
       "small",
       reference,
-      "box.exr",
+      Some("box.exr"),
       0.2,
       Vector(program("fast", 0, 0.5), program("slow", 1, 2.0))
     )

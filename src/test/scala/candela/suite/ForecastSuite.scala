@@ -9,9 +9,9 @@ class ForecastSuite extends AnyFunSuite:
     Program(name, name, Vector.empty, Vector("f"), 1, Vector.empty, true, 0, isThin = false)
   private val scenes = Vector("s", "t").map: name =>
     val file = Path.of(name)
-    SuiteScene(name, name, "", Map("f" -> file), file, None, None, None, Vector.empty)
+    SuiteScene(name, name, "", Map("f" -> file), Some(file), None, None, None, Vector.empty)
   private val suite = Suite("T", renderers, scenes, Work.Samples(Vector(1, 16)), seeds = 2, 10)
-  private val entries = for s <- scenes; p <- renderers yield Entry(p, s, s.reference)
+  private val entries = for s <- scenes; p <- renderers yield Entry(p, s, s.files("f"))
   private def forecast() = Forecast(entries.flatMap(Forecast.runs(_, suite)))
   private def job(entry: Entry, step: Int) = Job(entry, step, 1, 1)
 

@@ -2,7 +2,7 @@ package candela.suite
 
 import candela.image.{Image, ImageFiles}
 import candela.measure.Metric
-import candela.report.SuiteReport
+import candela.report.{SuitePage, SuiteReport}
 
 import java.nio.file.{Files, Path}
 
@@ -39,7 +39,7 @@ class SuiteRunnerSuite extends AnyFunSuite:
       "Flat",
       "",
       Map("picture" -> flat(folder.resolve("scene.exr"), 0.75f)),
-      flat(folder.resolve("reference.exr"), 0.5f),
+      Some(flat(folder.resolve("reference.exr"), 0.5f)),
       None,
       None,
       None,
@@ -130,6 +130,40 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val (shared, all, ones) = first(1, 4)
       // With the warm-up run
       assert(shared.exists(_ > 0) && all == Vector(1, 4) && ones == 3)
+
+  private def unjudged(folder: Path, seeds: Int, programs: Program*): SuiteReport =
+    for seed <- 1 to 3; (name, scale) <- Seq("one" -> 1f, "two" -> 2f) do
+      flat(folder.resolve(s"$name-$seed.exr"), scale * seed / 10f): Unit
+    val scene = sceneIn(folder).copy(reference = None)
+    val suite =
+      Suite("T", programs.toVector, Vector(scene), Work.Samples(Vector(1, 2)), seeds, 30)
+    SuiteResults.of(suite, Vector("self"), folder, "1", _ => ())
+
+  test("without a reference, errors are the variance between the seeds"):
+    inFolder: folder =>
+      def seeded(name: String) = program(name, s"cp $folder/$name-{seed}.exr {out}")
+      val still = program("still", "cp {scene} {out}").copy(isSeeded = false)
+      val report = unjudged(folder, 3, seeded("one"), seeded("two"), still)
+      val scene = report.scenes.head
+      assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-3)
+      assert(scene.programs.map(_.name) == Vector("one", "two"))
+      for (p, variance, ratio) <- scene.programs.zip(Seq(0.01, 0.04)).zip(Seq(2 / 3.0, 4 / 3.0))
+          .map((a, b) => (a._1, a._2, b))
+      do
+        assert(p.curve.points.map(_.samples) == Vector(1, 2) && p.firstImage.isDefined)
+        for point <- p.curve.points do
+          assert(Math.abs(point(Metric.Mse).get.estimate - variance) < 1e-4)
+          assert(point(Metric.Flip).isEmpty)
+        assert(Math.abs(p.curve.meanRatio.head - ratio) < 1e-3)
+      val why = "it has no seeds: without a reference, its noise is unknown"
+      assert(report.leftOut == Vector("still on Flat" -> why))
+      val page = SuitePage.html(report)
+      assert(page.contains("variance between the seeds") && page.contains("mean of all"))
+
+  test("without a reference, two seeds are too few"):
+    inFolder: folder =>
+      val report = unjudged(folder, 2, program("one", s"cp $folder/one-{seed}.exr {out}"))
+      assert(report.scenes.isEmpty && report.leftOut.head._2.contains("at least 3 seeds"))
 
   test("peak memory is that of the largest process, where the system tells it"):
     val own = PeakMemory.of(ProcessHandle.current)

@@ -1,0 +1,56 @@
+package candela.measure
+
+import candela.base.loop
+import candela.image.{Image, ImageError}
+
+/** Errors of images of several seeds from each other, where no reference is given: the variance
+  * between the seeds, free of the noise that a reference would have. It reveals no bias.
+  */
+object SeedNoise:
+  /** Seeds from which there is a confidence interval: errors from the mean of two are equal. */
+  val Fewest = 3
+
+  def mean(images: Vector[Image]): Image =
+    val first = images.head
+    for image <- images do
+      if image.width != first.width || image.height != first.height then
+        throw ImageError(
+          s"images have different sizes: ${first.width}x${first.height}, " +
+            s"${image.width}x${image.height}"
+        )
+    val sums = new Array[Double](first.data.length)
+    for image <- images do loop(sums.length)(i => sums(i) += image.data(i))
+    val mean = Image.rgb(first.width, first.height)
+    loop(sums.length)(i => mean.data(i) = (sums(i) / images.size).toFloat)
+    mean
+
+  /** The error of each image of one program and sample count. Their mean is the unbiased variance:
+    * an image is nearer to a mean that contains it than to the truth, by (n − 1) / n.
+    *
+    * @param images one for each seed, three channels
+    * @param scale  what errors are relative to: the mean of as many images as there are
+    */
+  def of(images: Vector[Image], scale: Image): Vector[Errors] =
+    require(images.sizeIs >= 2, "noise takes at least two seeds")
+    val center = mean(images)
+    val correction = images.size / (images.size - 1.0)
+    images.map: image =>
+      val squares, relatives, sums, scales = new Array[Double](3)
+      var count = 0
+      loop(image.width * image.height): pixel =>
+        val at = 3 * pixel
+        def isFinite(a: Image) = (0 until 3).forall(c => java.lang.Float.isFinite(a.data(at + c)))
+        if isFinite(image) && isFinite(center) && isFinite(scale) then
+          count += 1
+          loop(3): c =>
+            val difference = image.data(at + c).toDouble - center.data(at + c)
+            val relative = difference / (scale.data(at + c) + Metrics.RelativeEpsilon)
+            squares(c) += difference * difference
+            relatives(c) += relative * relative
+            sums(c) += image.data(at + c)
+            scales(c) += scale.data(at + c)
+      if count == 0 then throw ImageError("no pixel is finite in all images")
+      def figure(of: Array[Double]) = correction * of.sum / (3.0 * count)
+      val ratios =
+        Vector.tabulate(3)(c => if sums(c) == scales(c) then 1.0 else sums(c) / scales(c))
+      Errors(figure(squares), figure(relatives), None, None, None, ratios)

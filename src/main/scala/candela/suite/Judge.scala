@@ -1,0 +1,79 @@
+package candela.suite
+
+import candela.image.{Image, ImageFiles}
+import candela.measure.{Errors, Measurement, SeedNoise}
+
+import java.nio.file.Path
+
+/** Finds the errors of a scene's images. */
+private[suite] abstract class Judge:
+
+  /** Takes an image; returns its error in words, if it is known already. */
+  def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String
+
+  /** All that was measured so far, in the order of rendering. */
+  def results: Vector[Result]
+
+  /** What the images are compared with; there are results. */
+  def reference: Image
+
+  protected final def result(
+      job: Job,
+      seconds: Double,
+      memory: Option[Long],
+      errors: Errors
+  ): Result = Result(job, Measurement(job.samples, job.seed, seconds, errors, memory))
+
+/** Compares with a reference. */
+private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
+  private val all = Vector.newBuilder[Result]
+
+  def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
+    val errors = Errors.against(reference)(image)
+    if job.step != Job.WarmUp then all += result(job, seconds, memory, errors)
+    f"relative MSE ${errors.relativeMse}%.3g"
+
+  def results: Vector[Result] = all.result()
+
+/** Compares the images of several seeds with each other. Each waits in a file for the last seed. */
+private[suite] final class SeedJudge(scratch: Path) extends Judge:
+  private final case class Kept(job: Job, seconds: Double, memory: Option[Long], file: Path):
+    def image: Image = ImageFiles.read(file).toRgb
+
+  private var kept = Vector.empty[Kept]
+  private var pooled: Option[(Int, Image)] = None
+
+  def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
+    if job.step != Job.WarmUp then
+      val file = scratch.resolve(s"${job.entry.scene.name}-${kept.size}.exr")
+      ImageFiles.write(file, image)
+      kept :+= Kept(job, seconds, memory, file)
+    "error known after all seeds"
+
+  /** Of the sample counts that have been rendered with enough seeds. */
+  private def sets: Vector[Vector[Kept]] =
+    kept.groupBy(k => (k.job.entry, k.job.step)).values.filter(
+      _.sizeIs >= SeedNoise.Fewest
+    ).toVector
+
+  def results: Vector[Result] =
+    if sets.isEmpty then Vector.empty
+    else
+      val scale = reference
+      val errors = sets.flatMap: set =>
+        set.zip(SeedNoise.of(set.map(_.image), scale))
+      val byJob = errors.map((k, e) => k.job -> e).toMap
+      kept.flatMap(k => byJob.get(k.job).map(result(k.job, k.seconds, k.memory, _)))
+
+  /** The mean of the longest renderings, of all programs alike. */
+  def reference: Image = pooled match
+    case Some((count, image)) if count == kept.size => image
+    case _ =>
+      val image = pool
+      pooled = Some((kept.size, image))
+      image
+
+  private def pool: Image =
+    val points = sets.filter(_.head.job.isPoint)
+    val longest = points.groupBy(_.head.job.entry).values.map(_.maxBy(_.head.job.samples))
+    SeedNoise.mean(longest.toVector.map(set => SeedNoise.mean(set.map(_.image))))
