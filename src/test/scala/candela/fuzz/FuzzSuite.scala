@@ -3,6 +3,8 @@ package candela.fuzz
 import java.nio.file.{Files, Path}
 import scala.util.Random
 
+import candela.image.ImageFiles
+
 import org.scalatest.BeforeAndAfterAll
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -31,3 +33,8 @@ class FuzzSuite extends AnyFunSuite with BeforeAndAfterAll:
         val wrong = trials.judge(kind, file)
         def text = String(Files.readAllBytes(file), "ISO-8859-1")
         assert(wrong.isEmpty, s"${kind.name} $i:\n$text")
+
+  test("the pictures that are to be broken can be read before"):
+    for (bytes, i) <- Trials.pictures(folder).zipWithIndex do
+      val file = Files.write(folder.resolve("whole.tga"), bytes)
+      assert(ImageFiles.read(file).width >= 8, s"picture $i")

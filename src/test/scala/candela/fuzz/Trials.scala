@@ -1,5 +1,6 @@
 package candela.fuzz
 
+import java.awt.image.BufferedImage
 import java.io.ByteArrayOutputStream
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
@@ -66,11 +67,12 @@ final class Trials(from: Path, folder: Path, random: Random):
   /** The next broken file; `judge` reads it. */
   def next(kind: Kind): Path =
     val (bytes, name) = kind match
-      case Kind.Scenes => (scenes.text(), "self.pbrt")
+      case Kind.Scenes => perhapsPacked(scenes.text(), "self.pbrt")
       case Kind.Builds =>
         (if random.nextInt(4) == 0 then scenes.text() else scenes.meaning(), "self.pbrt")
       case Kind.Meshes =>
-        (if random.nextBoolean() then meshes.bytes() else meshes.text(), "broken.ply")
+        val bytes = if random.nextBoolean() then meshes.bytes() else meshes.text()
+        perhapsPacked(bytes, "broken.ply")
       case Kind.Pictures =>
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
       case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
@@ -84,6 +86,13 @@ final class Trials(from: Path, folder: Path, random: Random):
           case _ => Trials.documents.last
         (bytes, "mitsuba/self.xml")
     Files.write(folder.resolve(name), bytes)
+
+  /** One in eight compressed, and one in eight a broken archive. */
+  private def perhapsPacked(bytes: Array[Byte], name: String): (Array[Byte], String) =
+    random.nextInt(8) match
+      case 0 => (Trials.zipped(bytes), s"$name.gz")
+      case 1 => (Mutator(Vector(Trials.zipped(bytes)), random).bytes(), s"$name.gz")
+      case _ => (bytes, name)
 
   /** What is wrong with the answer to a broken file, if it is. */
   def judge(kind: Kind, file: Path): Option[String] =
@@ -141,10 +150,12 @@ object Trials:
     Files.write(folder.resolve("bomb.ply.gz"), zipped(head + "0 " * 1000, 1)): Unit
 
   private def zipped(text: String, times: Int): Array[Byte] =
+    zipped(text.getBytes("ISO-8859-1"), times)
+
+  private def zipped(piece: Array[Byte], times: Int = 1): Array[Byte] =
     val bytes = ByteArrayOutputStream()
     val zip = new GZIPOutputStream(bytes):
       `def`.setLevel(java.util.zip.Deflater.BEST_SPEED)
-    val piece = text.getBytes("ISO-8859-1")
     for _ <- 0 until times do zip.write(piece)
     zip.close()
     bytes.toByteArray
@@ -208,7 +219,7 @@ object Trials:
     Vector(NanoVdb.file(grids), NanoVdb.file(grids, zipped = true))
 
   /** Small pictures in all formats that can be read and in some codings. */
-  private def pictures(folder: Path): Vector[Array[Byte]] =
+  private[fuzz] def pictures(folder: Path): Vector[Array[Byte]] =
     val random = Random(1)
     val image = Image(24, 16, Image.RgbNames, Array.fill(24 * 16 * 3)(random.nextFloat()))
     val written =
@@ -224,12 +235,21 @@ object Trials:
       Array.fill(8)(Array[Byte](2, 2, 0, 8, -120, 9, -120, 8, -120, 7, -120, -128)).flatten
     val ppm = "P6 8 8 255\n".getBytes("ISO-8859-1") ++ pixels
     val wide = "P5 8 12 65535\n".getBytes("ISO-8859-1") ++ pixels
-    val others = Vector("jpeg", "bmp", "gif").map(encoded)
-    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, ppm, wide) ++ others
+    val others = Vector("jpeg", "bmp", "gif").map(encoded(_, BufferedImage.TYPE_INT_RGB)) :+
+      encoded("png", BufferedImage.TYPE_USHORT_GRAY)
+    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, ppm, wide) ++ others ++
+      Vector(photoshop(8, pixels), photoshop(16, pixels ++ pixels))
 
-  private def encoded(format: String): Array[Byte] =
+  /** A PSD of 8 × 8 uncompressed pixels. */
+  private def photoshop(depth: Short, pixels: Array[Byte]): Array[Byte] =
+    val head = ByteBuffer.allocate(40)
+    head.put("8BPS".getBytes).putShort(1).position(12)
+    head.putShort(3).putInt(8).putInt(8).putShort(depth).putShort(3)
+    head.array ++ pixels
+
+  private def encoded(format: String, kind: Int): Array[Byte] =
     val bytes = ByteArrayOutputStream()
-    val picture = java.awt.image.BufferedImage(16, 16, java.awt.image.BufferedImage.TYPE_INT_RGB)
+    val picture = BufferedImage(16, 16, kind)
     for i <- 0 until 256 do picture.setRGB(i % 16, i / 16, i * 65793 ^ 0x5500)
     val _ = javax.imageio.ImageIO.write(picture, format, bytes)
     bytes.toByteArray
