@@ -13,6 +13,12 @@ final class OneSidedMaterial(inner: Material) extends Material:
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
 
+object OneSidedMaterial:
+  def of(inner: Material): Material = inner match
+    case InterfaceMaterial => inner
+    case relief: SoftTerminatorMaterial => relief.oneSided
+    case _ => new OneSidedMaterial(inner).folded
+
 /** Scatters only between directions above the surface. */
 final class OneSided(inner: Bsdf) extends LeanBsdf:
   private def isAbove(wo: Vec3, wi: Vec3) = wo.z > 0f && wi.z > 0f

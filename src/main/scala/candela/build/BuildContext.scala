@@ -61,12 +61,13 @@ private[build] object BuildContext:
 
   def apply(description: SceneDescription, options: BuildOptions): BuildContext =
     // pbrt-v4 multiplies spectra, the older ones sRGB components
-    val isSharp = description.dialect == Dialect.V4 && !description.multipliesSrgb
+    val isSharp = description.dialect == Dialect.V4 && !description.isMitsubas
     val basis = if isSharp then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     val mode = ColorPlan.mode(options.colorMode, description)
-    def context(switches: Switches) =
+    def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
+      val switches = asked.copy(isMitsubas = description.isMitsubas)
       val resources = new Resources(basis, options.crew, options.seed, mayBeSpectral, switches)
       new BuildContext(description, resources, problems)
     val plain = context(Switches())

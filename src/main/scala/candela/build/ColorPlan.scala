@@ -25,7 +25,7 @@ private[build] object ColorPlan:
 
   /** pbrt-v2 and v3 multiply three numbers. */
   def mode(asked: ColorMode, scene: SceneDescription): ColorMode =
-    val isPlain = scene.dialect != Dialect.V4 || scene.multipliesSrgb
+    val isPlain = scene.dialect != Dialect.V4 || scene.isMitsubas
     if asked == ColorMode.Auto && isPlain then ColorMode.Rgb else asked
 
   /** Decides once the scene is built in three numbers.
@@ -62,7 +62,7 @@ private[build] object ColorPlan:
         ColorPlan(Vector.empty, "three numbers: as asked for")
       case ColorMode.Rgb =>
         val program =
-          if context.description.multipliesSrgb then "Mitsuba"
+          if context.description.isMitsubas then "Mitsuba"
           else s"pbrt-${context.dialect.toString.toLowerCase}"
         ColorPlan(Vector.empty, s"three numbers: as in $program")
       case ColorMode.Auto if census.isDispersive => spectral("glass disperses light")

@@ -85,7 +85,7 @@ private[build] object MaterialTable:
   /** A material and whether it is black from behind. */
   private final case class Finish(ref: MaterialRef, isOneSided: Boolean):
     def of(made: Material): Material =
-      if !isOneSided || (made eq InterfaceMaterial) then made else OneSidedMaterial(made).folded
+      if isOneSided then OneSidedMaterial.of(made) else made
 
   private def name(ref: MaterialRef): String = ref match
     case MaterialRef.Default => "default"

@@ -44,16 +44,19 @@ object Converter:
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
-    val moved = Declarations.map(scene)(FileNames(files.folder).moved)
+    val own =
+      if scene.isMitsubas then FromMitsuba.converted(scene) else Converted(scene, Vector.empty)
+    val moved = Declarations.map(own.scene)(FileNames(files.folder).moved)
     val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
-    val start = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
+    val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
+    val start = based.copy(warnings = own.warnings ++ based.warnings)
     // v2's and v4's marble are the same
     val solid = baking.filter(_ => Seq(scene.dialect, to).count(_ == Dialect.V3) == 1) match
       case Some(b) =>
         val baked = SolidBaking(start.scene, to, files, b).result
         Converted(baked.scene, start.warnings ++ baked.warnings)
       case None => start
-    val done = (loans(scene) ++ passes(scene.dialect, to)).foldLeft(solid): (before, pass) =>
+    val done = (loans(own.scene) ++ passes(scene.dialect, to)).foldLeft(solid): (before, pass) =>
       val run = PassRun(pass, before.scene, files, baking, scene.dialect -> to)
       val result = run.result()
       Converted(result, before.warnings ++ run.warnings)
@@ -71,8 +74,7 @@ object Converter:
     Converted(
       scene.copy(
         shapes = both(scene.shapes),
-        objects = scene.objects.map((name, shapes) => name -> both(shapes)),
-        multipliesSrgb = false
+        objects = scene.objects.map((name, shapes) => name -> both(shapes))
       ),
       from.warnings ++ lost
     )

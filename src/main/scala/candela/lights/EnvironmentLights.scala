@@ -65,7 +65,7 @@ object ImageEnvironment:
   def distribution(image: SphereImage, complete: Boolean): Distribution2D =
     val width = image.width
     val height = image.height
-    val shares = Array.tabulate(height)(y => image.layout.stretch((y + 0.5f) / height))
+    val shares = Array.tabulate(height)(image.layout.share(_, height))
     def weights(least: Float): Array[Float] =
       Array.tabulate(width * height): i =>
         Math.max(0f, image.brightness(i % width, i / width) - least) * shares(i / width)

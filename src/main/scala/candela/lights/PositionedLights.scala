@@ -12,10 +12,14 @@ enum Fade:
   /** Smoothstep, 3t² − 2t³: pbrt-v4. */
   case Cubic
 
-  /** Evaluates the falloff for `t` from 0 (edge) to 1. */
+  /** Linear in the angle: Mitsuba. */
+  case Linear
+
+  /** Evaluates the falloff for `t` from 0 (edge) to 1, in the unit of the falloff. */
   def apply(t: Float): Float = this match
     case Quartic => square(square(t))
     case Cubic => t * t * (3f - 2f * t)
+    case Linear => t
 
 /** Spotlight along `axis` (unit, in light space).
   *
@@ -36,7 +40,14 @@ final class SpotLight(
     val cosine = frame.toLight(w) dot axis
     if cosine < cosEdge then Rgb.Black
     else if cosine >= cosFull then all
-    else all * fade((cosine - cosEdge) / (cosFull - cosEdge))
+    else all * fade(inward(cosine))
+
+  /** Position between edge (0) and inner cone (1). */
+  private def inward(cosine: Float): Float =
+    if fade == Fade.Linear then
+      val (edge, full) = (Math.acos(cosEdge), Math.acos(cosFull))
+      ((edge - Math.acos(cosine)) / (edge - full)).toFloat
+    else (cosine - cosEdge) / (cosFull - cosEdge)
 
   def bounds: Option[LightBounds] =
     val power = 4f * Pi * all.max

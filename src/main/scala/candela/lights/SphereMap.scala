@@ -15,6 +15,9 @@ abstract class SphereMap:
   /** Steradians per unit of image area; 0 where the mapping degenerates. */
   def stretch(y: Float): Float
 
+  /** Weight of row `y` of `height` when pixels are chosen. */
+  def share(y: Int, height: Int): Float = stretch((y + 0.5f) / height)
+
   /** Maps pixels outside a `width` × `height` image back into it. */
   def wrapX(x: Int, y: Int, width: Int, height: Int): Int
   def wrapY(x: Int, y: Int, width: Int, height: Int): Int
@@ -40,6 +43,33 @@ object LatLongMap extends SphereMap:
 
   // Beyond a pole pbrt reads the opposite row, as for a repeating texture
   def wrapY(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(y, height)
+
+/** As [[LatLongMap]], but the centres of the first and last rows are the poles, as in Mitsuba.
+  *
+  * @param rows of the image
+  */
+final class PolarLatLongMap(rows: Int) extends SphereMap:
+  private val steps = Math.max(rows - 1, 1).toFloat
+
+  def toImage(d: Vec3): Vec3 =
+    val place = LatLongMap.toImage(d)
+    Vec3(place.x, (place.y * steps + 0.5f) / rows, 0f)
+
+  def toDirection(x: Float, y: Float): Vec3 = LatLongMap.toDirection(x, colatitude(y))
+
+  /** From 0 to 1, constant in the outer halves of the first and last rows. */
+  private def colatitude(y: Float): Float = clamp((y * rows - 0.5f) / steps, 0f, 1f)
+
+  def stretch(y: Float): Float =
+    val v = (y * rows - 0.5f) / steps
+    if v > 0f && v < 1f then LatLongMap.stretch(v) * rows / steps else 0f
+
+  /** The inner half of the rows at the poles. */
+  override def share(y: Int, height: Int): Float =
+    0.5f * (stretch((y + 0.25f) / height) + stretch((y + 0.75f) / height))
+
+  def wrapX(x: Int, y: Int, width: Int, height: Int): Int = Math.floorMod(x, width)
+  def wrapY(x: Int, y: Int, width: Int, height: Int): Int = Math.max(0, Math.min(y, height - 1))
 
 /** The equal-area octahedral mapping of pbrt-v4's environment maps.
   *

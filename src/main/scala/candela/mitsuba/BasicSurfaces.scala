@@ -12,9 +12,8 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     case "dielectric" => dielectric(in, isRough = false)
     case "roughdielectric" => dielectric(in, isRough = true)
     case "thindielectric" =>
-      in.lose("using 1", "specular_reflectance", "specular_transmittance")
       made(in, "thindielectric", isOneSided = false)(
-        Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat)
+        (Param.float("eta", in.at, Indices.relative(in, "bk7").toFloat) +: tints(in))*
       )
     case "conductor" => conductor(in, isRough = false)
     case "roughconductor" => conductor(in, isRough = true)
@@ -47,97 +46,75 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
 
   /** Alpha as it is, in both directions. */
   private def roughness(in: Asked): Vector[Param] =
-    // Only GGX is common to both
-    if in.word("distribution", "beckmann", "beckmann", "ggx") == "beckmann" then
-      session.warn(
-        in.atOf("distribution"),
-        s"the distribution `beckmann` of ${in.plugin.shown} is not supported; using `ggx`",
-        Some("""write <string name="distribution" value="ggx"/> to compare with Mitsuba""")
-      )
+    val distribution = in.word("distribution", "beckmann", "beckmann", "ggx")
     in.ignore("sample_visible")
     val along =
       for
         (axis, name) <- Vector("u" -> "alpha_u", "v" -> "alpha_v") if in.has(name)
       yield textures.number(s"${axis}roughness", in, name, 0.1)
     val all = if along.nonEmpty then along else both(in)
-    all :+ Param.bool("remaproughness", in.at, false)
+    all ++ Vector(
+      Param.bool("remaproughness", in.at, false),
+      Param.string("distribution", in.atOf("distribution"), distribution)
+    )
 
   private def both(in: Asked): Vector[Param] =
     Vector("uroughness", "vroughness").map(textures.number(_, in, "alpha", 0.1))
 
+  /** Colours that scale reflection and transmission, unless they are white. */
+  private def scales(in: Asked, names: (String, String)*): Vector[Param] =
+    for
+      (property, name) <- names.toVector
+      shade <- colors.given_(in, property, Role.Reflectance)
+      if !shade.constant.contains(Rgb.White)
+    yield textures.color(name, shade, in.atOf(property))
+
   private def dielectric(in: Asked, isRough: Boolean): Surface =
     val eta = Indices.relative(in, "bk7").toFloat
     val rough = if isRough then roughness(in) else Vector.empty
-    def scale(name: String) =
-      colors.given_(in, name, Role.Reflectance).filter(!_.constant.contains(Rgb.White))
-    val (reflected, refracted) = (scale("specular_reflectance"), scale("specular_transmittance"))
-    if reflected.isEmpty && refracted.isEmpty then
-      made(in, "dielectric", isOneSided = false)(Param.float("eta", in.at, eta) +: rough*)
-    else
-      // pbrt-v4 has no colours of glass, v3 has
-      val tints = Vector("Kr" -> reflected, "Kt" -> refracted).map: (name, shade) =>
-        textures.color(name, shade.getOrElse(Shade.Constant(Rgb.White)), in.at)
-      made(in, "glass", isOneSided = false, Some(Dialect.V3))(
-        Param.float("eta", in.at, eta) +: (tints ++ rough)*
-      )
+    made(in, "dielectric", isOneSided = false)(
+      (Param.float("eta", in.at, eta) +: (tints(in) ++ rough))*
+    )
+
+  private def tints(in: Asked): Vector[Param] = scales(
+    in,
+    "specular_reflectance" -> "reflectance",
+    "specular_transmittance" -> "transmittance"
+  )
 
   private def conductor(in: Asked, isRough: Boolean): Surface =
     val rough = if isRough then roughness(in) else Vector.empty
-    val tint = colors.given_(in, "specular_reflectance", Role.Reflectance)
-      .filter(!_.constant.contains(Rgb.White))
+    val material = in.text("material", "none")
+    val tint = scales(in, "specular_reflectance" -> "scale")
     in.ignore("ext_eta")
-    if in.text("material").contains("none") then mirror(in, tint, rough)
-    else
-      if tint.isDefined then
-        session.warn(
-          in.atOf("specular_reflectance"),
-          s"`specular_reflectance` of ${in.plugin.shown} is not supported; using 1"
-        )
-      val (eta, k) = Indices.metal(in.text("material", "Cu"), in)
-      val params = Vector("eta" -> eta, "k" -> k).map: (name, default) =>
-        textures.color(name, colors.shade(in, name, default, Role.Plain), in.atOf(name))
-      made(in, "conductor", isOneSided = true)((params ++ rough)*)
-
-  /** Mitsuba's perfect mirror, of which roughness is a blur. */
-  private def mirror(in: Asked, tint: Option[Shade], rough: Vector[Param]): Surface =
-    in.ignore("eta", "k")
-    val shade = tint.getOrElse(Shade.Constant(Rgb.White))
-    if rough.isEmpty then
-      made(in, "mirror", isOneSided = true, Some(Dialect.V3))(textures.color("Kr", shade, in.at))
-    else
-      made(in, "conductor", isOneSided = true)(
-        textures.color("reflectance", shade, in.at) +: rough*
-      )
-
-  /** A coat on a diffuse base. Without `nonlinear`, Mitsuba leaves out that light which the coat
-    * reflects back is coloured by the base again: a coated base of another colour looks so.
-    */
-  private def plastic(in: Asked, rough: Vector[Param]): Surface =
-    val eta = Indices.relative(in, "polypropylene")
-    in.lose("using 1", "specular_reflectance")
-    val base = colors.shade(in, "diffuse_reflectance", Rgb.gray(0.5f), Role.Reflectance)
-    val inner = Indices.diffuseReflectance(eta).toFloat
-    val seen =
-      if in.flag("nonlinear", false) then base
+    val params =
+      if material == "none" && !in.has("eta") then
+        // A perfect mirror, of which roughness is a blur
+        in.ignore("k")
+        Vector(Textures.rgb("eta", Rgb.Black, in.at), Textures.rgb("k", Rgb.White, in.at))
       else
-        base match
-          case Shade.Constant(c) => Shade.Constant(c.map(r => r / (1 - inner + r * inner)))
-          case textured =>
-            session.warn(
-              in.at,
-              s"the colour of a textured ${in.plugin.shown} is that of `nonlinear`: less " +
-                "saturated colours become darker"
-            )
-            textured
-    made(in, "coateddiffuse", isOneSided = true)(
-      (textures.color("reflectance", seen, in.atOf("diffuse_reflectance")) +:
-        Param.float("eta", in.at, eta.toFloat) +:
-        rough)*
+        val (eta, k) = if material == "none" then (Rgb.Black, Rgb.White)
+        else
+          Indices.metal(material, in)
+        Vector("eta" -> eta, "k" -> k).map: (name, default) =>
+          textures.color(name, colors.shade(in, name, default, Role.Plain), in.atOf(name))
+    made(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
+
+  /** A coat on a diffuse base. */
+  private def plastic(in: Asked, rough: Vector[Param]): Surface =
+    val eta = Indices.relative(in, "polypropylene").toFloat
+    made(in, "roughplastic", isOneSided = true)(
+      (Vector(
+        color(in, "diffuse_reflectance", 0.5f, "reflectance"),
+        Param.bool("nonlinear", in.at, in.flag("nonlinear", false)),
+        Param.float("eta", in.at, eta)
+      ) ++ scales(in, "specular_reflectance" -> "specular") ++ rough)*
     )
 
-  /** Disney's BSDF, of which v3's is another edition. */
+  /** Disney's BSDF; of its thin edition, v3's is another. */
   private def principled(in: Asked, isThin: Boolean): Surface =
-    session.warn(in.at, s"${in.plugin.shown} is approximated by pbrt-v3's \"disney\"")
+    if isThin then
+      session.warn(in.at, s"${in.plugin.shown} is approximated by pbrt-v3's \"disney\"")
     val eta =
       in.number("eta").getOrElse:
         2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
@@ -161,7 +138,8 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       "spec_trans_sampling_rate", "diff_trans_sampling_rate", "diffuse_sampling_rate"
     )
     val isOpaque = !isThin && !in.has("spec_trans")
-    made(in, "disney", isOpaque, Some(Dialect.V3))(
+    val (name, dialect) = if isThin then ("disney", Some(Dialect.V3)) else ("principled", None)
+    made(in, name, isOpaque, dialect)(
       (color(in, "base_color", 0.5f, "color") +:
         Param.float("eta", in.at, eta.toFloat) +:
         Param.bool("thin", in.at, isThin) +:

@@ -39,7 +39,7 @@ final class Emitters(session: Session, colors: Colors, medium: Plugin => String)
         case "directional" => Some(directional(in))
         case "projector" => projector(in, around)
         case "area" =>
-          session.error(in.at, "an emitter \"area\" must be within a shape")
+          session.warn(in.at, "an emitter \"area\" outside a shape gives no light")
           in.ignore("radiance")
           None
         case _ =>
@@ -80,8 +80,6 @@ final class Emitters(session: Session, colors: Colors, medium: Plugin => String)
     val cutoff = in.number("cutoff_angle", 20)
     val beam = in.number("beam_width", cutoff * 0.75)
     in.lose("using white", "texture")
-    if beam < cutoff then
-      session.warn(in.at, "the edge of a spot light falls off smoothly here, not linearly")
     light(in, "spot", in.transform("to_world"), around)(
       Textures.rgb("I", c, in.at),
       Param.float("coneangle", in.at, cutoff.toFloat),

@@ -1,7 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{loop, Suggest}
-import candela.bsdf.Fresnel
+import candela.base.Suggest
 import candela.color.Rgb
 
 /** Materials that Mitsuba knows by name. */
@@ -107,14 +106,3 @@ object Indices:
   /** Index of the inside relative to the outside. */
   def relative(in: Asked, inside: String): Double =
     index(in, "int_ior", inside) / index(in, "ext_ior", "air")
-
-  /** Fraction of diffuse light that an interface reflects, seen from the side whose index of
-    * refraction is `eta` times that of the other.
-    */
-  def diffuseReflectance(eta: Double): Double =
-    val steps = 2000
-    var sum = 0.0
-    loop(steps): i =>
-      val cos = (i + 0.5) / steps
-      sum += cos * Fresnel.dielectric(cos.toFloat, (1 / eta).toFloat)
-    2 * sum / steps

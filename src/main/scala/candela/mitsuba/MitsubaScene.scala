@@ -49,7 +49,7 @@ private final class Translation(session: Session, file: Path):
     of("bsdf").foreach(p => session.attempt(surfaces(p)))
     val lights = of("emitter").flatMap(emitters(_))
     val start = SourcePos(file.toString, 1, 1)
-    val scene = SceneDescription(Dialect.V4, multipliesSrgb = true)
+    val scene = SceneDescription(Dialect.V4, isMitsubas = true)
     val seen = of("sensor").toList match
       case Nil =>
         session.error(start, "the scene has no sensor", Some("add <sensor type=\"perspective\">"))

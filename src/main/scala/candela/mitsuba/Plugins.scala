@@ -29,7 +29,9 @@ object Plugins:
 
   /** Types that exist in Mitsuba 3, but are not read. */
   val others: Map[String, Vector[String]] = Map(
-    "bsdf" -> Vector("acousticbsdf", "circular", "hair", "pplastic", "polarizer", "retarder"),
+    "bsdf" -> Vector(
+      "acousticbsdf", "circular", "hair", "measured_polarized", "pplastic", "polarizer", "retarder"
+    ),
     "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "sunsky", "timed_sunsky", "volumelight"),
     "texture" -> Vector("mesh_attribute", "raw", "volume"),

@@ -107,8 +107,10 @@ final class Textures(session: Session, colors: Colors):
       else color(ours, shade, in.atOf(name))
     // Two squares of pbrt's are one period of Mitsuba's
     val mapping = coordinates(in, flipped = false, factor = 2f)
+    // As a number, Mitsuba's has the two colours the other way round
+    val (even, odd) = if valueType == "float" then ("tex2", "tex1") else ("tex1", "tex2")
     Some("checkerboard" ->
-      (Seq(square("tex1", "color0", 0.4f), square("tex2", "color1", 0.2f)) ++ mapping))
+      (Seq(square(even, "color0", 0.4f), square(odd, "color1", 0.2f)) ++ mapping))
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
   private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =

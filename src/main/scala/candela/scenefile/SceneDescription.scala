@@ -82,8 +82,8 @@ final case class TextureDescription(
   *   rendered
   * @param lost kinds of names that those statements may have defined
   * @param sources the scene file and the files that it includes
-  * @param multipliesSrgb whether colours multiply by their sRGB components, as in pbrt-v2 and v3,
-  *   whatever the dialect
+  * @param isMitsubas whether Mitsuba's rules apply where they differ from pbrt-v4's: colours
+  *   multiply by their sRGB components, microfacets, bumps, metals, the poles of environment maps
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -111,7 +111,7 @@ final case class SceneDescription(
     errors: Vector[Problem] = Vector.empty,
     lost: Set[NameKind] = Set.empty,
     sources: Vector[Path] = Vector.empty,
-    multipliesSrgb: Boolean = false
+    isMitsubas: Boolean = false
 )
 
 /** Kinds of names that statements define. */

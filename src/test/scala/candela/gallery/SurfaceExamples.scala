@@ -37,6 +37,8 @@ private object SurfaceExamples:
   private val foreign = "input files are produced by other programs"
   private val clear = "invisible: rays pass through unscattered"
   val unseen: Map[String, Example] = Map(
+    "principled" -> Unseen("of Mitsuba's scenes"),
+    "roughplastic" -> Unseen("of Mitsuba's scenes"),
     "measured/v4" -> Unseen(foreign),
     "fourier" -> Unseen(foreign),
     "" -> Unseen(clear),

@@ -6,7 +6,11 @@ import candela.math.*
 import candela.testing.Draws
 
 final class SphereMapSuite extends AnyFunSuite:
-  private val maps = Seq("latitude-longitude" -> LatLongMap, "equal-area" -> EqualAreaMap)
+  private val maps = Seq(
+    "latitude-longitude" -> LatLongMap,
+    "poles within rows" -> PolarLatLongMap(32),
+    "equal-area" -> EqualAreaMap
+  )
 
   for (name, map) <- maps do
     test(s"$name: from direction to image and back"):

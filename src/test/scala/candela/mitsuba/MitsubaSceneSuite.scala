@@ -109,18 +109,6 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(OldNames.snake("intIOR") == "int_ior")
     assert(OldNames.snake("alphaU") == "alpha_u")
 
-  test("a linear plastic is a coat whose base has another colour"):
-    def base(text: String) =
-      val scene =
-        read(Sensor + s"<shape type=\"sphere\"><bsdf type=\"plastic\">$text</bsdf></shape>")
-      scene.shapes.head.material match
-        case candela.scenefile.MaterialRef.Inline(d) => d.param("reflectance").get.floats.head
-        case other => fail(other.toString)
-    assert(base("<boolean name=\"nonlinear\" value=\"true\"/>") == 0.5f)
-    // r / (1 − f + r f), with the diffuse reflectance f inside an index of 1.49: 0.5905 by
-    // the fit of Egan and Hilgeman, which is right to 0.002
-    assert(Math.abs(base("") - 0.5f / (1 - 0.5905f + 0.29525f)) < 2e-3f)
-
   test("one-sided BSDFs are told from two-sided and transmissive ones"):
     def sides(bsdf: String) =
       read(Sensor + s"<shape type=\"sphere\">$bsdf</shape>").shapes.head.oneSided

@@ -1,7 +1,7 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{CosineSampled, Fresnel, Hemisphere, ReflectanceCurve}
-import candela.bsdf.microfacet.{MicrofacetDistribution, TrowbridgeReitz}
+import candela.bsdf.microfacet.MicrofacetDistribution
 import candela.color.Rgb
 import candela.math.*
 
@@ -71,38 +71,22 @@ final class DisneyReflectance(normal: Rgb, metallic: Float, eta: Float) extends 
 private[bsdf] object ClearcoatReflectance extends ReflectanceCurve:
   def apply(cosTheta: Float): Rgb = Rgb.gray(lerp(Schlick.weight(Math.abs(cosTheta)), 0.04f, 1f))
 
-/** [[TrowbridgeReitz]] with uncorrelated masking and shadowing, as in Disney's material. */
-final class SeparableTrowbridgeReitz(alphaX: Float, alphaY: Float) extends MicrofacetDistribution:
-  private val inner = TrowbridgeReitz(alphaX, alphaY)
-
-  def isSmooth: Boolean = false
-  def d(m: Vec3): Float = inner.d(m)
-  def pdf(wo: Vec3, m: Vec3): Float = inner.pdf(wo, m)
-  def sample(wo: Vec3, u1: Float, u2: Float): Vec3 = inner.sample(wo, u1, u2)
-
-  /** Masking G₁ over its cosine, up to a factor: 1/(cos θ (1 + Λ)). */
-  private def masked(w: Vec3): Float =
-    val both = Math.abs(w.z) +
-      sqrt(square(alphaX * w.x) + square(alphaY * w.y) + w.z * w.z)
-    if both > 0f then 1f / both else 0f
-
-  def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float = masked(wo) * masked(wi)
-
-  def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float = 2f * Math.abs(wi.z) * masked(wi)
-
 /** Microfacet distribution of Disney's clear coat. Its tails are longer than those of
   * [[TrowbridgeReitz]]; the masking uses a fixed roughness.
   *
-  * @param alpha roughness, in (0, 1)
+  * @param alpha  roughness, in (0, 1)
+  * @param isBare leaves out 1 / (4 cos θo cos θi), as Mitsuba does
   *
   * Source: Burley 2012, appendix B (GTR with γ = 1).
   */
-final class ClearcoatDistribution(alpha: Float) extends MicrofacetDistribution:
+final class ClearcoatDistribution(alpha: Float, isBare: Boolean = false)
+    extends MicrofacetDistribution:
   import ClearcoatDistribution.MaskingAlpha2
   private val alpha2 = alpha.toDouble * alpha
   private val area = (alpha2 - 1.0) / (Math.PI * Math.log(alpha2))
 
   def isSmooth: Boolean = false
+  def isIsotropic: Boolean = true
 
   def d(m: Vec3): Float =
     // 1 − (1 − α²) cos²θ, without cancellation near the normal
@@ -113,7 +97,9 @@ final class ClearcoatDistribution(alpha: Float) extends MicrofacetDistribution:
     val cosine = Math.abs(w.z)
     1f / (cosine + sqrt(MaskingAlpha2 + cosine * cosine * (1f - MaskingAlpha2)))
 
-  def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float = 0.25f * masked(wo) * masked(wi)
+  def visibility(wo: Vec3, wi: Vec3, m: Vec3): Float =
+    val usual = 0.25f * masked(wo) * masked(wi)
+    if isBare then usual * (4f * Math.abs(wo.z * wi.z)) else usual
 
   def pdf(wo: Vec3, m: Vec3): Float = d(m) * m.z
 

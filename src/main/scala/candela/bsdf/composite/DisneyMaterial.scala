@@ -2,8 +2,8 @@ package candela.bsdf.composite
 
 import candela.bsdf.{Bsdf, DiffuseTransmission, Lobes, Material}
 import candela.bsdf.microfacet.{
-  MicrofacetDistribution, MicrofacetReflection, Passthrough, RoughDielectric, SmoothDielectric,
-  TrowbridgeReitz
+  MicrofacetDistribution, MicrofacetReflection, Passthrough, RoughDielectric,
+  SeparableTrowbridgeReitz, SmoothDielectric, TrowbridgeReitz
 }
 import candela.bsdf.subsurface.SubsurfaceMaterial
 import candela.color.Rgb

@@ -4,7 +4,7 @@ import java.util.concurrent.ConcurrentHashMap
 
 import candela.base.loop
 import candela.bsdf.{Fresnel, Hemisphere}
-import candela.bsdf.microfacet.TrowbridgeReitz
+import candela.bsdf.microfacet.{MicrofacetDistribution, TrowbridgeReitz}
 import candela.math.*
 
 /** Transmittance and internal reflectance of a clear coat over a diffuse base.
@@ -76,10 +76,10 @@ private object SmoothCoat:
   * grazing angles, and over the square of the azimuth's cosine if the roughness is anisotropic. Its
   * error is at most 0.001 (`CoatSuite`).
   */
-final class RoughCoat(top: TrowbridgeReitz, val eta: Float, thickness: Float) extends Coat:
+final class RoughCoat(top: MicrofacetDistribution, val eta: Float, thickness: Float) extends Coat:
   import RoughCoat.{Azimuths, Cosines}
 
-  private val azimuths = if top.alphaX == top.alphaY then 1 else Azimuths
+  private val azimuths = if top.isIsotropic then 1 else Azimuths
 
   // Cosines rows, each of `azimuths` values.
   private val table: Array[Float] = Array.tabulate(Cosines * azimuths): index =>
@@ -120,7 +120,12 @@ private object RoughCoat:
   private inline val Cosines = 64
   private inline val Azimuths = 9
 
-  private def transmitted(top: TrowbridgeReitz, eta: Float, thickness: Float, wo: Vec3): Float =
+  private def transmitted(
+      top: MicrofacetDistribution,
+      eta: Float,
+      thickness: Float,
+      wo: Vec3
+  ): Float =
     val n = 1024
     var sum = 0.0
     loop(n): i =>
@@ -134,7 +139,7 @@ private object RoughCoat:
           sum += passed * Coat.attenuation(thickness, -wi.z)
     (sum / n).toFloat
 
-  private def returned(top: TrowbridgeReitz, eta: Float, thickness: Float): Float =
+  private def returned(top: MicrofacetDistribution, eta: Float, thickness: Float): Float =
     val n = 32768
     var sum = 0.0
     loop(n): i =>

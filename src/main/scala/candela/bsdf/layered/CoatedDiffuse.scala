@@ -1,7 +1,9 @@
 package candela.bsdf.layered
 
 import candela.bsdf.{Bounce, Bsdf, Fresnel, Hemisphere, LeanBsdf, Material}
-import candela.bsdf.microfacet.{MicrofacetReflection, Roughness, TrowbridgeReitz}
+import candela.bsdf.microfacet.{
+  MicrofacetDistribution, MicrofacetReflection, Roughness, TrowbridgeReitz
+}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
@@ -21,11 +23,17 @@ import candela.textures.{RgbTexture, Textured}
   * @param top    roughness of the outer interface
   * @param coat   transmittance and internal reflectance; its roughness may differ slightly from
   *               `top`
+  * @param gloss  scale of the reflection at the outer interface
   *
   * Source of the model: Guo, Hašan and Zhao, "Position-Free Monte Carlo Simulation for Arbitrary
   * Layered BSDFs", SIGGRAPH Asia 2018; PBRT 4th ed., §14.3.
   */
-final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat) extends LeanBsdf:
+final class CoatedDiffuse(
+    series: Coat => Rgb,
+    top: MicrofacetDistribution,
+    coat: Coat,
+    gloss: Rgb = Rgb.White
+) extends LeanBsdf:
   private val eta = coat.eta
   private val topIsSmooth = top.isSmooth || eta == 1f
   private val base = series(coat) * (InvPi / (eta * eta))
@@ -43,7 +51,7 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
         val cosM = o dot m
         // As in MicrofacetReflection
         if cosM <= 0f then under
-        else under + Rgb.gray(Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
+        else under + gloss * (Fresnel.dielectric(cosM, eta) * top.d(m) * top.visibility(o, i, m))
 
   /** Probability of sampling the outer interface: its fraction of the reflected power. */
   private def topChance(reflected: Float, wo: Vec3): Float =
@@ -66,7 +74,7 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
     val chance = topChance(reflected, wo)
     if choice >= chance then weigh(wo, Hemisphere.cosineSample(wo, u1, u2), out)
     else if topIsSmooth then
-      val weight = Rgb.gray(reflected / chance)
+      val weight = gloss * (reflected / chance)
       out.set(Hemisphere.mirrored(wo), weight, chance, isSpecular = true)
     else
       val o = Hemisphere.above(wo)
@@ -86,7 +94,8 @@ final class CoatedDiffuse(series: Coat => Rgb, top: TrowbridgeReitz, coat: Coat)
   def isTransmissive: Boolean = false
 
   // Cached: the series of a spectrum is expensive
-  override lazy val regularized: Bsdf = new CoatedDiffuse(series, top.regularized, coat.regularized)
+  override lazy val regularized: Bsdf =
+    new CoatedDiffuse(series, top.regularized, coat.regularized, gloss)
 
 object CoatedDiffuse:
 

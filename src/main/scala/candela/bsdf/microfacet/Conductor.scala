@@ -6,7 +6,7 @@ import candela.bsdf.{
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.{RgbTexture, Textured, Varying}
+import candela.textures.{ConstantRgb, RgbTexture, Textured, Varying}
 
 /** A rough or smooth conductor, or another opaque mirror. */
 object Conductor:
@@ -18,11 +18,14 @@ object Conductor:
     if distribution.isSmooth then Mirror(scale, curve)
     else MicrofacetReflection(distribution, curve, scale)
 
-/** A metal surface. */
-final class ConductorMaterial(metal: MetalTexture, roughness: Roughness)
-    extends Material,
-      Textured(metal, roughness):
-  def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at))
+/** A metal surface; `scale` scales its reflectance. */
+final class ConductorMaterial(
+    metal: MetalTexture,
+    roughness: Roughness,
+    scale: RgbTexture = ConstantRgb(Rgb.White)
+) extends Material,
+      Textured(metal, roughness, scale):
+  def bsdf(at: ShadingPoint): Bsdf = Conductor(roughness(at), metal(at), scale(at))
 
 /** Reflectance curve of a metal at each surface point. */
 abstract class MetalTexture extends Varying:

@@ -36,6 +36,9 @@ abstract class MicrofacetDistribution:
   /** Whether to treat the surface as perfectly specular. */
   def isSmooth: Boolean
 
+  /** Whether the roughness is the same along x and y. */
+  def isIsotropic: Boolean
+
   /** The distribution of [[Bsdf.regularized]]. Distributions that exist only in older versions of
     * PBRT are unchanged: their integrators don't regularise.
     */
@@ -54,6 +57,8 @@ abstract class MicrofacetDistribution:
   * Spherical Caps", HPG 2023.
   */
 final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends MicrofacetDistribution:
+
+  def isIsotropic: Boolean = alphaX == alphaY
 
   val isSmooth: Boolean = Math.max(alphaX, alphaY) < TrowbridgeReitz.SmoothBelow
 
@@ -137,6 +142,7 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
   private val areaPerCount = (area / count).toFloat
 
   def isSmooth: Boolean = false
+  def isIsotropic: Boolean = ex == ey
 
   def d(m: Vec3): Float = (area * power(m)).toFloat
 

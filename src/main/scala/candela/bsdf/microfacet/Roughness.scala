@@ -25,10 +25,26 @@ enum RoughnessModel:
   /** Version 4 without remapping: `alpha` itself. */
   case PlainAlpha
 
+  /** Mitsuba, `ggx`: `alpha` itself. */
+  case SeparableGgx
+
+  /** Mitsuba, `beckmann`: `alpha` itself. */
+  case Gaussian
+
   def distribution(u: Float, v: Float): MicrofacetDistribution = this match
     case BlinnExponent => CosinePower(1f / u)
     case AnisotropicExponents => new CosinePower(1f / u, 1f / v)
+    case SeparableGgx => plain(u, v, SeparableTrowbridgeReitz(_, _))
+    case Gaussian => plain(u, v, Beckmann(_, _))
     case _ => trowbridgeReitz(u, v)
+
+  private def plain(
+      u: Float,
+      v: Float,
+      rough: (Float, Float) => MicrofacetDistribution
+  ): MicrofacetDistribution =
+    val smooth = trowbridgeReitz(u, v)
+    if smooth.isSmooth then smooth else rough(smooth.alphaX, smooth.alphaY)
 
   /** The Trowbridge–Reitz distribution, for surfaces that support no other. An exponent e maps to
     * the `alpha` of equal core width, √(2/(e + 2)) (Walter et al. 2007, §5.2).
@@ -40,7 +56,7 @@ enum RoughnessModel:
     case PolynomialAlpha => Math.max(Roughness.polynomialAlpha(roughness), 1e-3f)
     case BoundedAlpha => Math.max(roughness, 1e-3f)
     case SquareRootAlpha => safeSqrt(roughness)
-    case PlainAlpha => Math.max(roughness, 0f)
+    case PlainAlpha | SeparableGgx | Gaussian => Math.max(roughness, 0f)
 
 /** Textured roughness.
   *

@@ -82,20 +82,32 @@ final class SmoothDielectric(
 /** A thin pane with two parallel smooth sides, including all internal reflections. Transmitted
   * light keeps its direction.
   *
-  * @param eta index of refraction of the pane over that outside
+  * @param eta           index of refraction of the pane over that outside
+  * @param reflectance   scale of the reflected light
+  * @param transmittance scale of the transmitted light
   *
   * Source: Stokes, "On the intensity of the light reflected from or transmitted through a pile of
   * plates", Proc. Royal Society 11, 1862; PBRT 4th ed., §9.5.
   */
-final class ThinDielectric(eta: Float) extends Specular:
+final class ThinDielectric(
+    eta: Float,
+    reflectance: Rgb = Rgb.White,
+    transmittance: Rgb = Rgb.White
+) extends Specular:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val once = Fresnel.dielectric(Math.abs(wo.z), eta)
     val reflected = 2f * once / (1f + once) // the geometric series of inner reflections
     if choice < reflected then
-      out.set(Hemisphere.mirrored(wo), Rgb.White, reflected, isSpecular = true)
-    else out.set(-wo, Rgb.White, 1f - reflected, isSpecular = true)
+      out.set(Hemisphere.mirrored(wo), reflectance, reflected, isSpecular = true)
+    else out.set(-wo, transmittance, 1f - reflected, isSpecular = true)
 
   def isTransmissive: Boolean = true
+
+/** A thin pane; its colours as in [[ThinDielectric]]. */
+final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)
+    extends Material,
+      Textured(kr, kt):
+  def bsdf(at: ShadingPoint): Bsdf = ThinDielectric(eta, kr.positive(at), kt.positive(at))
 
 /** Transmits a fraction of the light unscattered. */
 final class Passthrough(transmittance: Rgb) extends Specular:

@@ -37,7 +37,10 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val (p, axis) = (from(), to() - from())
-    val fade = if site.dialect == Dialect.V4 then Fade.Cubic else Fade.Quartic
+    val fade =
+      if site.resources.switches.isMitsubas then Fade.Linear
+      else if site.dialect == Dialect.V4 then Fade.Cubic
+      else Fade.Quartic
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")

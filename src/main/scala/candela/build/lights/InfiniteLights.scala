@@ -43,7 +43,10 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
             if octahedral then site.resources.once(site.declaration, "perUnit")(onThePlane(image))
             else 1f
           val l = scaled(unit, illuminance(), perUnit)
-          val layout = if octahedral then EqualAreaMap else LatLongMap
+          val layout =
+            if octahedral then EqualAreaMap
+            else if site.resources.switches.isMitsubas then PolarLatLongMap(image.height)
+            else LatLongMap
           around(l, SphereImage(image, layout, l, smooth = !octahedral, LightImages.conversion))
     else
       val l = scaled(radiance(), illuminance(), Pi)

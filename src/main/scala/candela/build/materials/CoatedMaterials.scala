@@ -1,7 +1,9 @@
 package candela.build.materials
 
 import candela.bsdf.{Fresnel, Material}
-import candela.bsdf.layered.{CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium}
+import candela.bsdf.layered.{
+  CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, VarnishMaterial
+}
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -47,6 +49,20 @@ object CoatedDiffuseRecipe
     val medium = layers.medium
     Indices.disperse(eta()):
       CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
+
+object RoughPlasticRecipe
+    extends RoughRecipe("roughplastic", "Mitsuba's plastic, smooth or rough", onlyV4, 0f):
+  private val reflectance =
+    rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
+  private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)
+  private val nonlinear =
+    bool("nonlinear", "colour light again that the coat reflects back to the base")(false)
+  private val eta = float("eta", "index of refraction of the coating")(1.49f)
+  protected def make()(using site: Site): Material =
+    val rough = roughness()
+    if !rough.isConstant then
+      site.warn("light below the coat of \"roughplastic\" is that of its roughness at (0, 0)")
+    VarnishMaterial(reflectance(), specular(), nonlinear(), rough, eta())
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)

@@ -1,12 +1,13 @@
 package candela.build.materials
 
-import candela.bsdf.{ConstantMaterial, Material}
+import candela.bsdf.Material
 import candela.bsdf.microfacet.{
-  DielectricMaterial, DispersiveMaterial, Roughness, RoughnessModel, ThinDielectric
+  DielectricMaterial, DispersiveMaterial, Roughness, RoughnessModel, ThinDielectricMaterial
 }
 import candela.build.recipe.*
 import candela.color.{Rgb, Upsampling, Wavelengths}
 import candela.scenefile.Dialect
+import candela.textures.{ConstantFloat, RgbTexture}
 
 object GlassRecipe
     extends MaterialRecipe("glass", "dielectric interface, smooth or rough", untilV3):
@@ -25,17 +26,31 @@ object GlassRecipe
       val rough = Roughness(u(), v(), model, smoothAtZero = true)
       new DielectricMaterial(kr(), kt(), eta.given_().getOrElse(index()), rough)
 
+/** Declares the colours of Mitsuba's glass. */
+private[build] trait GlassTints extends Fields:
+  private val kr =
+    rgbTexture("reflectance", "scale of reflection, in Mitsuba's scenes", onlyV4)(Rgb.White)
+  private val kt =
+    rgbTexture("transmittance", "scale of transmission, in Mitsuba's scenes", onlyV4)(Rgb.White)
+
+  protected final def tints()(using Site): (RgbTexture, RgbTexture) = (kr(), kt())
+
 object DielectricRecipe
-    extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f):
+    extends RoughRecipe("dielectric", "dielectric interface, smooth or rough", onlyV4, 0f)
+    with GlassTints:
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
-    Indices.disperse(eta())(DielectricMaterial(Indices.one(eta()), roughness()))
+    val (kr, kt) = tints()
+    val index = ConstantFloat(Indices.one(eta()))
+    Indices.disperse(eta())(new DielectricMaterial(kr, kt, index, roughness()))
 
 object ThinDielectricRecipe
-    extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4):
+    extends MaterialRecipe("thindielectric", "thin dielectric slab, such as a window pane", onlyV4)
+    with GlassTints:
   private val eta = spectrum("eta", "index of refraction")(Indices.glass)
   protected def make()(using Site): Material =
-    Indices.disperse(eta())(ConstantMaterial(ThinDielectric(Indices.one(eta()))))
+    val (kr, kt) = tints()
+    Indices.disperse(eta())(ThinDielectricMaterial(Indices.one(eta()), kr, kt).folded)
 
 /** Indices of refraction given as numbers or spectra. */
 private[build] object Indices:

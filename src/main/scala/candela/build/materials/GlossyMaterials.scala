@@ -1,7 +1,9 @@
 package candela.build.materials
 
 import candela.bsdf.Material
-import candela.bsdf.composite.{DisneyMaterial, DisneyParameters, PlasticMaterial, UberMaterial}
+import candela.bsdf.composite.{
+  DisneyMaterial, DisneyParameters, PrincipledMaterial, PlasticMaterial, UberMaterial
+}
 import candela.bsdf.microfacet.{Roughness, RoughnessModel, SubstrateMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -52,8 +54,9 @@ object SubstrateRecipe extends MaterialRecipe(
       else RoughnessModel.BoundedAlpha
     SubstrateMaterial(kd(), ks(), Roughness(u(), v(), model))
 
-object DisneyRecipe
-    extends MaterialRecipe("disney", "principled BSDF of Burley 2012 and 2015", onlyV3):
+/** Base of recipes of Burley's principled BSDF. */
+abstract class DisneyFields(name: String, meaning: String, dialects: Set[Dialect])
+    extends MaterialRecipe(name, meaning, dialects):
   private val color = rgbTexture("color", "base colour")(Rgb.gray(0.5f))
   private val metallic =
     floatTexture("metallic", "metallic weight; 0: dielectric, 1: conductor")(0f)
@@ -77,23 +80,29 @@ object DisneyRecipe
   private val diffTrans =
     floatTexture("difftrans", "diffuse transmission of a thin sheet, 0 to 2")(1f)
 
-  protected def make()(using Site): Material =
-    DisneyMaterial(
-      DisneyParameters(
-        color(),
-        metallic(),
-        eta(),
-        roughness(),
-        tint(),
-        anisotropic(),
-        sheen(),
-        sheenTint(),
-        clearcoat(),
-        coatGloss(),
-        transmission(),
-        thin(),
-        flatness(),
-        diffTrans(),
-        distance()
-      )
+  protected final def parameters()(using Site): DisneyParameters =
+    DisneyParameters(
+      color(),
+      metallic(),
+      eta(),
+      roughness(),
+      tint(),
+      anisotropic(),
+      sheen(),
+      sheenTint(),
+      clearcoat(),
+      coatGloss(),
+      transmission(),
+      thin(),
+      flatness(),
+      diffTrans(),
+      distance()
     )
+
+object DisneyRecipe
+    extends DisneyFields("disney", "principled BSDF of Burley 2012 and 2015", onlyV3):
+  protected def make()(using Site): Material = DisneyMaterial(parameters())
+
+object PrincipledRecipe
+    extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyV4):
+  protected def make()(using Site): Material = PrincipledMaterial(parameters())

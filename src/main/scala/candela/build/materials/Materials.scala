@@ -1,6 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial}
+import candela.bsdf.{
+  BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial, SoftTerminatorMaterial
+}
 import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
@@ -21,8 +23,10 @@ object Materials:
       SubstrateRecipe,
       UberRecipe,
       DisneyRecipe,
+      PrincipledRecipe,
       CoatedDiffuseRecipe,
       CoatedConductorRecipe,
+      RoughPlasticRecipe,
       GlassRecipe,
       DielectricRecipe,
       ThinDielectricRecipe,
@@ -76,7 +80,7 @@ abstract class MaterialRecipe(
     normalMap() match
       case Some(picture) =>
         site.resources.askForFootprints("normal maps")
-        NormalMapMaterial(smooth, picture)
+        raised(smooth, NormalMapMaterial(_, picture))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
@@ -85,9 +89,16 @@ abstract class MaterialRecipe(
   private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
     if height.constant.isDefined then smooth
     else
-      site.resources.askForFootprints("bumps")
+      // Without footprints, slopes are taken at points, as Mitsuba does
+      if !site.resources.switches.isMitsubas then site.resources.askForFootprints("bumps")
       // pbrt's finite differences
-      BumpMaterial(smooth, height, if site.dialect == Dialect.V2 then 0.01f else 0.0005f)
+      val smallest = if site.dialect == Dialect.V2 then 0.01f else 0.0005f
+      raised(smooth, BumpMaterial(_, height, smallest))
+
+  private def raised(smooth: Material, relief: Material => Material)(using site: Site): Material =
+    if site.resources.switches.isMitsubas then
+      SoftTerminatorMaterial(smooth, relief, shadows = true)
+    else relief(smooth)
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
@@ -112,6 +123,8 @@ abstract class RoughRecipe(
   private val both = floatTexture("roughness", "surface roughness; 0: smooth")(default)
   private val u = alongAxis("u")
   private val v = alongAxis("v")
+  private val distribution =
+    oneOf("distribution", "microfacets of Mitsuba's scenes", Seq("ggx", "beckmann"), onlyV4)("ggx")
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
@@ -129,7 +142,10 @@ abstract class RoughRecipe(
       case Dialect.V3 =>
         if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
       case Dialect.V4 =>
-        if remap() then RoughnessModel.SquareRootAlpha else RoughnessModel.PlainAlpha
+        if site.resources.switches.isMitsubas then
+          if distribution() == "ggx" then RoughnessModel.SeparableGgx else RoughnessModel.Gaussian
+        else if remap() then RoughnessModel.SquareRootAlpha
+        else RoughnessModel.PlainAlpha
     val along = u.flatMap(_.given_()).getOrElse(both())
     val sideways = v.flatMap(_.given_()).getOrElse(both())
     Roughness(along, sideways, model, smoothAtZero)

@@ -53,6 +53,17 @@ private[build] trait MetalFields extends SpectrumFields:
     if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
       val names = s"`${index.eta.name}` and `${index.k.name}`"
       site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
+    if site.resources.switches.isMitsubas && !site.resources.basis.isSpectral && tint.isEmpty then
+      // Mitsuba multiplies three numbers here, too
+      def plain(source: SpectrumSource) = SpectrumSource.textured(source):
+        case SpectralValue.Color(c, _) => c
+        case other => site.resources.basis.ofReflectance(Indices.spectrum(other))
+      IndexedMetal(plain(index.eta()), plain(index.k()), outside)
+    else spectralOrTinted(index, outside, tint)
+
+  private def spectralOrTinted(index: MetalIndex, outside: Float, tint: Option[RgbTexture])(using
+      site: Site
+  ): MetalTexture =
     (spectral(index, outside), tint) match
       case (Some(reflected), _) =>
         site.resources.counting.foreach(_.addReflectance(site.declaration, reflected(1f)))
@@ -109,7 +120,9 @@ object ConductorRecipe
     extends RoughRecipe("conductor", "conductor, smooth or rough", onlyV4, 0f)
     with MetalFields:
   private val index = metalIndex(tint = true)
-  protected def make()(using Site): Material = ConductorMaterial(metal(index), roughness())
+  private val scale = rgbTexture("scale", "scale of the reflectance, of Mitsuba's")(Rgb.White)
+  protected def make()(using Site): Material =
+    ConductorMaterial(metal(index), roughness(), scale())
 
 object ShinyMetalRecipe extends RoughRecipe(
       "shinymetal",

@@ -11,6 +11,7 @@ package candela.build.recipe
   * @param edgeScale   scale of `edgelength` of displaced meshes
   * @param reference   reference image of the errors to write
   * @param errors      file for the errors
+  * @param isMitsubas  apply Mitsuba's rules where they differ from pbrt-v4's
   */
 final case class Switches(
     seed: Int = 0,
@@ -21,7 +22,8 @@ final case class Switches(
     diffuse: Boolean = false,
     edgeScale: Option[Float] = None,
     reference: Option[String] = None,
-    errors: Option[String] = None
+    errors: Option[String] = None,
+    isMitsubas: Boolean = false
 ):
   /** Both together; where they differ, these. */
   def over(scene: Switches): Switches =
@@ -34,5 +36,6 @@ final case class Switches(
       diffuse || scene.diffuse,
       edgeScale.orElse(scene.edgeScale),
       reference.orElse(scene.reference),
-      errors.orElse(scene.errors)
+      errors.orElse(scene.errors),
+      isMitsubas || scene.isMitsubas
     )

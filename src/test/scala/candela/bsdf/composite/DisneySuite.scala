@@ -1,7 +1,7 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{Bsdf, BsdfLaws, Directions}
-import candela.bsdf.microfacet.TrowbridgeReitz
+import candela.bsdf.microfacet.{SeparableTrowbridgeReitz, TrowbridgeReitz}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.textures.{ConstantFloat, ConstantRgb}

@@ -1,0 +1,110 @@
+package candela.convert
+
+import scala.collection.mutable
+
+import candela.base.{Problem, loop}
+import candela.bsdf.Fresnel
+import candela.color.Rgb
+import candela.scenefile.{Declaration, Dialect, Param, ParamType, SceneDescription}
+
+/** Replaces the materials that pbrt lacks in scenes of Mitsuba. */
+object FromMitsuba:
+
+  def converted(scene: SceneDescription): Converted =
+    val run = Run()
+    val plain = Declarations.map(scene)(run.plain)
+    Converted(plain.copy(isMitsubas = false), run.warnings)
+
+  private final class Run:
+    private val problems = mutable.LinkedHashSet.empty[Problem]
+    def warnings: Vector[Problem] = problems.toVector
+
+    def plain(d: Declaration): Declaration =
+      if d.category != "Material" || d.dialect.isDefined then d
+      else
+        d.name match
+          case "roughplastic" => plastic(isotropic(d))
+          case "conductor" => conductor(isotropic(d))
+          case "dielectric" => dielectric(isotropic(d))
+          case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
+          case "principled" =>
+            warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
+            d.copy(name = "disney", dialect = Some(Dialect.V3))
+          case _ => d
+
+    private def warn(d: Declaration, message: String): Unit =
+      problems += Problem.warning(d.at, message)
+
+    /** pbrt has one distribution. */
+    private def isotropic(d: Declaration): Declaration =
+      for p <- d.param("distribution") if p.strings.contains("beckmann") do
+        problems += Problem.warning(p.at, "pbrt has no distribution `beckmann`; using `ggx`")
+      without(d, "", "distribution")
+
+    private def without(d: Declaration, instead: String, names: String*): Declaration =
+      for p <- d.params if names.contains(p.name) && instead.nonEmpty do
+        problems += Problem.warning(p.at, s"pbrt has no `${p.name}` of \"${d.name}\"; $instead")
+      d.copy(params = d.params.filterNot(p => names.contains(p.name)))
+
+    private def color(d: Declaration, name: String): Option[Rgb] =
+      d.param(name).map(_.floats).collect { case Array(r, g, b) => Rgb(r, g, b) }
+
+    private def conductor(d: Declaration): Declaration =
+      val isMirror = color(d, "eta").contains(Rgb.Black) && color(d, "k").contains(Rgb.White)
+      if !isMirror then without(d, "using 1", "scale")
+      else
+        val isSmooth = d.param("uroughness").isEmpty
+        val others = without(d, "", "scale", "eta", "k").params
+        val name = if isSmooth then "Kr" else "reflectance"
+        val tint = d.param("scale").fold(rgb(name, Rgb.White, d))(renamed(_, name))
+        if isSmooth then
+          d.copy(name = "mirror", params = tint +: others, dialect = Some(Dialect.V3))
+        else d.copy(params = tint +: others)
+
+    /** v3's glass has colours. */
+    private def dielectric(d: Declaration): Declaration =
+      val tints = Vector("reflectance" -> "Kr", "transmittance" -> "Kt")
+        .flatMap((from, to) => d.param(from).map(renamed(_, to)))
+      if tints.isEmpty then d
+      else
+        val others = without(d, "", "reflectance", "transmittance").params
+        d.copy(name = "glass", params = tints ++ others, dialect = Some(Dialect.V3))
+
+    /** A coat on a diffuse base. Without `nonlinear`, Mitsuba leaves out that light which the coat
+      * reflects back is coloured by the base again: a coated base of another colour looks so.
+      */
+    private def plastic(d: Declaration): Declaration =
+      val isNonlinear = d.param("nonlinear").exists(_.bools.contains(true))
+      val others = without(without(d, "using 1", "specular"), "", "nonlinear")
+      val inner = diffuseReflectance(d.param("eta").flatMap(_.floats.headOption).getOrElse(1.49f))
+      val params = others.params.map: p =>
+        if p.name != "reflectance" || isNonlinear then p
+        else
+          color(d, "reflectance") match
+            case Some(c) => rgb("reflectance", c.map(r => r / (1 - inner + r * inner)), d)
+            case None =>
+              warn(
+                d,
+                "the colour of a textured \"plastic\" becomes that of `nonlinear`: less " +
+                  "saturated colours become darker"
+              )
+              p
+      val layer = Seq(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))
+      d.copy(name = "coateddiffuse", params = params ++ layer)
+
+    private def rgb(name: String, c: Rgb, d: Declaration): Param =
+      Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))
+
+    private def renamed(p: Param, name: String): Param = Param(
+      p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault,
+      p.colorSpace
+    )
+
+  /** Fraction of diffuse light that the inside of an interface reflects. */
+  private def diffuseReflectance(eta: Float): Float =
+    val steps = 2000
+    var sum = 0.0
+    loop(steps): i =>
+      val cos = (i + 0.5) / steps
+      sum += cos * Fresnel.dielectric(cos.toFloat, 1 / eta)
+    (2 * sum / steps).toFloat

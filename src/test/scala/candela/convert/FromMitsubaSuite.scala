@@ -1,0 +1,62 @@
+package candela.convert
+
+import candela.mitsuba.MitsubaScene
+import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription}
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class FromMitsubaSuite extends AnyFunSuite:
+
+  private def read(bsdf: String): SceneDescription =
+    val file = Files.createTempFile("candela-mitsuba", ".xml")
+    try
+      val _ = Files.writeString(
+        file,
+        s"""<scene version="3.0.0"><sensor type="perspective"/>
+          <shape type="sphere">$bsdf</shape></scene>"""
+      )
+      MitsubaScene.readable(file, Map.empty, keepGoing = false)
+    finally Files.delete(file)
+
+  private def converted(bsdf: String): (Declaration, Vector[String]) =
+    val done = FromMitsuba.converted(read(bsdf))
+    done.scene.shapes.head.material match
+      case MaterialRef.Inline(d) => (d, done.warnings.map(_.message))
+      case other => fail(other.toString)
+
+  test("a linear plastic is a coat whose base has another colour"):
+    def base(text: String) =
+      val (d, _) = converted(s"<bsdf type=\"plastic\">$text</bsdf>")
+      assert(d.name == "coateddiffuse")
+      d.param("reflectance").get.floats.head
+    assert(base("<boolean name=\"nonlinear\" value=\"true\"/>") == 0.5f)
+    // r / (1 − f + r f), with the diffuse reflectance f inside an index of 1.49: 0.5905 by
+    // the fit of Egan and Hilgeman, which is right to 0.002
+    assert(Math.abs(base("") - 0.5f / (1 - 0.5905f + 0.29525f)) < 2e-3f)
+
+  test("a conductor without a material is a mirror"):
+    val (mirror, _) = converted("<bsdf type=\"conductor\"/>")
+    assert(mirror.name == "mirror" && mirror.dialect.contains(Dialect.V3))
+    val (rough, _) = converted("<bsdf type=\"roughconductor\"/>")
+    assert(rough.name == "conductor" && rough.param("reflectance").nonEmpty)
+    assert(rough.param("eta").isEmpty && rough.param("distribution").isEmpty)
+
+  test("what pbrt lacks is reported"):
+    def lost(bsdf: String) = converted(bsdf)._2
+    assert(
+      lost("<bsdf type=\"roughdielectric\"/>") ==
+        Vector("pbrt has no distribution `beckmann`; using `ggx`")
+    )
+    assert(lost("<bsdf type=\"principled\"/>").head.contains("approximated"))
+    val red = "<rgb name=\"specular_reflectance\" value=\"1, 0, 0\"/>"
+    assert(
+      lost(s"<bsdf type=\"plastic\">$red</bsdf>") ==
+        Vector("pbrt has no `specular` of \"roughplastic\"; using 1")
+    )
+    val (glass, _) = converted(s"<bsdf type=\"dielectric\">$red</bsdf>")
+    assert(glass.name == "glass" && glass.param("Kr").get.floats.toVector == Vector(1f, 0f, 0f))
+
+  test("a converted scene has pbrt's rules"):
+    assert(read("").isMitsubas && !FromMitsuba.converted(read("")).scene.isMitsubas)
