@@ -7,7 +7,8 @@ import candela.color.ColorBasis
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
 import candela.film.{
-  Development, FilterReach, Layer, PixelBounds, ScreenMotion, SpectralBands, VisibleSurface
+  Development, FilterReach, Fireflies, Layer, PixelBounds, ScreenMotion, SpectralBands,
+  VisibleSurface
 }
 import candela.math.{Motion, Still, Transform}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
@@ -30,6 +31,7 @@ import candela.scenefile.SceneDescription
   * @param switches    settings of the whole scene
   * @param pixels      pixels of the image to render, overrides the scene
   * @param points      which sample points to take
+  * @param fireflies   what is done about them
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -44,7 +46,8 @@ final case class BuildOptions(
     crew: Parallel = Parallel.Alone,
     switches: Switches = Switches(),
     pixels: Option[PixelBounds] = None,
-    points: PointChoice = PointChoice.Best
+    points: PointChoice = PointChoice.Best,
+    fireflies: Fireflies = Fireflies.Kept
 ):
   /** A preview shows albedos, for which three numbers do. */
   def colorMode: ColorMode = if preview then ColorMode.Rgb else color
@@ -84,9 +87,10 @@ object SceneBuilder:
         samples,
         options.colorMode,
         image.film.camera,
-        Option.when(image.layers.exists(_.isLight))(options.lightGroups)
+        Option.when(image.layers.exists(_.isLight) || dimsLight(options))(options.lightGroups)
       ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
+    if !options.preview then FireflyLimits(context, options.fireflies).check(world.method)
     context.problems.stopAtErrors()
     val made = plan(context, options, image, crop, integrator, sampling, camera, world)
     (made, context.problems.result)
@@ -127,6 +131,10 @@ object SceneBuilder:
           s"this integrator does not divide light: AOVs ${divided.map(_.word).mkString(", ")} " +
             "need \"path\" or \"volpath\""
         )
+
+  private def dimsLight(options: BuildOptions): Boolean = options.fireflies match
+    case Fireflies.Clamped(_) => !options.preview
+    case _ => false
 
   private def plan(
       context: BuildContext,
@@ -176,7 +184,7 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ),
+      ) ++ FireflyLimits.feature(options),
       differentialScale =
         if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
         else sampling.footprint,
@@ -189,7 +197,8 @@ object SceneBuilder:
       sharesSamples = shares,
       bands = bands,
       isCentered = switches.centers,
-      errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f)
+      errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
+      fireflies = if options.preview then Fireflies.Kept else options.fireflies
     )
 
   private def layerPlan(

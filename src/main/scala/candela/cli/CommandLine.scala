@@ -7,7 +7,7 @@ import candela.build.{ColorMode, LightGrouping}
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
 import candela.convert.Baking
-import candela.film.Layer
+import candela.film.{Fireflies, Layer}
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
@@ -126,6 +126,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param bake  width and height of images that replace textures, in pixels
   * @param color whether rendering is spectral
   * @param points which sample points to take
+  * @param fireflies what is done about them
   * @param display how pictures show linear light
   * @param denoise whether to add a denoised image
   * @param thumbnail how to show the image in the terminal
@@ -171,6 +172,7 @@ final case class Options(
     defines: Map[String, String] = Map.empty,
     color: ColorMode = ColorMode.Auto,
     points: PointChoice = PointChoice.Best,
+    fireflies: Fireflies = Fireflies.Kept,
     layers: Vector[Layer] = Vector.empty,
     precisions: Vector[(Layer, Boolean)] = Vector.empty,
     lightGroups: Option[LightGrouping] = None,

@@ -31,11 +31,9 @@ private[cli] final class Denoising(denoiser: Oidn, threads: Int):
       System.arraycopy(colors.data, 3 * pixel, data, names.size * pixel + image.channels, 3)
     Image(image.width, image.height, names, data, colorSpace = image.colorSpace)
 
-  /** For image files: denoising trades noise for bias. */
-  def metadata: Vector[(String, String)] = Vector(
-    "denoiser" -> s"Open Image Denoise ${denoiser.version}, prefiltered albedo and normals",
-    "biased" -> Channels.mkString(", ")
-  )
+  /** For image files. */
+  def describe: String =
+    s"Open Image Denoise ${denoiser.version}, prefiltered albedo and normals"
 
 /** A denoised image, and the time that denoising took.
   *

@@ -76,6 +76,7 @@ private[cli] object FilmHeaders:
       flag("keep-going", o.keepGoing) ++
       one("color", Option.when(o.color != ColorMode.Auto)(o.color.toString.toLowerCase)) ++
       one("sampler", Option.when(o.points != PointChoice.Best)(o.points.word)) ++
+      FireflyTable.words(o.fireflies) ++
       flag("store-time", o.storeTime) ++
       one("tonemap", Option.when(o.display != Options().display)(o.display.curve.word)) ++
       one("exposure", exposure) ++

@@ -14,7 +14,7 @@ import scopt.{OParser, Read}
   * @param every      seconds between two checkpoints
   * @param shard      part of the samples to take
   * @param time       seconds after which the rendering ends
-  * @param error      relative MSE at which the rendering ends
+  * @param error      relative error at which the rendering ends
   * @param partial    whether to merge although shards are missing
   * @param frames     numbers for the scene's name
   * @param skipDone   whether to skip scenes whose images exist already
@@ -82,7 +82,7 @@ private[cli] object FilmTable:
       .text("end about this time, e.g. 10m, when all pixels have equally many samples")
       .action((s, o) => change(o)(_.copy(time = Some(s.value)))),
     opt[Double]("error").valueName("X")
-      .text("end when the relative MSE, estimated from the noise, is below X")
+      .text("end when the relative error, estimated from the noise, is below X: 0.02 for 2 %")
       .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
       .action((x, o) => change(o)(_.copy(error = Some(x))))
   )

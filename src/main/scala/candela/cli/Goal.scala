@@ -47,6 +47,6 @@ object Goal:
   val Fewest = 4
 
 /** @param secondsLeft by the trend; none if not known
-  * @param error       relative MSE so far
+  * @param error       relative error so far
   */
 final case class Outlook(secondsLeft: Option[Double], error: Option[Double])

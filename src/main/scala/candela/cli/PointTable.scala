@@ -4,7 +4,7 @@ import candela.build.sampling.PointChoice
 
 import scopt.{OParser, Read}
 
-/** Rows of the option table about sample points. Each call makes new rows: scopt gives a row one
+/** Rows of the option table about samples. Each call makes new rows: scopt gives a row one
   * parent.
   */
 private[cli] object PointTable:
@@ -20,5 +20,6 @@ private[cli] object PointTable:
         "sample points: those with the least noise instead of the scene's (best, the default), " +
           "the scene's own, or these"
       )
-      .action((p, o) => o.copy(points = p))
+      .action((p, o) => o.copy(points = p)),
+    FireflyTable.row
   )

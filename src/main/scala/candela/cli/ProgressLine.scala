@@ -59,7 +59,7 @@ object ProgressLine:
     s"render ${percent(progress, outlook)}  $seconds, ${speed(progress, outlook)}"
 
   /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
-    * `… 1.31 M samples/s, error 0.01234, 0:17 left`.
+    * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.
     */
   def bar(progress: Progress, outlook: Option[Outlook] = None): String =
     val width = if outlook.isDefined then NarrowWidth else BarWidth
@@ -76,10 +76,14 @@ object ProgressLine:
   private def percent(p: Progress, outlook: Option[Outlook]): String =
     "%3d%%".formatLocal(Locale.ROOT, (fraction(p, outlook) * 100).toInt)
 
+  /** Three digits, or fewer. */
+  private def percentage(error: Double): String =
+    Figures.general(BigDecimal(100 * error).round(java.math.MathContext(3)).toDouble)
+
   private def speed(p: Progress, outlook: Option[Outlook]): String =
     if p.done == 0 then "starting"
     else
       val rate = p.done / Math.max(p.seconds, 1e-9)
       val left = outlook.flatMap(_.secondsLeft).getOrElse((p.total - p.done) / rate)
-      val error = outlook.flatMap(_.error).fold("")(e => s"error ${Figures.general(e)}, ")
+      val error = outlook.flatMap(_.error).fold("")(e => s"error ${percentage(e)} %, ")
       s"${Figures.metric(rate)} samples/s, $error${Figures.clock(left)} left"

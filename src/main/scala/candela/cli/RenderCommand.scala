@@ -227,7 +227,7 @@ final class RenderCommand(
     val time = Option.when(options.storeTime):
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
     val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++
-      denoising.fold(Vector.empty)(_.metadata)
+      Bias.metadata(loaded.plan, rendering, denoising)
     val how = WriteOptions(
       development.isHalf,
       precisions(loaded.plan),

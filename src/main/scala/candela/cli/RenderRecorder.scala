@@ -39,13 +39,17 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
       val weights = new Array[Float](film.width * film.height)
       val _ = estimate.add(samples, development(film, Some(weights)), weights, isLast = false)
 
-  /** The relative MSE after so many samples per pixel, as far as known. */
+  /** The relative error after so many samples per pixel, as far as known: the root of the relative
+    * MSE.
+    */
   def errorAt(samples: Double): Option[Double] =
-    if reference.isEmpty then estimate.at(samples).map(_.relativeMse)
-    else points.lastOption.map(_.errors.relativeMse)
+    val errors =
+      if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
+    errors.map(e => Math.sqrt(e.relativeMse))
 
-  /** Samples per pixel at which the relative MSE falls to this, by its trend. */
-  def samplesUntil(relativeMse: Double): Option[Double] =
+  /** Samples per pixel at which the relative error falls to this, by its trend. */
+  def samplesUntil(error: Double): Option[Double] =
+    val relativeMse = error * error
     if reference.isEmpty then estimate.samplesUntil(relativeMse)
     else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
 

@@ -74,6 +74,10 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
       "image" -> s"${rendering.film.width}×${rendering.film.height}",
       "rays" -> Figures.metric(rendering.rays.toDouble)
     ) ++
+      Bias.fireflies(loaded.plan, rendering).map("fireflies" -> _) ++
+      rendering.film.levels.map: l =>
+        "memory of brightness levels" -> s"${Figures.metric(l.memory.toDouble)}B"
+      ++
       options.reference.map("reference" -> _) ++
       Option.when(options.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
       options.cropWindow.map(w => "crop window" -> s"${w.x0},${w.x1},${w.y0},${w.y1}") ++

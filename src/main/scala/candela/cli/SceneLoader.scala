@@ -72,7 +72,8 @@ object SceneLoader:
       Crew(o.threadCount),
       o.switches,
       pixels.orElse(pixel),
-      o.points
+      o.points,
+      o.fireflies
     )
 
   /** The path of an existing scene file. */

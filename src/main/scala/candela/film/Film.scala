@@ -13,6 +13,8 @@ import java.util.Arrays
   * @param splats accumulates light path splats, if any
   * @param shares if defined, accumulates the samples instead, each contributing to several pixels
   * @param bands  also accumulates light by wavelength, if wanted; [[copy]] and [[since]] do not
+  * @param levels also accumulates light by brightness, to leave out fireflies; likewise
+  * @param volume what a sample adds to the weights of all pixels
   */
 final class Film(
     val x0: Int,
@@ -21,7 +23,9 @@ final class Film(
     val y1: Int,
     val splats: Option[SplatFilm] = None,
     val shares: Option[SampleShares] = None,
-    val bands: Option[BandFilm] = None
+    val bands: Option[BandFilm] = None,
+    val levels: Option[BrightnessLevels] = None,
+    volume: Double = 1
 ):
   require(x1 > x0 && y1 > y0, s"film must not be empty, found [$x0, $x1) × [$y0, $y1)")
 
@@ -67,24 +71,32 @@ final class Film(
     shares.fold(sums.save(to))(_.save(to))
     splats.foreach(_.save(to))
     bands.foreach(_.save(to))
+    levels.foreach(_.save(to))
 
   /** Adds what was saved by a film of the same size and kind. */
   def load(from: CheckedInput): Unit =
     shares.fold(sums.load(from))(_.load(from))
     splats.foreach(_.load(from))
     bands.foreach(_.load(from))
+    levels.foreach(_.load(from))
 
   /** The weighted averages, times `scale`; pixels without samples are black. May be called while
     * others add; the image then holds the current state.
     *
     * @param weights set to the sum of the weights of each pixel's samples, row by row, at the same
     *                moment; without camera samples to the number of light paths, in all pixels
+    * @param isWhole whether fireflies remain, too
     */
-  def toImage(scale: Float, weights: Option[Array[Float]] = None): Image =
+  def toImage(
+      scale: Float,
+      weights: Option[Array[Float]] = None,
+      isWhole: Boolean = false
+  ): Image =
     val image = Image.rgb(width, height)
     val row = new Array[Double](4 * width)
+    val cleaned = if isWhole then None else levels.map(withoutFireflies)
     loop(height): y =>
-      read(y, row)
+      cleaned.fold(read(y, row))(System.arraycopy(_, 4 * width * y, row, 0, 4 * width))
       loop(width): x =>
         val pixel = y * width + x
         val weight = row(4 * x + 3)
@@ -95,6 +107,21 @@ final class Film(
       s.addTo(image.data, scale)
       for w <- weights if w.forall(_ == 0) do Arrays.fill(w, s.pathCount.toFloat)
     image
+
+  /** The share of the light that [[toImage]] leaves out with fireflies. */
+  def leftOut: Double =
+    def sum(image: Image) = image.data.map(_.toDouble).sum
+    val whole = sum(toImage(1f, isWhole = true))
+    if levels.isEmpty || whole == 0 then 0 else 1 - sum(toImage(1f)) / whole
+
+  private def withoutFireflies(levels: BrightnessLevels): Array[Double] =
+    val all = new Array[Double](4 * width * height)
+    val row = new Array[Double](4 * width)
+    loop(height): y =>
+      read(y, row)
+      System.arraycopy(row, 0, all, 4 * width * y, 4 * width)
+    FireflyWeights(levels, PixelBounds(x0, y0, x1, y1), volume)(all)
+    all
 
   private def read(y: Int, row: Array[Double]): Unit =
     shares match

@@ -58,11 +58,28 @@ final class LightParts(val groups: LightGroups):
       sums(3 * part + 2) = color.b
       part += 1
 
-  def scale(factor: Float): Unit =
-    var i = 0
-    while i < sums.length do
+  def scale(factor: Float): Unit = scale(0, sums.length, factor)
+
+  private def scale(from: Int, until: Int, factor: Float): Unit =
+    var i = from
+    while i < until do
       sums(i) *= factor
       i += 1
+
+  /** Limits the light scattered more than once; all groups of lights lose alike.
+    *
+    * @param weight of the sample, which the limit includes
+    * @return the light of all parts
+    */
+  def limit(most: SampleLimit, weight: Float): Rgb =
+    val rest = this(Emission) + this(Background) + this(Direct)
+    val indirect = this(Indirect)
+    val factor = most.scale(indirect * weight)
+    val limited = rest + indirect * factor
+    val whole = (rest + indirect).largest
+    scale(3 * Indirect, 3 * Indirect + 3, factor)
+    if whole > 0f then scale(3 * Groups, sums.length, limited.largest / whole)
+    limited
 
 object LightParts:
   /** Light that reaches the camera unscattered, of surfaces and media, and of infinite lights. */

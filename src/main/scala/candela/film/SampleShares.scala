@@ -25,8 +25,14 @@ final class SampleShares private (
     y1: Int,
     private val blocks: Vector[SharedBlock]
 ):
-  /** Adds samples; one for each worker. */
-  def pass(): SharedPass = SharedPass(blocks)
+  /** Adds samples; one for each worker.
+    *
+    * @param levels receives them, too
+    */
+  def pass(levels: Option[LevelPass] = None): SharedPass = SharedPass(blocks, levels.orNull)
+
+  /** Pixels that the samples of each tile contribute to. */
+  def reached: Vector[PixelBounds] = blocks.map(b => PixelBounds(b.x0, b.y0, b.x1, b.y1))
 
   /** Sets `row` to what the pixels of the film's row `y` hold: for each one weighted red, green,
     * blue, sum of weights.
@@ -109,7 +115,7 @@ private final class SharedBlock(
 /** Adds samples to the blocks of [[SampleShares]]: one sample of each pixel of a tile at a time.
   * Mutable, one per worker.
   */
-final class SharedPass private[film] (blocks: Vector[SharedBlock]):
+final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: LevelPass | Null):
   private var block = blocks.head
   private val sums = new Array[Double](blocks.map(_.sums.size).max)
 
@@ -137,6 +143,7 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock]):
         sums(at + 1) += weight * g
         sums(at + 2) += weight * b
         sums(at + 3) += weight
+        if levels != null then levels.add(at / 4, weight)
         px += 1
         at += 4
       py += 1

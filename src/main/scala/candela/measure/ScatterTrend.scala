@@ -36,7 +36,7 @@ object ScatterTrend:
   val Independent: ScatterTrend = new ScatterTrend(0, UsualShrinkage.mean)
 
   // Means and variances about as in the scenes of docs/NOISE.md
-  private def UsualShrinkage = Known(0.7, 0.04)
+  private def UsualShrinkage = Known(0.9, 0.005)
   private def UsualGap = Known(0.08, 0.01)
 
   private def apply(gap: Double, shrinkage: Double) = new ScatterTrend(gap, shrinkage)

@@ -54,7 +54,7 @@ private[render] object Job:
   def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
     val pixel = PixelBounds(x, y, x + 1, y + 1)
     val schedule = TileSchedule(pixel, plan.sampler.samplesPerPixel)
-    val tiles = TileJobs(plan, schedule, pixel, (_, _) => true)
+    val tiles = TileJobs(plan, schedule, pixel, (_, _) => true, isSingle = true)
     val board = Board(schedule, Cancellation())
     val view = plan.view(Splats.Discarded)
     val worker = plan.method match
@@ -70,8 +70,10 @@ private[render] object Job:
       b: PixelBounds,
       splats: Option[SplatFilm],
       shares: Option[SampleShares] = None,
-      bands: Option[BandFilm] = None
-  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares, bands)
+      bands: Option[BandFilm] = None,
+      levels: Option[BrightnessLevels] = None,
+      volume: Double = 1
+  ): Film = Film(b.x0, b.y0, b.x1, b.y1, splats, shares, bands, levels, volume)
 
   private def splatFilm(plan: RenderPlan): SplatFilm =
     val PixelBounds(x0, y0, x1, y1) = plan.crop
@@ -84,16 +86,21 @@ private[render] object Job:
       schedule: TileSchedule,
       bounds: PixelBounds,
       takes: (Int, Int) => Boolean,
-      splats: Option[SplatFilm] = None
+      splats: Option[SplatFilm] = None,
+      isSingle: Boolean = false
   ):
     private val PixelBounds(x0, y0, x1, y1) = bounds
+    private val shares = Option.when(plan.sharesSamples):
+      SampleShares(x0, y0, x1, y1, FilterReach(plan.filter), schedule.tiles)
     val film: Film = filmOf(
       bounds,
       splats,
-      Option.when(plan.sharesSamples):
-        SampleShares(x0, y0, x1, y1, FilterReach(plan.filter), schedule.tiles)
+      shares,
+      plan.bands.map(BandFilm(_, x0, y0, x1, y1)),
+      Option.when(plan.fireflies == Fireflies.Reweighted && !isSingle):
+        BrightnessLevels(shares.fold(schedule.tiles)(_.reached))
       ,
-      plan.bands.map(BandFilm(_, x0, y0, x1, y1))
+      if plan.sharesSamples then plan.filter.integral else 1
     )
     private val layers =
       plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers, asked.groups))

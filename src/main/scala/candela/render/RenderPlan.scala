@@ -27,6 +27,7 @@ import candela.scene.SurfaceNames
   * @param bands             wavelength bands to accumulate, if rendering is spectral
   * @param isCentered        whether all samples are at the pixel centre
   * @param errors            where to write errors while rendering, if anywhere
+  * @param fireflies         what is done about them; limited light is divided by its way
   */
 final class RenderPlan(
     val width: Int,
@@ -48,7 +49,8 @@ final class RenderPlan(
     val sharesSamples: Boolean = false,
     val bands: Option[SpectralBands] = None,
     val isCentered: Boolean = false,
-    val errors: Option[ErrorFile] = None
+    val errors: Option[ErrorFile] = None,
+    val fireflies: Fireflies = Fireflies.Kept
 ):
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =
@@ -61,6 +63,11 @@ final class RenderPlan(
         crop.x1 + reach.beyondX,
         crop.y1 + reach.beyondY
       )
+
+  /** Limit of a sample's indirect light, if there is one. */
+  def indirectLimit: Option[SampleLimit] = fireflies match
+    case Fireflies.Clamped(most) => SampleLimit.channels(most / development.scale)
+    case _ => None
 
   /** The method's view of the plan.
     *

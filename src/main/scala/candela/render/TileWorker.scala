@@ -32,16 +32,19 @@ private[render] final class TileWorker(
   private val layerFilm: LayerFilm | Null = layers.orNull
   private val bands: BandFilm | Null = film.bands.orNull
   private val visible: VisibleSurface | Null = plan.layers.map(_.surface.copy()).orNull
+  private val dimmer: SampleLimit | Null = plan.indirectLimit.orNull
   private val parts: LightParts | Null =
-    if plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
+    if dimmer != null || plan.layers.exists(_.groups.isDefined) then integrator.lightParts else null
   if visible != null then visible.parts = parts
 
   // Accumulators of samples shared by several pixels
-  private val shares: SharedPass | Null = film.shares.map(_.pass()).orNull
+  private val levels: LevelPass | Null = film.levels.map(_.pass()).orNull
+  private val shares: SharedPass | Null = film.shares.map(_.pass(Option(levels))).orNull
   private var filmX, filmY = 0f
 
   // Current position, for error messages.
   private var x, y, sample = 0
+  private var tile = schedule.tiles(0)
 
   private var refusedCount = 0L
   private var refusedX, refusedY, refusedSample, refusedMaterial = 0
@@ -58,7 +61,7 @@ private[render] final class TileWorker(
     this.y = y
     this.sample = sample
     beginWave(sample)
-    if shares != null then shares.begin(0)
+    beginTile(0)
     takeSample()
     if shares != null then shares.end()
 
@@ -81,7 +84,7 @@ private[render] final class TileWorker(
   /** Takes a sample of each pixel of the tile. */
   private def renderSample(tile: Int): Unit =
     val bounds = schedule.tiles(tile)
-    if shares != null then shares.begin(tile)
+    beginTile(tile)
     y = bounds.y0
     while y < bounds.y1 do
       x = bounds.x0
@@ -91,6 +94,11 @@ private[render] final class TileWorker(
       y += 1
     if shares != null then shares.end()
     board.samplesTaken.add(bounds.pixels)
+
+  private def beginTile(tile: Int): Unit =
+    if shares != null then shares.begin(tile)
+    if levels != null then levels.begin(tile)
+    this.tile = schedule.tiles(tile)
 
   private def takeSample(): Unit =
     val shared = shares
@@ -128,7 +136,10 @@ private[render] final class TileWorker(
       if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
     else
       if visible != null then visible.look(ray, sample)
-      val radiance = plan.basis.toSrgb(integrator.radiance(ray, sampler))
+      val whole = plan.basis.toSrgb(integrator.radiance(ray, sampler))
+      if parts != null && !plan.basis.isSrgb then parts.convert(parts, plan.basis)
+      val radiance =
+        if dimmer != null && parts != null then parts.limit(dimmer, weight) else whole
       val seen = if weighs then weighed(radiance, weight) else radiance
       val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
       if light.isFinite then
@@ -141,7 +152,6 @@ private[render] final class TileWorker(
 
   /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
   private def develop(parts: LightParts, radiance: Rgb, light: Rgb): Unit =
-    if !plan.basis.isSrgb then parts.convert(parts, plan.basis)
     val whole = radiance.largest
     if whole != 0f then parts.scale(light.largest / whole)
 
@@ -153,7 +163,11 @@ private[render] final class TileWorker(
 
   private def add(light: Rgb): Unit =
     val shared = shares
-    if shared == null then film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
+    if levels != null then levels.sample(light.r, light.g, light.b)
+    if shared == null then
+      film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
+      if levels != null then
+        levels.add((y - tile.y0) * tile.width + x - tile.x0, filterSampler.weight)
     else shared.add(filmX, filmY, light.r, light.g, light.b)
 
   private def weighed(radiance: Rgb, weight: Float): Rgb =

@@ -52,6 +52,30 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(f.bytes("all.exr") == f.bytes("one.exr"))
       assert(f.image("all.exr").channelNames.size > 20)
 
+  test("brightness levels are merged and continued, too, and the image says that it is biased"):
+    for integrator <- Vector(Paths, methods("bidirectional paths")) do
+      withScene(integrator): f =>
+        val mode = Vector("--fireflies", "reweight")
+        f.render(mode ++ Vector("--spp", "6", "--outfile", f("one.exr"))*)
+        for i <- 0 until 3 do
+          val part = Vector("--spp", "6", "--shard", s"$i/3", "--outfile", f(s"$i.film"))
+          f.render(mode ++ part*)
+        f.run(Vector("merge", f("2.film"), f("0.film"), f("1.film"), "--outfile", f("all.exr")))
+        assert(f.bytes("all.exr") == f.bytes("one.exr"))
+        f.render(mode ++ Vector(
+          "--spp", "2", "--checkpoint", f("a.film"), "--outfile", f("a.exr")
+        )*)
+        f.run(Vector("resume", f("a.film"), "--spp", "6"))
+        assert(f.bytes("a.exr") == f.bytes("one.exr"))
+        val about = new String(f.bytes("one.exr").toArray, "ISO-8859-1")
+        assert(about.contains("Zirr, Hanika, Dachsbacher 2018") && about.contains("biased"))
+        f.render("--spp", "6", "--outfile", f("plain.exr"))
+        val plain = new String(f.bytes("plain.exr").toArray, "ISO-8859-1")
+        assert(!plain.contains("biased") && !plain.contains("fireflies"))
+        f.render("--spp", "6", "--shard", "0/3", "--outfile", f("x.film"))
+        val why = f.fail(Vector("merge", f("x.film"), f("1.film"), "--outfile", f("x.exr")))
+        assert(why.contains("--fireflies reweight"))
+
   test("missing, doubled and foreign shards are named, and fewer are merged on request"):
     withScene(): f =>
       for i <- 0 until 4 do f.render("--shard", s"$i/4", "--outfile", f(s"$i.film"))
@@ -89,9 +113,9 @@ class FilmFilesSuite extends AnyFunSuite:
 
   test("an error ends a rendering, and a lower one continues it"):
     withScene(): f =>
-      f.render("--spp", "4096", "--error", "0.05", "--outfile", f("a.exr"), "--checkpoint")
+      f.render("--spp", "4096", "--error", "0.22", "--outfile", f("a.exr"), "--checkpoint")
       val few = ImageSamples.of(f.bytes("a.exr"))
-      f.run(Vector("resume", f("a.film"), "--error", "0.01"))
+      f.run(Vector("resume", f("a.film"), "--error", "0.1"))
       val many = ImageSamples.of(f.bytes("a.exr"))
       assert(few >= 2 && few < many && many < 4096, s"$few, $many")
       f.render("--spp", s"$many", "--outfile", f("b.exr"))

@@ -17,6 +17,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "keep-going" -> Vector(""),
     "color" -> Vector("rgb", "spectral"),
     "sampler" -> Vector("scene", "progressive", "halton", "stratified"),
+    "fireflies" -> Vector("reweight", "clamp:2.5"),
     "store-time" -> Vector(""),
     "tonemap" -> Vector("filmic", "aces"),
     "exposure" -> Vector("auto", "-2", "1.5"),

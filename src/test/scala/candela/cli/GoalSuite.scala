@@ -7,7 +7,7 @@ import candela.render.{Progress, Renderer, Rendering, TinyPlan}
 import org.scalatest.funsuite.AnyFunSuite
 
 class GoalSuite extends AnyFunSuite:
-  /** Uniform numbers around 1: their relative MSE is 1/12 over the samples. */
+  /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
   private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
     Rgb.gray(0.5f + sampler.next1D())
 
@@ -17,8 +17,8 @@ class GoalSuite extends AnyFunSuite:
   private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, witness = Some(goal))
 
   test("a rendering ends at the first samples whose error is low enough, with whole passes"):
-    // 0.0833 / 44: past 32, before 64
-    val rendering = rendered(goal(FilmOptions(error = Some(0.0019))))
+    // The root of 0.0833 / 44: past 32, before 64
+    val rendering = rendered(goal(FilmOptions(error = Some(0.0436))))
     assert(rendering.samplesDone == 48 && rendering.isComplete)
     assert(rendering.samplesTaken == 48 * 40 * 30)
 
@@ -26,13 +26,13 @@ class GoalSuite extends AnyFunSuite:
     assert(rendered(goal(FilmOptions(error = Some(10)))).samplesDone == Goal.Fewest)
 
   test("what remains is the time to the error, by its trend"):
-    val ended = goal(FilmOptions(error = Some(0.0019)))
+    val ended = goal(FilmOptions(error = Some(0.0436)))
     val rendering = rendered(ended)
     val taken = rendering.samplesTaken
     val early = ended.outlook(Progress(taken / 2, 1000 * 1200, 3.0))
     // 24 samples in 3 s; 44 are needed: ± 10 %
     assert(Math.abs(early.secondsLeft.get - 2.5) < 0.7)
-    assert(Math.abs(early.error.get * 24 * 12 - 1) < 0.15)
+    assert(Math.abs(early.error.get * Math.sqrt(24 * 12) - 1) < 0.08)
 
   test("what remains is never more than the time that was given"):
     val timed = goal(FilmOptions(time = Some(5)))

@@ -25,9 +25,9 @@ class ProgressLineSuite extends AnyFunSuite:
     val outlook = Some(Outlook(Some(6.0), Some(0.01234)))
     val progress = Progress(4_000_000, 1_000_000_000, 2.0)
     assert(ProgressLine.line(progress, outlook) ==
-      "render  25%  2.0 s, 2.00 M samples/s, error 0.01234, 0:06 left")
+      "render  25%  2.0 s, 2.00 M samples/s, error 1.23 %, 0:06 left")
     assert(ProgressLine.bar(progress, outlook) ==
-      "render  25% [===>        ] 2.00 M samples/s, error 0.01234, 0:06 left")
+      "render  25% [===>        ] 2.00 M samples/s, error 1.23 %, 0:06 left")
     assert(ProgressLine.bar(progress, Some(Outlook(Some(6.0), None))).endsWith("/s, 0:06 left"))
 
   test("before the first sample there is no speed"):

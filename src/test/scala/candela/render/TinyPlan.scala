@@ -2,7 +2,7 @@ package candela.render
 
 import candela.cameras.Camera
 import candela.color.Rgb
-import candela.film.{BoxFilter, Development, Filter, PixelBounds, SampleLimit}
+import candela.film.{BoxFilter, Development, Filter, Fireflies, PixelBounds, SampleLimit}
 import candela.geometry.Ray
 import candela.integrators.Integrator
 import candela.math.Vec3
@@ -24,7 +24,8 @@ object TinyPlan:
       filename: String = "pbrt.exr",
       filter: Filter = BoxFilter(0.5f, 0.5f),
       sharesSamples: Boolean = false,
-      development: Development = Development()
+      development: Development = Development(),
+      fireflies: Fireflies = Fireflies.Kept
   )(radiance: (Where, Sampler) => Rgb): RenderPlan =
     val bounds = crop.getOrElse(PixelBounds(0, 0, width, height))
     RenderPlan(
@@ -40,7 +41,8 @@ object TinyPlan:
       development,
       filename,
       Vector("integrator" -> "formula"),
-      sharesSamples = sharesSamples
+      sharesSamples = sharesSamples,
+      fireflies = fireflies
     )
 
   /** Rays start at the place on the film. */

@@ -1,0 +1,47 @@
+package candela.build
+
+import candela.film.Fireflies
+import candela.render.RenderMethod
+
+/** Which methods of rendering have samples that fireflies can be taken from. */
+private[build] final class FireflyLimits(context: BuildContext, fireflies: Fireflies):
+
+  def check(method: RenderMethod): Unit = (fireflies, method) match
+    case (Fireflies.Kept, _) => ()
+    case (_, RenderMethod.Chains(_, _, _)) =>
+      refuse("Markov chains visit light by its brightness: no sample is too bright")
+    case (Fireflies.Reweighted, RenderMethod.Passes(_)) =>
+      refuse("a photon brightens many samples alike, none of which is an outlier")
+    case (Fireflies.Reweighted, RenderMethod.SplattedTiles(_)) =>
+      context.problems.warn(
+        place,
+        "--fireflies reweight leaves light paths that reach the camera as they are"
+      )
+    case (Fireflies.Clamped(_), _) if !method.dividesLight =>
+      refuse("this integrator does not tell indirect light; \"path\" and \"volpath\" do")
+    case _ => ()
+
+  private def refuse(why: String): Unit =
+    context.problems.error(place, s"--fireflies ${FireflyLimits.word(fireflies)}: $why")
+
+  private def place =
+    val description = context.description
+    description.integrator.orElse(description.renderer).fold(BuildContext.NoPlace)(_.at)
+
+private[build] object FireflyLimits:
+  private def word(fireflies: Fireflies): String = fireflies match
+    case Fireflies.Kept => "keep"
+    case Fireflies.Reweighted => "reweight"
+    case Fireflies.Clamped(_) => "clamp"
+
+  /** What `--explain` says, if anything is done. */
+  def feature(options: BuildOptions): Option[(String, String)] =
+    val what = options.fireflies match
+      case _ if options.preview => None
+      case Fireflies.Kept => None
+      case Fireflies.Reweighted =>
+        Some("light that few samples have found is left out; 48 bytes per pixel and level of " +
+          "brightness; the image is biased")
+      case Fireflies.Clamped(most) =>
+        Some(s"indirect light of samples is limited to $most; the image is biased")
+    what.map("fireflies" -> _)

@@ -1,0 +1,18 @@
+package candela.film
+
+/** What is done about fireflies: samples much brighter than those around them. Whatever is done
+  * trades noise for bias.
+  */
+enum Fireflies:
+
+  /** Nothing. */
+  case Kept
+
+  /** Light of brightness levels with too few samples is left out; see [[FireflyWeights]]. */
+  case Reweighted
+
+  /** Light scattered more than once is limited, sample by sample.
+    *
+    * @param most maximum red, green or blue, in the units of the image
+    */
+  case Clamped(most: Float)
