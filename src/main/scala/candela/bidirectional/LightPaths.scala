@@ -127,7 +127,7 @@ private[bidirectional] final class LightPaths(
     val source = scene.lights(light)
     val at = vertex.at
     val sampled = scene.selection.probability(at.p, vertex.lightNormal, light).toDouble *
-      source.meetingPdf(at.p, start)
+      source.connectionPdf(at.p, start)
     val emitted = chance(light).toDouble * start.pdf * cosine
     path.weights.near = PartialWeights.mis(sampled / emitted)
     path.weights.far =

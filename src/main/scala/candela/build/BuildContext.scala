@@ -68,7 +68,7 @@ private[build] object BuildContext:
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
       val switches = asked.copy(isMitsubas = description.isMitsubas)
-      val resources = new Resources(basis, options.crew, options.seed, mayBeSpectral, switches)
+      val resources = new Resources(basis, options.pool, options.seed, mayBeSpectral, switches)
       new BuildContext(description, resources, problems)
     val plain = context(Switches())
     val statement = plain.unwritten("Option", "").copy(params = description.options)

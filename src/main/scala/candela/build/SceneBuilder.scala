@@ -27,7 +27,7 @@ import candela.scenefile.SceneDescription
   * @param layers      requested AOVs, in addition to the scene's
   * @param color       whether rendering is spectral
   * @param lightGroups how to group lights for their layer
-  * @param crew        executes divisible work
+  * @param pool        executes divisible work
   * @param switches    settings of the whole scene
   * @param pixels      pixels of the image to render, overrides the scene
   * @param points      which sample points to take
@@ -43,7 +43,7 @@ final case class BuildOptions(
     layers: Vector[Layer] = Vector.empty,
     color: ColorMode = ColorMode.Auto,
     lightGroups: LightGrouping = LightGrouping.Statements,
-    crew: Parallel = Parallel.Alone,
+    pool: Parallel = Parallel.Alone,
     switches: Switches = Switches(),
     pixels: Option[PixelBounds] = None,
     points: PointChoice = PointChoice.Best,
@@ -77,7 +77,7 @@ object SceneBuilder:
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, options)
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
-    Hierarchies.expect(samples, options.crew)
+    Hierarchies.expect(samples, options.pool)
     val world =
       WorldBuilder(
         context,

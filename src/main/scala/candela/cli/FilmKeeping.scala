@@ -28,7 +28,7 @@ private[cli] final class FilmKeeping(
   def samplesDone: Int = start.fold(0)(_.header.done)
 
   /** @param isEnough whether the rendering ended because its goal was reached */
-  def keeper(isEnough: () => Boolean): Checkpoints =
+  def checkpointer(isEnough: () => Boolean): Checkpoints =
     def of(done: Int) =
       val planned = if mayEndEarly && isEnough() then done else header.samples
       header.copy(done = done, samples = planned)

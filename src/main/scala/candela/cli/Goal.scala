@@ -1,14 +1,14 @@
 package candela.cli
 
 import candela.film.Film
-import candela.render.{Pass, Progress, Witness}
+import candela.render.{Pass, Progress, PassObserver}
 
 /** Ends a rendering at a time, or at an error, with a whole number of samples in every pixel.
   *
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
-final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) extends Witness:
+final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) extends PassObserver:
   private var isReached = false
   private var earlier, seen = 0
 

@@ -131,7 +131,7 @@ final class RenderCommand(
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
       val show: Progress => Unit =
         if options.quiet then _ => () else p => progress.update(p, goal.map(_.outlook(p)))
-      val keeper = keeping.map(_.keeper(() => goal.exists(_.isEnough)))
+      val checkpointer = keeping.map(_.checkpointer(() => goal.exists(_.isEnough)))
       val watching = Option.when(options.isWatched)(watched(scene, loaded, paths, about))
       var current = Option.empty[Live]
       def writePartly() = current.foreach: live =>
@@ -139,7 +139,7 @@ final class RenderCommand(
         write(paths, loaded, rendering, finished(loaded, rendering), about): Unit
       val observer = goal.orElse(reporting.map(_.recorder))
       val logged = ErrorLog.of(loaded.plan, observer).orElse(observer)
-      val witness =
+      val passObserver =
         if options.partialImages then Some(PartialImages(() => writePartly(), logged)) else logged
       try
         val rendering =
@@ -149,9 +149,9 @@ final class RenderCommand(
               threads,
               cancellation,
               show,
-              witness,
+              passObserver,
               goals.shard,
-              keeper,
+              checkpointer,
               live =>
                 current = Some(live)
                 watching.foreach(_.start(live))
@@ -167,7 +167,7 @@ final class RenderCommand(
         val written = write(paths, loaded, rendering, image, facts)
         val writeSeconds = (System.nanoTime - finishedAt) * 1e-9
         val films =
-          keeping.map(_.path).filter(_ => paths.isEmpty && keeper.forall(_.failure.isEmpty))
+          keeping.map(_.path).filter(_ => paths.isEmpty && checkpointer.forall(_.failure.isEmpty))
         summarise(written ++ films, loaded, rendering, writeSeconds)
         for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
         do
@@ -179,7 +179,8 @@ final class RenderCommand(
           terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await())
-        if written.size < paths.size || keeper.exists(_.failure.nonEmpty) then ExitCode.BadInput
+        if written.size < paths.size || checkpointer.exists(_.failure.nonEmpty) then
+          ExitCode.BadInput
         else if !rendering.isComplete then ExitCode.Interrupted
         else ExitCode.Done
       finally watching.foreach(_.close())

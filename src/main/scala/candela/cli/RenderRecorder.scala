@@ -4,14 +4,14 @@ import candela.base.{Problem, SceneError}
 import candela.film.{Development, Film}
 import candela.image.{Image, ImageFiles}
 import candela.measure.{CurvePoint, ErrorEstimate, Errors, PixelWindow}
-import candela.render.{Pass, RenderPlan, Witness}
+import candela.render.{Pass, RenderPlan, PassObserver}
 import candela.report.{PassSpan, Picture}
 
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   */
-final class RenderRecorder(development: Development, reference: Option[Image]) extends Witness:
+final class RenderRecorder(development: Development, reference: Option[Image]) extends PassObserver:
   private val foundPoints = Vector.newBuilder[CurvePoint]
   private val foundPasses = Vector.newBuilder[PassSpan]
   private var first, last: Option[(Image, Int)] = None

@@ -4,7 +4,7 @@ import candela.base.{Problem, SceneError, Suggest}
 import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
 import candela.mitsuba.MitsubaScene
-import candela.render.{Crew, RenderPlan}
+import candela.render.{ThreadPool, RenderPlan}
 import candela.scenefile.{Parser, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -69,7 +69,7 @@ object SceneLoader:
       layers.distinct,
       o.color,
       o.lightGroups.getOrElse(LightGrouping.Statements),
-      Crew(o.threadCount),
+      ThreadPool(o.threadCount),
       o.switches,
       pixels.orElse(pixel),
       o.points,

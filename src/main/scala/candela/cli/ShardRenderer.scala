@@ -33,13 +33,13 @@ final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int):
       cancellation: Cancellation,
       onProgress: Progress => Unit
   ): Rendering =
-    val keeper = new Keeper:
+    val checkpointer = new Checkpointer:
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit = write(Set(shard.index), shard.count, state, to)
       def finish(): Unit = ()
     Renderer.render(
-      plan, threads, cancellation, onProgress, shard = shard, keeper = Some(keeper)
+      plan, threads, cancellation, onProgress, shard = shard, checkpointer = Some(checkpointer)
     )
 
   /** Adds up films of different shards; leaves out those that are damaged.

@@ -40,7 +40,7 @@ private[candela] final class MediumVisibility(
       if scene.isOccluded(ray, hit) then false
       else
         if light.isInfinite then ray.tMax = media.reach
-        dim(medium)
+        attenuate(medium)
 
   /** As above, between two points. */
   def reaches(origin: Vec3, end: Vec3, medium: Int): Boolean =
@@ -49,10 +49,10 @@ private[candela] final class MediumVisibility(
     else
       ray.set(origin, end - origin, LightConnection.ShadowEnd)
       rays += 1
-      !scene.isOccluded(ray, hit) && dim(medium)
+      !scene.isOccluded(ray, hit) && attenuate(medium)
 
-  private def dim(medium: Int): Boolean =
-    if medium >= 0 then media.media(medium).dim(ray, work)
+  private def attenuate(medium: Int): Boolean =
+    if medium >= 0 then media.media(medium).attenuate(ray, work)
     !work.shadow.isDead
 
   private def passes(origin: Vec3, end: Vec3, first: Int): Boolean =
@@ -69,6 +69,6 @@ private[candela] final class MediumVisibility(
         rays += 1
         medium = media.beyond(border, direction, medium)
       ,
-      segment = dim(medium),
+      segment = attenuate(medium),
       aim = aim
     )

@@ -73,7 +73,7 @@ final class AreaLight(
   private def sided(cosine: Float): Float =
     Warp.cosineHemispherePdf(cosine) * (if twoSided then 0.5f else 1f)
 
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float =
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float =
     surface.pdf(from, ray.p, ray.n) * ray.cosine
 
 /** A light-emitting but invisible surface: pbrt-v4's emitters with `alpha` 0. Rays never hit it;
@@ -90,4 +90,4 @@ final class HiddenLight(light: SurfaceLight) extends Light:
     light.emit(scene, u1, u2, v1, v2, out)
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
     light.emissionPdf(scene, p, n, w)
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float = light.meetingPdf(from, ray)
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float = light.connectionPdf(from, ray)

@@ -44,7 +44,7 @@ abstract class PositionedLight(position: Vec3) extends Light:
 
   final def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = directionPdf(w)
 
-  final def meetingPdf(from: Vec3, ray: EmittedRay): Float = (position - from).lengthSquared
+  final def connectionPdf(from: Vec3, ray: EmittedRay): Float = (position - from).lengthSquared
 
 object PositionedLight:
   /** Tolerance for rounding of the cosine at a cone's edge, so as not to miss light there. */
@@ -103,4 +103,4 @@ final class DistantLight(toLight: Vec3, irradiance: Rgb) extends Light:
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
     if scene.area > 0f then 1f / scene.area else 0f
 
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float = 1f
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float = 1f

@@ -44,7 +44,7 @@ abstract class Light:
     * a point light, the squared distance; for a directional light, 1; for infinite lights, per
     * solid angle.
     */
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float
 
 /** Result of [[Light.sample]]; mutable, one per worker. It owns its vectors. */
 final class LightSample:
@@ -107,7 +107,7 @@ abstract class EnvironmentLight extends Light:
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
     if scene.area > 0f then pdf(scene.center, -w) / scene.area else 0f
 
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float = pdf(from, -ray.direction)
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float = pdf(from, -ray.direction)
 
   /** Radiance at `from` from direction `d` (unit, away from the scene). */
   def radiance(from: Vec3, d: Vec3): Rgb

@@ -46,7 +46,7 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
   def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
     even.emissionPdf(scene, p, n, w)
 
-  def meetingPdf(from: Vec3, ray: EmittedRay): Float = even.meetingPdf(from, ray)
+  def connectionPdf(from: Vec3, ray: EmittedRay): Float = even.connectionPdf(from, ray)
 
   def bounds: Option[LightBounds] =
     even.bounds.map(b => b.copy(power = b.power * strength))

@@ -56,7 +56,7 @@ final class HomogeneousMedium(
     w.balance()
     if scatters then distance / unit else -1f
 
-  def dim(ray: Ray, work: MediumWork): Unit =
+  def attenuate(ray: Ray, work: MediumWork): Unit =
     val w = work.shadow
     val length = Math.min(ray.tMax * ray.direction.length, Float.MaxValue)
     w.r *= weight(extinction.r, 0f, length)

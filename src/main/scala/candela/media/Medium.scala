@@ -22,7 +22,7 @@ abstract class Medium:
   def follow(ray: Ray, first: Float, emits: Boolean, work: MediumWork): Float
 
   /** Multiplies `work.shadow` by the transmittance along `ray`, up to `ray.tMax`. */
-  def dim(ray: Ray, work: MediumWork): Unit
+  def attenuate(ray: Ray, work: MediumWork): Unit
 
   /** Whether the coefficients depend on colour. */
   def isChromatic: Boolean

@@ -59,7 +59,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     w.balance()
     scattered
 
-  final def dim(ray: Ray, work: MediumWork): Unit =
+  final def attenuate(ray: Ray, work: MediumWork): Unit =
     val w = work.shadow
     val walk = work.walk
     val point = work.point

@@ -6,8 +6,8 @@ import candela.integrators.ChainWalker
 private[render] final class ChainWorker(
     walker: ChainWalker,
     schedule: ChainSchedule,
-    board: Board
-) extends Worker(schedule, board):
+    queue: TaskQueue
+) extends Worker(schedule, queue):
   import ChainWorker.*
 
   def raysTraced: Long = walker.raysTraced
@@ -18,18 +18,18 @@ private[render] final class ChainWorker(
 
   protected def work(chain: Int, wave: Int): Boolean =
     !schedule.takes(chain) ||
-      (walker.begin(() => board.isStopped) && advance(chain, wave))
+      (walker.begin(() => queue.isStopped) && advance(chain, wave))
 
   private def advance(chain: Int, wave: Int): Boolean =
     val end = schedule.paths(chain, schedule.endSample(wave))
     var done =
-      Math.max(schedule.paths(chain, schedule.firstSample(wave)), board.progress.get(chain))
-    while done < end && board.goesOn() do
+      Math.max(schedule.paths(chain, schedule.firstSample(wave)), queue.progress.get(chain))
+    while done < end && queue.goesOn() do
       val some = Math.min(end - done, AtOnce)
       walker.advance(chain, some)
-      board.samplesTaken.add(some)
+      queue.samplesTaken.add(some)
       done += some
-      board.progress.set(chain, done)
+      queue.progress.set(chain, done)
     done >= end
 
   protected def failure(cause: Throwable): RenderFailure =

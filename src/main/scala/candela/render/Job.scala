@@ -10,7 +10,7 @@ private[render] final class Job(
     val film: Film,
     val layers: Option[LayerFilm],
     val chains: Option[SharedChains],
-    val worker: Board => Worker
+    val worker: TaskQueue => Worker
 )
 
 private[render] object Job:
@@ -37,17 +37,17 @@ private[render] object Job:
         )
         val takes = (_: Int, sample: Int) => shard.takesPass(sample)
         val tiles = TileJobs(plan, schedule, plan.crop, takes)
-        tiles.job: board =>
+        tiles.job: queue =>
           val integrator = passes.integrator(None)
-          tiles.worker(integrator, board, integrator.begin)
+          tiles.worker(integrator, queue, integrator.begin)
       case RenderMethod.Chains(paths, make, _) =>
         val splats = splatFilm(plan)
         val view = plan.view(splats)
         val chains = make(view, paths(view, _))
         val schedule = ChainSchedule(chains.count, plan.crop.pixels, samples, shard)
         val film = filmOf(plan.crop, Some(splats))
-        def worker(board: Board) =
-          ChainWorker(chains.walker(), schedule, board)
+        def worker(queue: TaskQueue) =
+          ChainWorker(chains.walker(), schedule, queue)
         new Job(schedule, film, layers = None, Some(chains), worker)
 
   /** Traces a single sample of one pixel; `report` receives its path. */
@@ -55,15 +55,15 @@ private[render] object Job:
     val pixel = PixelBounds(x, y, x + 1, y + 1)
     val schedule = TileSchedule(pixel, plan.sampler.samplesPerPixel)
     val tiles = TileJobs(plan, schedule, pixel, (_, _) => true, isSingle = true)
-    val board = Board(schedule, Cancellation())
+    val queue = TaskQueue(schedule, Cancellation())
     val view = plan.view(Splats.Discarded)
     val worker = plan.method match
-      case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), board)
-      case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), board)
-      case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), board)
+      case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), queue)
+      case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), queue)
+      case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), queue)
       case RenderMethod.Passes(make) =>
         val integrator = make(view).integrator(Some(report))
-        tiles.worker(integrator, board, integrator.begin)
+        tiles.worker(integrator, queue, integrator.begin)
     (tiles.film, worker)
 
   private def filmOf(
@@ -107,13 +107,14 @@ private[render] object Job:
     private val filterSampler =
       new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
 
-    def job(worker: Board => Worker): Job = new Job(schedule, film, layers, chains = None, worker)
+    def job(worker: TaskQueue => Worker): Job =
+      new Job(schedule, film, layers, chains = None, worker)
 
     def worker(
         integrator: Integrator,
-        board: Board,
+        queue: TaskQueue,
         beginWave: Int => Unit = _ => ()
     ): TileWorker =
       TileWorker(
-        plan, schedule, board, film, layers, filterSampler.copy(), integrator, takes, beginWave
+        plan, schedule, queue, film, layers, filterSampler.copy(), integrator, takes, beginWave
       )

@@ -11,7 +11,7 @@ import candela.film.PixelBounds
 final class Live private[render] (
     plan: RenderPlan,
     job: Job,
-    board: Board,
+    queue: TaskQueue,
     workers: Vector[Worker],
     state: RenderState,
     planned: Long,
@@ -28,12 +28,12 @@ final class Live private[render] (
   private[render] def extend(samples: Int): Unit = further += samples
 
   def progress: Progress =
-    Progress(board.samplesTaken.sum, planned + further * plan.sampled.pixels, elapsed())
+    Progress(queue.samplesTaken.sum, planned + further * plan.sampled.pixels, elapsed())
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =
     Renderer.rendering(state, job, workers, plan.sampler.samplesPerPixel + further)
-      .copy(samplesTaken = board.samplesTaken.sum, seconds = elapsed())
+      .copy(samplesTaken = queue.samplesTaken.sum, seconds = elapsed())
 
   /** The tiles that workers render at the moment; none for methods without tiles. */
   def tiles: Vector[PixelBounds] =

@@ -5,18 +5,18 @@ import candela.base.{CheckedInput, CheckedOutput}
 /** All that a rendering has computed: which samples, and their sums. A rendering that continues
   * from a saved state ends with the same image, bit for bit, as one that was not interrupted.
   */
-final class RenderState private[render] (job: Job, board: Board, workers: Vector[Worker]):
+final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Vector[Worker]):
   private var earlier = Vector.empty[Refused]
 
   /** Samples that every pixel has at least, of those of its shard. */
-  def samplesDone: Int = job.schedule.samplesDone(board.progress)
+  def samplesDone: Int = job.schedule.samplesDone(queue.progress)
 
   private[render] def refused: Option[Refused] = Refused.of(earlier ++ workers.flatMap(_.refused))
 
   /** Writes the state, in a form that depends on the samples only. */
   def save(to: CheckedOutput): Unit =
     to.int(job.schedule.pieces)
-    for i <- 0 until job.schedule.pieces do to.long(board.progress.get(i))
+    for i <- 0 until job.schedule.pieces do to.long(queue.progress.get(i))
     job.film.save(to)
     job.layers.foreach(_.save(to))
     job.chains.foreach(_.save(to))
@@ -31,7 +31,7 @@ final class RenderState private[render] (job: Job, board: Board, workers: Vector
     require(from.int() == job.schedule.pieces, "the saved state is of another image")
     for i <- 0 until job.schedule.pieces do
       val done = from.long()
-      board.progress.set(i, Math.max(board.progress.get(i), done))
+      queue.progress.set(i, Math.max(queue.progress.get(i), done))
     job.film.load(from)
     job.layers.foreach(_.load(from))
     job.chains.foreach(_.load(from))
@@ -39,7 +39,7 @@ final class RenderState private[render] (job: Job, board: Board, workers: Vector
       earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
 
 /** Keeps the state of a rendering. */
-abstract class Keeper:
+abstract class Checkpointer:
 
   /** Called before the first sample. */
   def restore(state: RenderState): Unit

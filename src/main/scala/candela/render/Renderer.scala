@@ -10,9 +10,9 @@ object Renderer:
     * count: sums are exact, or of one tile, which adds its samples in order.
     *
     * @param onProgress     called about ten times a second, and at the end, in the caller's thread
-    * @param witness        image observer; doesn't affect the image
+    * @param passObserver   image observer; doesn't affect the image
     * @param shard          part of the samples to take
-    * @param keeper         keeps the state, if it is to be kept
+    * @param checkpointer   keeps the state, if it is to be kept
     * @param onStart        receives the rendering before its first sample
     * @throws RenderFailure if a sample fails; all workers then stop
     */
@@ -21,9 +21,9 @@ object Renderer:
       threads: Int,
       cancellation: Cancellation = Cancellation(),
       onProgress: Progress => Unit = _ => (),
-      witness: Option[Witness] = None,
+      passObserver: Option[PassObserver] = None,
       shard: Shard = Shard.Whole,
-      keeper: Option[Keeper] = None,
+      checkpointer: Option[Checkpointer] = None,
       onStart: Live => Unit = _ => ()
   ): Rendering =
     require(threads >= 1, s"`threads` must be at least 1, found $threads")
@@ -34,30 +34,30 @@ object Renderer:
     val samplesPerPixel = plan.sampler.samplesPerPixel
     val job = Job(plan, shard)
     val schedule = job.schedule
-    val board = Board(schedule, cancellation)
-    val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt)(job.worker(board))
+    val queue = TaskQueue(schedule, cancellation)
+    val workers = Vector.fill(Math.min(threads.toLong, schedule.steps).toInt)(job.worker(queue))
 
-    val state = RenderState(job, board, workers)
-    keeper.foreach(_.restore(state))
+    val state = RenderState(job, queue, workers)
+    checkpointer.foreach(_.restore(state))
     val total = plan.sampled.pixels * (samplesPerPixel - state.samplesDone) / shard.count
-    val canKeepOn = plan.method.canKeepOn && shard.isWhole && keeper.isEmpty
-    val live = Live(plan, job, board, workers, state, total, canKeepOn, () => seconds)
+    val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty
+    val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
     def progress() = onProgress(live.progress)
     onStart(live)
     def tick() =
       progress()
-      for k <- keeper if k.isDue do
-        board.paused(k.save(state))
+      for k <- checkpointer if k.isDue do
+        queue.paused(k.save(state))
         k.finish()
-    def isEnough = witness.exists(_.isEnough)
+    def isEnough = passObserver.exists(_.isEnough)
     val earlier = state.samplesDone
-    witness.foreach(_.begins(earlier, job.film))
+    passObserver.foreach(_.begins(earlier, job.film))
     def isNew(end: Int) = schedule.firstSample(end) > earlier
     def run(end: Int): Unit =
-      board.openUntil(end)
+      queue.openUntil(end)
       val begin = seconds
-      Workers.run(workers, board)(() => tick())
-      for w <- witness if !board.isStopped do
+      Workers.run(workers, queue)(() => tick())
+      for w <- passObserver if !queue.isStopped do
         val isLast = end >= schedule.waves
         val busy = workers.map(_.seconds)
         val done = schedule.firstSample(end)
@@ -66,16 +66,17 @@ object Renderer:
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
-    for end <- ends(schedule, witness).filter(isNew) if !board.isStopped && !isEnough do run(end)
+    for end <- ends(schedule, passObserver).filter(isNew) if !queue.isStopped && !isEnough do
+      run(end)
     var wave = schedule.waves
-    while live.keepsOn && !board.isStopped && !isEnough do
+    while live.keepsOn && !queue.isStopped && !isEnough do
       // A third of all samples is new: seldom enough for the workers to wait for each other
       val done = schedule.firstSample(wave)
       wave += Math.max(1, done / 2 / Schedule.LargestWave)
       live.extend(schedule.firstSample(wave) - done)
       run(wave)
     progress()
-    for k <- keeper do
+    for k <- checkpointer do
       k.save(state)
       k.finish()
 
@@ -89,7 +90,7 @@ object Renderer:
     */
   def gather(plan: RenderPlan, load: RenderState => Unit): Rendering =
     val job = Job(plan, Shard.Whole)
-    val state = RenderState(job, Board(job.schedule, Cancellation()), Vector.empty)
+    val state = RenderState(job, TaskQueue(job.schedule, Cancellation()), Vector.empty)
     load(state)
     rendering(state, job, Vector.empty, state.samplesDone)
 
@@ -103,10 +104,11 @@ object Renderer:
     Rendering(job.film, samplesPerPixel, state.samplesDone, 0, rays, 0, state.refused, job.layers)
 
   /** The waves after which the workers wait for each other. */
-  private def ends(schedule: Schedule, witness: Option[Witness]): Vector[Int] = witness match
-    case None => Vector(schedule.waves)
-    case Some(w) if w.seesWaves => (1 to schedule.waves).toVector
-    case Some(_) => schedule.passes
+  private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Vector[Int] =
+    passObserver match
+      case None => Vector(schedule.waves)
+      case Some(w) if w.seesWaves => (1 to schedule.waves).toVector
+      case Some(_) => schedule.passes
 
   /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.
     *

@@ -84,7 +84,7 @@ final case class Pass(
   * All workers pause for it, and its time is excluded, so that measurements don't slow down what
   * they measure. The pause between passes is its only cost.
   */
-abstract class Witness:
+abstract class PassObserver:
 
   /** Called in the caller's thread; no sample is added meanwhile. Not called for a cancelled pass.
     */

@@ -13,14 +13,14 @@ import candela.integrators.Integrator
 private[render] final class TileWorker(
     plan: RenderPlan,
     schedule: TileSchedule,
-    board: Board,
+    queue: TaskQueue,
     film: Film,
     layers: Option[LayerFilm],
     filterSampler: FilterSampler,
     integrator: Integrator,
     takes: (Int, Int) => Boolean,
     beginWave: Int => Unit = _ => ()
-) extends Worker(schedule, board):
+) extends Worker(schedule, queue):
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
   private val planned = sampler.samplesPerPixel
@@ -71,14 +71,14 @@ private[render] final class TileWorker(
     val first = schedule.firstSample(wave)
     val end = schedule.endSample(wave)
     var begun = false
-    sample = Math.max(first, board.progress.get(tile).toInt)
-    while sample < end && board.goesOn() do
+    sample = Math.max(first, queue.progress.get(tile).toInt)
+    while sample < end && queue.goesOn() do
       if takes(tile, sample) then
         if !begun then beginWave(first)
         begun = true
         renderSample(tile)
       sample += 1
-      board.progress.set(tile, sample)
+      queue.progress.set(tile, sample)
     sample >= end
 
   /** Takes a sample of each pixel of the tile. */
@@ -93,7 +93,7 @@ private[render] final class TileWorker(
         x += 1
       y += 1
     if shares != null then shares.end()
-    board.samplesTaken.add(bounds.pixels)
+    queue.samplesTaken.add(bounds.pixels)
 
   private def beginTile(tile: Int): Unit =
     if shares != null then shares.begin(tile)

@@ -3,7 +3,7 @@ package candela.render
 /** A worker of one rendering: takes steps from the shared queue, wave by wave, and owns its scratch
   * memory.
   */
-private[render] abstract class Worker(schedule: Schedule, board: Board) extends Runnable:
+private[render] abstract class Worker(schedule: Schedule, queue: TaskQueue) extends Runnable:
   def raysTraced: Long
   def refused: Option[Refused]
 
@@ -25,13 +25,13 @@ private[render] abstract class Worker(schedule: Schedule, board: Board) extends 
   final def run(): Unit =
     val started = System.nanoTime
     try
-      var step = board.takeStep()
+      var step = queue.takeStep()
       while step >= 0 do
         val wave = (step / schedule.pieces).toInt
         val piece = (step % schedule.pieces).toInt
         current = piece
-        if board.awaitTurn(piece, wave) && work(piece, wave) then board.finish(piece, wave)
-        step = board.takeStep()
+        if queue.awaitTurn(piece, wave) && work(piece, wave) then queue.finish(piece, wave)
+        step = queue.takeStep()
       current = Worker.Idle
       runNanos = System.nanoTime - started
     catch case e: Throwable => throw failure(e)

@@ -10,7 +10,7 @@ import java.util.concurrent.atomic.{
 import java.util.concurrent.locks.LockSupport
 
 /** Shared state of the workers: the task queue, progress, cancellation. */
-private[render] final class Board(schedule: Schedule, cancellation: Cancellation):
+private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
   private var endStep = 0L // changed only while no worker runs
   private val finishedWaves = AtomicIntegerArray(schedule.pieces)
@@ -60,7 +60,7 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     * accumulators visible to this one.
     */
   def awaitTurn(piece: Int, wave: Int): Boolean =
-    while !isTurn(piece, wave) && goesOn() do LockSupport.parkNanos(Board.Pause)
+    while !isTurn(piece, wave) && goesOn() do LockSupport.parkNanos(TaskQueue.Pause)
     isTurn(piece, wave)
 
   private[render] def isTurn(piece: Int, wave: Int): Boolean =
@@ -73,7 +73,7 @@ private[render] final class Board(schedule: Schedule, cancellation: Cancellation
     if limitsWaves then
       val _ = finishedPieces.incrementAndGet(wave)
 
-private object Board:
+private object TaskQueue:
   /** In nanoseconds; short beside the milliseconds of a step. */
   val Pause = 50_000L
 
@@ -83,25 +83,25 @@ private[render] object Workers:
   /** Interval of progress reports, in milliseconds. */
   private val Tick = 100L
 
-  /** Runs each worker in its own thread. An exception in one stops the others (through the board)
+  /** Runs each worker in its own thread. An exception in one stops the others (through the queue)
     * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
     */
-  def run(workers: Vector[Runnable], board: Board)(onTick: () => Unit): Unit =
+  def run(workers: Vector[Runnable], queue: TaskQueue)(onTick: () => Unit): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>
       val guarded: Runnable = () =>
         try worker.run()
-        catch case e: Throwable => board.fail(e)
-        finally board.end()
+        catch case e: Throwable => queue.fail(e)
+        finally queue.end()
       val thread = Thread(guarded, s"candela-worker-${i + 1}")
       thread.setDaemon(true)
       thread
-    board.begin(threads.size)
+    queue.begin(threads.size)
     threads.foreach(_.start())
     try
       for thread <- threads do
         while thread.isAlive do
           thread.join(Tick)
           onTick()
-    catch case e: Throwable => board.fail(e)
+    catch case e: Throwable => queue.fail(e)
     threads.foreach(_.join())
-    board.failure.foreach(e => throw e)
+    queue.failure.foreach(e => throw e)

@@ -26,7 +26,7 @@ private[scene] object ReportedLights:
     ): Unit = source.emit(scene, u1, u2, v1, v2, out)
     override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
       source.emissionPdf(scene, p, n, w)
-    override def meetingPdf(from: Vec3, ray: EmittedRay): Float = source.meetingPdf(from, ray)
+    override def connectionPdf(from: Vec3, ray: EmittedRay): Float = source.connectionPdf(from, ray)
 
   private final class Other(light: Light, index: Int, report: PathReport)
       extends Light

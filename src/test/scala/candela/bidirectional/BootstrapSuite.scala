@@ -4,7 +4,7 @@ import java.util.concurrent.atomic.LongAdder
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.render.Crew
+import candela.render.ThreadPool
 import candela.sampling.SampleHash
 
 final class BootstrapSuite extends AnyFunSuite:
@@ -19,7 +19,7 @@ final class BootstrapSuite extends AnyFunSuite:
   ): (Bootstrap.Start, Long) =
     val bootstrap = Bootstrap(asked, mutations)
     val count = LongAdder()
-    Crew(helpers).each(helpers): _ =>
+    ThreadPool(helpers).each(helpers): _ =>
       bootstrap.help(() => false): path =>
         count.increment()
         strength(path)

@@ -124,7 +124,7 @@ final class PbrtHabitsSuite extends AnyFunSuite:
       val plan = SceneLoader.FromFile.load(scene(folder), Options()).plan
       var written = 0
       val partly = PartialImages(() => written += 1, None)
-      val _ = Renderer.render(plan, threads = 1, witness = Some(partly))
+      val _ = Renderer.render(plan, threads = 1, passObserver = Some(partly))
       assert(written == 3) // at 1, 2 and 4 of 8 samples
       assert(rendered(folder, "", "--write-partial-images").data.sameElements(plain.data))
 

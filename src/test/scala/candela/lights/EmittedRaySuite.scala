@@ -83,21 +83,21 @@ final class EmittedRaySuite extends AnyFunSuite:
       for _ <- 1 to 200 do
         light.emit(scene, draws.unit(), draws.unit(), draws.unit(), draws.unit(), out)
         val from = out.p + out.direction * 1.5f
-        assert(light.meetingPdf(from, out) > 0f)
+        assert(light.connectionPdf(from, out) > 0f)
         light match
           case l: SurfaceLight =>
             val at = ShadingPoint()
             at.p = out.p
             at.geometricNormal = out.n
             assert(l.radiance(at, out.direction) == out.radiance)
-            assert(l.meetingPdf(from, out) == l.pdf(from, at) * out.cosine)
+            assert(l.connectionPdf(from, out) == l.pdf(from, at) * out.cosine)
           case l: EnvironmentLight =>
-            assert(l.meetingPdf(from, out) == l.pdf(from, -out.direction))
+            assert(l.connectionPdf(from, out) == l.pdf(from, -out.direction))
           case l: PositionedLight =>
             l.sample(from, 0f, 0f, sample)
-            val arrived = out.radiance * (1f / l.meetingPdf(from, out))
+            val arrived = out.radiance * (1f / l.connectionPdf(from, out))
             assert((arrived - sample.radiance.toRgb).largest <= 0.02f * arrived.largest + 1e-4f)
-          case l => assert(l.meetingPdf(from, out) == 1f)
+          case l => assert(l.connectionPdf(from, out) == 1f)
 
   test("light from afar starts before the scene and covers all of it"):
     val (draws, out) = (Draws(10), EmittedRay())

@@ -35,7 +35,7 @@ object Tracking:
       (if t >= 0f then scattered else passed).add(work.weights.throughput)
       glow.add(Rgb(work.glowR, work.glowG, work.glowB))
       work.shadow.start(i % 3, 1f)
-      medium.dim(ray, work)
+      medium.attenuate(ray, work)
       if !work.shadow.isDead then
         dimmed.add(work.shadow.throughput * (1f / work.shadow.lightDensity))
     Means(passed.mean(n), scattered.mean(n), glow.mean(n), dimmed.mean(n))

@@ -4,7 +4,7 @@ import candela.build.BuildOptions
 import candela.build.sampling.PointChoice
 import candela.cli.RenderRecorder
 import candela.measure.Metrics
-import candela.render.{Pass, Renderer, Witness}
+import candela.render.{Pass, Renderer, PassObserver}
 import candela.film.Film
 import candela.image.Image
 
@@ -32,7 +32,7 @@ object ErrorHonesty:
       val truth = Renderer.render(most, 2).image(most.development)
       val seen = (1 to number("seeds", 20)).toVector.map: seed =>
         val eye = HonestyOf(plan(samples.max, seed).development, truth)
-        val _ = Renderer.render(plan(samples.max, seed), 2, witness = Some(eye))
+        val _ = Renderer.render(plan(samples.max, seed), 2, passObserver = Some(eye))
         eye.ratios
       for n <- samples do
         val found = seen.flatMap(_.get(n))
@@ -50,7 +50,8 @@ object ErrorHonesty:
         )
 
 /** Records the true relative error of each pass, and its ratio to the estimate. */
-private final class HonestyOf(development: candela.film.Development, truth: Image) extends Witness:
+private final class HonestyOf(development: candela.film.Development, truth: Image)
+    extends PassObserver:
   private val recorder = RenderRecorder(development, None)
   private var found = Map.empty[Int, (Double, Double)]
 

@@ -11,8 +11,8 @@ import org.scalatest.funsuite.AnyFunSuite
 class RenderStateSuite extends AnyFunSuite:
 
   /** Saves to a file, and continues from one. */
-  private final class FileKeeper(from: Option[Path], to: Path, isAlwaysDue: Boolean = false)
-      extends Keeper:
+  private final class FileCheckpointer(from: Option[Path], to: Path, isAlwaysDue: Boolean = false)
+      extends Checkpointer:
     var saved = 0
     var copies = Vector.empty[Path]
     def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
@@ -46,8 +46,8 @@ class RenderStateSuite extends AnyFunSuite:
     for shares <- Vector(false, true); threads <- Vector(1, 3) do
       withFolder: folder =>
         val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
-        val keeper = FileKeeper(None, whole)
-        val _ = Renderer.render(plan(shares, 40)(), threads, keeper = Some(keeper))
+        val checkpointer = FileCheckpointer(None, whole)
+        val _ = Renderer.render(plan(shares, 40)(), threads, checkpointer = Some(checkpointer))
         var runs = 0
         var done = 0
         while done < 40 do
@@ -57,9 +57,9 @@ class RenderStateSuite extends AnyFunSuite:
             left -= 1
             if left < 0 && runs < 30 then cancellation.request()
           val from = Option.when(runs > 0)(parts)
-          val keeper = FileKeeper(from, parts)
+          val checkpointer = FileCheckpointer(from, parts)
           val rendering =
-            Renderer.render(interrupted, threads, cancellation, keeper = Some(keeper))
+            Renderer.render(interrupted, threads, cancellation, checkpointer = Some(checkpointer))
           done = rendering.samplesDone
           runs += 1
         assert(runs > 5)
@@ -68,16 +68,16 @@ class RenderStateSuite extends AnyFunSuite:
   test("every state that is saved while workers pause is continued to the same image"):
     for shares <- Vector(false, true) do
       withFolder: folder =>
-        val keeper = FileKeeper(None, folder.resolve("a"), isAlwaysDue = true)
+        val checkpointer = FileCheckpointer(None, folder.resolve("a"), isAlwaysDue = true)
         val slow = plan(shares, 60): where =>
           if where.x == 7 && where.y % 16 == 3 then Thread.sleep(3)
-        val _ = Renderer.render(slow, threads = 3, keeper = Some(keeper))
+        val _ = Renderer.render(slow, threads = 3, checkpointer = Some(checkpointer))
         // The last one, and at least one before
-        assert(keeper.saved > 1)
-        val last = Files.readAllBytes(keeper.copies.last)
-        for copy <- keeper.copies.init do
-          val next = FileKeeper(Some(copy), folder.resolve("b"))
-          val _ = Renderer.render(plan(shares, 60)(), threads = 2, keeper = Some(next))
+        assert(checkpointer.saved > 1)
+        val last = Files.readAllBytes(checkpointer.copies.last)
+        for copy <- checkpointer.copies.init do
+          val next = FileCheckpointer(Some(copy), folder.resolve("b"))
+          val _ = Renderer.render(plan(shares, 60)(), threads = 2, checkpointer = Some(next))
           assert(Files.readAllBytes(folder.resolve("b")).sameElements(last))
 
   test("shards share the samples of every pixel, and the work"):

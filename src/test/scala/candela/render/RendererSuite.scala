@@ -139,16 +139,16 @@ class RendererSuite extends AnyFunSuite:
       Renderer.render(plan, 2, onProgress = p => throw IllegalStateException(s"broken ${p.total}"))
     assert(failure.getMessage == s"broken ${40L * 27 * 1_000_000_000}")
 
-  test("a witness sees whole passes, and the image is the same, bit for bit"):
+  test("an observer of passes sees whole passes, and the image is the same, bit for bit"):
     val plan = TinyPlan(width = 50, height = 37, spp = 11): (_, sampler) =>
       Rgb(sampler.next1D(), sampler.next1D() * 1e-6f, sampler.next1D() * 1e6f)
     val plain = Renderer.render(plan, threads = 2)
     for threads <- 1 to 3 do
       val seen = Vector.newBuilder[(Int, Vector[Float])]
-      object Eye extends Witness:
+      object Eye extends PassObserver:
         def passed(pass: Pass, film: Film): Unit =
           val _ = seen += pass.samples -> film.toImage(1f).data.toVector
-      val watched = Renderer.render(plan, threads, witness = Some(Eye))
+      val watched = Renderer.render(plan, threads, passObserver = Some(Eye))
       assert(watched.film.toImage(1f).data.sameElements(plain.film.toImage(1f).data))
       assert(watched.samplesTaken == plain.samplesTaken && watched.isComplete)
       assert(seen.result().map(_._1) == Vector(1, 2, 4, 8, 11))
@@ -160,9 +160,9 @@ class RendererSuite extends AnyFunSuite:
       if where.sample == 5 then cancellation.request()
       gray
     val samples = Vector.newBuilder[Int]
-    object Eye extends Witness:
+    object Eye extends PassObserver:
       def passed(pass: Pass, film: Film): Unit =
         val _ = samples += pass.samples
-    val rendering = Renderer.render(plan, 2, cancellation, witness = Some(Eye))
+    val rendering = Renderer.render(plan, 2, cancellation, passObserver = Some(Eye))
     assert(samples.result() == Vector(1, 2, 4))
     assert(rendering.samplesDone == 4)

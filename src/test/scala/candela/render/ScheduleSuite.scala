@@ -21,16 +21,16 @@ class ScheduleSuite extends AnyFunSuite:
 
   test("a wave begins when the pieces of the one before the last are all finished"):
     val schedule = TileSchedule(crop, 5, largestWave = 1, openWaves = 2)
-    val board = Board(schedule, Cancellation())
+    val queue = TaskQueue(schedule, Cancellation())
     val last = schedule.pieces - 1
     for wave <- 0 until 2; piece <- 0 until last do
-      assert(board.isTurn(piece, wave))
-      board.finish(piece, wave)
-    assert(!board.isTurn(0, 2))
-    board.finish(last, 0)
-    assert(board.isTurn(0, 2) && !board.isTurn(last, 2))
-    board.finish(0, 2)
-    assert(!board.isTurn(0, 3))
+      assert(queue.isTurn(piece, wave))
+      queue.finish(piece, wave)
+    assert(!queue.isTurn(0, 2))
+    queue.finish(last, 0)
+    assert(queue.isTurn(0, 2) && !queue.isTurn(last, 2))
+    queue.finish(0, 2)
+    assert(!queue.isTurn(0, 3))
 
   test("tiles cover every pixel of the crop once, and no other"):
     val schedule = TileSchedule(crop, 1)

@@ -26,11 +26,11 @@ class SharedSamplesSuite extends AnyFunSuite:
   test("the image is the same, bit for bit, whatever the number of threads, seen or not"):
     val shared = plan(shares = true)(noise)
     val one = Renderer.render(shared, threads = 1).film.toImage(1f).data.toVector
-    object Eye extends Witness:
+    object Eye extends PassObserver:
       def passed(pass: Pass, film: Film): Unit =
         val _ = film.toImage(1f)
     for threads <- Vector(2, 3, 7); eye <- Vector(None, Some(Eye)) do
-      val many = Renderer.render(shared, threads, witness = eye)
+      val many = Renderer.render(shared, threads, passObserver = eye)
       assert(many.film.toImage(1f).data.toVector == one, s"$threads threads")
       assert(many.isComplete)
 

@@ -4,7 +4,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{loop, Parallel}
 import candela.math.clamp
-import candela.render.Crew
+import candela.render.ThreadPool
 import candela.testing.Draws
 
 class PyramidSuite extends AnyFunSuite:
@@ -55,7 +55,7 @@ class PyramidSuite extends AnyFunSuite:
       val from = FloatTexels(size, size, channels, Array.fill(channels * size * size)(draws.unit()))
       def all(parallel: Parallel) = Pyramid.of(from, wrap, 1f, parallel)
       val alone = all(Parallel.Alone)
-      val together = all(Crew(3))
+      val together = all(ThreadPool(3))
       assert(alone.length == together.length)
       loop(alone.length): k =>
         val same = numbers(alone(k).texels) == numbers(together(k).texels)

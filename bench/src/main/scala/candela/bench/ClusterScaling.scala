@@ -113,13 +113,13 @@ object ClusterScaling:
     )
 
   private def render(plan: RenderPlan, shard: Shard, to: Path): Double =
-    val keeper = new Keeper:
+    val checkpointer = new Checkpointer:
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit = write(state, to)
       def finish(): Unit = ()
     val begin = cpu()
-    Renderer.render(plan, 1, shard = shard, keeper = Some(keeper)): Unit
+    Renderer.render(plan, 1, shard = shard, checkpointer = Some(checkpointer)): Unit
     cpu() - begin
 
   private def write(state: RenderState, to: Path): Unit =

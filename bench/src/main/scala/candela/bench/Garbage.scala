@@ -3,7 +3,7 @@ package candela.bench
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.cameras.CameraRays
 import candela.film.FilterSampler
-import candela.render.{Crew, RenderMethod, RenderPlan}
+import candela.render.{ThreadPool, RenderMethod, RenderPlan}
 import candela.scenefile.Parser
 
 import java.lang.management.ManagementFactory
@@ -25,7 +25,7 @@ object Garbage:
   def main(scenes: Array[String]): Unit =
     for scene <- scenes do
       val description = Parser.readable(Path.of(scene), None, keepGoing = false)
-      val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(AsIf), crew = Crew(1)))
+      val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(AsIf), pool = ThreadPool(1)))
       val paths = Paths(plan)
       for pass <- 0 until WarmUp do paths.take(pass)
       val before = allocated()

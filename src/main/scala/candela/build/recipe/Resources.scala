@@ -11,27 +11,27 @@ import candela.textures.{FloatTexture, RgbTexture}
 /** Resources that statements of a scene file refer to: textures, materials and files.
   *
   * @param basis colour basis of the runtime scene
-  * @param crew  executes divisible work
+  * @param pool  executes divisible work
   * @param seed  random seed, except of samplers
   * @param plainBasis the three numbers of the scene, from which what all bases share is made
   */
 final class Resources private (
     val basis: ColorBasis,
-    val crew: Parallel,
+    val pool: Parallel,
     val seed: Int,
     shared: SharedResources,
     val plainBasis: ColorBasis
 ):
   def this(
       basis: ColorBasis,
-      crew: Parallel = Parallel.Alone,
+      pool: Parallel = Parallel.Alone,
       seed: Int = 0,
       mayBeSpectral: Boolean = false,
       switches: Switches = Switches()
-  ) = this(basis, crew, seed, SharedResources(basis, mayBeSpectral, switches), basis)
+  ) = this(basis, pool, seed, SharedResources(basis, mayBeSpectral, switches), basis)
 
   /** The same files and tables, for another basis; names are yet to be defined. */
-  def in(other: ColorBasis): Resources = new Resources(other, crew, seed, shared, plainBasis)
+  def in(other: ColorBasis): Resources = new Resources(other, pool, seed, shared, plainBasis)
 
   export shared.*
 

@@ -22,7 +22,7 @@ object BvhRecipe
 
   /** The default accelerator. */
   def accelerator(resources: Resources): AcceleratorPlan =
-    (primitives, samples) => Hierarchies.of(primitives, resources.crew, samples)
+    (primitives, samples) => Hierarchies.of(primitives, resources.pool, samples)
 
 object GridRecipe
     extends Recipe[AcceleratorPlan]("grid", "uniform grid", onlyV2):

@@ -64,7 +64,7 @@ abstract class ImageMapRecipe[A](standIn: String)
       case _: ByteImage => true
       case _: Image => false
     val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
-    val levels = Pyramid.of(texels, wrap, most, site.resources.crew)
+    val levels = Pyramid.of(texels, wrap, most, site.resources.pool)
     val pyramid = if site.resources.switches.meanImages then levels.takeRight(1) else levels
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)

@@ -1,6 +1,6 @@
 package candela.render.storage
 
-import candela.render.{Keeper, RenderState}
+import candela.render.{Checkpointer, RenderState}
 
 import java.io.IOException
 
@@ -17,7 +17,7 @@ final class Checkpoints(
     from: Option[FilmFile],
     every: Option[Double],
     warn: String => Unit
-) extends Keeper:
+) extends Checkpointer:
   import Checkpoints.*
   private var last = System.nanoTime
   private var pause = 0.0

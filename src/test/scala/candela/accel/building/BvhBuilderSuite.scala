@@ -6,7 +6,7 @@ import candela.accel.{AcceleratorScenes, BinaryTree, Primitives}
 import candela.base.{loop, Parallel}
 import candela.geometry.Bounds3
 import candela.math.*
-import candela.render.Crew
+import candela.render.ThreadPool
 import candela.testing.Draws
 
 class BvhBuilderSuite extends AnyFunSuite:
@@ -110,7 +110,7 @@ class BvhBuilderSuite extends AnyFunSuite:
     val mesh = AcceleratorScenes.torus(140).bounds
     for all <- Seq(boxes.flatten, mesh) do
       val alone = build(all, maxLeaf = 4)
-      for parallel <- Seq(Crew(2), Crew(7), Backwards) do
+      for parallel <- Seq(ThreadPool(2), ThreadPool(7), Backwards) do
         val other = build(all, maxLeaf = 4, parallel)
         assert(other.order.sameElements(alone.order))
         assert(other.nodes.map(bits).sameElements(alone.nodes.map(bits)))

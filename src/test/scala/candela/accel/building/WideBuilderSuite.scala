@@ -7,7 +7,7 @@ import candela.accel.tracing.{Bvh, Hierarchies}
 import candela.base.{loop, Parallel}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
-import candela.render.Crew
+import candela.render.ThreadPool
 import candela.testing.{Draws, Soups}
 
 class WideBuilderSuite extends AnyFunSuite:
@@ -22,12 +22,12 @@ class WideBuilderSuite extends AnyFunSuite:
       def build(parallel: Parallel) = WideBuilder.of(primitives, width, lanes, 4, parallel)
       val alone = build(Parallel.Alone)
       assert(alone.count > 32768)
-      for parallel <- Seq(Crew(3), Backwards) do
+      for parallel <- Seq(ThreadPool(3), Backwards) do
         val other = build(parallel)
         assert(other.root == alone.root)
         assert(other.nodes.map(bits).sameElements(alone.nodes.map(bits)))
         assert(other.blocks.map(bits).sameElements(alone.blocks.map(bits)))
-      val wide = Hierarchies.scalar(primitives, width, Crew(3))
+      val wide = Hierarchies.scalar(primitives, width, ThreadPool(3))
       val (ray, hit) = (Ray(), Hit())
       val reference = Bvh(primitives)
       loop(1000): _ =>

@@ -5,7 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 import candela.accel.{Accelerator, AcceleratorScenes, BruteForce, Primitives}
 import candela.geometry.{Hit, Ray}
 import candela.math.*
-import candela.render.Crew
+import candela.render.ThreadPool
 import candela.testing.Draws
 
 /** All kernels find the very hits that testing everything finds, bit by bit. */
@@ -128,7 +128,7 @@ class KernelSuite extends AnyFunSuite:
     if hasVectors then
       val (_, primitives) = scenes.head
       val (warming, reference) =
-        (Hierarchies.vector(primitives, parallel = Crew(1)), BruteForce(primitives))
+        (Hierarchies.vector(primitives, parallel = ThreadPool(1)), BruteForce(primitives))
       val draws = Draws(5)
       val (ray, hit) = (Ray(), Hit())
       def agree(): Unit =

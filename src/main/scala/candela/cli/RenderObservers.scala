@@ -3,13 +3,13 @@ package candela.cli
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.Errors
-import candela.render.{Pass, RenderPlan, Witness}
+import candela.render.{Pass, RenderPlan, PassObserver}
 
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path, StandardOpenOption}
 
 /** Observes a rendering after 1, 2, 4, 8, … samples per pixel and at its end, beside another. */
-private[cli] abstract class Bystander(other: Option[Witness]) extends Witness:
+private[cli] abstract class ChainedObserver(other: Option[PassObserver]) extends PassObserver:
   protected def saw(pass: Pass, film: Film): Unit
 
   override final def begins(samples: Int, film: Film): Unit =
@@ -26,8 +26,8 @@ private[cli] final class ErrorLog(
     development: Development,
     reference: Image,
     file: Path,
-    other: Option[Witness]
-) extends Bystander(other):
+    other: Option[PassObserver]
+) extends ChainedObserver(other):
   // At once: a file that can't be written must not wait for the first pass
   Files.write(file, Array.empty[Byte]): Unit
 
@@ -38,12 +38,12 @@ private[cli] final class ErrorLog(
 
 private[cli] object ErrorLog:
   /** None unless the plan asks for one. */
-  def of(plan: RenderPlan, other: Option[Witness]): Option[Witness] =
+  def of(plan: RenderPlan, other: Option[PassObserver]): Option[PassObserver] =
     plan.errors.map: asked =>
       val reference = RenderRecorder.fitting(plan, asked.reference)
       ErrorLog(plan.development, reference, OutputFiles.path(asked.file), other)
 
 /** Writes the image of each pass but the last, which is written anyway. */
-private[cli] final class PartialImages(write: () => Unit, other: Option[Witness])
-    extends Bystander(other):
+private[cli] final class PartialImages(write: () => Unit, other: Option[PassObserver])
+    extends ChainedObserver(other):
   protected def saw(pass: Pass, film: Film): Unit = if !pass.isLast then write()

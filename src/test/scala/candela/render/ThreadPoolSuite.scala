@@ -6,40 +6,41 @@ import candela.base.Parallel
 
 import java.util.concurrent.atomic.AtomicIntegerArray
 
-class CrewSuite extends AnyFunSuite:
+class ThreadPoolSuite extends AnyFunSuite:
 
-  private val crews: Seq[Parallel] = Seq(Parallel.Alone, Crew(1), Crew(2), Crew(5))
+  private val pools: Seq[Parallel] =
+    Seq(Parallel.Alone, ThreadPool(1), ThreadPool(2), ThreadPool(5))
 
   test("each piece of work is done once, before the call returns"):
-    for crew <- crews; count <- Seq(0, 1, 2, 3, 1000) do
+    for pool <- pools; count <- Seq(0, 1, 2, 3, 1000) do
       val done = AtomicIntegerArray(count)
-      crew.each(count)(i => done.incrementAndGet(i): Unit)
-      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${crew.threads}")
+      pool.each(count)(i => done.incrementAndGet(i): Unit)
+      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${pool.threads}")
 
   test("ranges make up the whole"):
-    for crew <- crews; count <- Seq(0, 1, 5000, 100_003) do
+    for pool <- pools; count <- Seq(0, 1, 5000, 100_003) do
       val done = AtomicIntegerArray(count)
-      crew.ranges(count)((from, until) =>
+      pool.ranges(count)((from, until) =>
         (from until until).foreach(i => done.addAndGet(i, 1): Unit)
       )
-      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${crew.threads}")
+      assert((0 until count).forall(i => done.get(i) == 1), s"$count with ${pool.threads}")
 
   test("what a piece of work throws is thrown to the caller"):
-    for crew <- crews do
+    for pool <- pools do
       val error = intercept[IllegalStateException]:
-        crew.each(100)(i => if i == 57 then throw IllegalStateException("57"))
+        pool.each(100)(i => if i == 57 then throw IllegalStateException("57"))
       assert(error.getMessage == "57")
 
   test("several threads work at the same time"):
     val both = java.util.concurrent.CountDownLatch(2)
-    Crew(2).each(2): _ =>
+    ThreadPool(2).each(2): _ =>
       both.countDown()
       if !both.await(10, java.util.concurrent.TimeUnit.SECONDS) then fail("one waits for the other")
 
   test("a task aside runs while the caller goes on, on a thread that does not keep the JVM alive"):
     val latch = java.util.concurrent.CountDownLatch(1)
     val thread = java.util.concurrent.CompletableFuture[Thread]()
-    Crew(1).aside("some-task"):
+    ThreadPool(1).aside("some-task"):
       latch.await()
       thread.complete(Thread.currentThread): Unit
     latch.countDown()

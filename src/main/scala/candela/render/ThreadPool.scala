@@ -9,7 +9,7 @@ import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
   * Threads live for one call: starting one takes some 50 µs, little beside tasks worth dividing,
   * and there is nothing to shut down.
   */
-final class Crew(val threads: Int) extends Parallel:
+final class ThreadPool(val threads: Int) extends Parallel:
   require(threads >= 1, s"`threads` must be at least 1, found $threads")
 
   def each(count: Int)(task: Int => Unit): Unit =
