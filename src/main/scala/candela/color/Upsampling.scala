@@ -1,5 +1,8 @@
 package candela.color
 
+import java.util.concurrent.ConcurrentHashMap
+
+import candela.base.loop
 import candela.math.clamp
 
 /** Spectral upsampling: a smooth spectrum between 0 and 1 with the colour of a given reflectance
@@ -17,9 +20,22 @@ object Upsampling:
     val grey = (target.r == target.g) && (target.g == target.b)
     if grey then _ => target.r
     else
-      val walk = Walk(space)
-      walk.go(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
-      walk(_)
+      val c = coefficients(target, space)
+      nm => logistic(c, nm)
+
+  /** Fits so far: a scene names a colour for each of many materials, and a fit takes a millisecond.
+    */
+  private val fits = ConcurrentHashMap[(Rgb, ColorSpace), Array[Double]]()
+
+  private def coefficients(target: Rgb, space: ColorSpace): Array[Double] =
+    if fits.size > MostFits then fits.clear()
+    fits.computeIfAbsent(
+      (target, space),
+      _ =>
+        val walk = Walk(space)
+        walk.go(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
+        walk.coefficients
+    )
 
   /** Spectrum of an unbounded quantity (such as an index of refraction): scaled down to fit, then
     * up again.
@@ -36,6 +52,7 @@ object Upsampling:
     */
   private[color] final class Walk(space: ColorSpace = ColorSpace.Srgb):
     private val c = Array(0.0, 0.0, 0.0)
+    def coefficients: Array[Double] = c.clone()
     private var here = Array(0.5, 0.5, 0.5)
 
     def apply(nm: Float): Float = logistic(c, nm)
@@ -78,7 +95,9 @@ object Upsampling:
 
   private def color(c: Array[Double], space: ColorSpace): Array[Double] =
     var x, y, z = 0.0
-    for row <- space.seen do
+    val rows = space.seen
+    loop(rows.length): i =>
+      val row = rows(i)
       val s = logistic(c, row(0).toFloat)
       x += s * row(1)
       y += s * row(2)
@@ -88,6 +107,7 @@ object Upsampling:
   /** Number of steps from grey to black or white. */
   private val Steps = 20
   private val Iterations = 12
+  private val MostFits = 10000
 
   /** Halvings of the last step of a walk. */
   private val Halvings = 6

@@ -35,3 +35,18 @@ final class UpsamplingSuite extends AnyFunSuite:
     // 1e-3 as above, times the scale of 5
     assertSame(Colorimetry.rgb(Upsampling.unbounded(wanted), White.D65), wanted, 5e-3f)
     assert(Upsampling.unbounded(Rgb.Black)(500f) == 0f)
+
+  test("fits are kept for a colour in a space: others, before or between, change nothing"):
+    val wide = ColorSpace.named("rec2020").get
+    val colors = Vector.tabulate(20)(i => Rgb(0.9f - 0.04f * i, 0.1f + 0.03f * i, 0.3f))
+    def spectrum(c: Rgb, space: ColorSpace) =
+      val s = Upsampling.spectrum(c, space)
+      (400 to 700 by 20).map(nm => s(nm.toFloat))
+    val first = colors.map(c => (spectrum(c, ColorSpace.Srgb), spectrum(c, wide)))
+    def both(c: Rgb) = (spectrum(c, ColorSpace.Srgb), spectrum(c, wide))
+    assert(colors.reverse.map(both).reverse == first)
+    assert(first.distinct.size == first.size && first.forall((a, b) => a != b))
+    for (c, (own, _)) <- colors.zip(first) do
+      val walk = Upsampling.Walk()
+      walk.go(Array(c.r.toDouble, c.g.toDouble, c.b.toDouble))
+      assert(own == (400 to 700 by 20).map(nm => walk(nm.toFloat)))

@@ -2,6 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
+import candela.base.loop
 import candela.color.{ColorBasis, ColorError, ColoredSpectrum, Rgb, SmoothSpectra}
 
 /** The spectra that a scene is built from, collected as recipes read them, to decide whether three
@@ -122,9 +123,15 @@ private object ColorCensus:
   private val PixelsOfImage = 1000
 
   private def farApart(all: Vector[ColoredSpectrum]): Vector[ColoredSpectrum] =
-    spread(all)((a, b) =>
-      a.values.lazyZip(b.values).map((x, y) => Math.abs(x / a.values.max - y / b.values.max)).sum
-    )
+    // Scenes have thousands of colours
+    val shapes = all.map: s =>
+      val most = s.values.max
+      s -> s.values.map(_ / most)
+    def distance(a: Array[Double], b: Array[Double]) =
+      var sum = 0.0
+      loop(a.length)(i => sum += Math.abs(a(i) - b(i)))
+      sum
+    spread(shapes)((a, b) => distance(a._2, b._2)).map(_._1)
 
   private def farApartColors(all: Vector[Rgb]): Vector[Rgb] =
     spread(all.distinct)((a, b) => (a - b).largest.toDouble)
