@@ -7,7 +7,7 @@ import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.scenefile.{Declaration, Dialect, Param, ParamType, SceneDescription}
 
-/** Replaces the materials that pbrt lacks in scenes of Mitsuba. */
+/** Replaces the materials that pbrt lacks in scenes of Mitsuba, and reports lights that differ. */
 object FromMitsuba:
 
   def converted(scene: SceneDescription): Converted =
@@ -20,7 +20,8 @@ object FromMitsuba:
     def warnings: Vector[Problem] = problems.toVector
 
     def plain(d: Declaration): Declaration =
-      if d.category != "Material" || d.dialect.isDefined then d
+      if d.category == "LightSource" then light(d)
+      else if d.category != "Material" || d.dialect.isDefined then d
       else
         d.name match
           case "roughplastic" => plastic(isotropic(d))
@@ -34,6 +35,23 @@ object FromMitsuba:
 
     private def warn(d: Declaration, message: String): Unit =
       problems += Problem.warning(d.at, message)
+
+    private def light(d: Declaration): Declaration =
+      d.name match
+        case "infinite" =>
+          for p <- d.param("mapname") do
+            problems += Problem.warning(
+              p.at,
+              "pbrt's environment maps begin and end half a row beyond Mitsuba's, whose first and " +
+                "last rows are centred on the poles; using pbrt's"
+            )
+        case "spot" if !d.param("conedeltaangle").exists(_.floats.contains(0f)) =>
+          warn(
+            d,
+            "a \"spot\" fades linearly in Mitsuba, along a smooth curve in pbrt; using pbrt's"
+          )
+        case _ =>
+      d
 
     /** pbrt has one distribution. */
     private def isotropic(d: Declaration): Declaration =

@@ -9,13 +9,13 @@ import org.scalatest.funsuite.AnyFunSuite
 
 class FromMitsubaSuite extends AnyFunSuite:
 
-  private def read(bsdf: String): SceneDescription =
+  private def read(bsdf: String, emitter: String = ""): SceneDescription =
     val file = Files.createTempFile("candela-mitsuba", ".xml")
     try
       val _ = Files.writeString(
         file,
         s"""<scene version="3.0.0"><sensor type="perspective"/>
-          <shape type="sphere">$bsdf</shape></scene>"""
+          $emitter<shape type="sphere">$bsdf</shape></scene>"""
       )
       MitsubaScene.readable(file, Map.empty, keepGoing = false)
     finally Files.delete(file)
@@ -57,6 +57,23 @@ class FromMitsubaSuite extends AnyFunSuite:
     )
     val (glass, _) = converted(s"<bsdf type=\"dielectric\">$red</bsdf>")
     assert(glass.name == "glass" && glass.param("Kr").get.floats.toVector == Vector(1f, 0f, 0f))
+
+  test("lights that differ in pbrt are reported with their place"):
+    def lost(emitter: String) = FromMitsuba.converted(read("", emitter)).warnings
+    def spot(beam: Int) =
+      s"<emitter type=\"spot\"><float name=\"beam_width\" value=\"$beam\"/></emitter>"
+    val faded = lost(spot(10))
+    assert(faded.length == 1 && faded.head.message.contains("fades linearly"))
+    assert(faded.head.at.exists(at => (at.line, at.column) == (2, 11)))
+    assert(lost(spot(20)).isEmpty)
+    assert(lost("<emitter type=\"constant\"/>").isEmpty)
+    val image = Files.createTempFile("candela-mitsuba", ".png")
+    try
+      val map = s"<emitter type=\"envmap\"><string name=\"filename\" value=\"$image\"/></emitter>"
+      val moved = lost(map)
+      assert(moved.length == 1 && moved.head.message.contains("centred on the poles"))
+      assert(moved.head.at.exists(at => (at.line, at.column) == (2, 34)))
+    finally Files.delete(image)
 
   test("a converted scene has pbrt's rules"):
     assert(read("").isMitsubas && !FromMitsuba.converted(read("")).scene.isMitsubas)
