@@ -42,8 +42,8 @@ object FromMitsuba:
           for p <- d.param("mapname") do
             problems += Problem.warning(
               p.at,
-              "pbrt's environment maps begin and end half a row beyond Mitsuba's, whose first and " +
-                "last rows are centred on the poles; using pbrt's"
+              "pbrt's environment maps begin and end half a row beyond Mitsuba's, whose first " +
+                "and last rows are centred on the poles; using pbrt's"
             )
         case "spot" if !d.param("conedeltaangle").exists(_.floats.contains(0f)) =>
           warn(
