@@ -13,7 +13,12 @@ abstract class Parallel:
     */
   def each(count: Int)(task: Int => Unit): Unit
 
-  /** Runs a task of advantage but no result beside the caller, who does not wait for it. */
+  /** Whether tasks aside are run. */
+  def worksAside: Boolean
+
+  /** Runs a task of advantage but no result beside the caller, who does not wait for it; or not at
+    * all.
+    */
   def aside(name: String)(task: => Unit): Unit
 
   /** Runs `task` for ranges (from, until) that partition 0 until `count`, each large enough to
@@ -32,6 +37,7 @@ object Parallel:
   val Alone: Parallel = new Parallel:
     def threads: Int = 1
     def each(count: Int)(task: Int => Unit): Unit = loop(count)(task(_))
+    def worksAside: Boolean = false
     def aside(name: String)(task: => Unit): Unit = ()
 
   /** Tasks per thread, for load balance. */

@@ -22,18 +22,13 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
     case _ => ()
 
   private def refuse(why: String): Unit =
-    context.problems.error(place, s"--fireflies ${FireflyLimits.word(fireflies)}: $why")
+    context.problems.error(place, s"--fireflies ${fireflies.word}: $why")
 
   private def place =
     val description = context.description
     description.integrator.orElse(description.renderer).fold(BuildContext.NoPlace)(_.at)
 
 private[build] object FireflyLimits:
-  private def word(fireflies: Fireflies): String = fireflies match
-    case Fireflies.Kept => "keep"
-    case Fireflies.Reweighted => "reweight"
-    case Fireflies.Clamped(_) => "clamp"
-
   /** What `--explain` says, if anything is done. */
   def feature(options: BuildOptions): Option[(String, String)] =
     val what = options.fireflies match

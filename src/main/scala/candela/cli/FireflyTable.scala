@@ -29,5 +29,5 @@ private[cli] object FireflyTable:
   /** The option as words of a command line; none if nothing is done. */
   def words(fireflies: Fireflies): Vector[String] = fireflies match
     case Fireflies.Kept => Vector.empty
-    case Fireflies.Reweighted => Vector("--fireflies", "reweight")
-    case Fireflies.Clamped(most) => Vector("--fireflies", s"clamp:$most")
+    case Fireflies.Reweighted => Vector("--fireflies", fireflies.word)
+    case Fireflies.Clamped(most) => Vector("--fireflies", s"${fireflies.word}:$most")

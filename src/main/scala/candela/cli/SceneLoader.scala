@@ -4,7 +4,7 @@ import candela.base.{Problem, SceneError, Suggest}
 import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
 import candela.mitsuba.MitsubaScene
-import candela.render.{ThreadPool, RenderPlan}
+import candela.render.{RenderPlan, ThreadPool}
 import candela.scenefile.{Parser, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -69,7 +69,7 @@ object SceneLoader:
       layers.distinct,
       o.color,
       o.lightGroups.getOrElse(LightGrouping.Statements),
-      ThreadPool(o.threadCount),
+      ThreadPool(o.threadCount, worksAside = o.command != Command.Check),
       o.switches,
       pixels.orElse(pixel),
       o.points,

@@ -3,16 +3,16 @@ package candela.film
 /** What is done about fireflies: samples much brighter than those around them. Whatever is done
   * trades noise for bias.
   */
-enum Fireflies:
+enum Fireflies(val word: String):
 
   /** Nothing. */
-  case Kept
+  case Kept extends Fireflies("keep")
 
   /** Light of brightness levels with too few samples is left out; see [[FireflyWeights]]. */
-  case Reweighted
+  case Reweighted extends Fireflies("reweight")
 
   /** Light scattered more than once is limited, sample by sample.
     *
     * @param most maximum red, green or blue, in the units of the image
     */
-  case Clamped(most: Float)
+  case Clamped(most: Float) extends Fireflies("clamp")

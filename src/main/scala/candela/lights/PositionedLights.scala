@@ -35,6 +35,8 @@ final class SpotLight(
     cosFull: Float,
     fade: Fade
 ) extends ConeLight(frame, axis, 1f - cosEdge):
+  private val edge = Math.acos(cosEdge)
+  private val full = Math.acos(cosFull)
 
   def intensity(w: Vec3): Rgb =
     val cosine = frame.toLight(w) dot axis
@@ -44,9 +46,7 @@ final class SpotLight(
 
   /** Position between edge (0) and inner cone (1). */
   private def inward(cosine: Float): Float =
-    if fade == Fade.Linear then
-      val (edge, full) = (Math.acos(cosEdge), Math.acos(cosFull))
-      ((edge - Math.acos(cosine)) / (edge - full)).toFloat
+    if fade == Fade.Linear then ((edge - Math.acos(cosine)) / (edge - full)).toFloat
     else (cosine - cosEdge) / (cosFull - cosEdge)
 
   def bounds: Option[LightBounds] =

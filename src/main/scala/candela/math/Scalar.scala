@@ -41,6 +41,9 @@ inline def pow(x: Float, y: Float): Float = Math.pow(x.toDouble, y.toDouble).toF
 inline def log2(x: Float): Float = (Math.log(x.toDouble) * 1.4426950408889634).toFloat
 inline def abs(x: Float): Float = Math.abs(x)
 
+/** The bits of |x|, which have the order of the Floats; NaN is above them. */
+inline def magnitudeBits(x: Float): Int = java.lang.Float.floatToRawIntBits(x) & Int.MaxValue
+
 /** `a·b − c·d` without cancellation: the error is at most 1.5 ulp.
   *
   * Source: Kahan's fused-multiply-add scheme; Jeannerod et al., "Further analysis of Kahan's

@@ -1,7 +1,7 @@
 package candela.measure
 
 import candela.base.loop
-import candela.image.{Image, ImageError}
+import candela.image.{Image, ImageEdits, ImageError}
 
 /** Errors of images of several seeds from each other, where no reference is given: the variance
   * between the seeds, free of the noise that a reference would have. It reveals no bias.
@@ -10,19 +10,9 @@ object SeedNoise:
   /** Seeds from which there is a confidence interval: errors from the mean of two are equal. */
   val Fewest = 3
 
+  /** @throws ImageError if sizes differ */
   def mean(images: Vector[Image]): Image =
-    val first = images.head
-    for image <- images do
-      if image.width != first.width || image.height != first.height then
-        throw ImageError(
-          s"images have different sizes: ${first.width}x${first.height}, " +
-            s"${image.width}x${image.height}"
-        )
-    val sums = new Array[Double](first.data.length)
-    for image <- images do loop(sums.length)(i => sums(i) += image.data(i))
-    val mean = Image.rgb(first.width, first.height)
-    loop(sums.length)(i => mean.data(i) = (sums(i) / images.size).toFloat)
-    mean
+    ImageEdits.mean(images.iterator.map(image => s"${image.width}x${image.height}" -> image))
 
   /** The error of each image of one program and sample count. Their mean is the unbiased variance:
     * an image is nearer to a mean that contains it than to the truth, by (n − 1) / n.

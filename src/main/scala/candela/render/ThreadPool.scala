@@ -8,8 +8,10 @@ import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
   *
   * Threads live for one call: starting one takes some 50 µs, little beside tasks worth dividing,
   * and there is nothing to shut down.
+  *
+  * @param worksAside false where nothing is rendered, for which work aside prepares
   */
-final class ThreadPool(val threads: Int) extends Parallel:
+final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends Parallel:
   require(threads >= 1, s"`threads` must be at least 1, found $threads")
 
   def each(count: Int)(task: Int => Unit): Unit =
@@ -34,7 +36,8 @@ final class ThreadPool(val threads: Int) extends Parallel:
       if thrown != null then throw thrown
 
   def aside(name: String)(task: => Unit): Unit =
-    val _ = start(name, () => task)
+    if worksAside then
+      val _ = start(name, () => task)
 
   private def start(name: String, work: Runnable): Thread =
     val thread = Thread(work, s"candela-$name")

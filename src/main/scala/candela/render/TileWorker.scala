@@ -82,23 +82,22 @@ private[render] final class TileWorker(
     sample >= end
 
   /** Takes a sample of each pixel of the tile. */
-  private def renderSample(tile: Int): Unit =
-    val bounds = schedule.tiles(tile)
-    beginTile(tile)
-    y = bounds.y0
-    while y < bounds.y1 do
-      x = bounds.x0
-      while x < bounds.x1 do
+  private def renderSample(number: Int): Unit =
+    beginTile(number)
+    y = tile.y0
+    while y < tile.y1 do
+      x = tile.x0
+      while x < tile.x1 do
         takeSample()
         x += 1
       y += 1
     if shares != null then shares.end()
-    queue.samplesTaken.add(bounds.pixels)
+    queue.samplesTaken.add(tile.pixels)
 
-  private def beginTile(tile: Int): Unit =
-    if shares != null then shares.begin(tile)
-    if levels != null then levels.begin(tile)
-    this.tile = schedule.tiles(tile)
+  private def beginTile(number: Int): Unit =
+    tile = schedule.tiles(number)
+    if shares != null then shares.begin(number)
+    if levels != null then levels.begin(number)
 
   private def takeSample(): Unit =
     val shared = shares

@@ -1,6 +1,7 @@
 package candela.shapes
 
 import candela.geometry.{Hit, Ray}
+import candela.math.magnitudeBits
 
 /** Watertight ray–triangle test: a ray through an edge or vertex of a closed mesh always hits one
   * of the triangles that share it.
@@ -146,7 +147,7 @@ object TriangleTest:
           true
 
   private[shapes] inline def isAnyZero(a: Float, b: Float, c: Float): Boolean =
-    ((magnitude(a) - 1) | (magnitude(b) - 1) | (magnitude(c) - 1)) < 0
+    ((magnitudeBits(a) - 1) | (magnitudeBits(b) - 1) | (magnitudeBits(c) - 1)) < 0
 
   /** Whether one is below and another one above zero. */
   private[shapes] inline def areMixed(a: Float, b: Float, c: Float): Boolean =
@@ -155,11 +156,9 @@ object TriangleTest:
     (below & above) < 0
 
   /** Negative if x is neither zero nor NaN. */
-  private inline def sided(x: Float): Int = -magnitude(x) & (magnitude(x) - NaN)
+  private inline def sided(x: Float): Int = -magnitudeBits(x) & (magnitudeBits(x) - NaN)
 
   private inline def bits(x: Float): Int = java.lang.Float.floatToRawIntBits(x)
-
-  private inline def magnitude(x: Float): Int = bits(x) & Int.MaxValue
 
   /** Whether `below` has a minus sign, and the others have none. */
   private inline def areSigns(below: Double, a: Double, b: Double, c: Double): Boolean =

@@ -1,14 +1,17 @@
 package candela.suite
 
 import candela.image.{Image, ImageFiles}
-import candela.measure.{Errors, Measurement, SeedNoise}
+import candela.measure.{Errors, ImagePair, Measurement, SeedNoise}
 
 import java.nio.file.Path
 
 /** Finds the errors of a scene's images. */
 private[suite] abstract class Judge:
 
-  /** Takes an image; returns its error in words, if it is known already. */
+  /** Takes an image; returns its error in words, if it is known already.
+    *
+    * @throws candela.image.ImageError if it cannot be compared
+    */
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String
 
   /** All that was measured so far, in the order of rendering. */
@@ -41,9 +44,13 @@ private[suite] final class SeedJudge(scratch: Path) extends Judge:
     def image: Image = ImageFiles.read(file).toRgb
 
   private var kept = Vector.empty[Kept]
+
+  /** All images must have its size. */
+  private var first: Option[Image] = None
   private var pooled: Option[(Int, Image)] = None
 
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
+    first = Some(ImagePair(image, first.getOrElse(image)).reference)
     if job.step != Job.WarmUp then
       val file = scratch.resolve(s"${job.entry.scene.name}-${kept.size}.exr")
       ImageFiles.write(file, image)
@@ -52,12 +59,12 @@ private[suite] final class SeedJudge(scratch: Path) extends Judge:
 
   /** Of the sample counts that have been rendered with enough seeds. */
   private def sets: Vector[Vector[Kept]] =
-    kept.groupBy(k => (k.job.entry, k.job.step)).values.filter(
-      _.sizeIs >= SeedNoise.Fewest
-    ).toVector
+    val all = kept.groupBy(k => (k.job.entry, k.job.step)).values
+    all.filter(_.sizeIs >= SeedNoise.Fewest).toVector
 
   def results: Vector[Result] =
-    if sets.isEmpty then Vector.empty
+    // Without a point of a curve, the mean is unknown
+    if !sets.exists(_.head.job.isPoint) then Vector.empty
     else
       val scale = reference
       val errors = sets.flatMap: set =>

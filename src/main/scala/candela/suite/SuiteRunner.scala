@@ -89,7 +89,11 @@ final class SuiteRunner(
       (entry, counts) <- rotated(plans, seed + Math.max(0, step))
       samples <- if step == Job.FirstImage then firstImage(counts) else counts.lift(step)
     do measured(Job(entry, step, samples, seed), judge): Unit
-    judge.results
+    try judge.results
+    catch
+      case e: ImageError =>
+        leaveOut(scene.title, e.getMessage)
+        Vector.empty
 
   /** A count of its own, if one sample is none of the others. */
   private def firstImage(counts: Vector[Int]): Option[Int] =

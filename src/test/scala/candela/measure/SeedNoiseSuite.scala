@@ -41,4 +41,4 @@ class SeedNoiseSuite extends AnyFunSuite:
 
   test("images of different sizes are an error"):
     assert(intercept[ImageError](SeedNoise.mean(Vector(flat(1), flat(1, 5)))).getMessage
-      .contains("4x3, 5x3"))
+      .contains("5x3 and 4x3"))

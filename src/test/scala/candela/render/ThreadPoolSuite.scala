@@ -46,3 +46,8 @@ class ThreadPoolSuite extends AnyFunSuite:
     latch.countDown()
     val found = thread.get(10, java.util.concurrent.TimeUnit.SECONDS)
     assert(found.getName == "candela-some-task" && found.isDaemon)
+
+  test("nothing runs aside where nothing is rendered"):
+    val hasRun = java.util.concurrent.CountDownLatch(1)
+    ThreadPool(2, worksAside = false).aside("some-task")(hasRun.countDown())
+    assert(!hasRun.await(200, java.util.concurrent.TimeUnit.MILLISECONDS))

@@ -160,6 +160,13 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val page = SuitePage.html(report)
       assert(page.contains("variance between the seeds") && page.contains("mean of all"))
 
+  test("a scene whose images have no finite pixel is left out"):
+    inFolder: folder =>
+      val dark = flat(folder.resolve("nothing.exr"), Float.NaN)
+      val report = unjudged(folder, 3, program("one", s"cp $dark {out}"))
+      assert(report.scenes.isEmpty)
+      assert(report.leftOut == Vector("Flat" -> "no pixel is finite in all images"))
+
   test("without a reference, two seeds are too few"):
     inFolder: folder =>
       val report = unjudged(folder, 2, program("one", s"cp $folder/one-{seed}.exr {out}"))

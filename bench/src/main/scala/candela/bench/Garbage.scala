@@ -3,7 +3,7 @@ package candela.bench
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.cameras.CameraRays
 import candela.film.FilterSampler
-import candela.render.{ThreadPool, RenderMethod, RenderPlan}
+import candela.render.{RenderMethod, RenderPlan, ThreadPool}
 import candela.scenefile.Parser
 
 import java.lang.management.ManagementFactory

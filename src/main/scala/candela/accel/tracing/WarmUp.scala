@@ -56,7 +56,7 @@ private[tracing] object WarmUp:
   /** Batches after which the launcher's JVM compiles the kernel (see `lib/options`; others do after
     * 5,000 calls).
     */
-  final val Enough = 20
+  private final val Enough = 20
 
   /** Rest after each later batch, relative to its time. */
   private final val Rest = 3L
@@ -85,7 +85,7 @@ private[tracing] object WarmUp:
 
   /** Begins, unless it did before. The thread asks whether there are vectors: that takes time. */
   def begin(parallel: Parallel, hasVectors: => Boolean): Unit =
-    if parallel != Parallel.Alone && hasBegun.compareAndSet(false, true) then
+    if parallel.worksAside && hasBegun.compareAndSet(false, true) then
       parallel.aside("warm-up")(if hasVectors then run(VectorKernel))
 
   private def run(fast: VectorKernel.type): Unit =

@@ -2,6 +2,7 @@ package candela.accel.tracing
 
 import candela.accel.{Accelerator, WideTree}
 import candela.geometry.{Bounds3, Hit, Ray}
+import candela.math.magnitudeBits
 
 /** A wide BVH whose branching factor is the number of boxes that SIMD code tests at once.
   *
@@ -62,18 +63,14 @@ private[tracing] object WideKernel:
       near(box.max.x) & near(box.max.y) & near(box.max.z)) < 0
 
   /** Negative if |x| < [[Far]]; not for NaN. */
-  private inline def near(x: Float): Int = magnitude(x) - Far
+  private inline def near(x: Float): Int = magnitudeBits(x) - Far
 
   /** Negative if |x| is zero or between [[Small]] and [[Large]]; not for NaN. Zero is tame: a box
     * that the ray misses then begins at infinity.
     */
   private inline def usual(x: Float): Int =
-    val bits = magnitude(x)
+    val bits = magnitudeBits(x)
     (bits - Large) & ((Small - bits) | (bits - 1))
-
-  /** The bits of |x|, which have the order of the Floats; NaN is above them. */
-  private inline def magnitude(x: Float): Int =
-    java.lang.Float.floatToRawIntBits(x) & Int.MaxValue
 
   private val Far = java.lang.Float.floatToRawIntBits(1e18f)
   private val Large = java.lang.Float.floatToRawIntBits(1e30f)

@@ -2,7 +2,7 @@ package candela.build.materials
 
 import candela.bsdf.Material
 import candela.bsdf.composite.{
-  DisneyMaterial, DisneyParameters, PrincipledMaterial, PlasticMaterial, UberMaterial
+  DisneyMaterial, DisneyParameters, PlasticMaterial, PrincipledMaterial, UberMaterial
 }
 import candela.bsdf.microfacet.{Roughness, RoughnessModel, SubstrateMaterial}
 import candela.build.recipe.*

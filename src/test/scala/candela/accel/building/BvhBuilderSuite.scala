@@ -131,4 +131,5 @@ class BvhBuilderSuite extends AnyFunSuite:
 private[building] object Backwards extends Parallel:
   def threads: Int = 3
   def each(count: Int)(task: Int => Unit): Unit = loop(count)(i => task(count - 1 - i))
+  def worksAside: Boolean = false
   def aside(name: String)(task: => Unit): Unit = ()

@@ -1,47 +1,10 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, BsdfLaws, Directions}
+import candela.bsdf.Directions
 import candela.bsdf.microfacet.{SeparableTrowbridgeReitz, TrowbridgeReitz}
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
-import candela.textures.{ConstantFloat, ConstantRgb}
 
-class DisneySuite extends BsdfLaws:
-  private def material(
-      color: Rgb = Rgb(0.6f, 0.4f, 0.2f),
-      metallic: Float = 0f,
-      roughness: Float = 0.6f,
-      specularTint: Float = 0f,
-      anisotropic: Float = 0f,
-      sheen: Float = 0f,
-      sheenTint: Float = 0.5f,
-      clearcoat: Float = 0f,
-      clearcoatGloss: Float = 0f,
-      transmission: Float = 0f,
-      isThin: Boolean = false,
-      flatness: Float = 0f,
-      diffTrans: Float = 1f
-  ): Bsdf =
-    def constant(x: Float) = ConstantFloat(x)
-    DisneyMaterial(
-      DisneyParameters(
-        ConstantRgb(color),
-        constant(metallic),
-        constant(1.5f),
-        constant(roughness),
-        constant(specularTint),
-        constant(anisotropic),
-        constant(sheen),
-        constant(sheenTint),
-        constant(clearcoat),
-        constant(clearcoatGloss),
-        constant(transmission),
-        isThin,
-        constant(flatness),
-        constant(diffTrans)
-      )
-    ).bsdf(ShadingPoint())
-
+class DisneySuite extends BurleySuite(DisneyMaterial(_)):
   // From below, the interface reflects all beyond the critical angle, and the broad part as much as
   // from above
   obeysLaws("plain", material(), isPassive = false)
@@ -91,14 +54,8 @@ class DisneySuite extends BsdfLaws:
     assert(ratio < 1f && ratio > 0.5f)
 
   test("without a change of index light passes straight on"):
-    def constant(x: Float) = ConstantFloat(x)
-    val zero = constant(0f)
-    val clear = DisneyMaterial(
-      DisneyParameters(
-        ConstantRgb(Rgb.White), zero, constant(1f), constant(0.5f), zero, zero, zero, zero, zero,
-        zero, constant(1f), isThin = false, zero, zero
-      )
-    ).bsdf(ShadingPoint())
+    val clear = material(Rgb.White, index = 1f, roughness = 0.5f, sheenTint = 0f,
+      transmission = 1f, diffTrans = 0f)
     val drawn = Iterator
       .tabulate(200)(k => clear.sample(wo, k / 200f, 0.5f, 0.5f))
       .filter(s => s.pdf > 0f && s.wi.z < 0f)

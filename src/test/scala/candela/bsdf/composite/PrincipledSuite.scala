@@ -1,52 +1,38 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, BsdfLaws, Directions, Fresnel}
+import candela.bsdf.{Bsdf, Directions, Fresnel}
 import candela.color.Rgb
-import candela.geometry.ShadingPoint
-import candela.textures.{ConstantFloat, ConstantRgb}
 
-class PrincipledSuite extends BsdfLaws:
-  private val color = Rgb(0.6f, 0.4f, 0.2f)
-
-  private def material(
+class PrincipledSuite extends BurleySuite(PrincipledMaterial(_)):
+  private def surface(
       metallic: Float = 0f,
-      tint: Float = 0f,
+      specularTint: Float = 0f,
       sheen: Float = 0f,
-      coat: Float = 0f,
+      clearcoat: Float = 0f,
       transmission: Float = 0f,
       flatness: Float = 0f
-  ): Bsdf =
-    def constant(x: Float) = ConstantFloat(x)
-    PrincipledMaterial(
-      DisneyParameters(
-        ConstantRgb(color),
-        constant(metallic),
-        constant(1.5f),
-        constant(0.6f),
-        constant(tint),
-        constant(0.3f),
-        constant(sheen),
-        constant(0.5f),
-        constant(coat),
-        constant(0.3f),
-        constant(transmission),
-        isThin = false,
-        constant(flatness),
-        constant(0f)
-      )
-    ).bsdf(ShadingPoint())
+  ): Bsdf = material(
+    metallic = metallic,
+    specularTint = specularTint,
+    anisotropic = 0.3f,
+    sheen = sheen,
+    clearcoat = clearcoat,
+    clearcoatGloss = 0.3f,
+    transmission = transmission,
+    flatness = flatness
+  )
 
-  obeysLaws("plain", material())
-  obeysLaws("metal", material(metallic = 0.7f, tint = 0.5f))
+  obeysLaws("plain", surface())
+  obeysLaws("metal", surface(metallic = 0.7f, specularTint = 0.5f))
   // The coat of Mitsuba lacks the cosines that make others reciprocal
-  obeysLaws("cloth", material(sheen = 0.5f, flatness = 0.5f))
-  obeysLaws("coated", material(coat = 0.6f))
-  obeysLaws("clear", material(transmission = 0.7f))
+  obeysLaws("cloth", surface(sheen = 0.5f, flatness = 0.5f))
+  obeysLaws("coated", surface(clearcoat = 0.6f))
+  obeysLaws("clear", surface(transmission = 0.7f))
 
   test("opaque surfaces are black from behind"):
     val (wo, wi) = (Directions.at(40, 0), Directions.at(65, 130))
-    assert(!material(coat = 1f).f(wo, wi).isBlack)
-    assert(material(coat = 1f).f(-wo, -wi).isBlack)
+    assert(!surface(clearcoat = 1f).f(wo, wi).isBlack)
+    assert(surface(clearcoat = 1f).f(-wo, -wi).isBlack)
 
   test("reflectance blends Fresnel's term, a metal of the colour and a tinted dielectric"):
     val curve = PrincipledReflectance(color, Rgb(1.5f, 1f, 0.5f), 0.3f, 0.4f, 1.5f, 0.2f)
