@@ -6,17 +6,18 @@ import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
 
 /** Traverses a [[WideTree]] with the JDK's Vector API: SIMD tests of a node or a triangle block at
-  * once. The tree's blocks have as many triangles as this machine has SIMD lanes.
+  * once. The tree's blocks have as many triangles as a vector has lanes.
   *
   * Requires the module jdk.incubator.vector when first accessed.
   */
 private[tracing] object VectorKernel extends WideKernel:
-  // Static and final: constants to the JVM's compiler
-  private val isHuge = FloatVector.SPECIES_PREFERRED.length > 16
+  // Static and final: constants to the JVM's compiler. Not more than 8 lanes: blocks of 16
+  // triangles have large boxes, and some processors halve vectors of 512 bits (decision 0010)
+  private val isWide = FloatVector.SPECIES_PREFERRED.length > 8
   private val F: VectorSpecies[java.lang.Float] =
-    if isHuge then FloatVector.SPECIES_512 else FloatVector.SPECIES_PREFERRED
+    if isWide then FloatVector.SPECIES_256 else FloatVector.SPECIES_PREFERRED
   private val I: VectorSpecies[Integer] =
-    if isHuge then IntVector.SPECIES_512 else IntVector.SPECIES_PREFERRED
+    if isWide then IntVector.SPECIES_256 else IntVector.SPECIES_PREFERRED
   private val W: Int = F.length
 
   /** In earlier versions, converting a mask to bits allocates. */
