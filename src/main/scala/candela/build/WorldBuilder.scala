@@ -110,7 +110,7 @@ private[build] final class WorldBuilder(
     val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
     val method =
       if !color.isSpectral then plain
-      else SpectralMethod(color.bases.map(basis => basis -> recolored(basis)))
+      else SpectralMethod(color.bases.zip(ofEach(color.bases)(recolored)))
     World(
       scene,
       method,
@@ -131,6 +131,15 @@ private[build] final class WorldBuilder(
       placed.instanced.instances.moving > 0,
       () => SurfaceNames(objectNames(lit, uses.shared), materials.names, Cryptomatte.id)
     )
+
+  /** The first one finds all problems, in the order of the statements; the others are made in
+    * parallel.
+    */
+  private def ofEach(bases: Vector[ColorBasis])(make: ColorBasis => RenderMethod) =
+    val made = new Array[RenderMethod](bases.size)
+    made(0) = make(bases(0))
+    context.resources.pool.each(bases.size - 1)(i => made(i + 1) = make(bases(i + 1)))
+    made.toVector
 
   private def defineTextures(context: BuildContext): Unit =
     for t <- description.textures do

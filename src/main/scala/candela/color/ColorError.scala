@@ -100,10 +100,9 @@ object ColorError:
   ): Double =
     val errors =
       for s <- lights ++ surfaces yield
-        val spectrum = s.values
-        val sum =
-          bases.map(b => b.toSrgb(b.ofReflectance(light(spectrum)(_).toFloat))).reduce(_ + _)
-        val exact = seen(spectrum)
+        val known = light(s.values)
+        val sum = bases.map(b => b.toSrgb(b.ofReflectance(known(_).toFloat))).reduce(_ + _)
+        val exact = seen(s.values)
         val off =
           sum * (1f / bases.size) - Rgb(exact(0).toFloat, exact(1).toFloat, exact(2).toFloat)
         off.largest / exact.map(Math.abs).max

@@ -1,5 +1,7 @@
 package candela.color
 
+import java.util.concurrent.ConcurrentHashMap
+
 /** Spectra known by name, as in pbrt-v4, each tabulated in a file that cites its source.
   *
   * Illuminants have relative power only. Two differ from pbrt-v4's tables, which do not have the
@@ -32,7 +34,14 @@ object NamedSpectra:
 
   private val byName = places.toMap
 
+  /** Those read so far: each set of wavelengths asks anew. */
+  private val read = ConcurrentHashMap[String, Spectrum]()
+
   /** The tabulated function, constant outside its range. */
   def apply(name: String): Option[Spectrum] = byName.get(name).map: place =>
-    val rows = Colorimetry.table(place.file)
-    Spectrum(rows.map(_(0)), rows.map(_(place.column)))
+    read.computeIfAbsent(
+      name,
+      _ =>
+        val rows = Colorimetry.table(place.file)
+        Spectrum(rows.map(_(0)), rows.map(_(place.column)))
+    )

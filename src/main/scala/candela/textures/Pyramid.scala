@@ -31,17 +31,39 @@ object Pyramid:
   private def halved(from: Texels, parallel: Parallel): Texels =
     val width = Math.max(1, from.width / 2)
     val height = Math.max(1, from.height / 2)
-    val right = if from.width > 1 then 1 else 0
-    val below = if from.height > 1 then from.width else 0
-    val values = new Array[Float](width * height * from.channels)
-    rows(parallel, width, height): y =>
-      loop(width): x =>
-        val i = y * (1 + Math.min(1, below)) * from.width + x * (1 + right)
-        loop(from.channels): c =>
-          val upper = from(i, c) + from(i + right, c)
-          val lower = from(i + below, c) + from(i + below + right, c)
-          values((y * width + x) * from.channels + c) = 0.25f * (upper + lower)
+    val channels = from.channels
+    val across = if from.width > 1 then 2 else 1
+    val down = if from.height > 1 then 2 else 1
+    val right = (across - 1) * channels
+    val values = new Array[Float](width * height * channels)
+    rows(parallel, width, height)(() => Rows(from)): (y, source) =>
+      from.row(y * down, source.upper)
+      from.row(y * down + down - 1, source.lower)
+      halve(source, values, y * width * channels, width, channels, across * channels, right)
     FloatTexels(width, height, from.channels, values)
+
+  /** Two rows of texels, channels interleaved. */
+  private final class Rows(from: Texels):
+    val upper, lower = new Array[Float](from.width * from.channels)
+
+  /** @param step  distance of two new texels' first texels
+    * @param right distance of the right neighbour
+    */
+  private def halve(
+      from: Rows,
+      to: Array[Float],
+      start: Int,
+      width: Int,
+      channels: Int,
+      step: Int,
+      right: Int
+  ): Unit =
+    loop(width): x =>
+      val i = x * step
+      loop(channels): c =>
+        val upper = from.upper(i + c) + from.upper(i + c + right)
+        val lower = from.lower(i + c) + from.lower(i + c + right)
+        to(start + x * channels + c) = 0.25f * (upper + lower)
 
   private[textures] def enlarged(
       from: Texels,
@@ -55,7 +77,7 @@ object Pyramid:
     else
       val wide = widened(from, wrap, width, parallel)
       val values = heightened(wide, from, wrap, width, height, parallel)
-      rows(parallel, width * from.channels, height): y =>
+      rows(parallel, width * from.channels, height)(() => ()): (y, _) =>
         val start = y * width * from.channels
         loop(width * from.channels): k =>
           values(start + k) = clamp(values(start + k), 0f, most)
@@ -66,18 +88,24 @@ object Pyramid:
     val channels = from.channels
     val wide = new Array[Float](width * from.height * channels)
     val across = weights(from.width, width)
-    rows(parallel, width, from.height): y =>
+    rows(parallel, width, from.height)(() => Rows(from)): (y, source) =>
+      from.row(y, source.upper)
+      val start = y * width * channels
       loop(width): x =>
         val first = across.first(x)
-        val isInside = first >= 0 && first + Taps <= from.width
-        loop(Taps): k =>
-          val i =
-            if isInside then y * from.width + first + k
-            else wrap.index(first + k, y, from.width, from.height)
-          if i >= 0 then
-            val weight = across.weight(Taps * x + k)
-            loop(channels): c =>
-              wide((y * width + x) * channels + c) += weight * from(i, c)
+        if first >= 0 && first + Taps <= from.width then
+          val i = first * channels
+          loop(channels): c =>
+            var sum = 0f
+            loop(Taps): k =>
+              sum += across.weight(Taps * x + k) * source.upper(i + k * channels + c)
+            wide(start + x * channels + c) = sum
+        else
+          loop(Taps): k =>
+            val i = wrap.index(first + k, y, from.width, from.height)
+            if i >= 0 then
+              val weight = across.weight(Taps * x + k)
+              loop(channels)(c => wide(start + x * channels + c) += weight * from(i, c))
     wide
 
   /** Resamples the columns of `wide` to `height` texels each: row by row, for contiguous access.
@@ -94,7 +122,7 @@ object Pyramid:
     val length = width * channels
     val values = new Array[Float](length * height)
     val down = weights(from.height, height)
-    rows(parallel, width, height): y =>
+    rows(parallel, width, height)(() => ()): (y, _) =>
       loop(Taps): k =>
         val row = down.first(y) + k
         val weight = down.weight(Taps * y + k)
@@ -119,17 +147,24 @@ object Pyramid:
       to(at + i) += weight * from(start + i)
       i += 1
 
-  /** Executes rows of an image, in parallel unless it is small. */
-  private def rows(parallel: Parallel, width: Int, height: Int)(row: Int => Unit): Unit =
-    if width.toLong * height < SmallPicture then loop(height)(row(_))
+  /** Executes rows of an image, in parallel unless it is small.
+    *
+    * @param scratch makes a thread's own memory
+    */
+  private def rows[A](parallel: Parallel, width: Int, height: Int)(scratch: () => A)(
+      row: (Int, A) => Unit
+  ): Unit =
+    def strip(from: Int, until: Int): Unit =
+      val own = scratch()
+      var y = from
+      while y < until do
+        row(y, own)
+        y += 1
+    if width.toLong * height < SmallPicture then strip(0, height)
     else
       val strips = Math.min(height, 4 * parallel.threads)
-      parallel.each(strips): k =>
-        var y = (height.toLong * k / strips).toInt
-        val end = (height.toLong * (k + 1) / strips).toInt
-        while y < end do
-          row(y)
-          y += 1
+      def start(k: Int) = (height.toLong * k / strips).toInt
+      parallel.each(strips)(k => strip(start(k), start(k + 1)))
 
   /** Number of texels below which threads do not pay. */
   private val SmallPicture = 1L << 14

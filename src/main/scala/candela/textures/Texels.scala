@@ -10,14 +10,22 @@ abstract class Texels(val width: Int, val height: Int, val channels: Int):
   /** @param texel index in row order */
   def apply(texel: Int, channel: Int): Float
 
+  /** Writes the row `y`, channels interleaved. */
+  def row(y: Int, out: Array[Float]): Unit
+
 /** Bytes, decoded by a table of 256 values. */
 final class ByteTexels(w: Int, h: Int, channels: Int, bytes: Array[Byte], meaning: Array[Float])
     extends Texels(w, h, channels):
   def apply(texel: Int, channel: Int): Float = meaning(bytes(texel * channels + channel) & 0xff)
+  def row(y: Int, out: Array[Float]): Unit =
+    val start = y * w * channels
+    loop(w * channels)(k => out(k) = meaning(bytes(start + k) & 0xff))
 
 final class FloatTexels(w: Int, h: Int, channels: Int, values: Array[Float])
     extends Texels(w, h, channels):
   def apply(texel: Int, channel: Int): Float = values(texel * channels + channel)
+  def row(y: Int, out: Array[Float]): Unit =
+    System.arraycopy(values, y * w * channels, out, 0, w * channels)
 
 /** Reads texels from images. `decode` maps a stored number (0 to 1 for 8 bits) to a linear one; it
   * includes the scene's choice of encoding, e.g. `image.encoding.decode`, or for pbrt-v2 x ↦

@@ -2,11 +2,11 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.SceneError
+import candela.base.{Parallel, SceneError}
 import candela.color.{ColorSpace, Rgb}
 import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
-import candela.render.{RenderMethod, RenderPlan}
+import candela.render.{RenderMethod, RenderPlan, Renderer, ThreadPool}
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.sampling.{
   HaltonSampler, IndependentSampler, OwenSobolSampler, StratifiedSampler, ZSobolSampler
@@ -48,6 +48,25 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(plan.sampler.isInstanceOf[ZSobolSampler] && plan.sampler.samplesPerPixel == 16)
     assert(integrator(plan).isInstanceOf[PathTracer])
     assert(!plan.basis.isSrgb)
+
+  test("sets of wavelengths are made in parallel; the image and messages are the same"):
+    val scene = """
+      Film "rgb" "integer xresolution" 12 "integer yresolution" 6
+      WorldBegin
+      LightSource "infinite" "rgb L" [1 .7 .4]
+      Material "conductor" "spectrum eta" "metal-Au-eta" "spectrum k" "metal-Au-k"
+        "float roughness" .3 "float nonsense" 1
+      Translate -1 0 3 Shape "sphere"
+      Material "coateddiffuse" "rgb reflectance" [.1 .6 .3] "float other" 1
+      Translate 2 0 0 Shape "sphere" """
+    def made(pool: Parallel) =
+      val options = BuildOptions(pool = pool, color = ColorMode.Spectral)
+      val (plan, problems) = SceneBuilder.build(SceneTexts.parse(scene, Dialect.V4), options)
+      val image = Renderer.render(plan, threads = 1).image(plan.development)
+      (image.data.toVector, problems.map(_.message))
+    val alone = made(Parallel.Alone)
+    assert(alone._1.exists(_ > 0f) && alone._2.sizeIs >= 2)
+    assert(made(ThreadPool(4)) == alone)
 
   test("evenly spread points of any kind are those with the least noise, unless asked otherwise"):
     def sampler(statement: String, choice: PointChoice) =

@@ -1,7 +1,7 @@
 package candela.cli
 
 import java.nio.file.attribute.FileTime
-import java.nio.file.{Files, Path}
+import java.nio.file.{Files, Path, StandardCopyOption}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -125,6 +125,18 @@ class LauncherSuite extends AnyFunSuite:
       val _ = Files.setLastModifiedTime(p.lib.resolve("candela.jar"), later)
       assert(p.run(env = Make).code == 0 && p.starts.size == 3)
 
+  test("the archive in a copy of the program's folder is made anew: Java would ignore it"):
+    staged: p =>
+      val _ = p.jdk("99")
+      assert(p.run(env = Make).code == 0 && p.starts.size == 1)
+      val jar = p.lib.resolve("candela.jar")
+      val time = Files.getLastModifiedTime(jar)
+      val copy = Files.copy(jar, p.lib.resolve("copy"))
+      val _ = Files.move(copy, jar, StandardCopyOption.REPLACE_EXISTING)
+      val _ = Files.setLastModifiedTime(jar, time)
+      assert(p.run(env = Make).code == 0 && p.starts.size == 2)
+      assert(p.run(env = Make).code == 0 && p.starts.size == 2)
+
   test("each JDK has its archive, of the kind that it knows"):
     staged: p =>
       val older = p.jdk("17.0.1", in = "elsewhere")
@@ -173,7 +185,7 @@ class LauncherSuite extends AnyFunSuite:
       assert(processes.map(p.ended(_).code) == Vector.fill(4)(0))
       assert(p.starts.size == 1)
       assert(p.archives(p.lib).size == 1)
-      assert(TempFolder.names(p.archives(p.lib).head.getParent) == Set("99.aot"))
+      assert(TempFolder.names(p.archives(p.lib).head.getParent) == Set("99.aot", "99.aot.of"))
 
   test("what a start left behind that was ended on its way is no hindrance"):
     staged: p =>

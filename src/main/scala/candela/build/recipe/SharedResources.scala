@@ -12,7 +12,8 @@ import candela.bsdf.subsurface.ProfileTables
 import candela.image.{ImageError, ImageFiles, StoredImage}
 import candela.scenefile.{Declaration, Param}
 
-/** Resources that do not depend on the colour basis: files, and tables computed from them.
+/** Resources that do not depend on the colour basis: files, and tables computed from them. Safe for
+  * threads: bases are made in parallel.
   *
   * @param mayBeSpectral whether rendering may be spectral
   * @param switches      settings of the whole scene
@@ -31,7 +32,7 @@ final class SharedResources(
   /** BSSRDF profile tables, shared by materials with equal parameters. */
   val profiles = ProfileTables()
 
-  private var footprints = Vector.empty[String]
+  @volatile private var footprints = Vector.empty[String]
 
   /** Features that need ray differentials, for messages; initially empty. */
   def footprintUses: Vector[String] = footprints
@@ -42,7 +43,7 @@ final class SharedResources(
     else footprints.mkString("for ", ", ", "")
 
   /** Requests ray differentials or partial derivatives for a feature. */
-  def askForFootprints(what: String): Unit =
+  def askForFootprints(what: String): Unit = synchronized:
     if !footprints.contains(what) then footprints :+= what
 
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
@@ -52,7 +53,7 @@ final class SharedResources(
     *
     * @param what distinguishes the things that one statement needs
     */
-  def once[T](statement: Declaration, what: String)(make: => T): T =
+  def once[T](statement: Declaration, what: String)(make: => T): T = synchronized:
     made
       .computeIfAbsent(statement, _ => mutable.Map.empty)
       .getOrElseUpdate(what, make)
@@ -80,11 +81,12 @@ final class SharedResources(
       standIn: String = StandIns.Magentas
   ): Option[StoredImage] =
     file(p, from, problems, standIn).flatMap: path =>
-      val read = images.getOrElseUpdate(
-        path.toAbsolutePath.normalize,
-        try Right(ImageFiles.load(path))
-        catch case e: ImageError => Left(e.getMessage)
-      )
+      val read = synchronized:
+        images.getOrElseUpdate(
+          path.toAbsolutePath.normalize,
+          try Right(ImageFiles.load(path))
+          catch case e: ImageError => Left(e.getMessage)
+        )
       read match
         case Right(image) => Some(image)
         case Left(message) =>

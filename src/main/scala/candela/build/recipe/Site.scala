@@ -44,7 +44,7 @@ final class Site(
   def missing(message: String, standIn: String, help: Option[String] = None): Unit =
     problems.missing(declaration.at, message, standIn, help)
 
-/** Collects the problems of a description, so that one run reports them all.
+/** Collects the problems of a description, so that one run reports them all. Safe for threads.
   *
   * @param keepGoing if true, missing items are replaced, with a warning
   * @param lost      kinds of names that unreadable statements may have defined: references to them
@@ -57,9 +57,9 @@ final class Findings(
     earlier: Vector[Problem] = Vector.empty
 ):
   private val all = mutable.LinkedHashSet.from(earlier)
-  private var errors = earlier.count(_.severity == Severity.Error)
+  @volatile private var errors = earlier.count(_.severity == Severity.Error)
 
-  private def add(problem: Problem): Unit =
+  private def add(problem: Problem): Unit = synchronized:
     if all.add(problem) && problem.severity == Severity.Error then errors += 1
 
   def warn(at: SourcePos, message: String, help: Option[String] = None): Unit =
