@@ -71,7 +71,7 @@ class SuiteFileSuite extends AnyFunSuite:
     assert(error.problems.head.message == "unknown program `c`; known: b, a")
 
   test("the suites of the repository can be read"):
-    for name <- Vector("own", "peers") do
+    for name <- Vector("own", "peers", "long", "mitsuba") do
       val suite = SuiteFile.read(Path.of("bench", "suites", s"$name.conf"))
       assert(suite.programs.nonEmpty && suite.scenes.nonEmpty)
       for scene <- suite.scenes; kinds <- scene.programs.toVector.flatten do
