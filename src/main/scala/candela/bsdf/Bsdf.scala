@@ -49,6 +49,13 @@ abstract class Bsdf:
     */
   def isDispersive: Boolean = false
 
+/** A specular surface that transmits light in its direction only: sampling returns either that, or
+  * a reflection.
+  */
+trait Pane:
+  /** The part of the light that is transmitted. */
+  def straight(wo: Vec3): Rgb
+
 /** Delegates to `inner`. A subclass that changes the value must also override `regularized`.
   */
 abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:

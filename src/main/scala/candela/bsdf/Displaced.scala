@@ -2,7 +2,7 @@ package candela.bsdf
 
 import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
-import candela.textures.{FloatTexture, MipLevel}
+import candela.textures.{FloatTexture, MipLevel, Slopes}
 
 /** Base of materials that perturb the shading frame at each point. */
 abstract class DisplacedMaterial(inner: Material) extends Material:
@@ -48,6 +48,40 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
   private def step(dx: Float, dy: Float): Float =
     val d = 0.5f * (Math.abs(dx) + Math.abs(dy))
     if d == 0f then smallest else d
+
+/** Bump mapping as in Mitsuba: by the height's derivatives at the point, where the texture knows
+  * them, and along the tangents of the surface, made perpendicular to its shading normal.
+  *
+  * @param height displacement, in world units
+  * @param step   in u and v, where derivatives are differences
+  */
+final class SlopeBumpMaterial(inner: Material, height: FloatTexture, step: Float)
+    extends DisplacedMaterial(inner):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val slopes = height.slopes(at) match
+      case null => differences(at)
+      case known: Slopes => known
+    val n = at.frame.n.toVec3
+    val u = at.dpdu.toVec3
+    val v = at.dpdv.toVec3
+    val raisedU = u + n * (slopes.byU - (n dot u))
+    val raisedV = v + n * (slopes.byV - (n dot v))
+    val raised = raisedU cross raisedV
+    if raised.lengthSquared > 0f then
+      at.frame.set(Frame.along(raised.normalized.facing(at.geometricNormal), u))
+    inner.bsdf(at)
+
+  private def differences(at: ShadingPoint): Slopes =
+    val here = height(at)
+    val u = at.u
+    val v = at.v
+    at.u = u + step
+    val byU = (height(at) - here) / step
+    at.u = u
+    at.v = v + step
+    val byV = (height(at) - here) / step
+    at.v = v
+    Slopes(byU, byV)
 
 /** Normal mapping (pbrt-v4): red, green and blue in [0, 1] encode the components along u, v and the
   * normal in [−1, 1].

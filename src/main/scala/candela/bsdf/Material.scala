@@ -28,6 +28,9 @@ abstract class Material extends Varying:
   /** Whether [[bssrdf]] may return one. */
   def isSubsurface: Boolean = false
 
+  /** Whether its BSDFs are panes. */
+  def isPane: Boolean = false
+
 /** A medium interface: rays pass through unscattered (pbrt's "interface" and "none"). */
 object InterfaceMaterial extends Material:
   def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("a medium interface has no BSDF")
@@ -41,3 +44,6 @@ final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = 
   override def isConstant: Boolean = true
   override def folded: Material = this
   override def isDispersive: Boolean = value.isDispersive
+  override def isPane: Boolean = value match
+    case _: Pane => true
+    case _ => false

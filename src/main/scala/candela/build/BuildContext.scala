@@ -67,7 +67,10 @@ private[build] object BuildContext:
     val mode = ColorPlan.mode(options.colorMode, description)
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
-      val switches = asked.copy(isMitsubas = description.isMitsubas)
+      // Mitsuba does not filter textures over footprints
+      val isMitsubas = description.isMitsubas
+      val switches =
+        asked.copy(isMitsubas = isMitsubas, unfiltered = asked.unfiltered || isMitsubas)
       val resources = new Resources(basis, options.pool, options.seed, mayBeSpectral, switches)
       new BuildContext(description, resources, problems)
     val plain = context(Switches())

@@ -79,7 +79,8 @@ private[build] final class MediaBuilder(
     val isUsed = camera >= 0 || materials.touchesMedia
     warnOfBlindness(isUsed)
     (plan.throughMedia, plan.throughVolumes) match
-      case (Some(make), _) if isUsed || scene.hasInterfaces =>
+      case (Some(make), _)
+          if isUsed || scene.hasInterfaces || plan.crossesPanes && scene.hasPanes =>
         val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
         val around = pointLike.map(l => index(l.medium, l.light.at)).toArray
         val lights = Array.fill(scene.lights.length - around.length)(-1) ++ around

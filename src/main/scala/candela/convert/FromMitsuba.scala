@@ -5,13 +5,15 @@ import scala.collection.mutable
 import candela.base.{Problem, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
-import candela.scenefile.{Declaration, Dialect, Param, ParamType, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, MaterialRef, Param, ParamType, SceneDescription}
 
 /** Replaces the materials that pbrt lacks in scenes of Mitsuba, and reports lights that differ. */
 object FromMitsuba:
 
   def converted(scene: SceneDescription): Converted =
     val run = Run()
+    run.disks(scene)
+    run.panes(scene)
     val plain = Declarations.map(scene)(run.plain)
     Converted(plain.copy(isMitsubas = false), run.warnings)
 
@@ -21,6 +23,7 @@ object FromMitsuba:
 
     def plain(d: Declaration): Declaration =
       if d.category == "LightSource" then light(d)
+      else if d.category == "Texture" then texture(d)
       else if d.category != "Material" || d.dialect.isDefined then d
       else
         d.name match
@@ -52,6 +55,40 @@ object FromMitsuba:
           )
         case _ =>
       d
+
+    private def texture(d: Declaration): Declaration =
+      val upright = without(d, "the texture is left upright", "uskew", "vskew")
+      upright.copy(params = upright.params.map: p =>
+        if p.name != "wrap" || !p.strings.contains("mirror") then p
+        else
+          problems += Problem.warning(p.at, "pbrt has no wrap `mirror`; using `repeat`")
+          Param.string("wrap", p.at, "repeat"))
+
+    /** u and v of disks differ. */
+    def disks(scene: SceneDescription): Unit =
+      val named = scene.namedMaterials.toMap
+      for s <- (scene.shapes ++ scene.objects.values.flatten) if s.shape.name == "disk" do
+        val material = s.material match
+          case MaterialRef.Inline(d) => Some(d)
+          case MaterialRef.Named(name, _) => named.get(name)
+          case MaterialRef.Default => None
+        if material.exists(_.params.exists(_.paramType == ParamType.Texture)) then
+          warn(s.shape, "textures lie otherwise on pbrt's disks than on Mitsuba's; using pbrt's")
+
+    /** pbrt counts what a thin pane transmits as an event, Mitsuba's "volpath" does not. */
+    def panes(scene: SceneDescription): Unit =
+      val own = scene.shapes.map(_.material).collect { case MaterialRef.Inline(d) => d }
+      for
+        i <- scene.integrator if i.name == "volpath"
+        depth <- i.param("maxdepth") if depth.ints.exists(_ < FromMitsuba.Deep)
+        pane <- (own ++ scene.namedMaterials.map(_._2)).find(_.name == "thindielectric")
+      do
+        problems += Problem.warning(
+          depth.at,
+          "what thin glass transmits is a scattering event in pbrt, not in Mitsuba's volumetric " +
+            s"path tracing; `maxdepth` ${depth.ints.head} may be too low",
+          Some(s"the thin glass is at ${pane.at}")
+        )
 
     /** pbrt has one distribution. */
     private def isotropic(d: Declaration): Declaration =
@@ -117,6 +154,9 @@ object FromMitsuba:
       p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault,
       p.colorSpace
     )
+
+  /** Events of paths that hardly any light reaches. */
+  private val Deep = 100
 
   /** Fraction of diffuse light that the inside of an interface reflects. */
   private def diffuseReflectance(eta: Float): Float =

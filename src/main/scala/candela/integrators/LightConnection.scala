@@ -76,7 +76,9 @@ final class LightConnection(
     aim(origin)
     rays += 1
     if !scene.hasInterfaces then scene.isOccluded(ray, hit)
-    else !LightConnection.reaches(scene, ray, hit, border, _ => rays += 1, true, aim)
+    else
+      def opens = scene.isInterface(border)
+      !LightConnection.reaches(scene, ray, hit, border, opens, _ => rays += 1, true, aim)
 
   /** Sets the shadow ray. */
   private def aim(origin: Vec3): Unit =
@@ -111,8 +113,9 @@ final class LightConnection(
     if march == null then arrived else arrived * transmittance(march)
 
 object LightConnection:
-  /** Follows a shadow ray through interfaces; false if another surface blocks it.
+  /** Follows a shadow ray through interfaces and the like; false if another surface blocks it.
     *
+    * @param opens   whether light passes `border`, a surface that it meets
     * @param crossed called at each interface, with the ray's direction
     * @param segment called for each segment up to a surface or the end; false if it lets no light
     *                through
@@ -123,6 +126,7 @@ object LightConnection:
       ray: Ray,
       hit: Hit,
       border: ShadingPoint,
+      inline opens: => Boolean,
       inline crossed: Vec3 => Unit,
       inline segment: => Boolean,
       inline aim: Vec3 => Unit
@@ -133,7 +137,7 @@ object LightConnection:
       going = scene.closest(ray, hit)
       if going then
         scene.surface(ray, hit, border)
-        arrives = scene.isInterface(border)
+        arrives = opens
       arrives = arrives && segment
       going = going && arrives
       if going then

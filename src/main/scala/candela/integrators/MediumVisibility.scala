@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.bsdf.Pane
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.LightSample
 import candela.math.*
@@ -8,13 +9,16 @@ import candela.scene.Scene
 
 /** Transmittance of shadow rays through media and interfaces. Mutable, one per worker.
   *
-  * @param work `shadow` receives the transmittance
+  * @param work         `shadow` receives the transmittance
+  * @param crossesPanes whether shadow rays pass panes, too
   */
 private[candela] final class MediumVisibility(
     scene: Scene,
     media: SceneMedia,
-    work: MediumWork
+    work: MediumWork,
+    crossesPanes: Boolean = false
 ):
+  private val isCrossed = scene.hasInterfaces || crossesPanes
   private val ray = Ray()
   private val hit = Hit()
   private val border = ShadingPoint()
@@ -32,7 +36,7 @@ private[candela] final class MediumVisibility(
     work.shadow.start(work.weights.hero, 1f)
     val end =
       if light.isInfinite then origin + light.wi * media.reach else LightConnection.end(light)
-    if scene.hasInterfaces then passes(origin, end, medium)
+    if isCrossed then passes(origin, end, medium)
     else
       if light.isInfinite then ray.set(origin, light.wi, Float.PositiveInfinity)
       else ray.set(origin, end - origin, LightConnection.ShadowEnd)
@@ -45,11 +49,22 @@ private[candela] final class MediumVisibility(
   /** As above, between two points. */
   def reaches(origin: Vec3, end: Vec3, medium: Int): Boolean =
     work.shadow.start(work.weights.hero, 1f)
-    if scene.hasInterfaces then passes(origin, end, medium)
+    if isCrossed then passes(origin, end, medium)
     else
       ray.set(origin, end - origin, LightConnection.ShadowEnd)
       rays += 1
       !scene.isOccluded(ray, hit) && attenuate(medium)
+
+  /** Whether the border is a pane, which then attenuates the light. */
+  private def isPane: Boolean =
+    scene.isPane(border) && {
+      scene.bsdf(border) match
+        case pane: Pane =>
+          val wo = border.frame.toLocal(ray.direction.normalized)
+          work.shadow.scale(pane.straight(wo))
+          true
+        case _ => false
+    }
 
   private def attenuate(medium: Int): Boolean =
     if medium >= 0 then media.media(medium).attenuate(ray, work)
@@ -65,6 +80,7 @@ private[candela] final class MediumVisibility(
       ray,
       hit,
       border,
+      opens = scene.isInterface(border) || crossesPanes && isPane,
       crossed = direction =>
         rays += 1
         medium = media.beyond(border, direction, medium)

@@ -44,6 +44,10 @@ final class VolumePathTracer(
         walk.meetSurface()
         walk.addEmission()
         if walk.vertex.isInterface then walk.passThrough()
+        else if walk.isAtPane then
+          walk.crossPane(sampler)
+          if walk.depth > maxDepth then walk.end()
+          surviveRoulette(sampler)
         else if walk.depth == maxDepth then walk.end()
         else
           walk.evaluate()

@@ -52,7 +52,8 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   private var ray = Ray()
   private val hit = Hit()
   private var rays = 0L
-  private val visibility = MediumVisibility(scene, media, work)
+  private val crossesPanes = options.crossesPanes && scene.hasPanes
+  private val visibility = MediumVisibility(scene, media, work, crossesPanes)
   private val regularizes = options.regularizes
   private val samplesLights = options.samplesLights && scene.lights.length > 0
   private val disperses = scene.isDispersive
@@ -146,6 +147,20 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   def passThrough(): Unit =
     medium = media.beyond(vertex.at, ray.direction, medium)
     vertex.passThrough(ray)
+
+  /** Is the surface a pane that paths cross? */
+  def isAtPane: Boolean = crossesPanes && scene.isPane(vertex.at)
+
+  /** Continues through a pane, as through an interface, or is reflected: a scattering event. */
+  def crossPane(sampler: Sampler): Unit =
+    vertex.evaluate()
+    scatter(sampler)
+    if vertex.crosses(vertex.bounce.wi) then
+      passThrough()
+      goesOn = !isAbsorbed
+    else
+      depth += 1
+      leave()
 
   /** Scatters the path at parameter `t` of the ray, having added direct light there. */
   def scatterInMedium(t: Float, sampler: Sampler): Unit =

@@ -13,11 +13,14 @@ import candela.scene.Scene
   * @param regularizes   roughen BSDFs after the first non-specular bounce
   * @param subsurface    does light travel beneath surfaces?
   * @param samplesLights does light sampling look for lights, too?
+  * @param crossesPanes  do paths and light samples through media pass panes without a scattering
+  *   event, as they pass interfaces?
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
     subsurface: Boolean = false,
-    samplesLights: Boolean = true
+    samplesLights: Boolean = true,
+    crossesPanes: Boolean = false
 )
 
 /** A path from the camera over surfaces: its state, and the steps of which integrators are made.

@@ -1,17 +1,13 @@
 package candela.mitsuba
 
-import candela.base.loop
 import candela.color.Rgb
 import candela.scenefile.{GraphicsState, MediumDescription, Param, ParamType}
-
-import java.io.IOException
-import java.nio.file.Path
-import java.nio.ByteOrder
 
 import scala.collection.mutable
 
 /** Translates participating media, each once. */
 final class Media(session: Session, colors: Colors):
+  private val volumes = Volumes(session)
   private val made = mutable.LinkedHashMap.empty[Plugin, MediumDescription]
 
   def result(): Vector[MediumDescription] = made.values.toVector
@@ -33,11 +29,11 @@ final class Media(session: Session, colors: Colors):
       case "homogeneous" =>
         homogeneous(in, phase, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
       case "heterogeneous" =>
-        val albedo = fixed(in, "albedo", 0.75f)
         in.objectNamed("sigma_t").filter(_.kind == "volume").map(v => (v, v.name)) match
           case Some((v, "gridvolume")) =>
-            session.of(v)(grid(in, _, phase, scale, albedo)).getOrElse(empty(in))
-          case _ => homogeneous(in, phase, scale, albedo, fixed(in, "sigma_t", 1f))
+            session.of(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
+          case _ =>
+            homogeneous(in, phase, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
       case _ =>
         Plugins.unsupported(in.plugin, "ignored", session)
         in.ignore(in.plugin.properties.map(_.name)*)
@@ -75,31 +71,44 @@ final class Media(session: Session, colors: Colors):
     Param.float("scale", in.at, scale)
   )
 
-  private def grid(in: Asked, volume: Asked, g: Float, scale: Float, albedo: Rgb) =
-    volume.ignore("filter_type", "wrap_mode", "raw", "accel")
-    val toWorld = volume.transform("to_world")
-    val usesBox = volume.flag("use_grid_bbox", false)
+  /** Extinction by a grid; the albedo may be another. */
+  private def grid(in: Asked, volume: Asked, g: Float, scale: Float): Option[MediumDescription] =
+    val albedoGrid = in.objectNamed("albedo").filter(v => v.kind == "volume")
+      .filter(_.name == "gridvolume")
     for
-      name <- volume.text("filename").orElse:
-        session.error(volume.at, "a gridvolume must have a `filename`")
-        None
-      path <- session.file(name, volume.atOf("filename"), "skipped")
-      file <- session.attempt(VolumeFile.read(path, volume.atOf("filename")))
+      sigmaT <- volumes(volume)
+      albedo <- albedoGrid match
+        case Some(v) => session.of(v)(volumes(_)).map(Left(_))
+        case None => Some(Right(fixed(in, "albedo", 0.75f)))
     yield
+      val file = sigmaT.file
       val at = volume.at
-      val box = if usesBox then file.bounds else Array(0f, 0f, 0f, 1f, 1f, 1f)
-      val params = coefficients(in, Rgb.White - albedo, albedo, g, scale) ++ Seq(
+      val place = Seq(
         Param.int("nx", at, file.size(0)),
         Param.int("ny", at, file.size(1)),
         Param.int("nz", at, file.size(2)),
-        Param.floats(ParamType.Point3, "p0", at, box.take(3)),
-        Param.floats(ParamType.Point3, "p1", at, box.drop(3)),
-        Param.floats(ParamType.Float, "density", at, file.values)
+        Param.floats(ParamType.Point3, "p0", at, sigmaT.box.take(3)),
+        Param.floats(ParamType.Point3, "p1", at, sigmaT.box.drop(3))
       )
+      val (kind, params) = albedo match
+        case Right(a) if file.channels == 1 =>
+          val density = Param.floats(ParamType.Float, "density", at, file.values)
+          ("uniformgrid", coefficients(in, Rgb.White - a, a, g, scale) :+ density)
+        case _ =>
+          val (absorbed, scattered) = sigmaT.parted(albedo)
+          (
+            "rgbgrid",
+            Seq(
+              Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
+              Param.floats(ParamType.Rgb, "sigma_s", at, scattered),
+              Param.float("g", in.at, g),
+              Param.float("scale", in.at, scale)
+            )
+          )
       MediumDescription(
         fresh(in),
-        session.declare("Medium", "uniformgrid", in.at, params),
-        GraphicsState.still(toWorld)
+        session.declare("Medium", kind, in.at, params ++ place),
+        GraphicsState.still(sigmaT.toWorld)
       )
 
   private def asymmetry(p: Plugin): Float = p.name match
@@ -108,41 +117,3 @@ final class Media(session: Session, colors: Colors):
     case _ =>
       Plugins.unsupported(p, "using \"isotropic\"", session)
       0f
-
-/** A grid of one channel.
-  *
-  * @param size   cells along x, y and z
-  * @param bounds least and greatest corner
-  * @param values x varies fastest
-  */
-private[mitsuba] final class VolumeFile(
-    val size: Array[Int],
-    val bounds: Array[Float],
-    val values: Array[Float]
-)
-
-/** Reads Mitsuba's `.vol` files. */
-private[mitsuba] object VolumeFile:
-  private val Header = 48
-
-  def read(path: Path, at: candela.base.SourcePos): VolumeFile =
-    def fail(why: String) = Values.fail(at, s"can't read the volume `${path.getFileName}`: $why")
-    val bytes =
-      try MappedFile.read(path)
-      catch case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
-    val in = bytes.order(ByteOrder.LITTLE_ENDIAN)
-    if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then
-      fail("it does not begin with VOL")
-    if in.get() != 3 then fail("only version 3 is known")
-    if in.getInt() != 1 then fail("only 32-bit floats are known")
-    val size = Array.fill(3)(in.getInt())
-    val channels = in.getInt()
-    val bounds = Array.fill(6)(in.getFloat())
-    val cells = size.map(_.toLong).product
-    if size.exists(n => n < 1 || n > 65536) || cells > in.remaining / 4 then
-      fail(s"it is too short for ${size.mkString(" × ")} cells")
-    if channels != 1 then fail(s"it has $channels channels; only one is supported")
-    val values = new Array[Float](cells.toInt)
-    in.asFloatBuffer.get(values)
-    loop(values.length)(i => if !(values(i) >= 0f) then values(i) = 0f)
-    VolumeFile(size, bounds, values)

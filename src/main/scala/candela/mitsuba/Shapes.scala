@@ -72,7 +72,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       case None =>
         val s = bare(in, emitter.isDefined)
         (s, MaterialRef.Inline(s.material))
-    for Form(name, params, toWorld, isReversed) <- form(in, surface) yield
+    for Form(name, params, toWorld, isReversed) <- form(in) yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
       ShapeDescription(
@@ -100,7 +100,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       isReversed: Boolean
   )
 
-  private def form(in: Asked, surface: Surface): Option[Form] =
+  private def form(in: Asked): Option[Form] =
     val toWorld = in.transform("to_world")
     val isFlipped = in.flag("flip_normals", false)
     def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
@@ -122,8 +122,6 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
           Form("cylinder", size.map(number(_, _)), whole, isFlipped != whole.swapsHandedness)
       case "disk" =>
-        if surface.material.params.exists(_.paramType == ParamType.Texture) then
-          session.warn(in.at, "textures lie otherwise on pbrt's disks than on Mitsuba's")
         quadric("disk", toWorld, number("radius", 1))
       case "rectangle" =>
         val mesh = Mesh.rectangle.placed(toWorld)

@@ -83,8 +83,6 @@ final class Textures(session: Session, colors: Colors):
     val at = in.at
     val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
     val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
-    if wrap == "mirror" then
-      session.warn(in.atOf("wrap_mode"), "the wrap mode `mirror` is not supported; using `repeat`")
     val isRaw = in.flag("raw", false)
     in.ignore("format", "accel")
     val mapping = coordinates(in, flipped = true)
@@ -96,7 +94,7 @@ final class Textures(session: Session, colors: Colors):
     yield "imagemap" -> (Seq(
       Param.string("filename", in.atOf("filename"), session.named(path)),
       Param.string("filter", at, if filter == "nearest" then "point" else "bilinear"),
-      Param.string("wrap", at, if wrap == "clamp" then "clamp" else "repeat"),
+      Param.string("wrap", at, wrap),
       Param.string("encoding", at, if isRaw then "linear" else "sRGB")
     ) ++ mapping)
 
@@ -115,11 +113,12 @@ final class Textures(session: Session, colors: Colors):
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
   private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =
     val m = in.transform("to_uv").m
-    if m(1) != 0 || m(4) != 0 then
-      session.warn(in.atOf("to_uv"), "rotated texture coordinates are not supported; left upright")
-    val (su, du, sv, dv) = (m(0), m(3), m(5), m(7))
-    val (a, b) = if flipped then (sv, 1 - sv - dv) else (-sv, sv + dv)
-    Seq("uscale" -> su, "udelta" -> du, "vscale" -> a, "vdelta" -> b)
+    // With v = 1 − ours
+    val (su, skewU, du) = (m(0), -m(1), m(1) + m(3))
+    val (skewV, sv, dv) = (m(4), -m(5), m(5) + m(7))
+    val (across, up, shift) = if flipped then (-skewV, -sv, 1 - dv) else (skewV, sv, dv)
+    Seq("uscale" -> su, "uskew" -> skewU, "udelta" -> du)
+      .concat(Seq("vskew" -> across, "vscale" -> up, "vdelta" -> shift))
       .map((name, x) => (name, x.toFloat * factor))
       .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
       .map((name, x) => Param.float(name, in.at, x))

@@ -112,6 +112,12 @@ final class Scene(
   /** Whether any surface is an interface; shadow rays must then examine their hits. */
   val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
 
+  /** Whether light that passes this surface keeps its direction, though some may be reflected. */
+  def isPane(at: ShadingPoint): Boolean = panes(at.material)
+
+  private val panes = materials.map(_.isPane)
+  val hasPanes: Boolean = panes.contains(true)
+
   /** Traces a ray through interfaces to the closest other surface and computes its geometry; false
     * if the ray escapes.
     */

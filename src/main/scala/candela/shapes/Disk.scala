@@ -9,6 +9,7 @@ import candela.math.*
   * @param innerRadius radius of the hole; 0 for none
   * @param phiMax      sweep in radians
   * @param reversed    whether the outside faces −z of object space
+  * @param uAlong      what u and v measure
   */
 final class Disk(
     objectToWorld: Transform,
@@ -16,7 +17,8 @@ final class Disk(
     radius: Float,
     innerRadius: Float,
     phiMax: Float,
-    reversed: Boolean
+    reversed: Boolean,
+    uAlong: DiskU = DiskU.Angle
 ) extends SurfaceOfRevolution(objectToWorld, radius, Math.abs(height)):
   private val normal =
     val n = objectToWorld.normal(Vec3.Z).normalized
@@ -64,6 +66,20 @@ final class Disk(
     put(x, y, height, at)
     val local = Vec3(x.toFloat, y.toFloat, height)
     at.geometricNormal = normal
+    if uAlong == DiskU.Radius then alongRadius(local, at) else alongAngle(local, at)
+
+  private def alongRadius(local: Vec3, at: ShadingPoint): Unit =
+    val r = sqrt(square(local.x) + square(local.y))
+    val outwards = if r > 0f then Vec3(local.x / r, local.y / r, 0f) else Vec3.X
+    val dpdu = objectToWorld.vector(outwards * (radius - innerRadius))
+    at.u = (r - innerRadius) / (radius - innerRadius)
+    at.v = 1f - phi(local.x, local.y).toFloat / phiMax
+    at.frame.set(Frame.along(normal, dpdu))
+    if at.wantsPartials then
+      val dpdv = objectToWorld.vector(Vec3(local.y * phiMax, -local.x * phiMax, 0f))
+      at.setPartials(dpdu, dpdv, Vec3.Zero, Vec3.Zero)
+
+  private def alongAngle(local: Vec3, at: ShadingPoint): Unit =
     at.u = phi(local.x, local.y).toFloat / phiMax
     at.v = (radius - sqrt(square(local.x) + square(local.y))) / (radius - innerRadius)
     at.frame.set(Frame.along(normal, objectToWorld.vector(Vec3(-local.y, local.x, 0f))))
@@ -86,3 +102,11 @@ final class Disk(
     out.pdf = 1f / area
 
   def areaPdf(p: Vec3): Float = 1f / area
+
+/** What the parameters of a disk measure. */
+enum DiskU:
+  /** u the angle, v the way from the rim (pbrt). */
+  case Angle
+
+  /** u the way to the rim, v the angle from its end (Mitsuba). */
+  case Radius

@@ -14,6 +14,20 @@ final class FloatImageTexture(
   def apply(at: ShadingPoint): Float =
     ImageTexture.finish(lookup.value(mapping, at), scale, invert)
 
+  private val ofUv = mapping.ofUv
+
+  /** Known of unfiltered images, which are not inverted. */
+  override def slopes(at: ShadingPoint): Slopes | Null =
+    if ofUv.isEmpty || invert then null
+    else
+      val here = lookup.slopes(mapping(at))
+      if here == null then null
+      else
+        Slopes(
+          scale * (here.byU * ofUv(0) + here.byV * ofUv(2)),
+          scale * (here.byU * ofUv(1) + here.byV * ofUv(3))
+        )
+
 /** Colour image texture, with `scale` and `invert` as for [[FloatImageTexture]]. */
 final class RgbImageTexture(
     mapping: Mapping2D,
@@ -39,6 +53,9 @@ abstract class ImageLookup(bottomUp: Boolean):
 
   /** Value of a single-channel image. */
   final def value(mapping: Mapping2D, at: ShadingPoint): Float = color(mapping, at).r
+
+  /** Derivatives by s and t of an image that has one level of detail, and a single channel. */
+  def slopes(c: TexCoord): Slopes | Null = null
 
   /** Distance from the image's upper edge, as a fraction of its height. */
   protected final def row(t: Float): Float = if bottomUp then 1f - t else t
@@ -82,6 +99,13 @@ final class LevelLookup(
     bottomUp: Boolean,
     turned: Boolean
 ) extends FilteredLookup(pyramid, bottomUp, turned):
+  override def slopes(c: TexCoord): Slopes | Null =
+    if pyramid.length > 1 then null
+    else if !interpolates then Slopes(0f, 0f)
+    else
+      val here = pyramid(0).slopes(c.s, row(c.t))
+      if bottomUp then Slopes(here.byU, -here.byV) else here
+
   def filtered(s: Float, y: Float, dsdx: Float, dydx: Float, dsdy: Float, dydy: Float): Rgb =
     val level = levelOf(2f * Footprint.extent(dsdx, dydx, dsdy, dydy))
     if level >= last then top

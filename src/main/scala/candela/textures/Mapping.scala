@@ -16,12 +16,38 @@ abstract class Mapping2D:
   /** Derivatives of `apply` over the footprint of `at`. */
   def footprint(at: ShadingPoint): TexFootprint
 
+  /** ∂s/∂u, ∂s/∂v, ∂t/∂u, ∂t/∂v of a map of u and v; else empty. */
+  def ofUv: Array[Float] = Array.emptyFloatArray
+
 /** Affine map of the surface's parameters: s = su·u + du, t = sv·v + dv. */
 final class UvMapping(su: Float, sv: Float, du: Float, dv: Float) extends Mapping2D:
   def apply(at: ShadingPoint): TexCoord = TexCoord(su * at.u + du, sv * at.v + dv)
+  override def ofUv: Array[Float] = Array(su, 0f, 0f, sv)
 
   def footprint(at: ShadingPoint): TexFootprint =
     TexFootprint(su * at.dudx, sv * at.dvdx, su * at.dudy, sv * at.dvdy)
+
+/** Any affine map of the surface's parameters: s = su·u + sv·v + ds, t = tu·u + tv·v + dt. */
+final class AffineUvMapping(
+    su: Float,
+    sv: Float,
+    ds: Float,
+    tu: Float,
+    tv: Float,
+    dt: Float
+) extends Mapping2D:
+  def apply(at: ShadingPoint): TexCoord =
+    TexCoord(su * at.u + sv * at.v + ds, tu * at.u + tv * at.v + dt)
+
+  override def ofUv: Array[Float] = Array(su, sv, tu, tv)
+
+  def footprint(at: ShadingPoint): TexFootprint =
+    TexFootprint(
+      su * at.dudx + sv * at.dvdx,
+      tu * at.dudx + tv * at.dvdx,
+      su * at.dudy + sv * at.dvdy,
+      tu * at.dudy + tv * at.dvdy
+    )
 
 /** Spherical mapping about the texture space's origin: s is the angle from +z over π, t the angle
   * around z, counter-clockwise from +x, over 2π, in [0, 1).

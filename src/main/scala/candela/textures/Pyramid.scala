@@ -233,6 +233,18 @@ final class MipLevel(private[textures] val texels: Texels, wrap: Wrap):
         blend(i00, i10, i01, i11, 2, dx, dy)
       )
 
+  /** Derivatives of the first channel of [[bilinear]], by `s` and `row`. */
+  def slopes(s: Float, row: Float): Slopes =
+    val x = MipLevel.within(s * width - 0.5f)
+    val y = MipLevel.within(row * height - 0.5f)
+    val x0 = MipLevel.floor(x)
+    val y0 = MipLevel.floor(y)
+    val v00 = apply(index(x0, y0), 0)
+    val v10 = apply(index(x0 + 1, y0), 0)
+    val v01 = apply(index(x0, y0 + 1), 0)
+    val v11 = apply(index(x0 + 1, y0 + 1), 0)
+    Slopes(lerp(y - y0, v10 - v00, v11 - v01) * width, lerp(x - x0, v01 - v00, v11 - v10) * height)
+
   private def blend(i00: Int, i10: Int, i01: Int, i11: Int, c: Int, dx: Float, dy: Float): Float =
     lerp(dy, lerp(dx, apply(i00, c), apply(i10, c)), lerp(dx, apply(i01, c), apply(i11, c)))
 

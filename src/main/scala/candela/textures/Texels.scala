@@ -1,6 +1,7 @@
 package candela.textures
 
 import candela.base.loop
+import candela.color.Rgb
 import candela.image.{ByteImage, Image, StoredImage}
 
 /** Pixels of an image texture as linear numbers, in the compact form of their file: one channel, or
@@ -59,6 +60,12 @@ object Texels:
     else
       combined(image, channels): (r, g, b) =>
         decode(0.212671f * r + 0.715160f * g + 0.072169f * b)
+
+  /** A number per pixel, as in Mitsuba: the luminance of the decoded colours. */
+  def decodedLuminance(image: StoredImage, decode: Float => Float): Texels =
+    val channels = image.colorChannels.toArray
+    if isGray(image, channels) then single(image, channels(0), decode)
+    else combined(image, channels)((r, g, b) => Rgb(decode(r), decode(g), decode(b)).luminance)
 
   /** A number per pixel, as in pbrt-v4: alpha (decoded like a colour) if the image has alpha other
     * than 1, else the mean of the decoded colours.

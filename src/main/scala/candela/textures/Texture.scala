@@ -24,8 +24,14 @@ abstract class FloatTexture extends Varying:
   final def isConstant: Boolean = constant.isDefined
   def apply(at: ShadingPoint): Float
 
+  /** Derivatives by u and v, of textures that know them exactly. */
+  def slopes(at: ShadingPoint): Slopes | Null = null
+
   /** The value if it is the same everywhere; scene construction folds it into constants. */
   def constant: Option[Float] = None
+
+/** Derivatives of a number over a surface, by its parameters. */
+final class Slopes(val byU: Float, val byV: Float)
 
 /** A colour at every surface point. */
 abstract class RgbTexture extends Varying:

@@ -6,6 +6,9 @@ import candela.math.clamp
 enum Wrap:
   case Repeat, Black, Clamp
 
+  /** Every other copy of the image is mirrored (Mitsuba). */
+  case Mirror
+
   /** The square is an octahedral map of the sphere: crossing an edge leads to the edge adjacent on
     * the sphere.
     */
@@ -18,10 +21,15 @@ enum Wrap:
       this match
         case Repeat => Math.floorMod(y, height) * width + Math.floorMod(x, width)
         case Black => -1
+        case Mirror => Wrap.mirrored(y, height) * width + Wrap.mirrored(x, width)
         case Clamp => clamp(y, 0, height - 1) * width + clamp(x, 0, width - 1)
         case OctahedralSphere => Wrap.octahedral(x, y, width, height)
 
 object Wrap:
+
+  private def mirrored(x: Int, size: Int): Int =
+    val inside = Math.floorMod(x, size)
+    if (Math.floorDiv(x, size) & 1) == 0 then inside else size - 1 - inside
 
   /** Each crossing of an edge reflects about it and about the midpoint of the other axis.
     *

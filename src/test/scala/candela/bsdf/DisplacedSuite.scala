@@ -41,6 +41,28 @@ class DisplacedSuite extends AnyFunSuite:
         near(at.frame.n, expected.facing(n))
         assert(abs(at.frame.s dot at.frame.n) < 1e-6f): Unit
 
+  /** Knows its slopes, of which it has none. */
+  private object Flat extends FloatTexture:
+    def apply(at: ShadingPoint): Float = at.u
+    override def slopes(at: ShadingPoint): Slopes = Slopes(0.5f, -0.25f)
+
+  test("Mitsuba's bumps lean by the texture's own slopes, from tangents of the shading normal"):
+    val draws = Draws(2)
+    for _ <- 0 until 200 do
+      val at = plane(draws.vec(-2, 2), draws.vec(-2, 2))
+      // As on a mesh with normals
+      val n = (at.geometricNormal.toVec3 + draws.vec(-0.4f, 0.4f)).normalized
+      at.frame.set(Frame.along(n, at.dpdu))
+      def level(v: Vec3) = v - n * (n dot v)
+      val (u, v) = (level(at.dpdu), level(at.dpdv))
+      val _ = SlopeBumpMaterial(inner, Flat, 0.0005f).bsdf(at)
+      val expected = ((u + n * 0.5f) cross (v - n * 0.25f)).normalized
+      near(at.frame.n, expected.facing(at.geometricNormal))
+    val level = plane(Vec3.X, Vec3.Y)
+    val _ = SlopeBumpMaterial(inner, Hill(0.5f, 0.25f), 0.0005f).bsdf(level)
+    near(level.frame.n, Vec3(-0.5f, -0.35f, 1f).normalized)
+    assert(level.u == 0.3f && level.v == 0.7f)
+
   test("the point is as it was, but for its frame"):
     val at = plane(Vec3.X, Vec3.Y)
     val _ = BumpMaterial(inner, Hill(1f, 1f), 0.01f).bsdf(at)

@@ -75,5 +75,32 @@ class FromMitsubaSuite extends AnyFunSuite:
       assert(moved.head.at.exists(at => (at.line, at.column) == (2, 34)))
     finally Files.delete(image)
 
+  test("what pbrt's textures, disks and thin glass do otherwise is reported"):
+    val turned = "<transform name=\"to_uv\"><rotate z=\"1\" angle=\"30\"/></transform>"
+    val squares = "<bsdf type=\"diffuse\"><texture type=\"checkerboard\" name=\"reflectance\">" +
+      s"$turned</texture></bsdf>"
+    val disk = s"<shape type=\"disk\">$squares</shape>"
+    val done = FromMitsuba.converted(read("", disk))
+    assert(done.warnings.map(_.message.takeWhile(_ != ';')) == Vector(
+      "textures lie otherwise on pbrt's disks than on Mitsuba's",
+      "pbrt has no `uskew` of \"checkerboard\"",
+      "pbrt has no `vskew` of \"checkerboard\""
+    ))
+    assert(done.scene.textures.forall(_.texture.param("uskew").isEmpty))
+    assert(FromMitsuba.converted(read("", "<shape type=\"disk\"/>")).warnings.isEmpty)
+    def glass(depth: Int) = FromMitsuba.converted(read(
+      "<bsdf type=\"thindielectric\"/>",
+      s"<integrator type=\"volpath\"><integer name=\"max_depth\" value=\"$depth\"/></integrator>"
+    )).warnings.map(_.message)
+    assert(glass(6).length == 1 && glass(6).head.contains("`maxdepth` 5"))
+    assert(glass(-1).isEmpty)
+    val image = Files.createTempFile("candela-mitsuba", ".png")
+    try
+      val (_, lost) = converted("<bsdf type=\"diffuse\"><texture type=\"bitmap\" " +
+        s"name=\"reflectance\"><string name=\"filename\" value=\"$image\"/>" +
+        "<string name=\"wrap_mode\" value=\"mirror\"/></texture></bsdf>")
+      assert(lost == Vector("pbrt has no wrap `mirror`; using `repeat`"))
+    finally Files.delete(image)
+
   test("a converted scene has pbrt's rules"):
     assert(read("").isMitsubas && !FromMitsuba.converted(read("")).scene.isMitsubas)

@@ -3,6 +3,7 @@ package candela.integrators
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.{BuildOptions, SceneBuilder}
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.Dialect
@@ -118,3 +119,41 @@ final class VolumePathTracerSuite extends AnyFunSuite:
     val wanted = Seq(expected(0.1, 0.35), expected(0.3, 0.35), expected(0, 0.7))
     for (c, e) <- Seq(seen.r, seen.g, seen.b).zip(wanted) do
       assert(Math.abs(c - e) < 0.03 * e, s"$seen, expected $e")
+
+  /** The mean, by Mitsuba's rules or pbrt's. */
+  private def seen(text: String, isMitsubas: Boolean): Float =
+    val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
+    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val data = Renderer.render(plan, threads = 1).image(plan.development).data
+    data.sum / data.length
+
+  private def pane(z: Float): String =
+    s"""AttributeBegin
+       |Translate 0 0 $z
+       |Material "thindielectric"
+       |Shape "disk" "float radius" 9
+       |AttributeEnd
+       |""".stripMargin
+
+  // Both faces reflect 4 %, and what they reflect between them adds up
+  private val passed = 1f - 2 * 0.04f / 1.04f
+
+  test("Mitsuba's paths cross panes without an event, in pbrt's each is one"):
+    val panes = head("\"volpath\" \"integer maxdepth\" 0", "rgb", 64) +
+      Seq(-1f, 0f, 1f).map(pane).mkString
+    assert(seen(panes, isMitsubas = false) == 0f)
+    // 4096 paths, each of which is 0 or 1
+    assert(Math.abs(seen(panes, isMitsubas = true) - passed * passed * passed) < 0.03f)
+    val one = panes.replace("maxdepth\" 0", "maxdepth\" 2")
+    assert(seen(one, isMitsubas = false) < 0.1f)
+
+  test("light samples pass Mitsuba's panes"):
+    val floor = head("\"volpath\" \"integer maxdepth\" 1", "rgb", 4)
+      .replace("\"infinite\"", "\"distant\" \"point3 from\" [9 0 1] \"point3 to\" [0 0 0]") +
+      "Material \"diffuse\"\nShape \"disk\" \"float radius\" 9\n"
+    val aside = "AttributeBegin\nTranslate 4 0 .4\nRotate 90 0 1 0\n" + pane(0f) +
+      "AttributeEnd\n"
+    val lit = seen(floor, isMitsubas = true)
+    assert(lit > 0f && seen(floor + aside, isMitsubas = false) == 0f)
+    // At 6.3° the pane reflects as much as straight on, to 1e-5
+    assert(Math.abs(seen(floor + aside, isMitsubas = true) / lit - passed) < 1e-3f)

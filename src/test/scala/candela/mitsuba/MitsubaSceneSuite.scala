@@ -117,6 +117,27 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(!sides("<bsdf type=\"dielectric\"/>"))
     assert(!sides("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"))
 
+  test("a rotated texture and a mirrored one keep their coordinates, with v from the bottom"):
+    def texture(more: String) =
+      val bsdf = s"<bsdf type=\"diffuse\"><texture name=\"reflectance\" $more</texture></bsdf>"
+      inFolder(s"$Sensor<shape type=\"sphere\">$bsdf</shape>", "a.png" -> ""): file =>
+        val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
+        assert(scene.warnings.isEmpty && scene.errors.isEmpty)
+        scene.textures.head.texture
+    // s = 2u − 3v + 5, t = 7u + 11v + 13
+    val matrix =
+      "<transform name=\"to_uv\"><matrix value=\"2 -3 0 5 7 11 0 13 0 0 1 0 0 0 0 1\"/>" +
+        "</transform>"
+    def place(more: String) =
+      val d = texture(more)
+      val names = Vector("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta")
+      names.map(n => d.param(n).fold(0f)(_.floats.head))
+    assert(place(s"type=\"checkerboard\">$matrix").map(_ / 2) == Vector(2f, 3f, 2f, 7f, -11f, 24f))
+    val image = "type=\"bitmap\"><string name=\"filename\" value=\"a.png\"/>"
+    assert(place(image + matrix) == Vector(2f, 3f, 2f, -7f, 11f, -23f))
+    val mirrored = texture(image + "<string name=\"wrap_mode\" value=\"mirror\"/>")
+    assert(mirrored.param("wrap").get.strings.toVector == Vector("mirror"))
+
   test("every type that is read has its row in docs/MITSUBA.md"):
     val page = Files.readString(Path.of("docs/MITSUBA.md"))
     val missing = Plugins.read.values.flatten.filterNot(name => page.contains(s"`$name`"))

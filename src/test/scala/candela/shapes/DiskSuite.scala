@@ -116,3 +116,24 @@ class DiskSuite extends AnyFunSuite:
   test("a ray in the plane of the disk misses it"):
     val disk = Disk(Transform.Identity, 0f, 1f, 0f, TwoPi, false)
     assert(!isHit(disk, Vec3(-2f, 0f, 0f), Vec3.X) && !isHit(disk, Vec3.Zero, Vec3.Y))
+
+  test("parameters along the radius, and their derivatives, are those of the hit point"):
+    val point = ShadingPoint(wantsPartials = true)
+    val toWorld = Transform.translate(1, 2, 3) * Transform.scale(2, 0.5, 1).get
+    val disk = Disk(toWorld, 0f, 1f, 0f, TwoPi, false, DiskU.Radius)
+    val draws = Draws(5)
+    for _ <- 0 until 1000 do
+      val (r, phi) = (draws.between(0.1f, 0.99f), draws.between(0.1f, 6f))
+      def place(u: Float, v: Float) =
+        val angle = TwoPi * (1f - v)
+        toWorld.point(Vec3(u * cos(angle), u * sin(angle), 0f))
+      val (u, v) = (r, 1f - phi / TwoPi)
+      ray.set(place(u, v) + Vec3(0f, 0f, 2f), Vec3(0f, 0f, -1f), Float.PositiveInfinity)
+      assert(disk.intersect(ray, hit))
+      disk.surface(ray, hit, point)
+      assert(Math.abs(point.u - u) < 1e-5f && Math.abs(point.v - v) < 1e-5f)
+      // Central differences over 1/64: to 2 % of a radius
+      val d = 1f / 64
+      val byU = (place(u + d, v) - place(u - d, v)) * (0.5f / d)
+      val byV = (place(u, v + d) - place(u, v - d)) * (0.5f / d)
+      assert((point.dpdu - byU).length < 0.04f && (point.dpdv - byV).length < 0.04f)

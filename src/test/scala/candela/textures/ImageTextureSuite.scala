@@ -40,6 +40,34 @@ class ImageTextureSuite extends AnyFunSuite:
       val place = TexCoord((x + 0.5f) / 3, 1f - (y + 0.5f) / 2)
       assert(near(lookup(rows, filter).value(place), 10f * y + x), s"$filter")
 
+  test("slopes are those of the bilinear patch around the point"):
+    val values = Array(0f, 1f, 5f, 10f, 11f, 12f, -3f, 4f, 2f)
+    val image = Image(3, 3, Vector("Y"), values)
+    val map = AffineUvMapping(1f, 0.5f, 0f, -0.25f, 1f, 0.1f)
+    val d = 1f / 64
+    def isWithin(c: TexCoord) = Seq(c.s, c.t).forall: x =>
+      val place = x * 3 - 0.5f
+      Math.abs(place - Math.round(place)) > 4.5f * d
+    var found = 0
+    for bottomUp <- Seq(true, false); i <- 0 until 20; j <- 0 until 20 do
+      val (u, v) = (i / 20f, j / 20f)
+      if isWithin(map(at(u, v))) then
+        found += 1
+        val source = lookup(image, Bilinear, bottomUp = bottomUp)
+        val texture = FloatImageTexture(map, source, scale = 2f)
+        val slopes = texture.slopes(at(u, v)).nn
+        // Of second degree within a patch: central differences are exact, but for rounding
+        def along(du: Float, dv: Float) =
+          (texture(at(u + du, v + dv)) - texture(at(u - du, v - dv))) / (2 * d)
+        assert(Math.abs(slopes.byU - along(d, 0f)) < 2e-3f, s"$u $v")
+        assert(Math.abs(slopes.byV - along(0f, d)) < 2e-3f, s"$u $v"): Unit
+    assert(found > 200)
+    val uv = UvMapping(1f, 1f, 0f, 0f)
+    assert(FloatImageTexture(uv, lookup(image, Point)).slopes(at(0.4f, 0.6f)).nn.byU == 0f)
+    val levels = Pyramid.of(FloatTexels(2, 2, 1, Array(0f, 1f, 2f, 3f)), Wrap.Repeat, 9f)
+    val filtered = LevelLookup(levels, interpolates = true, bottomUp = true, turned = true)
+    assert(FloatImageTexture(uv, filtered).slopes(at(0.4f, 0.6f)) == null)
+
   test("v counted from the top turns the picture over"):
     val down = lookup(rows, Bilinear, bottomUp = false)
     for x <- 0 until 3; y <- 0 until 2 do

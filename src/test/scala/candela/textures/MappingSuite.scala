@@ -24,6 +24,17 @@ class MappingSuite extends AnyFunSuite:
     point.v = 0.25f
     assertIs(UvMapping(2f, 4f, 0.5f, -3f)(point), 1.5, -2)
 
+  test("affine: each coordinate of both parameters, in the footprint, too"):
+    val point = ShadingPoint()
+    point.u = 0.5f
+    point.v = 0.25f
+    point.dudx = 1f
+    point.dvdy = 1f
+    val map = AffineUvMapping(2f, 4f, 0.5f, 8f, -1f, 1f)
+    assertIs(map(point), 2.5, 4.75)
+    val f = map.footprint(point)
+    assert((f.dsdx, f.dsdy, f.dtdx, f.dtdy) == (2f, 4f, 8f, -1f))
+
   test("spherical: s from +z, t around z from +x"):
     val map = SphericalMapping(moved)
     assertIs(map(at(Vec3(10f, 20f, 35f))), 0, 0)

@@ -21,6 +21,13 @@ class WrapSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
       val inside = x == cx && y == cy
       assert(index(Wrap.Black, x, y) == (if inside then y * w + x else -1))
 
+  test("mirror turns every other copy around"):
+    for y <- -7 to 7 do
+      assert(index(Wrap.Mirror, -1, y) == index(Wrap.Mirror, 0, y))
+      assert(index(Wrap.Mirror, w, y) == index(Wrap.Mirror, w - 1, y))
+      assert(index(Wrap.Mirror, 2 * w + 1, y) == index(Wrap.Mirror, 1, y))
+    assert(index(Wrap.Mirror, 2, -2) == w + 2 && index(Wrap.Mirror, 2, h) == (h - 1) * w + 2)
+
   test("octahedral: one step across an edge leads to the mirrored texel of the same edge"):
     val n = 4
     def cell(x: Int, y: Int) =

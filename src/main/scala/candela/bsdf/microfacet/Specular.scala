@@ -2,7 +2,7 @@ package candela.bsdf.microfacet
 
 import candela.bsdf.{
   Bounce, Bsdf, DielectricReflectance, Fresnel, FullReflectance, Hemisphere, Lambert, LeanBsdf,
-  Material, ReflectanceCurve
+  Material, Pane, ReflectanceCurve
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -93,13 +93,20 @@ final class ThinDielectric(
     eta: Float,
     reflectance: Rgb = Rgb.White,
     transmittance: Rgb = Rgb.White
-) extends Specular:
+) extends Specular,
+      Pane:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val back = reflected(wo)
+    if choice < back then
+      out.set(Hemisphere.mirrored(wo), reflectance, back, isSpecular = true)
+    else out.set(-wo, transmittance, 1f - back, isSpecular = true)
+
+  def straight(wo: Vec3): Rgb = transmittance * (1f - reflected(wo))
+
+  /** The geometric series of inner reflections. */
+  private def reflected(wo: Vec3): Float =
     val once = Fresnel.dielectric(Math.abs(wo.z), eta)
-    val reflected = 2f * once / (1f + once) // the geometric series of inner reflections
-    if choice < reflected then
-      out.set(Hemisphere.mirrored(wo), reflectance, reflected, isSpecular = true)
-    else out.set(-wo, transmittance, 1f - reflected, isSpecular = true)
+    2f * once / (1f + once)
 
   def isTransmissive: Boolean = true
 
@@ -108,6 +115,7 @@ final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)
     extends Material,
       Textured(kr, kt):
   def bsdf(at: ShadingPoint): Bsdf = ThinDielectric(eta, kr.positive(at), kt.positive(at))
+  override def isPane: Boolean = true
 
 /** Transmits a fraction of the light unscattered. */
 final class Passthrough(transmittance: Rgb) extends Specular:

@@ -51,6 +51,7 @@ object Integrators:
   * @param samplesLights whether the integrator finds lights that no ray hits
   * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
   * @param followsSpecular whether textures are also filtered along specular paths
+  * @param crossesPanes whether panes do not scatter what they transmit, for `throughMedia`
   * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
   */
@@ -65,6 +66,7 @@ final case class IntegratorPlan(
     isLit: Boolean = true,
     samples: Option[Int] = None,
     window: Option[PixelBounds] = None,
+    crossesPanes: Boolean = false,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )

@@ -19,6 +19,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     // "path" of v2 and v4 renders such a surface as glass, or as its reflection only
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val regularizes = regularize()
+    // Mitsuba's "path" counts what thin glass transmits as scattered, "volpath" does not
+    val crossesPanes = name == "volpath" && site.resources.switches.isMitsubas
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
@@ -32,12 +34,13 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       followsSpecular = site.dialect == Dialect.V4,
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
+      crossesPanes = crossesPanes,
       throughMedia = Option.when(name == "volpath")((scene, media) =>
         RenderMethod.Tiles(VolumePathTracer(
           scene,
           media,
           limits,
-          WalkOptions(regularizes, subsurface = scene.hasSubsurface)
+          WalkOptions(regularizes, scene.hasSubsurface, crossesPanes = crossesPanes)
         ))
       ),
       throughVolumes = Some((scene, _, march) =>

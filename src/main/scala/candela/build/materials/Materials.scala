@@ -1,7 +1,8 @@
 package candela.build.materials
 
 import candela.bsdf.{
-  BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial, SoftTerminatorMaterial
+  BumpMaterial, DiffuseMaterial, Material, NormalMapMaterial, SlopeBumpMaterial,
+  SoftTerminatorMaterial
 }
 import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
@@ -89,11 +90,12 @@ abstract class MaterialRecipe(
   private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
     if height.constant.isDefined then smooth
     else
-      // Without footprints, slopes are taken at points, as Mitsuba does
-      if !site.resources.switches.isMitsubas then site.resources.askForFootprints("bumps")
+      site.resources.askForFootprints("bumps")
       // pbrt's finite differences
       val smallest = if site.dialect == Dialect.V2 then 0.01f else 0.0005f
-      raised(smooth, BumpMaterial(_, height, smallest))
+      if site.resources.switches.isMitsubas then
+        raised(smooth, SlopeBumpMaterial(_, height, smallest))
+      else raised(smooth, BumpMaterial(_, height, smallest))
 
   private def raised(smooth: Material, relief: Material => Material)(using site: Site): Material =
     if site.resources.switches.isMitsubas then

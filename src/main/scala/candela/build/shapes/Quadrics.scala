@@ -3,7 +3,7 @@ package candela.build.shapes
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{Disk, Profile, Quadric, Sphere}
+import candela.shapes.{Disk, DiskU, Profile, Quadric, Sphere}
 
 object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
@@ -47,7 +47,8 @@ object DiskRecipe
       None
     else
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
-      Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed)))
+      val along = if site.resources.switches.isMitsubas then DiskU.Radius else DiskU.Angle
+      Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed, along)))
 
 /** Base of surfaces of revolution about the z-axis. */
 abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect])

@@ -12,7 +12,11 @@ abstract class ImageMapRecipe[A](standIn: String)
   private val filename =
     string("filename", "image file: exr, pfm, hdr, png, qoi, tga, jpg …", shown = "none")("")
   private val wrap =
-    oneOf("wrap", "wrap mode outside the image", ImageMapRecipe.Wraps)("repeat")
+    oneOf(
+      "wrap",
+      "wrap mode outside the image (mirror: in Mitsuba's scenes)",
+      ImageMapRecipe.Wraps
+    )("repeat")
   protected val scale = float("scale", "scale of the values")(1f)
   protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that linearises values", onlyV2)(1f)
@@ -45,6 +49,7 @@ abstract class ImageMapRecipe[A](standIn: String)
           val wrapping = wrap() match
             case "black" => Wrap.Black
             case "clamp" => Wrap.Clamp
+            case "mirror" => Wrap.Mirror
             case "octahedralsphere" => Wrap.OctahedralSphere
             case _ => Wrap.Repeat
           site.resources.once(site.declaration, "pyramid"):
@@ -64,7 +69,11 @@ abstract class ImageMapRecipe[A](standIn: String)
       case _: ByteImage => true
       case _: Image => false
     val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
-    val levels = Pyramid.of(texels, wrap, most, site.resources.pool)
+    val levels =
+      // Mitsuba neither enlarges images nor reduces them
+      val switches = site.resources.switches
+      if switches.isMitsubas && !switches.meanImages then Array(MipLevel(texels, wrap))
+      else Pyramid.of(texels, wrap, most, site.resources.pool)
     val pyramid = if site.resources.switches.meanImages then levels.takeRight(1) else levels
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
@@ -109,7 +118,10 @@ abstract class ImageMapRecipe[A](standIn: String)
 
 object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
   protected def make()(using site: Site): FloatTexture =
-    val read = if site.dialect == Dialect.V4 then Texels.meanOrAlpha else Texels.luminance
+    val read =
+      if site.resources.switches.isMitsubas then Texels.decodedLuminance
+      else if site.dialect == Dialect.V4 then Texels.meanOrAlpha
+      else Texels.luminance
     lookup(read).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
@@ -131,7 +143,7 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
     Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 
 private object ImageMapRecipe:
-  val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
+  val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere", "mirror")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 
 /** Per-face textures, without texture coordinates. */

@@ -14,6 +14,8 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
   private val vscale = float("vscale", "scale of v")(1f)
   private val udelta = float("udelta", "offset of u")(0f)
   private val vdelta = float("vdelta", "offset of v")(0f)
+  private val cross = Vector("u" -> "v", "v" -> "u").map: (of, by) =>
+    float(s"${of}skew", s"what $by adds to $of, in Mitsuba's scenes", onlyV4)(0f)
   private val axis1 = vector("v1", "direction of s in a \"planar\" mapping")(Vec3.X)
   private val axis2 = vector("v2", "direction of t in a \"planar\" mapping")(Vec3.Y)
 
@@ -24,6 +26,8 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
     case "planar" =>
       val space = if site.dialect == Dialect.V4 then site.toWorld else Transform.Identity
       PlanarMapping(space, axis1(), axis2(), udelta(), vdelta())
+    case _ if cross.exists(_() != 0f) =>
+      AffineUvMapping(uscale(), cross(0)(), udelta(), cross(1)(), vscale(), vdelta())
     case _ => UvMapping(uscale(), vscale(), udelta(), vdelta())
 
 private object MappedRecipe:

@@ -1,0 +1,48 @@
+package candela.mitsuba
+
+import candela.base.{SourcePos, loop}
+
+import java.io.IOException
+import java.nio.ByteOrder
+import java.nio.file.Path
+
+/** A grid of one or three channels.
+  *
+  * @param size   cells along x, y and z
+  * @param bounds least and greatest corner
+  * @param values channels of a cell are adjacent, then x varies fastest
+  */
+private[mitsuba] final class VolumeFile(
+    val size: Array[Int],
+    val channels: Int,
+    val bounds: Array[Float],
+    val values: Array[Float]
+)
+
+/** Reads Mitsuba's `.vol` files. */
+private[mitsuba] object VolumeFile:
+  private val Header = 48
+
+  def read(path: Path, at: SourcePos): VolumeFile =
+    def fail(why: String) = Values.fail(at, s"can't read the volume `${path.getFileName}`: $why")
+    val bytes =
+      try MappedFile.read(path)
+      catch case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
+    val in = bytes.order(ByteOrder.LITTLE_ENDIAN)
+    if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then
+      fail("it does not begin with VOL")
+    if in.get() != 3 then fail("only version 3 is known")
+    if in.getInt() != 1 then fail("only 32-bit floats are known")
+    val size = Array.fill(3)(in.getInt())
+    val channels = in.getInt()
+    val bounds = Array.fill(6)(in.getFloat())
+    if channels != 1 && channels != 3 then
+      fail(s"it has $channels channels; only one or three are supported")
+    val room = in.remaining / 4 / channels
+    val cells = size.map(_.toLong).product
+    if size.exists(n => n < 1 || n > 65536) || cells > room then
+      fail(s"it is too short for ${size.mkString(" × ")} cells")
+    val values = new Array[Float](cells.toInt * channels)
+    in.asFloatBuffer.get(values)
+    loop(values.length)(i => if !(values(i) >= 0f) then values(i) = 0f)
+    VolumeFile(size, channels, bounds, values)

@@ -1,0 +1,81 @@
+package candela.mitsuba
+
+import candela.base.loop
+import candela.color.Rgb
+import candela.math.*
+
+/** Reads `gridvolume`s. */
+private[mitsuba] final class Volumes(session: Session):
+
+  def apply(in: Asked): Option[PlacedGrid] =
+    in.ignore("filter_type", "wrap_mode", "raw", "accel")
+    val toWorld = in.transform("to_world")
+    val usesBox = in.flag("use_grid_bbox", false)
+    for
+      name <- in.text("filename").orElse:
+        session.error(in.at, "a gridvolume must have a `filename`")
+        None
+      path <- session.file(name, in.atOf("filename"), "skipped")
+      file <- session.attempt(VolumeFile.read(path, in.atOf("filename")))
+    yield
+      val box = if usesBox then file.bounds else Array(0f, 0f, 0f, 1f, 1f, 1f)
+      PlacedGrid(file, toWorld, box)
+
+/** A grid with its place.
+  *
+  * @param box least and greatest corner, before `toWorld`
+  */
+private[mitsuba] final class PlacedGrid(
+    val file: VolumeFile,
+    val toWorld: Transform,
+    val box: Array[Float]
+):
+  import file.*
+
+  private val toGrid = toWorld.inverse
+
+  /** Absorption and scattering of each cell of this grid of extinction.
+    *
+    * @param albedo a grid, which is interpolated at the cells' centres, or one colour
+    */
+  def parted(albedo: Either[PlacedGrid, Rgb]): (Array[Float], Array[Float]) =
+    val absorbed, scattered = new Array[Float](3 * values.length / channels)
+    loop(size(2)): k =>
+      loop(size(1)): j =>
+        loop(size(0)): i =>
+          val cell = (k * size(1) + j) * size(0) + i
+          val share = albedo.fold(_.color(centre(i, j, k)), identity)
+          val sigmaT = cellColor(cell)
+          val scatters = sigmaT * share
+          val rest = sigmaT - scatters
+          Seq(scatters -> scattered, rest -> absorbed).foreach: (c, to) =>
+            to(3 * cell) = Math.max(0f, c.r)
+            to(3 * cell + 1) = Math.max(0f, c.g)
+            to(3 * cell + 2) = Math.max(0f, c.b)
+    (absorbed, scattered)
+
+  private def centre(i: Int, j: Int, k: Int): Vec3 =
+    def along(axis: Int, n: Int) = lerp((n + 0.5f) / size(axis), box(axis), box(axis + 3))
+    toWorld.point(Vec3(along(0, i), along(1, j), along(2, k)))
+
+  private def cellColor(cell: Int): Rgb =
+    if channels == 1 then Rgb.gray(values(cell))
+    else Rgb(values(3 * cell), values(3 * cell + 1), values(3 * cell + 2))
+
+  /** The trilinear interpolation at a point in world space; beyond the box as at its border. */
+  private def color(p: Vec3): Rgb =
+    val q = toGrid.point(p)
+    def place(axis: Int, x: Float): (Int, Float) =
+      val length = box(axis + 3) - box(axis)
+      val inUnit = if length > 0f then (x - box(axis)) / length else 0.5f
+      val cells = clamp(inUnit * size(axis) - 0.5f, 0f, size(axis) - 1f)
+      (cells.toInt, cells - cells.toInt)
+    val ((i, x), (j, y), (k, z)) = (place(0, q.x), place(1, q.y), place(2, q.z))
+    var sum = Rgb.Black
+    loop(8): corner =>
+      def next(n: Int, axis: Int) =
+        Math.min(n + (corner >> axis & 1), size(axis) - 1)
+      def share(t: Float, axis: Int) = if (corner >> axis & 1) == 1 then t else 1f - t
+      val cell = (next(k, 2) * size(1) + next(j, 1)) * size(0) + next(i, 0)
+      sum = sum + cellColor(cell) * (share(x, 0) * share(y, 1) * share(z, 2))
+    sum
