@@ -24,6 +24,8 @@ object FromMitsuba:
     def plain(d: Declaration): Declaration =
       if d.category == "LightSource" then light(d)
       else if d.category == "Texture" then texture(d)
+      else if d.category == "Camera" then
+        without(d, "nothing is clipped", "nearclip", "farclip")
       else if d.category != "Material" || d.dialect.isDefined then d
       else
         d.name match

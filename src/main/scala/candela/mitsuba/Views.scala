@@ -20,7 +20,7 @@ final class Views(session: Session, media: Media, scene: Path):
         .getOrElse(plain("rfilter", "gaussian", in.at))
       val sampler =
         in.nested("sampler").headOption.getOrElse(plain("sampler", "independent", in.at))
-      in.ignore("near_clip", "far_clip", "srf")
+      in.ignore("srf")
       val toWorld = in.transform("to_world")
       val medium = in.nested("medium").headOption.fold("")(media(_))
       // Mitsuba's x points left, pbrt's right
@@ -40,6 +40,9 @@ final class Views(session: Session, media: Media, scene: Path):
   private def camera(in: Asked, width: Int, height: Int): Declaration =
     val shutter = Seq("shutter_open" -> "shutteropen", "shutter_close" -> "shutterclose").flatMap:
       (name, ours) => in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
+    val clips = Seq("near_clip" -> "nearclip", "far_clip" -> "farclip").flatMap: (name, ours) =>
+      in.number(name).map(x => Param.float(ours, in.atOf(name), x.toFloat))
+    val always = shutter ++ clips
     val aspect = width.toDouble / height
     val dx = in.number("principal_point_offset_x", 0)
     val dy = in.number("principal_point_offset_y", 0)
@@ -50,7 +53,7 @@ final class Views(session: Session, media: Media, scene: Path):
       Param.float("screenwindow", in.at, sides*)
     in.plugin.name match
       case "orthographic" =>
-        session.declare("Camera", "orthographic", in.at, shutter :+ window(1, 1 / aspect))
+        session.declare("Camera", "orthographic", in.at, always :+ window(1, 1 / aspect))
       case name =>
         if name != "perspective" && name != "thinlens" then
           Plugins.unsupported(in.plugin, "using \"perspective\"", session)
@@ -63,9 +66,13 @@ final class Views(session: Session, media: Media, scene: Path):
           else
             Seq(
               Param.float("lensradius", in.at, in.number("aperture_radius", 0).toFloat),
-              Param.float("focaldistance", in.at, focus.getOrElse(1.0).toFloat)
+              Param.float(
+                "focaldistance",
+                in.at,
+                focus.orElse(in.number("far_clip")).getOrElse(1e4).toFloat
+              )
             )
-        session.declare("Camera", "perspective", in.at, view ++ lens ++ shutter)
+        session.declare("Camera", "perspective", in.at, view ++ lens ++ always)
 
   /** Angle along the shorter side, in degrees. */
   private def fov(in: Asked, aspect: Double): Double =

@@ -45,7 +45,8 @@ final class PbrtParametersSuite extends AnyFunSuite:
       yield (dialect, recipe.name, field.name)
     // Scenes of Mitsuba have materials of their own
     val own = Set("principled", "roughplastic")
-    val ofMitsuba = Set("distribution", "scale", "transmittance", "uskew", "vskew")
+    val ofMitsuba =
+      Set("distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip")
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))
     val foreign = beyond.toSet.filter: (dialect, recipe, field) =>
       dialect == Dialect.V4 && (own(recipe) || ofMitsuba(field))

@@ -138,6 +138,14 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val mirrored = texture(image + "<string name=\"wrap_mode\" value=\"mirror\"/>")
     assert(mirrored.param("wrap").get.strings.toVector == Vector("mirror"))
 
+  test("cameras clip, and lenses focus at the far plane unless told otherwise"):
+    def camera(more: String) = read(s"<sensor type=\"thinlens\">$more</sensor>").camera.get
+    def number(more: String, name: String) = camera(more).param(name).map(_.floats.head)
+    assert(number("", "nearclip").isEmpty && number("", "focaldistance").contains(1e4f))
+    val planes = "<float name=\"near_clip\" value=\"0.5\"/><float name=\"far_clip\" value=\"9\"/>"
+    assert(number(planes, "nearclip").contains(0.5f) && number(planes, "farclip").contains(9f))
+    assert(number(planes, "focaldistance").contains(9f))
+
   test("every type that is read has its row in docs/MITSUBA.md"):
     val page = Files.readString(Path.of("docs/MITSUBA.md"))
     val missing = Plugins.read.values.flatten.filterNot(name => page.contains(s"`$name`"))

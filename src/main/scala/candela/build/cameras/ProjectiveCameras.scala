@@ -1,7 +1,9 @@
 package candela.build.cameras
 
 import candela.build.recipe.*
-import candela.cameras.{FilmFrame, OrthographicCamera, PerspectiveCamera, ProjectiveSetup}
+import candela.cameras.{
+  Camera, ClippedCamera, FilmFrame, OrthographicCamera, PerspectiveCamera, ProjectiveSetup
+}
 import candela.math.Transform
 import candela.scenefile.Dialect
 
@@ -28,6 +30,20 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
     float("yon", "far clipping distance", onlyV2, "scene units")(1e30f)
   )
 
+  private val near =
+    float("nearclip", "near clipping distance, in Mitsuba's scenes", onlyV4, "scene units")(0.01f)
+  private val far =
+    float("farclip", "far clipping distance, in Mitsuba's scenes", onlyV4, "scene units")(1e4f)
+
+  /** Mitsuba's cameras clip. */
+  protected def clipped(toWorld: Transform, camera: Camera)(using site: Site): Camera =
+    if !site.resources.switches.isMitsubas then camera
+    else
+      val (first, last) = (near(), far())
+      if !(first > 0f && first < last) then
+        site.error(s"clipping distances must be above 0 and rise, found $first and $last")
+      ClippedCamera(camera, toWorld, first, last)
+
   protected def setup(toWorld: Transform, frame: FilmFrame)(using site: Site): ProjectiveSetup =
     val FilmFrame(width, height, _) = frame
     val ratio = if aspect() > 0f then aspect() else width.toFloat / height
@@ -50,12 +66,15 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective pr
     val isAngle = angle > 0f && angle < 180f
     if !isAngle then site.error(s"`fov` must be between 0 and 180 degrees, found $angle")
     CameraPlan(
-      (toWorld, frame) => PerspectiveCamera(setup(toWorld, frame), if isAngle then angle else 90f),
+      (toWorld, frame) =>
+        val fits = if isAngle then angle else 90f
+        clipped(toWorld, PerspectiveCamera(setup(toWorld, frame), fits))
+      ,
       shutter()
     )
 
 object OrthographicRecipe extends ProjectiveRecipe("orthographic", "orthographic projection"):
   protected def make()(using Site): CameraPlan = CameraPlan(
-    (toWorld, frame) => OrthographicCamera(setup(toWorld, frame)),
+    (toWorld, frame) => clipped(toWorld, OrthographicCamera(setup(toWorld, frame))),
     shutter()
   )
