@@ -56,7 +56,7 @@ object Hierarchies:
   private inline val Few = 16
 
   /** Camera samples below which loading and compiling SIMD code costs more than it saves. */
-  private inline val Many = 4000000L
+  private inline val Many = 1000000L
 
   /** Primitive count above which blocks would not fit into one array. */
   private inline val Most = 60000000
