@@ -25,8 +25,10 @@ object WatchCost:
     val rounds = options.get("--rounds").fold(7)(_.toInt)
     val scene = options.getOrElse("--scene", "scenes/showcase.pbrt")
     val spp = options.getOrElse("--spp", "32")
-    val ways = Vector("not watched" -> None, "watched, no viewer" -> Some(0)) ++
-      Vector("one viewer" -> Some(1), "two viewers" -> Some(2))
+    val most = options.get("--viewers").fold(2)(_.toInt)
+    val watched = Vector("watched, no viewer", "one viewer", "two viewers").zipWithIndex
+    val ways =
+      ("not watched" -> None) +: watched.take(most + 1).map((way, viewers) => way -> Some(viewers))
     val program = options.get("--program").fold(compiled)(Vector(_))
     val costs = (1 to rounds).toVector.map: round =>
       // Each way comes first now and then, so that a machine that gets warmer is fair to all
