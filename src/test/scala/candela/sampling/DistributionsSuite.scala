@@ -3,7 +3,23 @@ package candela.sampling
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.math.*
-import candela.testing.ChiSquare
+import candela.testing.{ChiSquare, Draws}
+
+class CdfSuite extends AnyFunSuite:
+
+  test("a search between cutpoints finds the same bin, for any number of bins"):
+    val draws = Draws(5)
+    for count <- Seq(1, 2, 7, 8, 9, 63, 64, 100, 1000); at <- Seq(0, 3) do
+      // Some without weight, at the ends, too
+      val weights = Array.fill(count)(Math.max(0f, draws.between(-0.5f, 1f)))
+      val cdf = new Array[Float](at + count + 1)
+      val _ = Cdf.write(weights, 0, count, cdf, at)
+      val n = Cdf.cutpoints(count)
+      val bins = new Array[Int](at + n + 1)
+      Cdf.writeCutpoints(cdf, at, count, n, bins, at)
+      val edges = cdf.drop(at).filter(_ < 1f).flatMap(u => Seq(u, Math.nextUp(u)))
+      for u <- edges ++ Seq.fill(200)(draws.unit()) :+ OneMinusEpsilon if u < 1f do
+        assert(Cdf.find(cdf, at, u, n, bins, at) == Cdf.find(cdf, at, count, u), s"$count, $u")
 
 class DiscreteSuite extends AnyFunSuite:
 
