@@ -7,7 +7,9 @@ import candela.base.Parallel
 /** Selects the BVH for a set of primitives and this JVM. */
 object Hierarchies:
 
-  /** Prepares for hierarchies of a scene with this many camera samples, while it is built. */
+  /** Prepares for hierarchies of a scene with this many camera samples, while it is built; where
+    * the number of primitives decides, that waits until it is known.
+    */
   def expect(samples: Long, parallel: Parallel): Unit =
     if samples >= Many then WarmUp.begin(parallel, hasVectors)
 
@@ -18,9 +20,13 @@ object Hierarchies:
       samples: Long = Long.MaxValue
   ): Accelerator =
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
-    else if samples >= Many && primitives.count >= Few && hasVectors then
+    else if isWorthIt(primitives.count, samples) && hasVectors then
       vector(primitives, parallel = parallel)
     else scalar(primitives, parallel = parallel)
+
+  /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
+  private[tracing] def isWorthIt(primitives: Int, samples: Long): Boolean =
+    primitives >= Few && samples >= (if primitives >= Mesh then SomeSamples else Many)
 
   /** Wide BVH traversed by scalar code only. */
   def scalar(
@@ -50,13 +56,17 @@ object Hierarchies:
 
   private inline val MaxLeaf = 4
 
-  /** Primitive count below which a tree has too few nodes for SIMD to repay its compilation. A room
-    * of 36 triangles gains a tenth of the processor time of 21 million samples.
-    */
+  /** Primitive count below which a tree has too few nodes for SIMD. */
   private inline val Few = 16
 
-  /** Camera samples below which loading and compiling SIMD code costs more than it saves. */
-  private inline val Many = 1000000L
+  /** Camera samples below which SIMD does not pay, whatever the scene: in a room of 36 triangles, it
+    * costs half a second and saves a tenth of the processor time.
+    */
+  private inline val Many = 1500000L
+
+  /** The same for scenes of at least [[Mesh]] primitives, where rays take most of the time. */
+  private inline val SomeSamples = 500000L
+  private inline val Mesh = 1000
 
   /** Primitive count above which blocks would not fit into one array. */
   private inline val Most = 60000000

@@ -166,7 +166,18 @@ class CarefulSuite extends AcceleratorLaws(Hierarchies.careful(_))
 class HierarchySuite
     extends AcceleratorLaws(p =>
       if Hierarchies.hasVectors then Hierarchies.vector(p) else Hierarchies.of(p)
+    ):
+
+  test("SIMD takes many samples, or a mesh and some"):
+    val cases = Seq(
+      (15, Long.MaxValue, false),
+      (16, 1_500_000L, true),
+      (999, 1_499_999L, false),
+      (1000, 500_000L, true),
+      (1_000_000, 499_999L, false)
     )
+    for (primitives, samples, expected) <- cases do
+      assert(Hierarchies.isWorthIt(primitives, samples) == expected, s"$primitives, $samples")
 
 class GridSuite extends AcceleratorLaws(Grid(_)):
 
