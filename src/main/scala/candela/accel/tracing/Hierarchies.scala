@@ -59,8 +59,8 @@ object Hierarchies:
   /** Primitive count below which a tree has too few nodes for SIMD. */
   private inline val Few = 16
 
-  /** Camera samples below which SIMD does not pay, whatever the scene: in a room of 36 triangles, it
-    * costs half a second and saves a tenth of the processor time.
+  /** Camera samples below which SIMD does not pay, whatever the scene: in a room of 36 triangles,
+    * it costs half a second and saves a tenth of the processor time.
     */
   private inline val Many = 1500000L
 
