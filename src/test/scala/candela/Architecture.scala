@@ -51,7 +51,7 @@ object Architecture:
   val runtime: Vector[String] = floors(
     "base math color geometry sampling image textures shapes bsdf bsdf.microfacet bsdf.layered " +
       "bsdf.measured bsdf.subsurface bsdf.composite lights media cameras accel accel.building " +
-      "accel.tracing scene film integrators bidirectional render render.storage"
+      "accel.tracing scene film guiding integrators bidirectional render render.storage"
   )
   val file: Vector[String] = floors("base math scenefile")
 

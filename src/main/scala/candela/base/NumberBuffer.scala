@@ -62,3 +62,6 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
     if at == 0 then last = pieceOf(size)
     last(at) = x
     size += 1
+
+  def apply(i: Int): Int = pieceOf(i)(i & NumberBuffer.Within)
+  def update(i: Int, x: Int): Unit = pieceOf(i)(i & NumberBuffer.Within) = x

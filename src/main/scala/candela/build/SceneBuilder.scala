@@ -10,6 +10,7 @@ import candela.film.{
   Development, FilterReach, Fireflies, Layer, PixelBounds, ScreenMotion, SpectralBands,
   VisibleSurface
 }
+import candela.guiding.GuidingMode
 import candela.math.{Motion, Still, Transform}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
@@ -184,7 +185,7 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(options),
+      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, sampling),
       differentialScale =
         if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
         else sampling.footprint,
@@ -200,6 +201,19 @@ object SceneBuilder:
       errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
       fireflies = if options.preview then Fireflies.Kept else options.fireflies
     )
+
+  /** What is said of guiding, if it was asked for. */
+  private def guiding(
+      context: BuildContext,
+      method: RenderMethod,
+      sampling: SamplingSetup
+  ): Option[(String, String)] =
+    val mode = context.resources.switches.guiding
+    Option.when(mode != GuidingMode.Off):
+      "guiding" -> (method match
+        case RenderMethod.Guided(_, guide, _) =>
+          guide(sampling.sampler.samplesPerPixel, 1L).describe
+        case _ => "none: only path tracing without media and pbrt-v2's volumes is guided")
 
   private def layerPlan(
       context: BuildContext,

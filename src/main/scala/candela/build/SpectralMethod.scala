@@ -22,6 +22,14 @@ private[build] object SpectralMethod:
       case RenderMethod.Tiles(_) =>
         val made = methods.collect { case RenderMethod.Tiles(i) => i }
         RenderMethod.Tiles(SpectralIntegrator(made.toArray, bases))
+      case RenderMethod.Guided(_, guide, _) =>
+        val made = methods.collect { case g: RenderMethod.Guided => g }
+        def all(integrators: Vector[Integrator]) = SpectralIntegrator(integrators.toArray, bases)
+        RenderMethod.Guided(
+          all(made.map(_.unguided)),
+          guide,
+          shared => all(made.map(_.integrator(shared)))
+        )
       case RenderMethod.SplattedTiles(_) =>
         RenderMethod.SplattedTiles(ofView(methods.collect {
           case RenderMethod.SplattedTiles(make) => make

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.build.recipe.Switches
+import candela.guiding.GuidingMode
 
 import scopt.{OParser, Read}
 
@@ -20,6 +21,11 @@ private[cli] object SwitchTable extends OptionRows:
         PixelRange(x0, x1, y0, y1)
       case _ =>
         throw IllegalArgumentException("expected x0,x1,y0,y1 with x0 < x1 and y0 < y1, in pixels")
+
+  private given Read[GuidingMode] = Read.reads: text =>
+    GuidingMode.values
+      .find(_.toString.equalsIgnoreCase(text))
+      .getOrElse(throw IllegalArgumentException("expected auto, on or off"))
 
   private def change(o: Options)(f: Switches => Switches): Options =
     o.copy(switches = f(o.switches))
@@ -48,6 +54,11 @@ private[cli] object SwitchTable extends OptionRows:
       "disable-wavelength-jitter",
       "take the same wavelengths for all samples, if rendering is spectral; colours are off"
     )(_.copy(oneColorSet = true)),
+    opt[GuidingMode]("guiding").valueName("auto|on|off")
+      .text(
+        "let paths learn where light comes from: where it pays, everywhere, or not at all (default)"
+      )
+      .action((mode, o) => change(o)(_.copy(guiding = mode))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
     opt[Double]("displacement-edge-scale").valueName("X")
       .text("scale of the edge length of displaced meshes (default 1)")
@@ -71,6 +82,10 @@ private[cli] object SwitchTable extends OptionRows:
       Some("--mse-reference-image and --mse-reference-out must be given together")
     else if s.errors.isDefined && o.files.size > 1 then
       Some("--mse-reference-out needs a single scene, found several")
+    else if s.guiding != GuidingMode.Off && !o.film.shard.isWhole then
+      Some("--guiding can't be divided by --shard: paths learn from those of all samples")
+    else if s.guiding != GuidingMode.Off && o.cluster.master.isDefined then
+      Some("--guiding can't be divided by --spark: paths learn from those of all samples")
     else if o.debug && o.pixel.isEmpty then Some("--debug needs --pixel x,y")
     else if Vector(o.cropWindow, o.pixels, o.pixel).count(_.isDefined) > 1 then
       Some("only one of --cropwindow, --pixelbounds and --pixel can be given")
@@ -87,6 +102,9 @@ private[cli] object SwitchTable extends OptionRows:
       "force-diffuse" -> s.diffuse
     )
     flags.collect { case (name, true) => s"--$name" } ++
+      Option.when(s.guiding != GuidingMode.Off):
+        Vector("--guiding", s.guiding.toString.toLowerCase)
+      .toVector.flatten ++
       s.edgeScale.toVector.flatMap(x => Vector("--displacement-edge-scale", x.toString)) ++
       o.pixels.toVector.flatMap: w =>
         Vector("--pixelbounds", s"${w.x0},${w.x1},${w.y0},${w.y1}")

@@ -2,6 +2,7 @@ package candela.integrators
 
 import candela.color.Rgb
 import candela.geometry.Ray
+import candela.guiding.Guide
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -26,6 +27,7 @@ final case class PathLimits(
   *
   * @param volumes pbrt-v2's: the camera ray gathers what they emit and scatter, and they attenuate
   *                all other light
+  * @param guide   learns from where light comes, if paths are to be guided
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
   * §13.4.
@@ -34,15 +36,18 @@ final class PathTracer(
     scene: Scene,
     limits: PathLimits,
     options: WalkOptions = WalkOptions(),
-    volumes: VolumeMarch | Null = null
+    volumes: VolumeMarch | Null = null,
+    guide: Guide | Null = null
 ) extends CameraPathIntegrator(scene):
   import limits.*
 
-  protected val walk: Walk = Walk(scene, volumes, options = options)
+  protected val walk: Walk =
+    if guide == null then Walk(scene, volumes, options = options)
+    else GuidedWalk(scene, volumes, options, guide)
   private val hasVolumes = volumes != null
 
   protected def over(scene: Scene): PathTracer =
-    PathTracer(scene, limits, options, VolumeMarch.copy(volumes))
+    PathTracer(scene, limits, options, VolumeMarch.copy(volumes), guide)
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)
@@ -69,6 +74,7 @@ final class PathTracer(
           walk.leave()
           if walk.goesOn && walk.depth > rouletteAfter then
             walk.roulette(rouletteThreshold, sampler)
+    walk.finish()
     walk.radiance.toRgb
 
   /** @param isBoundary does light sampling alone find light straight through the surface? */
@@ -78,5 +84,5 @@ final class PathTracer(
       walk.addLight(weight =
         wi =>
           if isBoundary && walk.vertex.crosses(wi) then 1f
-          else LightTransport.powerHeuristic(light.pdf, walk.vertex.localPdf(wi))
+          else LightTransport.powerHeuristic(light.pdf, walk.scatterPdf(wi))
       )

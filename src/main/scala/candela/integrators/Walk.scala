@@ -29,17 +29,17 @@ final case class WalkOptions(
   * @param volumes pbrt-v2's volumes between surfaces, if any
   * @param steps   their step size towards lights, in units of that towards the camera
   */
-final class Walk(
+class Walk(
     scene: Scene,
     volumes: VolumeMarch | Null = null,
     steps: Float = VolumeMarch.StepsToLights,
     options: WalkOptions = WalkOptions()
 ) extends CameraPath:
   /** Light found so far. */
-  val radiance: MutableRgb = MutableRgb()
+  final val radiance: MutableRgb = MutableRgb()
 
   /** Product of f·|cos|/pdf, and of what volumes let through. */
-  val throughput: MutableRgb = MutableRgb()
+  final val throughput: MutableRgb = MutableRgb()
 
   /** Scattering events so far. */
   var depth: Int = 0
@@ -58,10 +58,10 @@ final class Walk(
   var goesOn: Boolean = false
 
   /** Where the path is. */
-  val vertex: SurfaceVertex = SurfaceVertex(scene)
+  final val vertex: SurfaceVertex = SurfaceVertex(scene)
 
   /** Next-event estimation from there. */
-  val light: LightConnection = LightConnection(scene, volumes, steps)
+  final val light: LightConnection = LightConnection(scene, volumes, steps)
 
   // Where the current direction was sampled
   private val lastP, lastN = MutableVec3()
@@ -104,6 +104,9 @@ final class Walk(
     if march != null then march.start(ray, sampler)
 
   def end(): Unit = goesOn = false
+
+  /** Called when all light of the path is found. */
+  def finish(): Unit = ()
 
   /** Traces the ray to the next vertex; false if it leaves the scene. */
   def intersect(): Boolean =
@@ -189,6 +192,9 @@ final class Walk(
     val found = light.scattered(vertex, weight)
     radiance.addProduct(throughput, found)
     if parts != null then parts.addLight(light.index, depth, throughput.toRgb * found)
+
+  /** Solid-angle density with which [[scatter]] takes the local direction of the light sample. */
+  def scatterPdf(localWi: Vec3): Float = vertex.localPdf(localWi)
 
   /** Adds light that leaves the vertex towards the path. */
   def add(light: Rgb): Unit = radiance.addProduct(throughput, light)

@@ -1,6 +1,7 @@
 package candela.render
 
 import candela.film.*
+import candela.guiding.Guide
 import candela.integrators.{Integrator, SharedChains, SharedPasses}
 import candela.scene.PathReport
 
@@ -10,6 +11,7 @@ private[render] final class Job(
     val film: Film,
     val layers: Option[LayerFilm],
     val chains: Option[SharedChains],
+    val guide: Option[Guide],
     val worker: TaskQueue => Worker
 )
 
@@ -21,6 +23,11 @@ private[render] object Job:
       case RenderMethod.Tiles(integrator) =>
         val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
         tiles.job(tiles.worker(integrator.copy(), _))
+      case RenderMethod.Guided(_, make, integrator) =>
+        val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
+        val guide = make(samples, plan.sampled.pixels)
+        val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
+        tiles.job(tiles.worker(integrator(guide).copy(), _, guide.begin))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
         val integrator = make(plan.view(splats))
@@ -48,7 +55,7 @@ private[render] object Job:
         val film = filmOf(plan.crop, Some(splats))
         def worker(queue: TaskQueue) =
           ChainWorker(chains.walker(), schedule, queue)
-        new Job(schedule, film, layers = None, Some(chains), worker)
+        new Job(schedule, film, layers = None, Some(chains), guide = None, worker)
 
   /** Traces a single sample of one pixel; `report` receives its path. */
   def single(plan: RenderPlan, x: Int, y: Int, report: PathReport): (Film, TileWorker) =
@@ -59,6 +66,7 @@ private[render] object Job:
     val view = plan.view(Splats.Discarded)
     val worker = plan.method match
       case RenderMethod.Tiles(integrator) => tiles.worker(integrator.reported(report), queue)
+      case RenderMethod.Guided(unguided, _, _) => tiles.worker(unguided.reported(report), queue)
       case RenderMethod.SplattedTiles(make) => tiles.worker(make(view).reported(report), queue)
       case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), queue)
       case RenderMethod.Passes(make) =>
@@ -87,7 +95,8 @@ private[render] object Job:
       bounds: PixelBounds,
       takes: (Int, Int) => Boolean,
       splats: Option[SplatFilm] = None,
-      isSingle: Boolean = false
+      isSingle: Boolean = false,
+      guide: Option[Guide] = None
   ):
     private val PixelBounds(x0, y0, x1, y1) = bounds
     private val shares = Option.when(plan.sharesSamples):
@@ -108,7 +117,7 @@ private[render] object Job:
       new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
 
     def job(worker: TaskQueue => Worker): Job =
-      new Job(schedule, film, layers, chains = None, worker)
+      new Job(schedule, film, layers, chains = None, guide, worker)
 
     def worker(
         integrator: Integrator,

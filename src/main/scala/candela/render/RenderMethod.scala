@@ -2,6 +2,7 @@ package candela.render
 
 import candela.bidirectional.ChainPaths
 import candela.film.{Splats, View}
+import candela.guiding.Guide
 import candela.integrators.{Integrator, SharedChains, SharedPasses}
 
 /** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
@@ -11,6 +12,14 @@ enum RenderMethod:
 
   /** Independent camera samples, tile by tile. */
   case Tiles(integrator: Integrator)
+
+  /** Camera samples, tile by tile, whose paths learn from those of earlier passes.
+    *
+    * @param unguided   their integrator, if nothing is learnt
+    * @param guide      what is learnt, given the planned samples per pixel and the pixels
+    * @param integrator learns, and is guided
+    */
+  case Guided(unguided: Integrator, guide: (Int, Long) => Guide, integrator: Guide => Integrator)
 
   /** Camera samples, tile by tile; their light paths splat to the whole film. */
   case SplattedTiles(integrator: View => Integrator)
@@ -39,7 +48,12 @@ enum RenderMethod:
     * photons contribute to the pixel that they were started for.
     */
   def canShareSamples: Boolean = this match
-    case Tiles(_) => true
+    case Tiles(_) | Guided(_, _, _) => true
+    case _ => false
+
+  /** Whether samples depend on those before. */
+  def learns: Boolean = this match
+    case Guided(_, _, _) => true
     case _ => false
 
   /** Whether samples can be added beyond the planned number. */
@@ -49,12 +63,13 @@ enum RenderMethod:
 
   /** Whether all light comes with the wavelengths of its camera sample, not by splats. */
   def hasWavelengths: Boolean = this match
-    case Tiles(_) | Passes(_) => true
+    case Tiles(_) | Guided(_, _, _) | Passes(_) => true
     case _ => false
 
   /** Whether its light is divided by way and source, as the scene asks. */
   def dividesLight: Boolean = this match
     case Tiles(integrator) => integrator.lightParts != null
+    case Guided(unguided, _, _) => unguided.lightParts != null
     case _ => false
 
   /** Whether light paths connect to the camera. */

@@ -20,6 +20,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.film.save(to)
     job.layers.foreach(_.save(to))
     job.chains.foreach(_.save(to))
+    job.guide.foreach(_.save(to))
     val lost = refused.toVector
     to.int(lost.size)
     for r <- lost do
@@ -35,6 +36,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.film.load(from)
     job.layers.foreach(_.load(from))
     job.chains.foreach(_.load(from))
+    job.guide.foreach(_.load(from))
     for _ <- 0 until from.int() do
       earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
 

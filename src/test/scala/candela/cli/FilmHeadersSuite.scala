@@ -32,6 +32,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "disable-image-textures" -> Vector(""),
     "disable-wavelength-jitter" -> Vector(""),
     "force-diffuse" -> Vector(""),
+    "guiding" -> Vector("auto", "on"),
     "displacement-edge-scale" -> Vector("2.5")
   )
 

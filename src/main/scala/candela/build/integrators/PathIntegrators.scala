@@ -1,6 +1,7 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
+import candela.guiding.{Guide, GuideSettings, GuidingMode}
 import candela.integrators.*
 import candela.render.RenderMethod
 import candela.scenefile.Dialect
@@ -24,10 +25,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
-        val subsurface = goesBeneath && scene.hasSubsurface
-        RenderMethod.Tiles(
-          PathTracer(scene, limits, WalkOptions(regularizes, subsurface))
-        )
+        val options = WalkOptions(regularizes, goesBeneath && scene.hasSubsurface)
+        GuidedMethod(g => PathTracer(scene, limits, options, guide = g))
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
@@ -47,6 +46,15 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
         PathTracer(scene, limits, volumes = march)
       )
     ))
+
+/** Methods of integrators that can be guided. */
+private object GuidedMethod:
+  def apply(integrator: Guide | Null => Integrator)(using site: Site): RenderMethod =
+    val mode = site.resources.switches.guiding
+    if mode == GuidingMode.Off then RenderMethod.Tiles(integrator(null))
+    else
+      val settings = GuideSettings(adapts = mode == GuidingMode.Auto)
+      RenderMethod.Guided(integrator(null), Guide(settings, _, _), integrator)
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
   private val samplesLights =

@@ -1,5 +1,7 @@
 package candela.build.recipe
 
+import candela.guiding.GuidingMode
+
 /** What pbrt-v4's `Option` statements and the options of its command line set for a whole scene.
   *
   * @param seed        of the scene, combined with that of the command line
@@ -12,6 +14,7 @@ package candela.build.recipe
   * @param reference   reference image of the errors to write
   * @param errors      file for the errors
   * @param isMitsubas  apply Mitsuba's rules where they differ from pbrt-v4's
+  * @param guiding     whether paths learn where light comes from
   */
 final case class Switches(
     seed: Int = 0,
@@ -23,7 +26,8 @@ final case class Switches(
     edgeScale: Option[Float] = None,
     reference: Option[String] = None,
     errors: Option[String] = None,
-    isMitsubas: Boolean = false
+    isMitsubas: Boolean = false,
+    guiding: GuidingMode = GuidingMode.Off
 ):
   /** Both together; where they differ, these. */
   def over(scene: Switches): Switches =
@@ -37,5 +41,6 @@ final case class Switches(
       edgeScale.orElse(scene.edgeScale),
       reference.orElse(scene.reference),
       errors.orElse(scene.errors),
-      isMitsubas || scene.isMitsubas
+      isMitsubas || scene.isMitsubas,
+      guiding
     )

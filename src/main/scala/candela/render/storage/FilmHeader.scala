@@ -60,6 +60,8 @@ final case class FilmHeader(
   def obstacle(plan: RenderPlan): Option[String] =
     if !plan.method.takesCameraSamples then
       Some("Metropolis light transport distributes its mutations in advance")
+    else if plan.method.learns then
+      Some("what its paths learn depends on their number (--guiding)")
     else if !plan.sampler.isProgressive then
       Some("its sampler's points depend on their number (scrambled Sobol' points don't)")
     else if plan.differentialScale != footprint then

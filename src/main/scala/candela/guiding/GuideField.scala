@@ -1,0 +1,102 @@
+package candela.guiding
+
+import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.math.*
+
+/** What earlier passes have learnt. Space is divided into regions, separately for each side that a
+  * surface may face (±x, ±y, ±z: its normal's largest component); each has a mixture of lobes. A
+  * lobe is a von Mises-Fisher distribution around the direction to a point, so that neighbouring
+  * places see it in different directions. Immutable; shared by all workers.
+  *
+  * Source: Ruppert, Herholz, Lensch, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding",
+  * SIGGRAPH 2020.
+  *
+  * @param axis    of each node of space that is divided: 0, 1 or 2; the first six are the roots
+  * @param split   where it is divided
+  * @param below   first of its two children, which follow each other; of a leaf −1 − its region
+  * @param shares  of each region, the probability that directions are sampled from the BSDF
+  *                instead; 1: it is not guided
+  * @param centres of each region: three coordinates
+  * @param lobes   [[GuideField.Lobes]] of each region, with [[GuideField.Size]] numbers each: the
+  *                direction to the point as seen from the centre of the region (three numbers),
+  *                one over its distance, the concentration, the weight, and the weight times the
+  *                factor that normalises the lobe. Without light all are zero
+  */
+final class GuideField private[guiding] (
+    val axis: Array[Int],
+    val split: Array[Float],
+    val below: Array[Int],
+    val shares: Array[Float],
+    val centres: Array[Float],
+    val lobes: Array[Float]
+):
+  import GuideField.*
+
+  def regions: Int = shares.length
+
+  /** Are there regions that guide? */
+  val guides: Boolean = shares.exists(_ < 1f)
+
+  /** The region of a point on a surface with normal `n`; points outside belong to the nearest. */
+  def region(p: Vec3, n: Vec3): Int = region(side(n), p.x, p.y, p.z)
+
+  private[guiding] def region(side: Int, px: Float, py: Float, pz: Float): Int =
+    var node = side
+    var next = below(node)
+    while next >= 0 do
+      val a = axis(node)
+      val x = if a == 0 then px else if a == 1 then py else pz
+      node = if x < split(node) then next else next + 1
+      next = below(node)
+    -1 - next
+
+  /** Was light found there? */
+  def isFitted(region: Int): Boolean = lobes(region * Lobes * Size + Weight) > 0f
+
+  private[guiding] def save(to: CheckedOutput): Unit =
+    for all <- Vector(axis, below) do
+      to.int(all.length)
+      loop(all.length)(i => to.int(all(i)))
+    for all <- Vector(split, shares, centres, lobes) do
+      to.int(all.length)
+      loop(all.length)(i => to.float(all(i)))
+
+object GuideField:
+  /** Lobes of a region. */
+  inline val Lobes = 8
+
+  /** Numbers of a lobe, and the places of some. */
+  inline val Size = 7
+  private[guiding] inline val Nearness = 3
+  private[guiding] inline val Kappa = 4
+  private[guiding] inline val Weight = 5
+  private[guiding] inline val Factor = 6
+
+  /** Number of the side that a surface with this normal faces. */
+  private[guiding] def side(n: Vec3): Int =
+    val x = Math.abs(n.x)
+    val y = Math.abs(n.y)
+    val z = Math.abs(n.z)
+    if x >= y && x >= z then if n.x > 0f then 0 else 1
+    else if y >= z then if n.y > 0f then 2 else 3
+    else if n.z > 0f then 4
+    else 5
+
+  private[guiding] inline val Sides = 6
+
+  /** One region for each side, unguided. */
+  val Start: GuideField = GuideField(
+    new Array[Int](Sides),
+    new Array[Float](Sides),
+    Array.tabulate(Sides)(-1 - _),
+    Array.fill(Sides)(1f),
+    new Array[Float](3 * Sides),
+    new Array[Float](Sides * Lobes * Size)
+  )
+
+  private[guiding] def load(from: CheckedInput): GuideField =
+    def ints() = Array.fill(from.int())(from.int())
+    def floats() = Array.fill(from.int())(from.float())
+    val (axis, below) = (ints(), ints())
+    val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
+    GuideField(axis, split, below, shares, centres, lobes)

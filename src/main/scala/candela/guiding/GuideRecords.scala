@@ -1,0 +1,97 @@
+package candela.guiding
+
+import candela.base.{CheckedInput, CheckedOutput, FloatBuffer, loop}
+import candela.sampling.SampleHash
+
+/** The scattering events of one pass that found light. Each worker adds to a part of its own. What
+  * is kept, and its order, depends on the events' own numbers, not on workers.
+  *
+  * @param rate part of the events that is kept
+  */
+private[guiding] final class GuideRecords(val rate: Float):
+  import GuideRecords.*
+  private var parts = Vector.empty[Part]
+  private val limit = if rate >= 1f then Long.MaxValue else (rate * Long.MaxValue.toDouble).toLong
+
+  /** For a worker. */
+  def newPart(): Part = synchronized:
+    val part = Part(limit)
+    parts :+= part
+    part
+
+  /** All events, [[Size]] numbers each, in an order that depends on these only. */
+  def sorted(): Array[Float] =
+    val all = joined()
+    val count = all.length / Size
+    // The upper bits of the hash, then the place
+    val keys = new Array[Long](count)
+    loop(count)(i => keys(i) = (hash(all, i * Size) & ~PlaceMask) | i)
+    java.util.Arrays.sort(keys)
+    loop(count): i =>
+      var j = i
+      while j > 0 && (keys(j - 1) | PlaceMask) == (keys(j) | PlaceMask) &&
+        isLess(all, place(keys(j)), place(keys(j - 1)))
+      do
+        val key = keys(j)
+        keys(j) = keys(j - 1)
+        keys(j - 1) = key
+        j -= 1
+    val result = new Array[Float](all.length)
+    loop(count)(i => System.arraycopy(all, place(keys(i)) * Size, result, i * Size, Size))
+    result
+
+  private def place(key: Long): Int = (key & PlaceMask).toInt
+
+  private def joined(): Array[Float] =
+    val all = new Array[Float](Math.multiplyExact(Size, parts.map(_.count).sum))
+    var at = 0
+    for part <- parts do
+      part.data.copyTo(all, at)
+      at += part.data.length
+    all
+
+  /** Writes what is recorded; no path may be on its way. */
+  def save(to: CheckedOutput): Unit =
+    val all = sorted()
+    to.int(all.length)
+    loop(all.length)(i => to.float(all(i)))
+
+  def load(from: CheckedInput): Unit =
+    val part = newPart()
+    loop(from.int())(_ => part.data += from.float())
+
+object GuideRecords:
+  /** Numbers of an event, and their places: the point, the side of its normal, the direction taken,
+    * the light that came from there, as the path received it, over its throughput before; the
+    * densities of the direction: that of the path, of BSDF sampling, of the field.
+    */
+  private[guiding] inline val Size = 11
+  private[guiding] inline val Side = 3
+  private[guiding] inline val Wi = 4
+  private[guiding] inline val Light = 7
+  private[guiding] inline val Pdf = 8
+  private[guiding] inline val BsdfPdf = 9
+  private[guiding] inline val GuidePdf = 10
+
+  // Of a key: the place of the event among all
+  private inline val PlaceMask = 0xffffffL
+
+  /** What one worker records. */
+  final class Part private[guiding] (limit: Long):
+    private[guiding] val data = FloatBuffer()
+    private[guiding] def count: Int = data.length / Size
+
+    /** Adds an event or leaves it. */
+    private[guiding] def add(event: Array[Float]): Unit =
+      if (hash(event, 0) >>> 1) <= limit && count < PlaceMask then loop(Size)(i => data += event(i))
+
+  private def hash(of: Array[Float], at: Int): Long =
+    var h = 0L
+    loop(Size): i =>
+      h = SampleHash.mix64(h + SampleHash.Step + java.lang.Float.floatToRawIntBits(of(at + i)))
+    h
+
+  private def isLess(of: Array[Float], i: Int, j: Int): Boolean =
+    var k = 0
+    while k < Size - 1 && of(i * Size + k) == of(j * Size + k) do k += 1
+    of(i * Size + k) < of(j * Size + k)

@@ -1,0 +1,147 @@
+package candela.integrators
+
+import candela.bsdf.Bssrdf
+import candela.color.{MutableRgb, Rgb}
+import candela.geometry.Ray
+import candela.guiding.{Guide, GuideMixture, GuidePath, GuideRecords}
+import candela.math.*
+import candela.sampling.Sampler
+import candela.scene.Scene
+
+/** A [[Walk]] that samples directions from BSDFs and from what earlier paths have learnt, and
+  * records what it finds. Specular directions, those through the surface, and those that the BSDF
+  * would not sample, are left to it.
+  *
+  * Each direction is weighted by the density of both ways of sampling it. That of BSDF sampling may
+  * be approximate, if it is the same for both: it only weighs them.
+  */
+final class GuidedWalk(
+    scene: Scene,
+    volumes: VolumeMarch | Null,
+    options: WalkOptions,
+    guide: Guide
+) extends Walk(scene, volumes, options = options):
+  import GuidedWalk.*
+  private val path = GuidePath()
+  private var lesson = guide.lesson
+  private var part: GuideRecords.Part | Null = lesson.newPart()
+  private val mixture = GuideMixture()
+
+  /** The throughput that BSDF sampling of the same path would have. */
+  private val unguided = MutableRgb()
+
+  // Of the vertex: is it guided or recorded?
+  private var isKept = false
+  private var isFitted = false
+  private var share = 1f
+  private val wi, localWi, normal = MutableVec3()
+
+  override def begin(cameraRay: Ray, sampler: Sampler): Unit =
+    super.begin(cameraRay, sampler)
+    if lesson ne guide.lesson then
+      lesson = guide.lesson
+      part = lesson.newPart()
+    path.clear()
+    unguided.set(Rgb.White)
+
+  override def evaluate(): Unit =
+    super.evaluate()
+    val field = lesson.field
+    isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
+    isFitted = false
+    share = 1f
+    if isKept then
+      val n = vertex.at.frame.n
+      if vertex.localWo.z < 0f then normal.set(-n.x, -n.y, -n.z) else normal.set(n)
+      val region = field.region(vertex.at.p, normal)
+      share = field.shares(region)
+      isFitted = field.isFitted(region)
+      isKept = part != null || share < 1f
+      if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
+
+  override def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
+    isKept = false
+    share = 1f
+    super.emerge(inside, sampler)
+
+  override def scatterPdf(local: Vec3): Float =
+    val byBsdf = vertex.localPdf(local)
+    if share == 1f || byBsdf == 0f then byBsdf
+    else share * byBsdf + (1f - share) * fieldPdf(local, light.wi)
+
+  /** Density of the field's directions. */
+  private def fieldPdf(local: Vec3, world: Vec3): Float =
+    if vertex.crosses(local) then 0f else mixture.pdf(world)
+
+  override def finish(): Unit =
+    val to = part
+    if to != null then path.record(radiance.toRgb.average, to)
+
+  override def scatter(sampler: Sampler): Unit =
+    if !isKept then
+      super.scatter(sampler)
+      unguided.scale(vertex.bounce.weight)
+    else
+      val choice = sampler.next1D()
+      sampler.next2D()
+      if choice < share then scatterByBsdf(Math.min(choice / share, LargestBelowOne), sampler)
+      else scatterByField(sampler)
+
+  private def scatterByBsdf(choice: Float, sampler: Sampler): Unit =
+    val bounce = vertex.bounce
+    vertex.bsdf.draw(vertex.localWo, choice, sampler.x, sampler.y, bounce)
+    // The density of the draw may be that of its random walk only
+    val byBsdf =
+      if bounce.isSpecular || bounce.pdf == 0f then 0f else vertex.localPdf(bounce.wi)
+    if byBsdf == 0f then
+      unguided.scale(bounce.weight)
+      if share < 1f then
+        bounce.set(
+          bounce.wi,
+          bounce.weight * (1f / share),
+          bounce.pdf,
+          bounce.isSpecular,
+          bounce.eta
+        )
+      throughput.scale(bounce.weight)
+    else
+      vertex.at.frame.toWorld(bounce.wi, wi)
+      take(byBsdf, bounce.weight * byBsdf)
+
+  private def scatterByField(sampler: Sampler): Unit =
+    mixture.sample(sampler.x, sampler.y, wi)
+    vertex.at.frame.toLocal(wi, localWi)
+    val byBsdf = if vertex.crosses(localWi) then 0f else vertex.localPdf(localWi)
+    if byBsdf == 0f then
+      vertex.bounce.absorb()
+      throughput.scale(vertex.bounce.weight)
+    else
+      vertex.bounce.set(localWi, Rgb.Black, byBsdf, isSpecular = false)
+      take(byBsdf, vertex.bsdf.f(vertex.localWo, localWi) * Math.abs(localWi.z))
+
+  /** Goes on in the direction `wi`, which is also that of the bounce.
+    *
+    * @param value f·|cos|, or an estimate of it
+    */
+  private def take(byBsdf: Float, value: Rgb): Unit =
+    val bounce = vertex.bounce
+    val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
+    val pdf = share * byBsdf + (1f - share) * byField
+    val before = throughput.toRgb.average
+    bounce.set(bounce.wi, value * (1f / pdf), pdf, isSpecular = false, bounce.eta)
+    throughput.scale(bounce.weight)
+    unguided.scale(value * (1f / byBsdf))
+    if part != null && !vertex.crosses(bounce.wi) then
+      path.add(vertex.at.p, normal, wi, radiance.toRgb.average, before, pdf, byBsdf, byField)
+
+  /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
+    * paths are many because much light comes from there: it must not end them.
+    */
+  override def roulette(threshold: Float, sampler: Sampler): Unit =
+    val factor = LightTransport.roulette(unguided.largest * etaScale, threshold, sampler)
+    throughput.scale(factor)
+    unguided.scale(factor)
+    goesOn = !throughput.isBlack
+
+private object GuidedWalk:
+  inline val LargestBelowOne = 0.99999994f

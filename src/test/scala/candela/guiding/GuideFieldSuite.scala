@@ -1,0 +1,101 @@
+package candela.guiding
+
+import candela.lights.EqualAreaMap
+import candela.math.*
+import candela.sampling.IndependentSampler
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class GuideFieldSuite extends AnyFunSuite:
+  import GuideFieldSuite.*
+
+  test("space is divided, and every point is in one region of its side"):
+    assert(learnt.regions > 8)
+    val up = (0 until 64).map(i => learnt.region(place(i), Up)).distinct
+    assert(up.size > 4)
+    assert(!up.contains(learnt.region(place(0), Vec3(1f, 0f, 0f))))
+    assert(learnt.region(Vec3(-100f, -100f, 0f), Up) == learnt.region(Vec3(-1f, -1f, 0f), Up))
+
+  test("the density of directions is that of its samples, and all of it is one"):
+    val mixture = GuideMixture()
+    val p = place(0)
+    mixture.locate(learnt, learnt.region(p, Up), p)
+    val sampler = IndependentSampler(Samples, 1)
+    val wi = MutableVec3()
+    // Of a grid of 8 × 8 cells on the square: the integral of the density, and the samples' share
+    val expected, found = new Array[Double](64)
+    for i <- 0 until Samples do
+      // The middles of 256 × 256 cells
+      val (x, y) = ((i % 256 + 0.5f) / 256f, (i / 256 + 0.5f) / 256f)
+      val at = EqualAreaMap.toDirection(x, y)
+      expected((x * 8).toInt + 8 * (y * 8).toInt) += mixture.pdf(at) * 4.0 * Math.PI / Samples
+      sampler.start(0, 0, i)
+      sampler.next2D()
+      mixture.sample(sampler.x, sampler.y, wi)
+      assert(Math.abs(wi.length - 1f) < 1e-4f)
+      val to = EqualAreaMap.toImage(wi)
+      found((to.x * 8).toInt + 8 * (to.y * 8).toInt) += 1.0 / Samples
+    assert(Math.abs(expected.sum - 1.0) < 0.01)
+    // 65536 samples: deviations are below 0.002
+    for (e, f) <- expected.zip(found) do assert(Math.abs(e - f) < 0.01, s"$e $f")
+
+  test("from all places of a region, a near light is seen where it is"):
+    val mixture = GuideMixture()
+    val densities =
+      for i <- 0 until 64 yield
+        val p = place(i)
+        mixture.locate(learnt, learnt.region(p, Up), p)
+        mixture.pdf((Light - p).normalized)
+    // A uniform density is 0.08
+    assert(densities.min > 5f, densities)
+
+  test("exponentials are exact to six digits"):
+    for i <- 0 to 2000 do
+      val x = -0.02f * i
+      assert(Math.abs(Lobe.exp(x) / Math.exp(x) - 1.0) < 3e-6, x)
+
+  test("what is recorded is the same in any order, by any number of workers"):
+    def sorted(order: Seq[Int], workers: Int) =
+      val records = GuideRecords(rate = 0.5f)
+      val parts = Vector.fill(workers)(records.newPart())
+      for (i, j) <- order.zipWithIndex do parts(j % workers).add(event(i))
+      records.sorted().toVector
+    val one = sorted(0 until 10000, 1)
+    // Half of them, with a deviation of 50
+    assert(Math.abs(one.length / GuideRecords.Size - 5000) < 300)
+    assert(sorted((0 until 10000).reverse, 3) == one)
+
+private object GuideFieldSuite:
+  val Samples: Int = 1 << 16
+  val Up: Vec3 = Vec3(0f, 0f, 1f)
+
+  /** Above the middle of a square floor. */
+  val Light: Vec3 = Vec3(0.1f, 0f, 0.7f)
+
+  private val sampler = IndependentSampler(1 << 20, 7)
+
+  private def random(i: Int, pass: Int = 0): (Float, Float) =
+    sampler.start(pass, 0, i)
+    sampler.next2D()
+    (sampler.x, sampler.y)
+
+  def place(i: Int): Vec3 =
+    val (x, y) = random(i)
+    Vec3(2f * x - 1f, 2f * y - 1f, 0f)
+
+  /** Half of the light comes from around [[Light]], half from anywhere above. */
+  def event(i: Int): Array[Float] =
+    val p = place(i)
+    val (u, v) = random(i, pass = 1)
+    val near = Light + Vec3(0.05f * u, 0.05f * v, 0f) - p
+    val wide = Vec3(u - 0.5f, v - 0.5f, 0.5f)
+    val wi = (if i % 2 == 0 then near else wide).normalized
+    Array(p.x, p.y, p.z, GuideField.side(Up).toFloat, wi.x, wi.y, wi.z, 1f + 0.1f * u, 1f, 1f, 0f)
+
+  val learnt: GuideField =
+    val settings = GuideSettings(adapts = false, perRegion = 1000)
+    (1 to 4).foldLeft(GuideField.Start): (field, pass) =>
+      val records = GuideRecords(1f)
+      val part = records.newPart()
+      for i <- 0 until 10000 * pass do part.add(event(i))
+      GuideGrowth(field, records.sorted(), settings).result()

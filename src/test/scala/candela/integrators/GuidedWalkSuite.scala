@@ -1,0 +1,178 @@
+package candela.integrators
+
+import candela.base.CheckedFile
+import candela.build.BuildOptions
+import candela.build.recipe.Switches
+import candela.guiding.GuidingMode
+import candela.image.Image
+import candela.render.{Cancellation, Checkpointer, Renderer, RenderPlan, RenderState}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+final class GuidedWalkSuite extends AnyFunSuite:
+  import GuidedWalkSuite.*
+
+  private def plan(
+      text: String,
+      dialect: Dialect,
+      mode: GuidingMode,
+      spp: Int,
+      seed: Int = 0
+  ): RenderPlan =
+    val switches = Switches(guiding = mode)
+    SceneTexts.plan(text, dialect, BuildOptions(Some(spp), seed, switches = switches))
+
+  private def image(plan: RenderPlan, threads: Int = 1): Image =
+    Renderer.render(plan, threads).image(plan.development)
+
+  for dialect <- Vector(Dialect.V3, Dialect.V4) do
+    test(s"guided images have the mean of unguided ones in every 8 × 8 block, in $dialect"):
+      def blocks(mode: GuidingMode): Vector[Vector[Double]] =
+        Vector.tabulate(Seeds)(seed =>
+          blockMeans(image(plan(rooms(dialect), dialect, mode, 16, seed)))
+        )
+      val (guided, unguided) = (blocks(GuidingMode.On), blocks(GuidingMode.Off))
+      val scores = guided.transpose.zip(unguided.transpose).map(score)
+      // Of 48 normal numbers one is beyond 4.5 in 3000 runs; the root of their mean square has a
+      // deviation of 0.1
+      assert(scores.forall(_.abs < 4.5), scores)
+      assert(Math.sqrt(scores.map(z => z * z).sum / scores.size) < 1.4, scores)
+
+  test("inside a glowing sphere guided paths see the light of all bounces"):
+    val made = plan(Oven, Dialect.V4, GuidingMode.On, 256)
+    val data = image(made).data
+    val seen = data.map(_.toDouble).sum / data.length
+    // 1 / (1 − 0.7), without what is left after 30 bounces
+    assert(Math.abs(seen - 1.0 / 0.3) < 0.02 / 0.3)
+
+  test("guided images are the same for any number of threads"):
+    for mode <- Vector(GuidingMode.On, GuidingMode.Auto) do
+      def pixels(threads: Int) =
+        image(plan(rooms(Dialect.V4), Dialect.V4, mode, 64), threads).data.toVector
+      val one = pixels(1)
+      assert(pixels(2) == one)
+      assert(pixels(3) == one)
+
+  test("a guided rendering that is interrupted is continued to the same bytes"):
+    val folder = Files.createTempDirectory("candela-guided")
+    val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
+    def render(from: Option[Path], to: Path, cancels: Boolean): Int =
+      val cancellation = Cancellation()
+      Renderer
+        .render(
+          plan(rooms(Dialect.V4), Dialect.V4, GuidingMode.On, 256),
+          threads = 2,
+          cancellation,
+          onProgress = _ => if cancels then cancellation.request(),
+          checkpointer = Some(FileKeeper(from, to))
+        )
+        .samplesDone
+    assert(render(None, whole, cancels = false) == 256)
+    var runs = 0
+    var done = 0
+    while done < 256 do
+      done = render(Option.when(runs > 0)(parts), parts, cancels = true)
+      runs += 1
+    assert(runs > 2)
+    assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
+    for file <- Vector(whole, parts, folder) do Files.delete(file)
+
+private object GuidedWalkSuite:
+  val Seeds = 64
+
+  final class FileKeeper(from: Option[Path], to: Path) extends Checkpointer:
+    def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
+    def isDue: Boolean = false
+    def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
+    def finish(): Unit = ()
+
+  /** Of each block of 8 × 8 pixels, in each channel. */
+  def blockMeans(image: Image): Vector[Double] =
+    for
+      y <- Vector.range(0, image.height, 8)
+      x <- Vector.range(0, image.width, 8)
+      c <- Vector(0, 1, 2)
+    yield
+      val all = for j <- y until y + 8; i <- x until x + 8 yield image(i, j, c).toDouble
+      all.sum / all.size
+
+  /** The difference of two means, in deviations. */
+  def score(a: Vector[Double], b: Vector[Double]): Double =
+    def mean(v: Vector[Double]) = v.sum / v.size
+    def variance(v: Vector[Double]) =
+      v.map(x => (x - mean(v)) * (x - mean(v))).sum / (v.size - 1) / v.size
+    (mean(a) - mean(b)) / Math.sqrt(variance(a) + variance(b))
+
+  /** A box divided by a wall with a gap; the lamp is behind it. Spheres are matte,
+    * rough metal, coated and of glass.
+    */
+  def rooms(dialect: Dialect): String =
+    val isV4 = dialect == Dialect.V4
+    def material(v4: String, v3: String) = s"Material ${if isV4 then v4 else v3}"
+    val white = material(
+      """"diffuse" "rgb reflectance" [.7 .7 .7]""",
+      """"matte" "rgb Kd" [.7 .7 .7]"""
+    )
+    val point = if isV4 then "point3" else "point"
+    def quad(points: String) =
+      s"""Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "$point P" [$points]"""
+    s"""LookAt 0 -.9 .5  .1 0 .4  0 0 1
+       |Camera "perspective" "float fov" 70
+       |Film "${if isV4 then "rgb" else "image"}" "integer xresolution" 32 "integer yresolution" 32
+       |PixelFilter "box"
+       |Sampler "${if isV4 then "independent" else "random"}" "integer pixelsamples" 16
+       |Integrator "path" "integer maxdepth" 8
+       |WorldBegin
+       |$white
+       |${quad("-1 -1 0  1 -1 0  1 2 0  -1 2 0")}
+       |${quad("-1 -1 1  1 -1 1  1 2 1  -1 2 1")}
+       |${quad("-1 -1 0  1 -1 0  1 -1 1  -1 -1 1")}
+       |${quad("-1 2 0  1 2 0  1 2 1  -1 2 1")}
+       |${quad("-1 -1 0  -1 2 0  -1 2 1  -1 -1 1")}
+       |${quad("1 -1 0  1 2 0  1 2 1  1 -1 1")}
+       |${quad("-.5 1 0  1 1 0  1 1 1  -.5 1 1")}
+       |AttributeBegin
+       |AreaLightSource "diffuse" "rgb L" [9 8 7]
+       |Translate .4 1.5 .6
+       |Shape "sphere" "float radius" .25
+       |AttributeEnd
+       |AttributeBegin
+       |${material(
+        """"conductor" "float roughness" .2""",
+        """"metal" "float roughness" .2 "bool remaproughness" "false""""
+      )}
+       |Translate -.4 .2 .25
+       |Shape "sphere" "float radius" .25
+       |AttributeEnd
+       |AttributeBegin
+       |${material(
+        """"coateddiffuse" "rgb reflectance" [.2 .6 .3] "float roughness" .1""",
+        """"plastic" "rgb Kd" [.2 .6 .3] "float roughness" .1"""
+      )}
+       |Translate .2 .2 .25
+       |Shape "sphere" "float radius" .25
+       |AttributeEnd
+       |AttributeBegin
+       |${material(""""dielectric" "float roughness" .2""", """"glass"""")}
+       |Translate .7 .3 .25
+       |Shape "sphere" "float radius" .2
+       |AttributeEnd
+       |${if isV4 then "" else "WorldEnd"}
+       |""".stripMargin
+
+  /** From inside, a sphere that emits radiance 1 inwards. */
+  val Oven: String =
+    s"""Camera "perspective"
+       |Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+       |Sampler "independent" "integer pixelsamples" 256
+       |Integrator "path" "integer maxdepth" 30
+       |WorldBegin
+       |Material "diffuse" "rgb reflectance" [.7 .7 .7]
+       |AreaLightSource "diffuse" "rgb L" [1 1 1]
+       |ReverseOrientation
+       |Shape "sphere"
+       |""".stripMargin
