@@ -13,7 +13,7 @@ final class SphericalRectangle:
   private var x0, x1, y0, y1, z = 0.0
   private var area = 0.0
   private var lower, upper = 0.0 // z components of the normals of the planes through y0 and y1
-  private var rest = 0.0
+  private var cosRest, sinRest = 0.0 // of 2π less the angles at the corners of x0
 
   /** The sampled point of the rectangle. */
   var x, y: Double = 0.0
@@ -25,18 +25,20 @@ final class SphericalRectangle:
     this.y0 = y0
     this.y1 = y1
     this.z = z
-    SphericalRectangle.measure(x0, x1, y0, y1, z): (solidAngle, farther, below, above) =>
-      area = solidAngle
-      rest = 2 * Math.PI - farther
-      lower = below
-      upper = above
+    lower = -y0 / Math.sqrt(z * z + y0 * y0)
+    upper = y1 / Math.sqrt(z * z + y1 * y1)
+    area = SphericalRectangle.measure(x0, x1, y0, y1, z): (cosine, sine) =>
+      val scale = 1 / Math.sqrt(cosine * cosine + sine * sine)
+      cosRest = cosine * scale
+      sinRest = -sine * scale
     area
 
   /** Samples a point; requires a positive solid angle. */
   def sample(u1: Float, u2: Float): Unit =
     // The part of the rectangle from x0 to x has the fraction u1 of the solid angle
-    val part = u1 * area + rest
-    val slope = (Math.cos(part) * lower - upper) / Math.sin(part)
+    val (cosine, sine) = (Math.cos(u1 * area), Math.sin(u1 * area))
+    val slope = ((cosine * cosRest - sine * sinRest) * lower - upper) /
+      (sine * cosRest + cosine * sinRest)
     val c = clamp(Math.signum(slope) / Math.sqrt(slope * slope + lower * lower), -1, 1)
     val depth = Math.abs(z)
     x = clamp(c * depth / Math.sqrt(Math.max(1e-30, 1 - c * c)), x0, x1)
@@ -53,19 +55,25 @@ final class SphericalRectangle:
 object SphericalRectangle:
   /** The solid angle in sr that `set` returns, without preparing to sample the rectangle. */
   def solidAngle(x0: Double, x1: Double, y0: Double, y1: Double, z: Double): Double =
-    measure(x0, x1, y0, y1, z)((solidAngle, _, _, _) => solidAngle)
+    measure(x0, x1, y0, y1, z)((_, _) => ())
 
-  /** @param use receives the solid angle, the sum of the angles at the corners of x0, and the z
-    *            components of the normals of the planes through the edges at y0 and y1
+  /** The solid angle is the sum of the angles at the corners, less 2π. An angle is the argument of a
+    * complex number, and their sum that of the product: one arctangent instead of four arccosines,
+    * and no difference of nearly equal numbers.
+    *
+    * @param use receives cosine and sine of the sum of the angles at the corners of x0, times a
+    *            positive factor
     */
-  private inline def measure[A](x0: Double, x1: Double, y0: Double, y1: Double, z: Double)(
-      inline use: (Double, Double, Double, Double) => A
-  ): A =
-    val z2 = z * z
-    val below = -y0 / Math.sqrt(z2 + y0 * y0)
-    val right = x1 / Math.sqrt(z2 + x1 * x1)
-    val above = y1 / Math.sqrt(z2 + y1 * y1)
-    val left = -x0 / Math.sqrt(z2 + x0 * x0)
-    val farther = Math.acos(-above * left) + Math.acos(-left * below)
-    val nearer = Math.acos(-below * right) + Math.acos(-right * above)
-    use(farther + nearer - 2 * Math.PI, farther, below, above)
+  private inline def measure(x0: Double, x1: Double, y0: Double, y1: Double, z: Double)(
+      inline use: (Double, Double) => Unit
+  ): Double =
+    def height(x: Double, y: Double) = Math.abs(z) * Math.sqrt(x * x + y * y + z * z)
+    val (r0, i0) = (x1 * y0, height(x1, y0))
+    val (r1, i1) = (-x1 * y1, height(x1, y1))
+    val (r2, i2) = (x0 * y1, height(x0, y1))
+    val (r3, i3) = (-x0 * y0, height(x0, y0))
+    val (nearR, nearI) = (r0 * r1 - i0 * i1, r0 * i1 + i0 * r1)
+    val (farR, farI) = (r2 * r3 - i2 * i3, r2 * i3 + i2 * r3)
+    use(farR, farI)
+    val angle = Math.atan2(nearR * farI + nearI * farR, nearR * farR - nearI * farI)
+    if angle < 0 then angle + 2 * Math.PI else angle
