@@ -57,9 +57,9 @@ object SphericalRectangle:
   def solidAngle(x0: Double, x1: Double, y0: Double, y1: Double, z: Double): Double =
     measure(x0, x1, y0, y1, z)((_, _) => ())
 
-  /** The solid angle is the sum of the angles at the corners, less 2π. An angle is the argument of a
-    * complex number, and their sum that of the product: one arctangent instead of four arccosines,
-    * and no difference of nearly equal numbers.
+  /** The solid angle is the sum of the angles at the corners, less 2π. An angle is the argument of
+    * a complex number, and their sum that of the product: one arctangent instead of four
+    * arccosines, and no difference of nearly equal numbers.
     *
     * @param use receives cosine and sine of the sum of the angles at the corners of x0, times a
     *            positive factor
