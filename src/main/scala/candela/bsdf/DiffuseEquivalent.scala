@@ -5,11 +5,12 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.sampling.{SampleHash, Warp}
 
-/** A diffuse surface that reflects as much light as `inner` reflects and transmits, for each
-  * direction of view.
+/** A diffuse surface that reflects as much light as `inner` reflects, for each direction of view.
+  *
+  * @param transmits whether it also reflects what `inner` transmits
   */
-final class DiffuseEquivalent(inner: Material) extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = DiffuseEquivalent.Lobe(inner.bsdf(at), at.p)
+final class DiffuseEquivalent(inner: Material, transmits: Boolean) extends Material:
+  def bsdf(at: ShadingPoint): Bsdf = DiffuseEquivalent.Lobe(inner.bsdf(at), at.p, transmits)
   override def isAnisotropic: Boolean = inner.isAnisotropic
   override def isDispersive: Boolean = inner.isDispersive
 
@@ -17,7 +18,7 @@ object DiffuseEquivalent:
   private def bits(f: Float) = java.lang.Float.floatToRawIntBits(f) & 0xffffffffL
 
   /** @param p position, from which the random numbers of the estimated albedo follow */
-  private final class Lobe(inner: Bsdf, p: Vec3) extends Bsdf:
+  private final class Lobe(inner: Bsdf, p: Vec3, transmits: Boolean) extends Bsdf:
     private val place =
       SampleHash.mix64(bits(p.x) << 32 | bits(p.y)) ^ SampleHash.mix64(bits(p.z))
 
@@ -27,7 +28,8 @@ object DiffuseEquivalent:
       val second = SampleHash.mix64(first + SampleHash.Step)
       val third = SampleHash.mix64(second + SampleHash.Step)
       def unit(hash: Long) = SampleHash.toUnit((hash >>> 32).toInt)
-      inner.sample(wo, unit(first), unit(second), unit(third)).weight
+      val drawn = inner.sample(wo, unit(first), unit(second), unit(third))
+      if transmits || isReflection(wo, drawn.wi) then drawn.weight else Rgb.Black
 
     private def isReflection(wo: Vec3, wi: Vec3) = wo.z * wi.z > 0f
 

@@ -29,11 +29,12 @@ private[build] final class MaterialTable private (
     val borders: Array[MediumBorder],
     val touchesMedia: Boolean,
     val names: Vector[String],
-    make: BuildContext => Array[Material],
+    make: (BuildContext, IntegratorPlan) => Array[Material],
     dressed: ShapeDescription => DressedShape
 ):
   /** The materials in another colour basis, in the same order. */
-  def in(context: BuildContext): Array[Material] = make(context)
+  def in(context: BuildContext, integrator: IntegratorPlan): Array[Material] =
+    make(context, integrator)
 
   def dress(shape: ShapeDescription): DressedShape = dressed(shape)
 
@@ -53,6 +54,7 @@ private[build] object MaterialTable:
   /** @param shapes all shapes to render */
   def of(
       context: BuildContext,
+      integrator: IntegratorPlan,
       media: MediaBuilder,
       shapes: Vector[ShapeDescription]
   ): MaterialTable =
@@ -65,15 +67,15 @@ private[build] object MaterialTable:
       (Finish(split(s)._2, s.oneSided), media.seen(b))
     val worn = shapes.zip(borders).map(wear).distinct
     val number = worn.zipWithIndex.toMap
-    def make(context: BuildContext): Array[Material] =
+    def make(context: BuildContext, integrator: IntegratorPlan): Array[Material] =
       for (name, d) <- named do
         context.resources.materials.define(name, () => Materials.build(context.site(d)))
       val made = mutable.HashMap.empty[MaterialRef, Material]
       worn.map: (finish, _) =>
-        finish.of(made.getOrElseUpdate(finish.ref, switched(context, finish.ref)))
+        finish.of(made.getOrElseUpdate(finish.ref, finished(context, integrator, finish.ref)))
       .toArray
     new MaterialTable(
-      make(context),
+      make(context, integrator),
       worn.map(_._2).toArray,
       borders.exists(b => b.inside >= 0 || b.outside >= 0),
       worn.map((finish, _) => name(finish.ref)),
@@ -92,11 +94,16 @@ private[build] object MaterialTable:
     case MaterialRef.Inline(d) => StatementName(d)
     case MaterialRef.Named(name, _) => name
 
-  private def switched(context: BuildContext, ref: MaterialRef): Material =
+  private def finished(
+      context: BuildContext,
+      integrator: IntegratorPlan,
+      ref: MaterialRef
+  ): Material =
     material(context, ref) match
       case InterfaceMaterial => InterfaceMaterial
-      case made if context.resources.switches.diffuse => DiffuseEquivalent(made)
-      case made => made
+      case made if context.resources.switches.diffuse =>
+        integrator.finish(DiffuseEquivalent(made, transmits = true))
+      case made => integrator.finish(made)
 
   private def material(context: BuildContext, ref: MaterialRef): Material = ref match
     case MaterialRef.Default => Materials.default

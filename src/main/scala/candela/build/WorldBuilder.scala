@@ -64,7 +64,7 @@ private[build] final class WorldBuilder(
     val uses = ObjectUses(description, problems)
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
-    val materials = MaterialTable.of(context, media, shapes)
+    val materials = MaterialTable.of(context, integrator, media, shapes)
 
     def collected(shapes: Vector[ShapeDescription]) =
       val builder = SurfaceBuilder(context, materials)
@@ -102,8 +102,10 @@ private[build] final class WorldBuilder(
       defineTextures(other)
       val otherLights = lit.lights(other) ++
         shining.flatMap((l, _) => light(l, lightPlan(l, other)))
-      val otherScene = scene.recolored(materials.in(other), otherLights.map(_.light).toArray)
-      MediaBuilder(other, integratorIn(other))
+      val plan = integratorIn(other)
+      val otherScene =
+        scene.recolored(materials.in(other, plan), otherLights.map(_.light).toArray)
+      MediaBuilder(other, plan)
         .method(otherScene, samples, shining.map(_._1), materials, reach)
         ._1
     val found = ColorPlan.of(context, mode, sensor)

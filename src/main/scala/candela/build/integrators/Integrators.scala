@@ -1,5 +1,6 @@
 package candela.build.integrators
 
+import candela.bsdf.Material
 import candela.build.recipe.*
 import candela.film.PixelBounds
 import candela.integrators.*
@@ -52,6 +53,7 @@ object Integrators:
   * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
   * @param followsSpecular whether textures are also filtered along specular paths
   * @param crossesPanes whether panes do not scatter what they transmit, for `throughMedia`
+  * @param finish       what the integrator makes of each material
   * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
   */
@@ -67,6 +69,7 @@ final case class IntegratorPlan(
     samples: Option[Int] = None,
     window: Option[PixelBounds] = None,
     crossesPanes: Boolean = false,
+    finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )

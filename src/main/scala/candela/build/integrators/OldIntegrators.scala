@@ -1,10 +1,13 @@
 package candela.build.integrators
 
 import candela.bidirectional.PhotonSettings
+import candela.bsdf.{DiffuseEquivalent, Material}
+import candela.build.materials.PlasticRecipe
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.integrators.{DipoleLighting, DirectLighting}
 import candela.render.RenderMethod
+import candela.textures.{ConstantFloat, ConstantRgb}
 
 /** Falls back to progressive photon mapping, with the same image and without final gathering. */
 final class PhotonMapRecipe(name: String)
@@ -110,43 +113,46 @@ object DipoleSubsurfaceRecipe
       )
     )
 
-/** Fallback of precomputed radiance transfer, which covers direct light only. */
-trait DirectInstead extends Recipe[IntegratorPlan]:
-  protected def make()(using Site): IntegratorPlan = IntegratorPlan(
-    (scene, samples) => RenderMethod.Tiles(DirectLighting(scene, 1, samples)),
-    samplesBsdf = true,
-    s"directlighting for $name",
-    throughVolumes = Some(DirectLighting(_, 1, _, _))
-  )
-
-object DiffusePrtRecipe
-    extends Recipe[IntegratorPlan]("diffuseprt", "precomputed diffuse transfer", onlyV2)
-    with DirectInstead:
+/** Precomputed radiance transfer: the direct light that it stands for, with the surfaces that it
+  * sees. What the spherical harmonics lose is kept: hard shadows, sharp reflection, and light that
+  * differs from place to place.
+  */
+abstract class RadianceTransferRecipe(name: String, meaning: String)
+    extends Recipe[IntegratorPlan](name, meaning, onlyV2):
   override def pending: Option[String] =
-    Some(
-      "using \"directlighting\", which has hard shadows, keeps light positions and includes " +
-        "glossy reflection"
-    )
+    Some("using exact direct light, with hard shadows and lights at their places")
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
     integer("nsamples", "rays per point")(4096)
   )
 
-object GlossyPrtRecipe
-    extends Recipe[IntegratorPlan]("glossyprt", "precomputed glossy transfer", onlyV2)
-    with DirectInstead:
-  override def pending: Option[String] =
-    Some(
-      "using \"directlighting\", which has hard shadows, keeps light positions and uses the " +
-        "materials of the scene"
-    )
-  declare(
-    integer("lmax", "degree of the spherical harmonics")(4),
-    integer("nsamples", "rays per point")(4096),
-    color("Kd", "diffuse reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f)),
-    color("Ks", "glossy reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f)),
-    float("roughness", "roughness of all surfaces")(0.1f)
+  /** What it makes of the scene's materials. */
+  protected def finish(using Site): Material => Material
+
+  protected def make()(using Site): IntegratorPlan = IntegratorPlan(
+    (scene, samples) => RenderMethod.Tiles(DirectLighting(scene, 1, samples)),
+    samplesBsdf = true,
+    s"directlighting for $name",
+    finish = finish,
+    throughVolumes = Some(DirectLighting(_, 1, _, _))
   )
+
+object DiffusePrtRecipe
+    extends RadianceTransferRecipe("diffuseprt", "precomputed diffuse transfer"):
+  protected def finish(using Site): Material => Material =
+    DiffuseEquivalent(_, transmits = false)
+
+object GlossyPrtRecipe
+    extends RadianceTransferRecipe("glossyprt", "precomputed transfer, of one glossy surface"):
+  private val kd =
+    color("Kd", "diffuse reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.5f))
+  private val ks =
+    color("Ks", "glossy reflectance of all surfaces", SpectrumRole.Reflectance)(Rgb.gray(0.25f))
+  private val roughness = float("roughness", "roughness of all surfaces")(0.1f)
+  protected def finish(using site: Site): Material => Material =
+    val plastic =
+      PlasticRecipe.second(ConstantRgb(kd()), ConstantRgb(ks()), ConstantFloat(roughness()))
+    _ => plastic
 
 object UseProbesRecipe
     extends Recipe[IntegratorPlan]("useprobes", "precomputed light probes", onlyV2)

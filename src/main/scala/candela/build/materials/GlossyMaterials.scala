@@ -2,12 +2,13 @@ package candela.build.materials
 
 import candela.bsdf.Material
 import candela.bsdf.composite.{
-  DisneyMaterial, DisneyParameters, PlasticMaterial, PrincipledMaterial, UberMaterial
+  DisneyMaterial, DisneyParameters, Edition, PlasticMaterial, PrincipledMaterial, UberMaterial
 }
 import candela.bsdf.microfacet.{Roughness, RoughnessModel, SubstrateMaterial}
 import candela.build.recipe.*
 import candela.color.Rgb
 import candela.scenefile.Dialect
+import candela.textures.{FloatTexture, RgbTexture}
 
 object PlasticRecipe
     extends RoughRecipe(
@@ -17,6 +18,15 @@ object PlasticRecipe
   private val ks = rgbTexture("Ks", "scale of the glossy lobe")(Rgb.gray(0.25f))
   protected def make()(using site: Site): Material =
     PlasticMaterial(kd(), ks(), roughness(), edition(site.dialect))
+
+  /** The plastic of pbrt-v2. */
+  def second(kd: RgbTexture, ks: RgbTexture, roughness: FloatTexture): Material =
+    PlasticMaterial(
+      kd,
+      ks,
+      Roughness(roughness, roughness, RoughnessModel.BlinnExponent),
+      Edition.Second
+    )
 
 object UberRecipe extends RoughRecipe(
       "uber",
