@@ -185,7 +185,7 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, sampling),
+      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, sampling, crop.pixels),
       differentialScale =
         if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
         else sampling.footprint,
@@ -206,13 +206,14 @@ object SceneBuilder:
   private def guiding(
       context: BuildContext,
       method: RenderMethod,
-      sampling: SamplingSetup
+      sampling: SamplingSetup,
+      pixels: Long
   ): Option[(String, String)] =
     val mode = context.resources.switches.guiding
     Option.when(mode != GuidingMode.Off):
       "guiding" -> (method match
         case RenderMethod.Guided(_, guide, _) =>
-          guide(sampling.sampler.samplesPerPixel, 1L).describe
+          guide(sampling.sampler.samplesPerPixel, pixels).describe
         case _ => "none: only path tracing without media and pbrt-v2's volumes is guided")
 
   private def layerPlan(

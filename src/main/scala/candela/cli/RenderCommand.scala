@@ -303,6 +303,7 @@ final class RenderCommand(
     if !options.quiet && written.nonEmpty then
       if options.verbose then
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
+        rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
       terminal.out.println(Summary.result(written, rendering, loaded.standIns))
       terminal.out.flush()
 

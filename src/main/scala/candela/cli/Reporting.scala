@@ -48,7 +48,8 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
       phases(rendering, writeSeconds, denoised),
       recorder.passes,
       last ++ clean ++ others,
-      rendering.rays
+      rendering.rays,
+      rendering.learned.fold(Vector.empty)(Learning.figures)
     )
 
   private def phases(

@@ -13,49 +13,95 @@ import candela.base.{CheckedInput, CheckedOutput}
 final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   import Guide.*
 
-  private val isLongEnough = !settings.adapts || samples >= Least
+  private val isLongEnough =
+    !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths
 
   @volatile private var current = lesson(GuideField.Start, 0, UsualEvents)
+  private var learning: GuideLearning | Null = null
+  private var progress = GuideProgress()
+  private var tallies = Vector.empty[GuideTally]
 
   /** The field to use, and where to record, until the pass ends. */
   def lesson: Lesson = current
 
+  /** For a worker. */
+  def newTally(): GuideTally = synchronized:
+    val tally = GuideTally()
+    tallies :+= tally
+    tally
+
+  /** What will be learnt. */
   def describe: String =
-    if !settings.adapts then "everywhere, learnt while rendering"
-    else if isLongEnough then
-      s"where it pays, learnt while rendering; none if it does not by sample $Trial"
-    else s"none: fewer than $Least samples per pixel"
+    val until = s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
+    if !settings.adapts then s"everywhere, $until"
+    else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
+    else "none: the rendering is too short to learn"
+
+  /** What was learnt; no path may be on its way. */
+  def outcome: GuideOutcome =
+    val field = current.field
+    GuideOutcome(
+      samples = current.begun,
+      regions = field.shares.count(_ < 1f),
+      allRegions = field.regions,
+      lobes = field.used.zip(field.shares).collect { case (n, share) if share < 1f => n }.sum,
+      bounces = tallies.map(_.bounces).sum,
+      guided = tallies.map(_.guided).sum,
+      left = progress.left,
+      gaveUp = progress.gaveUp
+    )
 
   /** Called when sample number `sample` begins, and no path of an earlier pass is on its way. */
   def begin(sample: Int): Unit =
     if isOver(current, sample) then
-      synchronized:
-        if isOver(current, sample) then learn(current, sample)
+      val all = synchronized:
+        val was = current
+        if learning == null && isOver(was, sample) then
+          learning = GuideLearning(growth(was, sample))
+        learning
+      // Else others have just ended the pass
+      if all != null then
+        all.help()
+        synchronized:
+          if isOver(current, sample) then take(all.growth, sample)
 
   private def isOver(lesson: Lesson, sample: Int): Boolean =
     lesson.records != null && sample >= next(lesson.begun)
 
-  private def learn(was: Lesson, sample: Int): Unit =
-    val records = was.records
-    if records != null then
-      val events = records.sorted()
-      val growth = GuideGrowth(was.field, events, settings)
-      val field = growth.result()
-      current =
-        if settings.adapts && sample >= Trial && growth.left > WorthIt then
-          Lesson(GuideField.Start, sample, null)
-        else
-          val count = events.length / GuideRecords.Size
-          lesson(field, sample, count / (pixels.toDouble * (sample - was.begun) * records.rate))
+  /** Events per path that found light, in a pass that ends. */
+  private def perPath(was: Lesson, sample: Int, events: Int): Double =
+    val rate = was.records.nn.rate
+    events / (pixels.toDouble * (sample - was.begun) * rate)
+
+  private def growth(was: Lesson, sample: Int): GuideGrowth =
+    val events = was.records.nn.sorted()
+    val lit = perPath(was, sample, GuideRecords.firsts(events))
+    GuideGrowth(was.field, events, settings, Math.min(1.0, lit))
+
+  private def take(growth: GuideGrowth, sample: Int): Unit =
+    val was = current
+    val found = perPath(was, sample, growth.events.length / GuideRecords.Size)
+    if was.field.guides then progress = progress.after(growth.verdict)
+    val following = lesson(growth.result(), sample, found)
+    val isLast = following.records == null
+    val ends =
+      settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
+    if ends then progress = progress.copy(gaveUp = true)
+    current = if ends then Lesson(GuideField.Start, sample, null) else following
+    learning = null
+
+  /** The sample before which the last pass ends. */
+  private def lastPass: Int = Iterator.iterate(1)(next).takeWhile(goesOn).foldLeft(1)((_, n) => n)
+
+  /** Does a pass that ends then record? The first always ends before the samples do. */
+  private def goesOn(end: Int): Boolean = end < samples && (end == 1 || 4 * end <= samples)
 
   /** @param found events per sample that found light */
   private def lesson(field: GuideField, begun: Int, found: Double): Lesson =
     val end = next(begun)
     val expected = pixels * (end - begun) * Math.max(found, 1e-3)
     val rate = Math.min(1.0, settings.records / expected).toFloat
-    // The first pass always ends before the samples do
-    val goesOn = isLongEnough && end < samples && (begun == 0 || 4 * end <= samples)
-    Lesson(field, begun, if goesOn then GuideRecords(rate) else null)
+    Lesson(field, begun, if isLongEnough && goesOn(end) then GuideRecords(rate) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -63,6 +109,9 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     val records = now.records
     to.int(now.begun)
     now.field.save(to)
+    progress.save(to)
+    to.long(tallies.map(_.bounces).sum)
+    to.long(tallies.map(_.guided).sum)
     to.float(if records == null then 0f else records.rate)
     if records != null then records.save(to)
 
@@ -70,6 +119,10 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   def load(from: CheckedInput): Unit =
     val begun = from.int()
     val field = GuideField.load(from)
+    progress = GuideProgress.load(from)
+    val tally = newTally()
+    tally.bounces = from.long()
+    tally.guided = from.long()
     val rate = from.float()
     val records = if rate == 0f then null else GuideRecords(rate)
     if records != null then records.load(from)
@@ -89,14 +142,9 @@ object Guide:
       val to = records
       if to == null then null else to.newPart()
 
-  /** Samples per pixel of a rendering in which learning may pay. */
-  private val Least = 64
-
-  /** The sample before which it has to show that it pays. */
-  private val Trial = 16
-
-  /** It pays if this part of the second moment is left, or less. */
-  private val WorthIt = 0.8
+  /** Samples per pixel, and paths, of a rendering in which learning may pay. */
+  private val FewestSamples = 16
+  private val FewestPaths = 1 << 17
 
   /** Events per sample that find light, before they were counted. */
   private val UsualEvents = 3.0

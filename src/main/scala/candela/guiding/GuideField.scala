@@ -17,10 +17,11 @@ import candela.math.*
   * @param shares  of each region, the probability that directions are sampled from the BSDF
   *                instead; 1: it is not guided
   * @param centres of each region: three coordinates
-  * @param lobes   [[GuideField.Lobes]] of each region, with [[GuideField.Size]] numbers each: the
-  *                direction to the point as seen from the centre of the region (three numbers),
-  *                one over its distance, the concentration, the weight, and the weight times the
-  *                factor that normalises the lobe. Without light all are zero
+  * @param lobes   [[GuideField.Lobes]] of each region, heavy ones first, with [[GuideField.Size]]
+  *                numbers each: the direction to the point as seen from the centre of the region
+  *                (three numbers), one over its distance, the concentration, the weight; then,
+  *                leaving light lobes out, the weight times the factor that normalises the lobe,
+  *                and the sum of weights up to this lobe. Without light all are zero
   */
 final class GuideField private[guiding] (
     val axis: Array[Int],
@@ -34,24 +35,28 @@ final class GuideField private[guiding] (
 
   def regions: Int = shares.length
 
+  /** Of each region, the lobes that are not too light to be used; none without light. */
+  private[guiding] val used: Array[Int] =
+    Array.tabulate(regions): region =>
+      (0 until Lobes).count(k => lobes((region * Lobes + k) * Size + Factor) > 0f)
+
   /** Are there regions that guide? */
   val guides: Boolean = shares.exists(_ < 1f)
 
-  /** The region of a point on a surface with normal `n`; points outside belong to the nearest. */
-  def region(p: Vec3, n: Vec3): Int = region(side(n), p.x, p.y, p.z)
-
-  private[guiding] def region(side: Int, px: Float, py: Float, pz: Float): Int =
+  /** The region of the point whose coordinates begin at `p(at)`, on a surface that faces this side;
+    * points outside belong to the nearest.
+    */
+  private[guiding] def region(side: Int, p: Array[Float], at: Int): Int =
     var node = side
     var next = below(node)
     while next >= 0 do
-      val a = axis(node)
-      val x = if a == 0 then px else if a == 1 then py else pz
-      node = if x < split(node) then next else next + 1
+      // Without branches, which would be predicted wrongly
+      node = next + (if p(at + axis(node)) < split(node) then 0 else 1)
       next = below(node)
     -1 - next
 
   /** Was light found there? */
-  def isFitted(region: Int): Boolean = lobes(region * Lobes * Size + Weight) > 0f
+  def isFitted(region: Int): Boolean = used(region) > 0
 
   private[guiding] def save(to: CheckedOutput): Unit =
     for all <- Vector(axis, below) do
@@ -63,14 +68,15 @@ final class GuideField private[guiding] (
 
 object GuideField:
   /** Lobes of a region. */
-  inline val Lobes = 8
+  inline val Lobes = 16
 
   /** Numbers of a lobe, and the places of some. */
-  inline val Size = 7
+  inline val Size = 8
   private[guiding] inline val Nearness = 3
   private[guiding] inline val Kappa = 4
   private[guiding] inline val Weight = 5
   private[guiding] inline val Factor = 6
+  private[guiding] inline val End = 7
 
   /** Number of the side that a surface with this normal faces. */
   private[guiding] def side(n: Vec3): Int =

@@ -11,7 +11,7 @@ import candela.sampling.SampleHash
   * @param events sorted ([[GuideRecords]])
   */
 private[guiding] final class GuideFit(events: Array[Float]):
-  import GuideField.{Factor, Kappa, Lobes, Nearness, Size, Weight}
+  import GuideField.{End, Factor, Kappa, Lobes, Nearness, Size, Weight}
   import GuideFit.*
 
   // Events in proportion to their light: points from the centre, and directions
@@ -19,11 +19,14 @@ private[guiding] final class GuideFit(events: Array[Float]):
   private var count = 0
 
   private val nears = new Array[Float](Nears)
+
+  // Of each event and nearness, the direction from the centre
+  private val directions = new Array[Float](Most * Nears * 3)
   private val parts, factors = new Array[Float](Lobes)
 
   // Of each lobe: its events, and the sums of their directions from the centre for each nearness
   private val masses = new Array[Double](Lobes)
-  private val sums = new Array[Double](Lobes * Nears * 3)
+  private val sums = new Array[Float](Lobes * Nears * 3)
 
   /** @param start lobes to begin with, which are overwritten; null: none */
   def apply(of: Array[Int], centre: Array[Float], start: Array[Float] | Null): Array[Float] =
@@ -38,7 +41,7 @@ private[guiding] final class GuideFit(events: Array[Float]):
         lobes(k * Size + Weight) =
           (masses(k) / count).toFloat + (if start == null then Uniform else Old) * before(k)
       normalise(lobes)
-    lobes
+    finished(lobes)
 
   def meanLight(of: Array[Int]): Float =
     var sum = 0.0
@@ -74,12 +77,22 @@ private[guiding] final class GuideFit(events: Array[Float]):
     loop(count)(j => sum += px(j) * px(j) + py(j) * py(j) + pz(j) * pz(j))
     val reach = Math.max(Math.sqrt(sum / count), 1e-12)
     loop(Nears - 1)(j => nears(j + 1) = (Math.pow(2.0, 0.75 * j - 5.25) / reach).toFloat)
+    loop(count): j =>
+      loop(Nears): g =>
+        val x = px(j) * nears(g) + wx(j)
+        val y = py(j) * nears(g) + wy(j)
+        val z = pz(j) * nears(g) + wz(j)
+        val s = 1f / Math.max(sqrt(x * x + y * y + z * z), 1e-12f)
+        val to = (j * Nears + g) * 3
+        directions(to) = x * s
+        directions(to + 1) = y * s
+        directions(to + 2) = z * s
 
   /** Divides each event among the lobes. */
   private def expect(lobes: Array[Float]): Unit =
     loop(Lobes): k =>
       factors(k) = lobes(k * Size + Weight) * Lobe.factor(lobes(k * Size + Kappa))
-    java.util.Arrays.fill(sums, 0.0)
+    java.util.Arrays.fill(sums, 0f)
     java.util.Arrays.fill(masses, 0.0)
     loop(count): j =>
       var all = 0f
@@ -101,20 +114,14 @@ private[guiding] final class GuideFit(events: Array[Float]):
 
   /** Adds the event to the lobe. */
   private def add(j: Int, k: Int, part: Float): Unit =
-    loop(Nears): g =>
-      val near = nears(g)
-      val x = px(j) * near + wx(j)
-      val y = py(j) * near + wy(j)
-      val z = pz(j) * near + wz(j)
-      val s = part / Math.max(sqrt(x * x + y * y + z * z), 1e-12f)
-      val to = (k * Nears + g) * 3
-      sums(to) += x * s
-      sums(to + 1) += y * s
-      sums(to + 2) += z * s
+    val from = j * Nears * 3
+    val to = k * Nears * 3
+    loop(Nears * 3)(i => sums(to + i) += directions(from + i) * part)
 
   private def length(k: Int, g: Int): Double =
     val at = (k * Nears + g) * 3
-    Math.sqrt(sums(at) * sums(at) + sums(at + 1) * sums(at + 1) + sums(at + 2) * sums(at + 2))
+    val (x, y, z) = (sums(at).toDouble, sums(at + 1).toDouble, sums(at + 2).toDouble)
+    Math.sqrt(x * x + y * y + z * z)
 
   /** Sets a lobe from its events. */
   private def maximise(lobes: Array[Float], k: Int): Unit =
@@ -132,10 +139,24 @@ private[guiding] final class GuideFit(events: Array[Float]):
   private def normalise(lobes: Array[Float]): Unit =
     var all = 0f
     loop(Lobes)(k => all += lobes(k * Size + Weight))
-    loop(Lobes): k =>
-      val at = k * Size
-      lobes(at + Weight) /= all
-      lobes(at + Factor) = lobes(at + Weight) * Lobe.factor(lobes(at + Kappa))
+    loop(Lobes)(k => lobes(k * Size + Weight) /= all)
+
+  /** The lobes in the order of their weights; light ones are left out of densities and samples. */
+  private def finished(lobes: Array[Float]): Array[Float] =
+    val order = (0 until Lobes).sortBy(k => -lobes(k * Size + Weight))
+    def weight(k: Int) = lobes(k * Size + Weight)
+    val kept = order.filter(k => k == order(0) || weight(k) >= Lightest)
+    val all = kept.map(weight).sum
+    val result = new Array[Float](lobes.length)
+    var end = 0f
+    for (k, i) <- order.zipWithIndex do
+      val at = i * Size
+      System.arraycopy(lobes, k * Size, result, at, Size)
+      val part = if i < kept.length then weight(k) / all else 0f
+      end += part
+      result(at + Factor) = part * Lobe.factor(lobes(k * Size + Kappa))
+      result(at + End) = end
+    result
 
   /** Wide lobes around directions of events that are far from each other. */
   private def seeds(): Array[Float] =
@@ -170,7 +191,7 @@ private[guiding] object GuideFit:
   private inline val Nears = 7
 
   private inline val FirstRounds = 10
-  private inline val Rounds = 6
+  private inline val Rounds = 3
 
   /** More light counts as this much, in units of the region's mean, lest single paths decide. */
   inline val Brightest = 10f
@@ -180,6 +201,9 @@ private[guiding] object GuideFit:
 
   /** Events of a prior without direction. */
   private inline val Widening = 0.2
+
+  /** Weight of a lobe that is used. */
+  private inline val Lightest = 0.01f
 
   /** The part of old weights, beside the new ones, and of equal ones in the beginning. */
   private inline val Old = 0.25f

@@ -8,6 +8,16 @@ final class GuideMixture:
   import GuideField.*
   import Lobe.*
   private val xs, ys, zs, kappas, factors, ends = new Array[Float](Lobes)
+  private var count = 0
+
+  private val place = new Array[Float](3)
+
+  /** The region of a point on a surface with normal `n`. */
+  def region(field: GuideField, p: Vec3, n: Vec3): Int =
+    place(0) = p.x
+    place(1) = p.y
+    place(2) = p.z
+    field.region(side(n), place, 0)
 
   /** Takes the mixture of the region, as seen from `p`. */
   def locate(field: GuideField, region: Int, p: Vec3): Unit =
@@ -15,10 +25,10 @@ final class GuideMixture:
     val cy = field.centres(3 * region + 1) - p.y
     val cz = field.centres(3 * region + 2) - p.z
     val from = field.lobes
-    var end = 0f
+    count = field.used(region)
     var at = region * Lobes * Size
     var k = 0
-    while k < Lobes do
+    while k < count do
       val near = from(at + Nearness)
       val x = from(at) + cx * near
       val y = from(at + 1) + cy * near
@@ -28,8 +38,7 @@ final class GuideMixture:
       ys(k) = y * s
       zs(k) = z * s
       kappas(k) = from(at + Kappa)
-      end += from(at + Weight)
-      ends(k) = end
+      ends(k) = from(at + End)
       factors(k) = from(at + Factor)
       at += Size
       k += 1
@@ -41,7 +50,7 @@ final class GuideMixture:
     val z = w.z
     var sum = 0f
     var k = 0
-    while k < Lobes do
+    while k < count do
       sum += factors(k) * exp(kappas(k) * (xs(k) * x + ys(k) * y + zs(k) * z - 1f))
       k += 1
     sum
@@ -51,7 +60,7 @@ final class GuideMixture:
     */
   def sample(u: Float, v: Float, to: MutableVec3): Unit =
     var k = 0
-    while k < Lobes - 1 && u >= ends(k) do k += 1
+    while k < count - 1 && u >= ends(k) do k += 1
     val begin = if k == 0 then 0f else ends(k - 1)
     val within = Math.max(0f, Math.min((u - begin) / (ends(k) - begin), 1f))
     val kappa = kappas(k)
@@ -71,13 +80,13 @@ private[guiding] object Lobe:
   def factor(kappa: Float): Float =
     (kappa / (2.0 * Math.PI * (1.0 - Math.exp(-2.0 * kappa)))).toFloat
 
-  /** The power of e, for x ≤ 0, to six digits: Taylor's series between powers of two. */
+  /** The power of e, for x ≤ 0, to five digits: Taylor's series around the nearest power of two. */
   def exp(x: Float): Float =
     if !(x > -80f) then 0f
     else
       val t = x * 1.442695f
-      val whole = Math.floor(t).toInt
+      val whole = (t - 0.5f).toInt
       val f = (t - whole) * 0.6931472f
       val series = 1f + f * (1f + f * (0.5f + f * (0.16666667f + f * (0.041666668f +
-        f * (0.008333334f + f * (0.0013888889f + f * 1.984127e-4f))))))
+        f * 0.008333334f))))
       series * java.lang.Float.intBitsToFloat((whole + 127) << 23)

@@ -6,7 +6,7 @@ import candela.math.*
 final class GuidePath:
   import GuidePath.Most
   private val events = Array.fill(Most)(new Array[Float](GuideRecords.Size))
-  private val befores, throughputs = new Array[Float](Most)
+  private val befores, throughputs, ratios = new Array[Float](Most)
   private var size = 0
 
   def clear(): Unit = size = 0
@@ -18,6 +18,7 @@ final class GuidePath:
     * @param pdf        density of the direction
     * @param bsdfPdf    that of BSDF sampling
     * @param guidePdf   that of the field; 0 if nothing was learnt
+    * @param ratio      density of the path so far over that of BSDF sampling
     */
   def add(
       p: Vec3,
@@ -27,7 +28,8 @@ final class GuidePath:
       throughput: Float,
       pdf: Float,
       bsdfPdf: Float,
-      guidePdf: Float
+      guidePdf: Float,
+      ratio: Float
   ): Unit =
     import GuideRecords.*
     if size < Most && throughput > 0f then
@@ -44,6 +46,7 @@ final class GuidePath:
       to(GuidePdf) = guidePdf
       befores(size) = before
       throughputs(size) = throughput
+      ratios(size) = ratio
       size += 1
 
   /** Records the path, which found `light` in all. */
@@ -52,9 +55,27 @@ final class GuidePath:
     while i < size do
       val found = (light - befores(i)) / throughputs(i)
       if found > 0f && found < Float.PositiveInfinity then
-        events(i)(GuideRecords.Light) = found
-        to.add(events(i))
+        val event = events(i)
+        event(GuideRecords.Light) = found
+        event(GuideRecords.Total) = if i == 0 then light else 0f
+        event(GuideRecords.Unguided) = if i == 0 then unguided(light) else 0f
+        to.add(event)
       i += 1
+
+  /** The second moment of the light if BSDFs alone were sampled. Light found after the events `j`
+    * and `k`, `j` ≤ `k`, contributes its product times the ratio of densities up to `j`.
+    */
+  private def unguided(light: Float): Float =
+    var later = light - befores(0)
+    var sum = befores(0) * (befores(0) + 2f * later)
+    var i = 0
+    while i < size do
+      val end = if i + 1 < size then befores(i + 1) else light
+      val found = end - befores(i)
+      later -= found
+      sum += ratios(i) * found * (found + 2f * Math.max(0f, later))
+      i += 1
+    sum
 
 object GuidePath:
   /** Events that are recorded; later ones are rare, and find little. */

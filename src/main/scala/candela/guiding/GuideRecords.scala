@@ -61,17 +61,25 @@ private[guiding] final class GuideRecords(val rate: Float):
     loop(from.int())(_ => part.data += from.float())
 
 object GuideRecords:
+  /** How many of the events are the first ones of their paths? */
+  private[guiding] def firsts(events: Array[Float]): Int =
+    (0 until events.length / Size).count(i => events(i * Size + Total) > 0f)
+
   /** Numbers of an event, and their places: the point, the side of its normal, the direction taken,
     * the light that came from there, as the path received it, over its throughput before; the
-    * densities of the direction: that of the path, of BSDF sampling, of the field.
+    * densities of the direction: that of the path, of BSDF sampling, of the field. For the first
+    * event of a path also all its light and, if that was found, the second moment that it would
+    * contribute if it had sampled BSDFs only; else 0.
     */
-  private[guiding] inline val Size = 11
+  private[guiding] inline val Size = 13
   private[guiding] inline val Side = 3
   private[guiding] inline val Wi = 4
   private[guiding] inline val Light = 7
   private[guiding] inline val Pdf = 8
   private[guiding] inline val BsdfPdf = 9
   private[guiding] inline val GuidePdf = 10
+  private[guiding] inline val Total = 11
+  private[guiding] inline val Unguided = 12
 
   // Of a key: the place of the event among all
   private inline val PlaceMask = 0xffffffL

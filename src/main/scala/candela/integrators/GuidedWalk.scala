@@ -26,9 +26,13 @@ final class GuidedWalk(
   private var lesson = guide.lesson
   private var part: GuideRecords.Part | Null = lesson.newPart()
   private val mixture = GuideMixture()
+  private val tally = guide.newTally()
 
   /** The throughput that BSDF sampling of the same path would have. */
   private val unguided = MutableRgb()
+
+  /** Density of the path over that of BSDF sampling. */
+  private var ratio = 1f
 
   // Of the vertex: is it guided or recorded?
   private var isKept = false
@@ -43,6 +47,7 @@ final class GuidedWalk(
       part = lesson.newPart()
     path.clear()
     unguided.set(Rgb.White)
+    ratio = 1f
 
   override def evaluate(): Unit =
     super.evaluate()
@@ -53,8 +58,8 @@ final class GuidedWalk(
     if isKept then
       val n = vertex.at.frame.n
       if vertex.localWo.z < 0f then normal.set(-n.x, -n.y, -n.z) else normal.set(n)
-      val region = field.region(vertex.at.p, normal)
-      share = field.shares(region)
+      val region = mixture.region(field, vertex.at.p, normal)
+      share = if ratio < LeastRatio then 1f else field.shares(region)
       isFitted = field.isFitted(region)
       isKept = part != null || share < 1f
       if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
@@ -78,12 +83,14 @@ final class GuidedWalk(
     if to != null then path.record(radiance.toRgb.average, to)
 
   override def scatter(sampler: Sampler): Unit =
+    if !vertex.bsdf.isSpecular then tally.bounces += 1
     if !isKept then
       super.scatter(sampler)
       unguided.scale(vertex.bounce.weight)
     else
       val choice = sampler.next1D()
       sampler.next2D()
+      if share < 1f then tally.guided += 1
       if choice < share then scatterByBsdf(Math.min(choice / share, LargestBelowOne), sampler)
       else scatterByField(sampler)
 
@@ -96,6 +103,7 @@ final class GuidedWalk(
     if byBsdf == 0f then
       unguided.scale(bounce.weight)
       if share < 1f then
+        ratio *= share
         bounce.set(
           bounce.wi,
           bounce.weight * (1f / share),
@@ -131,8 +139,11 @@ final class GuidedWalk(
     bounce.set(bounce.wi, value * (1f / pdf), pdf, isSpecular = false, bounce.eta)
     throughput.scale(bounce.weight)
     unguided.scale(value * (1f / byBsdf))
+    ratio *= pdf / byBsdf
     if part != null && !vertex.crosses(bounce.wi) then
-      path.add(vertex.at.p, normal, wi, radiance.toRgb.average, before, pdf, byBsdf, byField)
+      path.add(
+        vertex.at.p, normal, wi, radiance.toRgb.average, before, pdf, byBsdf, byField, ratio
+      )
 
   /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
     * paths are many because much light comes from there: it must not end them.
@@ -145,3 +156,8 @@ final class GuidedWalk(
 
 private object GuidedWalk:
   inline val LargestBelowOne = 0.99999994f
+
+  /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much
+    * their light counts.
+    */
+  inline val LeastRatio = 0.1f

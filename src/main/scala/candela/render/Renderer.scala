@@ -101,7 +101,17 @@ object Renderer:
       samplesPerPixel: Int
   ): Rendering =
     val rays = workers.map(_.raysTraced).sum
-    Rendering(job.film, samplesPerPixel, state.samplesDone, 0, rays, 0, state.refused, job.layers)
+    Rendering(
+      job.film,
+      samplesPerPixel,
+      state.samplesDone,
+      0,
+      rays,
+      0,
+      state.refused,
+      job.layers,
+      job.guide.map(_.outcome)
+    )
 
   /** The waves after which the workers wait for each other. */
   private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Vector[Int] =

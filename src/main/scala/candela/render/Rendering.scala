@@ -1,6 +1,7 @@
 package candela.render
 
 import candela.film.{Development, Film, LayerFilm}
+import candela.guiding.GuideOutcome
 import candela.image.Image
 
 /** Progress of a rendering.
@@ -36,6 +37,7 @@ private[render] object Refused:
   * @param rays            traced rays of all kinds
   * @param refused         discarded samples, if any
   * @param layers          requested AOVs, if any
+  * @param learned         what its paths learnt, if they did
   */
 final case class Rendering(
     film: Film,
@@ -45,7 +47,8 @@ final case class Rendering(
     rays: Long,
     seconds: Double,
     refused: Option[Refused],
-    layers: Option[LayerFilm] = None
+    layers: Option[LayerFilm] = None,
+    learned: Option[GuideOutcome] = None
 ):
   /** Colour channels, then AOVs, then wavelength bands. */
   def image(development: Development): Image = image(development, development(film))

@@ -25,6 +25,9 @@ object RenderPage:
       p(cls := "soft", "Render time excludes the measuring of errors."),
       h2("Scene"),
       Page.facts(r.plan),
+      Option.when(r.learned.nonEmpty):
+        frag(h2("What paths learnt"), Page.facts(r.learned.map(f => (f.what, f.text))))
+      ,
       h2("Options and machine"),
       Page.facts(("version" -> s"Candela ${r.version}") +: (r.options ++ r.machine.rows))
     )

@@ -13,6 +13,14 @@ final case class Span(name: String, begin: Double, end: Double):
   */
 final case class Picture(name: String, image: Image, isReference: Boolean = false)
 
+/** A figure that tells what a rendering's paths learnt.
+  *
+  * @param key  its name in JSON
+  * @param what its name for readers
+  * @param text the value for readers
+  */
+final case class LearnedFigure(key: String, what: String, value: Double, text: String)
+
 /** Data of the report about one rendering.
   *
   * @param options options for display: (option, value)
@@ -20,6 +28,7 @@ final case class Picture(name: String, image: Image, isReference: Boolean = fals
   * @param points error after each pass; without a reference estimated, from the second pass on
   * @param passes time span of each pass, in seconds since rendering started, with each worker's
   *   busy time
+  * @param learned what the paths learnt, if they did
   */
 final case class RenderReport(
     scene: String,
@@ -32,7 +41,8 @@ final case class RenderReport(
     phases: Vector[Span],
     passes: Vector[PassSpan],
     pictures: Vector[Picture],
-    rays: Long
+    rays: Long,
+    learned: Vector[LearnedFigure] = Vector.empty
 ):
   def width: Int = pictures.head.image.width
   def height: Int = pictures.head.image.height
@@ -62,6 +72,8 @@ object RenderData:
       "passes" -> ujson.Arr.from(r.passes.map(pass)),
       "points" -> ujson.Arr.from(r.points.map(point))
     )
+    if r.learned.nonEmpty then
+      all("guiding") = ujson.Obj.from(r.learned.map(f => f.key -> number(f.value)))
     ujson.write(all, indent = 2) + "\n"
 
   def csv(r: RenderReport): String =

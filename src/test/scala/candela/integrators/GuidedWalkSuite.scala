@@ -52,10 +52,27 @@ final class GuidedWalkSuite extends AnyFunSuite:
   test("guided images are the same for any number of threads"):
     for mode <- Vector(GuidingMode.On, GuidingMode.Auto) do
       def pixels(threads: Int) =
-        image(plan(rooms(Dialect.V4), Dialect.V4, mode, 64), threads).data.toVector
+        // As many paths as may learn
+        val rendering = Renderer.render(plan(rooms(Dialect.V4), Dialect.V4, mode, 128), threads)
+        val data = rendering.film.toImage(1f).data.toVector
+        (data, rendering.learned)
       val one = pixels(1)
+      assert(one._2.exists(_.guided > 0))
       assert(pixels(2) == one)
       assert(pixels(3) == one)
+
+  test("guiding that pays goes on, and that which does not is given up"):
+    def learned(text: String, spp: Int) =
+      Renderer.render(plan(text, Dialect.V4, GuidingMode.Auto, spp), threads = 2).learned.get
+    val rooms = learned(GuidedWalkSuite.rooms(Dialect.V4), 256)
+    assert(!rooms.gaveUp && rooms.samples == 64)
+    assert(rooms.left.exists(_ < 0.8), rooms)
+    assert(rooms.share > 0.2 && rooms.share < 1.0, rooms)
+    assert(rooms.regions > 4 && rooms.lobes > rooms.regions)
+    // In the sphere all directions are equal
+    val oven = learned(Oven, 2048)
+    assert(oven.gaveUp && oven.regions == 0, oven)
+    assert(oven.share < 0.3, oven)
 
   test("a guided rendering that is interrupted is continued to the same bytes"):
     val folder = Files.createTempDirectory("candela-guided")

@@ -21,7 +21,9 @@ class PagesSuite extends AnyFunSuite:
 
   test("a page about a rendering has its figures, timeline, plan and machine"):
     val page = pages.head._2
-    for word <- Vector("64 samples", "thread 2", "parse", "truth.exr", "integrator", "Java") do
+    for word <-
+        Vector("64 samples", "thread 2", "parse", "truth.exr", "integrator", "Java", "37.5 %")
+    do
       assert(page.contains(word), word)
     // The chart of each metric, against both axes.
     for metric <- Vector("relmse", "mse", "mae", "flip"); axis <- Vector("seconds", "samples") do
@@ -39,6 +41,7 @@ class PagesSuite extends AnyFunSuite:
     val json = ujson.read(RenderData.json(Reports.report))
     assert(json("points").arr.map(_("samples").num.toInt).toVector == Vector(1, 4, 16, 64))
     assert(json("points")(0)("mse").num == 0.3 && json("estimated").bool == false)
+    assert(json("guiding")("share").num == 0.375)
     val csv = RenderData.csv(Reports.report).linesIterator.toVector
     assert(csv.size == 5 && csv.forall(_.count(_ == ',') == 9))
     assert(csv(1).startsWith("1,0.5,0.3,0.3,"))

@@ -29,7 +29,8 @@ object Reports:
     Vector(Span("parse", 0, 0.25), Span("render", 0.25, 32.25)),
     Vector(PassSpan(1, 0, 0.5, Vector(0.5, 0.4)), PassSpan(4, 0.5, 2, Vector(1.5, 1.2))),
     Vector(Picture("64 samples", image), Picture("reference", reference, isReference = true)),
-    123456
+    123456,
+    Vector(LearnedFigure("share", "guided bounces", 0.375, "37.5 %"))
   )
 
   def errors(mse: Double): Errors =

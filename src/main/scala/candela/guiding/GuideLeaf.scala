@@ -1,0 +1,96 @@
+package candela.guiding
+
+import candela.base.loop
+
+/** A region of a field that is being built.
+  *
+  * @param region of the old field that it was, or was part of
+  * @param of     places of its events among all
+  * @param lit    part of all paths that has events
+  */
+private[guiding] final class GuideLeaf(
+    old: GuideField,
+    region: Int,
+    events: Array[Float],
+    of: Array[Int],
+    val centre: Array[Float],
+    settings: GuideSettings,
+    lit: Double
+):
+  import GuideField.{Lobes, Size}
+  import GuideLeaf.*
+  import GuideRecords.*
+
+  /** Its mixture. */
+  var lobes: Array[Float] = old.lobes.slice(region * Lobes * Size, (region + 1) * Lobes * Size)
+
+  /** The probability of BSDF sampling. */
+  var share: Float = old.shares(region)
+
+  /** Paths whose first event is here. */
+  var paths = 0
+
+  /** The sum of their relative variances, and what it would be without guiding. */
+  var guidedNoise, unguidedNoise = 0.0
+
+  /** Learns from the events. */
+  def grow(fit: GuideFit): Unit =
+    if of.length >= GuideGrowth.Fewest then
+      share = bestShare(fit.meanLight(of))
+      compare()
+      val start = if old.isFitted(region) then GuideFit.moved(old, region, centre) else null
+      lobes = fit(of, centre, start)
+
+  /** Compares paths as they are with those that would have sampled BSDFs alone, by the same paths.
+    */
+  private def compare(): Unit =
+    var sum = 0.0
+    loop(of.length): j =>
+      val total = events(of(j) + Total)
+      if total > 0f then
+        sum += total
+        paths += 1
+    if paths > 0 then
+      val mean = sum / paths
+      var guided, unguided = 0.0
+      loop(of.length): j =>
+        val total = events(of(j) + Total).toDouble
+        if total > 0.0 then
+          val without = events(of(j) + Unguided).toDouble
+          val most = Brightest * mean
+          val factor = most * most / Math.max(most * most, Math.max(total * total, without))
+          guided += total * total * factor
+          unguided += without * factor
+      // In units of the squared mean of all paths from here; those without light count, too
+      guidedNoise = Math.max(0.0, guided / (mean * mean) - lit * paths)
+      unguidedNoise = Math.max(0.0, unguided / (mean * mean) - lit * paths)
+
+  /** The probability that would have had the least second moment, by what the old field had learnt.
+    * What it has not learnt is tried.
+    */
+  private def bestShare(meanLight: Float): Float =
+    if !old.isFitted(region) then Half
+    else
+      val moments = Shares.map(moment(_, meanLight))
+      val best = Shares.indices.minBy(moments(_))
+      if best == 0 && !settings.adapts then Half else Shares(best)
+
+  private def moment(share: Float, meanLight: Float): Double =
+    val most = Brightest * meanLight
+    var sum = 0.0
+    loop(of.length): j =>
+      val at = of(j)
+      val light = Math.min(events(at + Light), most)
+      val pdf = share * events(at + BsdfPdf) + (1f - share) * events(at + GuidePdf)
+      sum += light * light * events(at + Pdf) / pdf
+    sum
+
+private object GuideLeaf:
+  /** Probabilities of BSDF sampling that are compared; the first is the unguided one. */
+  val Shares: Array[Float] = Array(1f, 0.5f, 0.25f)
+
+  /** More light counts as this much, in units of the region's mean. */
+  val Brightest = 100f
+
+  /** Probability of BSDF sampling that is not learnt. */
+  val Half = 0.5f

@@ -1,0 +1,26 @@
+package candela.guiding
+
+/** What was learnt in a rendering, and what it brought.
+  *
+  * @param samples    per pixel, from which it was learnt
+  * @param regions    that are guided
+  * @param allRegions of space, guided or not
+  * @param lobes      of the guided regions
+  * @param bounces    off surfaces that are not specular
+  * @param guided     of these, those that were guided
+  * @param left       what guiding left of the variance, by the paths of the last pass that learnt,
+  *   if they were enough
+  * @param gaveUp     was guiding given up because it did not pay?
+  */
+final case class GuideOutcome(
+    samples: Int,
+    regions: Int,
+    allRegions: Int,
+    lobes: Int,
+    bounces: Long,
+    guided: Long,
+    left: Option[Double],
+    gaveUp: Boolean
+):
+  /** Part of the bounces that were guided. */
+  def share: Double = if bounces > 0 then guided.toDouble / bounces else 0.0

@@ -1,0 +1,12 @@
+package candela.guiding
+
+/** What the paths of a pass tell of guiding: their noise, as it is and as it would be if BSDFs
+  * alone were sampled.
+  *
+  * @param paths    that were compared
+  * @param guided   sum of their relative variances
+  * @param unguided likewise, without guiding
+  */
+private[guiding] final case class GuideVerdict(paths: Long, guided: Double, unguided: Double):
+  /** What guiding leaves of the variance. */
+  def left: Double = if unguided > 0.0 then guided / unguided else 1.0

@@ -1,0 +1,86 @@
+package candela.guiding
+
+import candela.math.*
+import candela.sampling.IndependentSampler
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Paths of two events in a world of two directions. */
+class GuidePathSuite extends AnyFunSuite:
+  import GuidePathSuite.*
+
+  test("guided paths know the second moment of unguided ones"):
+    val measured = unguidedMoment(shareOfBright = 0.6)
+    // The same path by its own second moment, where nothing is guided
+    val direct = ownMoment(shareOfBright = Bsdf)
+    assert(Math.abs(measured / exact(Bsdf) - 1) < 0.03)
+    assert(Math.abs(direct / exact(Bsdf) - 1) < 0.03)
+    assert(Math.abs(ownMoment(shareOfBright = 0.6) / exact(0.6) - 1) < 0.03)
+    assert(exact(0.6) < 0.6 * exact(Bsdf))
+
+private object GuidePathSuite:
+  import GuideRecords.{Size, Total, Unguided}
+
+  /** Probability of the bright direction by BSDF sampling; both events have it. */
+  val Bsdf = 0.1
+  val Paths = 400000
+
+  /** Light found before the first event, after it, and after the second. Dim directions find some,
+    * so that every path is recorded.
+    */
+  private def light(first: Boolean, second: Boolean): (Double, Double, Double) =
+    (0.2, if first then 1.0 else 0.1, (if first then 1.0 else 0.2) * (if second then 3.0 else 0.1))
+
+  private def probability(isBright: Boolean, ofBright: Double): Double =
+    if isBright then ofBright else 1 - ofBright
+
+  /** Second moment of the light where the bright direction is taken with this probability. */
+  def exact(ofBright: Double): Double =
+    val all =
+      for a <- Vector(false, true); b <- Vector(false, true)
+      yield
+        val (p1, p2) = (probability(a, ofBright), probability(b, ofBright))
+        val (q1, q2) = (probability(a, Bsdf), probability(b, Bsdf))
+        val (before, after, last) = light(a, b)
+        val sum = before + after * q1 / p1 + last * q1 * q2 / (p1 * p2)
+        p1 * p2 * sum * sum
+    all.sum
+
+  private def mean(shareOfBright: Double)(of: (Array[Float], Int) => Double): Double =
+    val sampler = IndependentSampler(Paths, 3)
+    val (path, records) = (GuidePath(), GuideRecords(1f))
+    val part = records.newPart()
+    for i <- 0 until Paths do
+      sampler.start(0, 0, i)
+      sampler.next2D()
+      val (a, b) = (sampler.x < shareOfBright, sampler.y < shareOfBright)
+      val (p1, p2) = (probability(a, shareOfBright), probability(b, shareOfBright))
+      val (q1, q2) = (probability(a, Bsdf), probability(b, Bsdf))
+      val (before, after, last) = light(a, b)
+      val first = q1 / p1
+      val both = first * q2 / p2
+      path.clear()
+      event(path, before, 1.0, p1, q1, p1 / q1)
+      event(path, before + after * first, first, p2, q2, p1 * p2 / (q1 * q2))
+      path.record((before + after * first + last * both).toFloat, part)
+    val all = records.sorted()
+    (0 until all.length / Size).map(i => of(all, i * Size)).sum / Paths
+
+  private def event(
+      path: GuidePath,
+      before: Double,
+      throughput: Double,
+      p: Double,
+      q: Double,
+      ratio: Double
+  ): Unit =
+    val up = Vec3(0f, 0f, 1f)
+    path.add(
+      Vec3.Zero, up, up, before.toFloat, throughput.toFloat, p.toFloat, q.toFloat, 0f, ratio.toFloat
+    )
+
+  def unguidedMoment(shareOfBright: Double): Double =
+    mean(shareOfBright)((all, at) => all(at + Unguided))
+
+  def ownMoment(shareOfBright: Double): Double =
+    mean(shareOfBright)((all, at) => all(at + Total).toDouble * all(at + Total))
