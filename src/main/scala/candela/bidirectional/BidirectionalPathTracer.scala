@@ -268,13 +268,15 @@ final class BidirectionalPathTracer(
     val back = -wi
     if !(distance2 > 0f) then Rgb.Black
     else
-      val f = vertex.received(wi)
-      val g = if f.isBlack then Rgb.Black else lit.sent(back)
+      val onward = vertex.pdf(wi)
+      // A camera path could not continue this way
+      val f = if onward > 0f then vertex.received(wi) else Rgb.Black
+      val g = if !f.isBlack && lit.isReachable(back) then lit.sent(back) else Rgb.Black
       if g.isBlack then Rgb.Black
       else
         val here = vertex.cosine(wi)
         val there = lit.cosine(back)
-        val toLit = vertex.pdf(wi).toDouble * there / distance2
+        val toLit = onward.toDouble * there / distance2
         val toHere = lit.pdf(back).toDouble * here / distance2
         val others = path.weights.sum(toHere, vertex.reversePdf(wi).toDouble) +
           lit.weights.sum(toLit, lit.reversePdf(back).toDouble)

@@ -1,6 +1,7 @@
 package candela.bidirectional
 
 import candela.cameras.{Camera, FilmPlace}
+import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.integrators.LightConnection
@@ -52,7 +53,7 @@ private[bidirectional] final class CameraConnection(
         val lit = paths(i)
         if sensor.see(lit.at.p, lensU, lensV, place) then
           val toCamera = place.direction
-          val f = lit.sent(toCamera)
+          val f = if lit.isReachable(toCamera) then lit.sent(toCamera) else Rgb.Black
           if !f.isBlack then
             val arriving = place.density * lit.cosine(toCamera)
             val others =

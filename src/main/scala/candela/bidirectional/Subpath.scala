@@ -86,6 +86,14 @@ private[bidirectional] final class PathVertex(scene: Scene) extends SurfaceVerte
   var ur, ug, ub: Float = 1f
   val weights: PartialWeights = PartialWeights()
 
+  /** Whether a camera path that arrives from `wi` can continue this light subpath backwards.
+    *
+    * In pbrt-v2 and v3 a BSDF has a value wherever the geometric normal allows reflection, but
+    * samples only the side that the shading normal faces. Path tracing thus finds the rest by light
+    * sampling alone; for the same image, so must the connections.
+    */
+  def isReachable(wi: Vec3): Boolean = edges == 1 || reversePdf(wi) > 0f
+
   /** Cosine factor for light scattered to `wi`, with the correction for shading normals, which make
     * scattering asymmetric (Veach 1997, §5.3.2).
     */

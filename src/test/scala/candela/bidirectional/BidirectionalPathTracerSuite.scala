@@ -154,6 +154,19 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       assert(apart < 5, s"$a, expected $b")
       assert(Math.sqrt(va + vb) < 0.05 * b, "too much noise to tell")
 
+  test("bumps under a sky: the mean is that of path tracing, which samples one side only"):
+    val sky = """LightSource "infinite" "rgb L" [1 1 1]"""
+    val bumps = """Texture "w" "float" "wrinkled"
+      Texture "bumps" "float" "scale" "texture tex1" "w" "float tex2" .5
+      Material "matte" "rgb Kd" [.9 .9 .9] "texture bumpmap" "bumps""""
+    def found(integrator: String) =
+      val text = scene(integrator, sky, (bumps, ""), Dialect.V3, perspective, spp = 240)
+      meanAndVariance(means(text, Dialect.V3))
+    val (a, va) = found("\"bdpt\" \"integer maxdepth\" 4")
+    val (b, vb) = found("\"path\" \"integer maxdepth\" 4")
+    assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
+    assert(Math.sqrt(va + vb) < 0.005 * b, "too much noise to tell")
+
   test("a point in the middle of a glass ball lights as it does without: no path finds it"):
     // All of the light leaves along the radius at last, however often it is reflected
     def text(integrator: String, glass: String, camera: String, space: String) =
