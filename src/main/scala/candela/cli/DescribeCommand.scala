@@ -67,13 +67,17 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
       )
     )
 
-/** A parameter, formatted for display. */
+/** A parameter, formatted for display.
+  *
+  * @param unsupported what happens instead, if it has no effect though it should have one
+  */
 final case class DescribedParameter(
     name: String,
     typeName: String,
     default: String,
     dialects: String,
-    meaning: String
+    meaning: String,
+    unsupported: Option[String]
 )
 
 /** A type of a category, formatted for display and restricted to the requested dialects. */
@@ -82,7 +86,7 @@ final case class DescribedType(
     name: String,
     dialects: String,
     meaning: String,
-    pending: Option[String],
+    substitute: Option[String],
     parameters: Vector[DescribedParameter]
 ):
   /** The statement as written in a scene file; options have no type name. */
@@ -103,7 +107,7 @@ final class Described(asked: Set[Dialect]):
       recipe.name,
       named(recipe.dialects),
       recipe.meaning,
-      recipe.pending,
+      recipe.substitute,
       parameters(recipe)
     )
 
@@ -116,7 +120,10 @@ final class Described(asked: Set[Dialect]):
       field.typeName,
       default(field, recipe),
       named(field.dialects.intersect(recipe.dialects)),
-      meaning(field, recipe)
+      meaning(field, recipe),
+      recipe.support(field) match
+        case Support.Unsupported(instead) => Some(instead)
+        case _ => None
     )
 
   private def named(dialects: Set[Dialect]): String =
@@ -137,7 +144,7 @@ final class Described(asked: Set[Dialect]):
     val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"
     val support = recipe.support(field) match
       case Support.Used => ""
-      case Support.NotYet(instead) => s"; not supported yet: $instead"
+      case Support.Unsupported(instead) => s"; not supported: $instead"
       case Support.NoMeaning(reason) => s"; no effect: $reason"
     s"${field.doc}$unit$support"
 
@@ -164,14 +171,14 @@ final class ReferenceText(described: Described, columns: Int):
       case Vector(only) => parameters(only)
       case types =>
         val rows = types.map: t =>
-          val later = t.pending.fold("")(instead => s"; not supported yet: $instead")
+          val later = t.substitute.fold("")(instead => s"; substituted: $instead")
           Vector(s"\"${t.name}\"", t.dialects, t.meaning + later)
         s"${c.name}: ${c.meaning}" +: "" +: table.lines(rows)
 
   def parameters(t: DescribedType): Vector[String] =
     val head = TextTable.wrap(s"${t.title} (${t.dialects}): ${t.meaning}", columns)
-    val later = t.pending.toVector.flatMap: instead =>
-      TextTable.wrap(s"Not supported yet: $instead.", columns)
+    val later = t.substitute.toVector.flatMap: instead =>
+      TextTable.wrap(s"Substituted: $instead.", columns)
     val names = Vector("name", "type", "default", "in", "meaning")
     val rows = t.parameters.map(p => Vector(p.name, p.typeName, p.default, p.dialects, p.meaning))
     val body =
@@ -188,16 +195,23 @@ final class ReferenceMarkdown(described: Described):
   /** Types that are not rendered as they are. */
   private def substitutes: Vector[String] =
     val rows =
-      for c <- Language.categories; t <- described.types(c); instead <- t.pending
+      for c <- Language.categories; t <- described.types(c); instead <- t.substitute
       yield row(c.name, s"`${t.name}`", t.dialects, instead)
+    val parameters =
+      for
+        c <- Language.categories; t <- described.types(c); p <- t.parameters
+        if p.unsupported.nonEmpty
+      yield row(t.title, s"`${p.name}`", p.dialects, p.unsupported.get)
     Vector("", "## What is substituted", "", ReferenceMarkdown.Substitutes, "") ++
-      (row("category", "type", "in", "instead") +: rule(4) +: rows)
+      (row("category", "type", "in", "instead") +: rule(4) +: rows) ++
+      Vector("", ReferenceMarkdown.Unsupported, "") ++
+      (row("statement", "parameter", "in", "instead") +: rule(4) +: parameters)
 
   private def category(c: Category): Vector[String] =
     val types = described.types(c)
     val rows = types.map: t =>
       val name = if t.name.isEmpty then t.title else t.name
-      val support = t.pending.fold("")(instead => s"not yet: $instead")
+      val support = t.substitute.fold("")(instead => s"substituted: $instead")
       row(s"`$name`", t.dialects, t.meaning, support)
     val overview =
       if types.size < 2 then Vector.empty
@@ -208,7 +222,7 @@ final class ReferenceMarkdown(described: Described):
   private def parameters(t: DescribedType): Vector[String] =
     val rows = t.parameters.map: p =>
       row(s"`${p.name}`", p.typeName, p.default, p.dialects, p.meaning)
-    val support = t.pending.map(instead => s" Not supported yet: $instead.").getOrElse("")
+    val support = t.substitute.map(instead => s" Substituted: $instead.").getOrElse("")
     Vector("", s"### ${t.title}, ${t.dialects}", "", s"${t.meaning.capitalize}.$support", "") ++
       (row("name", "type", "default", "in", "meaning") +: rule(5) +: rows)
 
@@ -220,6 +234,9 @@ final class ReferenceMarkdown(described: Described):
 private object ReferenceMarkdown:
   val Substitutes: String =
     "These types are replaced, with a warning at each use that says by what."
+
+  val Unsupported: String =
+    "These parameters are not supported; each use is a warning."
 
   val Introduction: String =
     """# Scene reference

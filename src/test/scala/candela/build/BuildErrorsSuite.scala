@@ -36,10 +36,10 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(p, "`raduis` is not a parameter of \"sphere\"", "`radius`")
     assert(p.at.map(_.column).contains(16))
 
-  test("a misspelt parameter of a type that is not supported yet is found, too"):
+  test("a misspelt parameter of a substituted type is found, too"):
     val ptex = s"Texture \"t\" \"float\" \"ptex\" \"string filenam\" \"x\" $sphere"
     val found = SceneTexts.problems(s"WorldBegin\n$ptex\nLightSource \"point\"\n")
-    assert(found.size == 2 && found.exists(_.message.contains("\"ptex\" is not supported yet")))
+    assert(found.size == 2 && found.exists(_.message.contains("\"ptex\" is substituted")))
     val slip = found.find(_.message.contains("filenam`")).get
     assertWarning(slip, "`filenam` is not a parameter of \"ptex\"", "`filename`")
 

@@ -53,8 +53,8 @@ class DescribeCommandSuite extends AnyFunSuite:
 
   test("what is not supported says what is done instead"):
     def unwrapped(words: String) = printed(words).replaceAll("\\s+", " ")
-    assert(unwrapped("trianglemesh").contains("not supported yet: tangents are computed"))
-    assert(unwrapped("igi").contains("Not supported yet: using \"path\""))
+    assert(unwrapped("trianglemesh").contains("not supported: tangents follow uv"))
+    assert(unwrapped("igi").contains("Substituted: using \"path\""))
     assert(unwrapped("accelerator bvh").contains("no effect: Candela builds its own BVH"))
 
   test("the page lists what is substituted, each type with what takes its place"):
@@ -62,6 +62,7 @@ class DescribeCommandSuite extends AnyFunSuite:
     val list = page.drop(page.indexOf("## What is substituted"))
     val rows = list.linesIterator.takeWhile(!_.startsWith("## Shape")).toVector
     assert(rows.exists(_.startsWith("| Accelerator | `kdtree` | v2 v3 v4 | using \"bvh\"")))
+    assert(rows.exists(_.startsWith("| Sampler \"halton\" | `samplepixelcenter` | v3 | samples")))
     assert(rows.exists(r => r.contains("`igi`") && r.contains("virtual point lights")))
     assert(!rows.exists(_.contains("`bvh` |")))
 

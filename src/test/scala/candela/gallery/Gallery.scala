@@ -17,7 +17,7 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
   def dialect: Dialect = Examples.dialect(recipe)
 
   /** Reason for the absence of an image. */
-  def reason: Option[String] = recipe.pending.map(p => s"not supported yet: $p").orElse:
+  def reason: Option[String] = recipe.substitute.map(p => s"substituted: $p").orElse:
     example.collect { case Example.Unseen(why) => why }
 
   /** The scene of the example. */

@@ -112,7 +112,7 @@ object RealisticRecipe
 
 /** Exists only in forks of pbrt-v2. */
 object ForkedRealisticRecipe extends CameraRecipe("realistic", "lens system", onlyV2):
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some(s"only forks of pbrt-v2 have it; ${StandInCamera.words}")
   protected def make()(using Site): CameraPlan = CameraPlan(StandInCamera.make, shutter())
 

@@ -16,7 +16,7 @@ import candela.scenefile.Dialect
 object BdptRecipe extends IntegratorRecipe("bdpt", "bidirectional path tracing", sinceV3)
     with Windowed
     with Regularizing:
-  notYet("only the image is written")(
+  unsupported("a debugging aid; only the image is written")(
     bool("visualizestrategies", "write an image per connection strategy")(false),
     bool("visualizeweights", "write the MIS weights of the strategies")(false)
   )
@@ -99,7 +99,7 @@ object LightPathRecipe
 object FunctionRecipe
     extends Recipe[IntegratorPlan]("function", "error of samplers; renders no image", onlyV4)
     with PathInstead:
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some(
       "using \"path\", which renders an image of the scene; `candela bench` measures how the " +
         "error of samplers falls"

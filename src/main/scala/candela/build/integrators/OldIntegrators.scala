@@ -56,7 +56,7 @@ object InstantGlobalIlluminationRecipe
     float("glimit", "maximum geometric term")(10f),
     integer("gathersamples", "rays that compensate for the limit")(16)
   )
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using \"path\": all bounces as well, without the artefacts of virtual point lights")
 
   /** `maxdepth` counts specular bounces alone; paths to virtual lights have no limit. */
@@ -65,7 +65,7 @@ object InstantGlobalIlluminationRecipe
 object IrradianceCacheRecipe
     extends Recipe[IntegratorPlan]("irradiancecache", "interpolated indirect light", onlyV2)
     with PathInstead:
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some(
       "using \"path\" with as many bounces, which does not interpolate and includes glossy " +
         "indirect light"
@@ -91,7 +91,7 @@ object DipoleSubsurfaceRecipe
     float("maxerror", "maximum solid angle of clustered points", unit = "sr")(0.05f),
     float("minsampledistance", "distance between surface points", unit = "scene units")(0.25f)
   )
-  notYet("irradiance is sampled over all surfaces")(
+  unsupported("irradiance is sampled over all surfaces, with new points")(
     string("pointsfile", "file of surface points", shown = "none")("")
   )
 
@@ -119,7 +119,7 @@ object DipoleSubsurfaceRecipe
   */
 abstract class RadianceTransferRecipe(name: String, meaning: String)
     extends Recipe[IntegratorPlan](name, meaning, onlyV2):
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using exact direct light, with hard shadows and lights at their places")
   declare(
     integer("lmax", "degree of the spherical harmonics")(4),
@@ -157,6 +157,6 @@ object GlossyPrtRecipe
 object UseProbesRecipe
     extends Recipe[IntegratorPlan]("useprobes", "precomputed light probes", onlyV2)
     with PathInstead:
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using \"path\", which needs no probe file and keeps all detail")
   declare(string("filename", "probe file")("probes.out"))

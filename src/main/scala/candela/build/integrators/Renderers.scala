@@ -16,7 +16,7 @@ object Renderers:
 
 /** Recipes of unsupported renderers, which fall back to the surface integrator. */
 trait SamplerInstead extends Recipe[Option[IntegratorPlan]]:
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using \"sampler\", which renders the scene by its surface integrator")
   protected def make()(using Site): Option[IntegratorPlan] = None
 
@@ -27,7 +27,7 @@ final class SamplerRendererRecipe(name: String)
       "rendering by the surface and volume integrators",
       onlyV2
     ):
-  notYet("the image is rendered")(
+  unsupported("a debugging aid; the image is rendered")(
     bool("visualizeobjectids", "colour primitives by their id")(false)
   )
   protected def make()(using Site): Option[IntegratorPlan] = None

@@ -35,8 +35,8 @@ class Field[T](
 enum Support:
   case Used
 
-  /** Not supported yet: a warning names the replacement. */
-  case NotYet(instead: String)
+  /** Not supported: a warning names the replacement. */
+  case Unsupported(instead: String)
 
   /** Accepted and ignored, because it can't affect the image. */
   case NoMeaning(reason: String)

@@ -27,10 +27,10 @@ abstract class Recipe[A](
   /** Wraps `make` with the steps common to a category. */
   protected def made(site: Site): A = make()(using site)
 
-  /** The replacement, if Candela does not render this type yet. Its fields are declared all the
-    * same, so that errors are found and the reference is complete.
+  /** What Candela renders instead of this type, and why. Its fields are declared all the same, so
+    * that errors are found and the reference is complete.
     */
-  def pending: Option[String] = None
+  def substitute: Option[String] = None
 
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
@@ -44,12 +44,12 @@ abstract class Recipe[A](
     declared += field
     field
 
-  /** Declares parameters that are not read, because the whole type is [[pending]]. */
+  /** Declares parameters that are not read, because the whole type is substituted. */
   protected final def declare(fields: Field[?]*): Unit = assert(fields.forall(declared.contains))
 
-  /** Parameters that Candela does not support yet. Each use is a warning. */
-  protected final def notYet(instead: String)(fields: Field[?]*): Unit =
-    for f <- fields do unused(f) = Support.NotYet(instead)
+  /** Parameters that Candela does not support. Each use is a warning. */
+  protected final def unsupported(instead: String)(fields: Field[?]*): Unit =
+    for f <- fields do unused(f) = Support.Unsupported(instead)
 
   /** Parameters without a meaning here (a cache size, a quality hint): accepted and ignored. */
   protected final def noMeaning(reason: String)(fields: Field[?]*): Unit =
@@ -78,12 +78,12 @@ abstract class Recipe[A](
 
   /** Checks the type of a parameter that `make` does not read. */
   private def inspect(field: Field[?], at: candela.base.SourcePos, site: Site): Unit =
-    val isRead = support(field) == Support.Used && pending.isEmpty
+    val isRead = support(field) == Support.Used && substitute.isEmpty
     if !isRead then
       val _ = field.given_()(using site)
       support(field) match
-        case Support.NotYet(instead) =>
-          site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported yet; $instead")
+        case Support.Unsupported(instead) =>
+          site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported; $instead")
         case _ => ()
 
 /** All recipes of a category, by name.
@@ -97,15 +97,15 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     val candidates = all.filter(_.name == name)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
-  /** Builds the declared type. A pending type is a warning; an unknown one is an error, or a
+  /** Builds the declared type. A substituted type is a warning; an unknown one is an error, or a
     * warning where this dialect's pbrt only warns. Both suggest the nearest known name.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
     find(name, site.dialect) match
       case Some(recipe) =>
-        for instead <- recipe.pending do
-          site.warn(s"$category \"$name\" is not supported yet; $instead")
+        for instead <- recipe.substitute do
+          site.warn(s"$category \"$name\" is substituted: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
         val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)

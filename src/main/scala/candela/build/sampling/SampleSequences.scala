@@ -30,12 +30,8 @@ class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect]
 /** Samplers replaced by scrambled Sobol' points. */
 final class SubstitutedRecipe(name: String, meaning: String, dialects: Set[Dialect])
     extends ScrambledSobolRecipe(name, meaning, dialects):
-  override protected def make()(using site: Site): SamplerRequest => SamplerPlan =
-    site.warn(
-      s"sampler \"$name\" is not supported; using scrambled Sobol' points, which are at least as " +
-        "uniform"
-    )
-    super.make()
+  override def substitute: Option[String] =
+    Some("using scrambled Sobol' points, which are at least as uniform")
 
 /** Keeps its own points: they have no more noise than others, and it is blue. */
 object ZSobolRecipe
@@ -50,7 +46,7 @@ object HaltonRecipe extends SamplerRecipe("halton", "Halton points"):
   noMeaning("digits are always scrambled")(
     string("randomization", "scrambling: none, permutedigits or owen", onlyV4)("permutedigits")
   )
-  notYet("samples cover the whole pixel")(
+  unsupported("samples cover the whole pixel, as those of all other samplers")(
     bool("samplepixelcenter", "place all samples at the pixel centre", onlyV3)(false)
   )
   protected def make()(using Site): SamplerRequest => SamplerPlan = asked(PointSet.Halton)
@@ -86,7 +82,7 @@ object AdaptiveRecipe
     integer("minsamples", "minimum samples per pixel")(4),
     string("method", "criterion: contrast, shapeid")("contrast")
   )
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using `maxsamples` in every pixel, the most that it would take")
   protected def make()(using Site): SamplerRequest => SamplerPlan =
     val n = most()

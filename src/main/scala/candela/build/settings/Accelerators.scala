@@ -33,7 +33,7 @@ object GridRecipe
 
 object KdTreeRecipe
     extends Recipe[AcceleratorPlan]("kdtree", "k-d tree"):
-  override def pending: Option[String] = Some("using \"bvh\", with the same image")
+  override def substitute: Option[String] = Some("using \"bvh\", with the same image")
   declare(
     integer("intersectcost", "SAH cost of intersecting a primitive")(if v4 then 5 else 80),
     integer("traversalcost", "SAH cost of traversing a node")(1),

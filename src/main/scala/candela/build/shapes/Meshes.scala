@@ -13,7 +13,9 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
   private val normals = numbers("N", "normal[]", "shading normals, one per vertex")
   private val uv = numbers("uv", "point2[]", "texture coordinates, one pair per vertex")
   private val st = numbers("st", "point2[]", "alias of `uv`", untilV3)
-  notYet("tangents are computed from uv")(numbers("S", "vector3[]", "tangents, one per vertex"))
+  unsupported("tangents follow uv; only anisotropic materials show the difference")(
+    numbers("S", "vector3[]", "tangents, one per vertex")
+  )
   noMeaning("degenerate uv are harmless")(
     bool("discarddegenerateUVs", "discard all uv if some are degenerate", onlyV2)(false)
   )

@@ -39,7 +39,7 @@ object Textures:
 
 /** Recipes of unsupported textures, which fall back to 0.5. */
 trait HalfInstead[A] extends Recipe[A]:
-  override def pending: Option[String] =
+  override def substitute: Option[String] =
     Some("using the constant 0.5, since no library for the JVM reads Ptex")
 
 trait HalfFloat extends HalfInstead[FloatTexture]:
