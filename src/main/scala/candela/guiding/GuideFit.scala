@@ -24,6 +24,9 @@ private[guiding] final class GuideFit(events: Array[Float]):
   private val directions = new Array[Float](Most * Nears * 3)
   private val parts, factors = new Array[Float](Lobes)
 
+  // Of each lobe, the distances that it tries
+  private val begins, ends = new Array[Int](Lobes)
+
   // Of each lobe: its events, and the sums of their directions from the centre for each nearness
   private val masses = new Array[Double](Lobes)
   private val sums = new Array[Float](Lobes * Nears * 3)
@@ -34,7 +37,10 @@ private[guiding] final class GuideFit(events: Array[Float]):
     chooseNears()
     val lobes = if start == null then seeds() else start
     val before = Array.tabulate(Lobes)(k => lobes(k * Size + Weight))
-    loop(if start == null then FirstRounds else Rounds): _ =>
+    val rounds = if start == null then FirstRounds else Rounds
+    loop(rounds): round =>
+      // Distances are chosen anew in the last round, those of new lobes in each
+      chooseTried(lobes, all = start == null || round == rounds - 1)
       expect(lobes)
       loop(Lobes): k =>
         maximise(lobes, k)
@@ -88,6 +94,15 @@ private[guiding] final class GuideFit(events: Array[Float]):
         directions(to + 1) = y * s
         directions(to + 2) = z * s
 
+  /** Which distances the lobes try: all, or the one next to their own. */
+  private def chooseTried(lobes: Array[Float], all: Boolean): Unit =
+    loop(Lobes): k =>
+      val near = lobes(k * Size + Nearness)
+      var own = 0
+      loop(Nears)(g => if Math.abs(nears(g) - near) < Math.abs(nears(own) - near) then own = g)
+      begins(k) = if all then 0 else own
+      ends(k) = if all then Nears else own + 1
+
   /** Divides each event among the lobes. */
   private def expect(lobes: Array[Float]): Unit =
     loop(Lobes): k =>
@@ -114,9 +129,13 @@ private[guiding] final class GuideFit(events: Array[Float]):
 
   /** Adds the event to the lobe. */
   private def add(j: Int, k: Int, part: Float): Unit =
-    val from = j * Nears * 3
-    val to = k * Nears * 3
-    loop(Nears * 3)(i => sums(to + i) += directions(from + i) * part)
+    val from = (j * Nears + begins(k)) * 3
+    val to = (k * Nears + begins(k)) * 3
+    val end = (ends(k) - begins(k)) * 3
+    var i = 0
+    while i < end do
+      sums(to + i) += directions(from + i) * part
+      i += 1
 
   private def length(k: Int, g: Int): Double =
     val at = (k * Nears + g) * 3

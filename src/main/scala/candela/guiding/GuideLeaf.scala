@@ -65,15 +65,14 @@ private[guiding] final class GuideLeaf(
       guidedNoise = Math.max(0.0, guided / (mean * mean) - lit * paths)
       unguidedNoise = Math.max(0.0, unguided / (mean * mean) - lit * paths)
 
-  /** The probability that would have had the least second moment, by what the old field had learnt.
-    * What it has not learnt is tried.
+  /** A half where that would have had the lesser second moment, by what the old field had learnt.
+    * What it has not learnt is tried. Less than a half has outliers: rare directions count more.
     */
   private def bestShare(meanLight: Float): Float =
-    if !old.isFitted(region) then Half
-    else
-      val moments = Shares.map(moment(_, meanLight))
-      val best = Shares.indices.minBy(moments(_))
-      if best == 0 && !settings.adapts then Half else Shares(best)
+    val pays =
+      !settings.adapts || !old.isFitted(region) ||
+        moment(Half, meanLight) < moment(1f, meanLight)
+    if pays then Half else 1f
 
   private def moment(share: Float, meanLight: Float): Double =
     val most = Brightest * meanLight
@@ -86,11 +85,8 @@ private[guiding] final class GuideLeaf(
     sum
 
 private object GuideLeaf:
-  /** Probabilities of BSDF sampling that are compared; the first is the unguided one. */
-  val Shares: Array[Float] = Array(1f, 0.5f, 0.25f)
-
   /** More light counts as this much, in units of the region's mean. */
   val Brightest = 100f
 
-  /** Probability of BSDF sampling that is not learnt. */
+  /** Probability of BSDF sampling in guided regions. */
   val Half = 0.5f
