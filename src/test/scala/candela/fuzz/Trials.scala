@@ -61,6 +61,7 @@ final class Trials(from: Path, folder: Path, random: Random):
     )
 
   private val volumes = Mutator(Trials.volumes, random)
+  private val grids = Mutator(Trials.grids, random)
   private val documents = Mutator(files(".xml") ++ Trials.documents, random)
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
@@ -77,9 +78,10 @@ final class Trials(from: Path, folder: Path, random: Random):
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
       case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
       case Kind.Mitsuba =>
-        // one in three: a sound scene of broken meshes
+        // one in three: a sound scene of broken meshes and of a broken volume
         for mesh <- Vector("broken.obj", "broken.serialized") do
           Files.write(folder.resolve(mesh), objects.bytes())
+        Files.write(folder.resolve("broken.vol"), grids.bytes())
         val bytes = random.nextInt(3) match
           case 0 => documents.text()
           case 1 => documents.meaning()
@@ -186,7 +188,7 @@ object Trials:
     )
 
   /** Hostile scenes of Mitsuba's: entities that grow, references and includes in circles; last, one
-    * of the two broken meshes.
+    * of the two broken meshes and of the broken volume.
     */
   private def documents: Vector[Array[Byte]] =
     def scene(body: String) =
@@ -207,8 +209,20 @@ object Trials:
       scene("<shape type='merge'>" * 3000),
       scene("<shape type='obj'><string name='filename' value='../broken.obj'/></shape>" +
         "<shape type='serialized'><string name='filename' value='../broken.serialized'/>" +
-        "</shape>")
+        "</shape><shape type='cube'><medium type='heterogeneous' name='interior'>" +
+        "<volume type='gridvolume' name='sigma_t'>" +
+        "<string name='filename' value='../broken.vol'/></volume></medium></shape>")
     ).map(_.getBytes("UTF-8"))
+
+  /** Mitsuba's volumes of 2 × 3 × 4 cells, of one channel and of three. */
+  private def grids: Vector[Array[Byte]] =
+    for channels <- Vector(1, 3) yield
+      val bytes = ByteBuffer.allocate(48 + 4 * 24 * channels).order(ByteOrder.LITTLE_ENDIAN)
+      bytes.put("VOL".getBytes("ISO-8859-1")).put(3.toByte).putInt(1)
+      Vector(2, 3, 4, channels).foreach(bytes.putInt(_))
+      Vector(0f, 0f, 0f, 1f, 1f, 1f).foreach(bytes.putFloat(_))
+      for i <- 0 until 24 * channels do bytes.putFloat(i / 10f)
+      bytes.array
 
   /** Two grids, as they are and compressed. */
   private def volumes: Vector[Array[Byte]] =
@@ -237,8 +251,15 @@ object Trials:
     val wide = "P5 8 12 65535\n".getBytes("ISO-8859-1") ++ pixels
     val others = Vector("jpeg", "bmp", "gif").map(encoded(_, BufferedImage.TYPE_INT_RGB)) :+
       encoded("png", BufferedImage.TYPE_USHORT_GRAY)
-    written ++ Vector(tga(2, pixels), tga(10, runs), hdr, ppm, wide) ++ others ++
+    written ++ openExr ++ Vector(tga(2, pixels), tga(10, runs), hdr, ppm, wide) ++ others ++
       Vector(photoshop(8, pixels), photoshop(16, pixels ++ pixels))
+
+  /** Codings of OpenEXR that other libraries write. */
+  private def openExr: Vector[Array[Byte]] =
+    val names = "tiled tiled-window multipart luminance window many integer decreasing half-piz " +
+      "half-b44 half-pxr24 half-rle"
+    for name <- names.split(' ').toVector
+    yield getClass.getResourceAsStream(s"/exr/$name.exr").readAllBytes()
 
   /** A PSD of 8 × 8 uncompressed pixels. */
   private def photoshop(depth: Short, pixels: Array[Byte]): Array[Byte] =
