@@ -17,6 +17,9 @@ abstract class ColorBasis:
     */
   def lookUp: Rgb => Rgb
 
+  /** As [[lookUp]], for light: the shape of the spectrum is the same for all brightnesses. */
+  def lookUpLight: Rgb => Rgb = lookUp
+
   /** Components of light with this colour. */
   def ofLight(c: Rgb): Rgb
 

@@ -42,9 +42,16 @@ final class Wavelengths private (
       val most = c.max
       if isGrey(c) || !(most > 0f) then c
       else if most <= 1f then table.at(c.r, c.g, c.b, nm(0), nm(1), nm(2))
-      else
-        val s = 0.5f / most
-        table.at(c.r * s, c.g * s, c.b * s, nm(0), nm(1), nm(2)) * (2f * most)
+      else bright(table, c)
+
+  override def lookUpLight: Rgb => Rgb =
+    val table = smooth.table
+    c => if isGrey(c) || !(c.max > 0f) then c else bright(table, c)
+
+  /** Half as bright as can be, times what is left. */
+  private def bright(table: SpectrumTable, c: Rgb): Rgb =
+    val s = 0.5f / c.max
+    table.at(c.r * s, c.g * s, c.b * s, nm(0), nm(1), nm(2)) * (2f * c.max)
 
   private def isGrey(c: Rgb): Boolean = c.r == c.g && c.g == c.b
 

@@ -16,6 +16,13 @@ class WavelengthsSuite extends AnyFunSuite:
       val bases = Wavelengths.covering(64, smooth, light(_).toDouble)
       assert(relative(seen(bases)(_.ofLight(Rgb.White)), Rgb.White) < 6e-3f)
 
+  test("light that is looked up has its colour, however dark, as images of skies are"):
+    val bases = Wavelengths.covering(64, smooth)
+    val sky = Rgb(.0072f, .0386f, .0748f)
+    for color <- Seq(sky, sky * 10f, sky * 100f) do
+      val found = seen(bases)(b => b.lookUpLight(color) * b.ofLight(Rgb.White))
+      assert(relative(found, color) < 6e-3f, s"$found, not $color")
+
   test("lamps have their colours, and bands between the observer's samples, too"):
     val band = Spectrum(Array(551f, 552f, 558f, 559f), Array(0f, 1f, 1f, 0f), Spectrum.Outside.Zero)
     for lamp <- Seq(Spectrum.blackbody(2400f), NamedSpectra("stdillum-F11").get, band) do

@@ -79,7 +79,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
               val basis = resources.basis
               if !basis.isSpectral then plain
               else
-                val (day, lookUp) = (basis.ofLight(Rgb.White), basis.lookUp)
+                val (day, lookUp) = (basis.ofLight(Rgb.White), basis.lookUpLight)
                 plain.converted(c => lookUp(resources.plainBasis.toSrgb(c)) * day)
             LightPlan((toWorld, _) => Some(light(toWorld)), sampleCount())
 

@@ -77,4 +77,4 @@ private[build] object LightImages:
   /** Conversion of the colours that lookups return, if it can't be done once for the image. */
   def conversion(using site: Site): Option[Rgb => Rgb] =
     val basis = site.resources.basis
-    Option.when(basis.isSpectral)(basis.lookUp)
+    Option.when(basis.isSpectral)(basis.lookUpLight)
