@@ -38,6 +38,33 @@ val jvmOptions = Seq(
   "-XX:CompileCommand=BackgroundCompilation,candela.accel.tracing.VectorKernel$::*,false"
 )
 
+/** Code that a render runs once, as it reads and builds its scene: C2 gives it up at once, and C1's
+  * code stays. Compiled by C2, which takes longer than the work, it would delay the first image.
+  * The inner loops of BVH construction are C2's, and all that rendering shares.
+  */
+val builtOnce = Seq(
+  "scala.collection.*",
+  "scala.Array$",
+  "java.util.regex.*",
+  "sun.nio.*",
+  "jdk.internal.classfile.*",
+  "candela.build.*",
+  "candela.accel.building.BvhBuilder*",
+  "candela.accel.building.BoxRecord*",
+  "candela.accel.building.SharedCut*",
+  "candela.accel.building.Subtree*",
+  "candela.accel.building.Collapse*",
+  "candela.accel.building.Wide*",
+  "candela.textures.Pyramid*",
+  "candela.textures.Texels*",
+  "candela.color.Upsampling*",
+  "candela.color.ColorError*",
+  "candela.color.Colorimetry*",
+  "candela.color.Wavelengths$*",
+  "candela.color.Matrix3*",
+  "candela.bsdf.layered.RoughCoat$*"
+).map(code => s"-XX:CompileCommand=MaxNodeLimit,$code::*,1") // an option of JDK 22 and later
+
 lazy val root: Project = (project in file("."))
   .aggregate(LocalProject("cluster"))
   .enablePlugins(UniversalPlugin)
@@ -142,8 +169,12 @@ def program = Def.task {
     ProgramJar.unpackNatives(natives, folder / "natives").toSet + (folder / "candela.jar")
   }
   val files = make(jars.toSet)
-  IO.write(folder / "options", options.mkString("", "\n", "\n"))
-  (files + (folder / "options")).toSeq.pair(Path.rebase(folder, "lib"))
+  def written(name: String, lines: Seq[String]) = {
+    IO.write(folder / name, lines.mkString("", "\n", "\n"))
+    folder / name
+  }
+  (files + written("options", options) + written("options-25", options ++ builtOnce)).toSeq
+    .pair(Path.rebase(folder, "lib"))
 }
 
 /** Creates the class-data archive now, for the JDK that the launcher selects here; otherwise the

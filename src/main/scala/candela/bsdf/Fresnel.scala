@@ -154,17 +154,27 @@ final class StrongConductorReflectance(eta: Rgb, k: Rgb) extends ReflectanceCurv
     Fresnel.strongConductor(cosTheta, eta.b, k.b)
   )
 
-/** Piecewise linear table over equally spaced cosines.
+/** Piecewise linear table of a curve over equally spaced cosines; its error falls with the square
+  * of `count`. Computed on first use: each colour basis has materials of its own, few of which are
+  * seen.
   *
-  * @param values r, g, b at cosine 0 (grazing), then at the next, up to cosine 1; two or more
-  *               triples
+  * @param count number of cosines, from 0 (grazing) to 1; two or more
   */
-final class TabulatedReflectance(values: IArray[Float]) extends ReflectanceCurve:
-  require(
-    values.length >= 6 && values.length % 3 == 0,
-    s"`values` must be two or more triples, found ${values.length} numbers"
-  )
-  private val last = values.length / 3 - 1
+final class TabulatedReflectance(count: Int, curve: Float => Rgb) extends ReflectanceCurve:
+  require(count >= 2, s"`count` must be at least 2, found $count")
+  private val last = count - 1
+
+  /** r, g, b at cosine 0, then at the next. */
+  private lazy val values: Array[Float] =
+    val triples = new Array[Float](3 * count)
+    var i = 0
+    while i < count do
+      val c = curve(i.toFloat / last.toFloat)
+      triples(3 * i) = c.r
+      triples(3 * i + 1) = c.g
+      triples(3 * i + 2) = c.b
+      i += 1
+    triples
 
   def apply(cosTheta: Float): Rgb =
     val x = clamp(Math.abs(cosTheta), 0f, 1f) * last.toFloat
@@ -174,10 +184,3 @@ final class TabulatedReflectance(values: IArray[Float]) extends ReflectanceCurve
 
   private def between(cell: Int, channel: Int, t: Float): Float =
     lerp(t, values(3 * cell + channel), values(3 * cell + 3 + channel))
-
-object TabulatedReflectance:
-
-  /** Tabulates `curve` at `count` cosines; its error falls with the square of `count`. */
-  def of(count: Int)(curve: Float => Rgb): TabulatedReflectance =
-    val triples = Vector.tabulate(count)(i => curve(i.toFloat / (count - 1).toFloat))
-    TabulatedReflectance(IArray.from(triples.flatMap(c => Vector(c.r, c.g, c.b))))

@@ -49,13 +49,16 @@ object Colorimetry:
 
   private def rgb(spectrum: Float => Float, white: White, observer: Array[Array[Float]]): Rgb =
     var x, y, z, sum = 0.0
-    for Array(nm, cx, cy, cz) <- observer do
-      val light = if white == White.D65 then D65(nm) else 1f
-      val s = spectrum(nm) * light
-      x += s * cx
-      y += s * cy
-      z += s * cz
-      sum += light * cy
+    var i = 0
+    while i < observer.length do
+      val row = observer(i)
+      val light = if white == White.D65 then D65(row(0)) else 1f
+      val s = spectrum(row(0)) * light
+      x += s * row(1)
+      y += s * row(2)
+      z += s * row(3)
+      sum += light * row(2)
+      i += 1
     fromXyz(x / sum, y / sum, z / sum)
 
   /** Wavelengths in nm, 5 apart, and the contribution of each to white under D65. */
@@ -97,8 +100,10 @@ object Colorimetry:
   )
 
   def fromXyz(x: Double, y: Double, z: Double): Rgb =
-    val c = rgbOfXyz * Vector(x, y, z)
-    Rgb(c(0).toFloat, c(1).toFloat, c(2).toFloat)
+    def channel(r: Int): Float =
+      val m = rgbOfXyz
+      (m(r, 0) * x + m(r, 1) * y + m(r, 2) * z).toFloat
+    Rgb(channel(0), channel(1), channel(2))
 
   /** Rows of numbers; lines that begin with # are comments. */
   private[color] def table(name: String): Array[Array[Float]] =

@@ -10,7 +10,8 @@ final class Matrix3(rows: Vector[Double]):
     Matrix3.tabulate((r, c) => (0 until 3).map(i => this(r, i) * m(i, c)).sum)
 
   def *(v: Vector[Double]): Vector[Double] =
-    Vector.tabulate(3)(r => (0 until 3).map(i => this(r, i) * v(i)).sum)
+    def row(r: Int) = this(r, 0) * v(0) + this(r, 1) * v(1) + this(r, 2) * v(2)
+    Vector(row(0), row(1), row(2))
 
   def *(c: Rgb): Rgb =
     val v = this * Vector(c.r.toDouble, c.g.toDouble, c.b.toDouble)

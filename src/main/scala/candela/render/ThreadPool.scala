@@ -2,45 +2,67 @@ package candela.render
 
 import candela.base.Parallel
 
+import java.util.concurrent.{CountDownLatch, LinkedBlockingQueue, ThreadPoolExecutor}
+import java.util.concurrent.TimeUnit.SECONDS
 import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
 
 /** A thread pool that executes divisible tasks, the calling thread included.
   *
-  * Threads live for one call: starting one takes some 50 µs, little beside tasks worth dividing,
-  * and there is nothing to shut down.
+  * Callers never wait for a helper that has not begun: starting or waking one takes milliseconds
+  * where the JIT compiler keeps all processors busy, and building a scene divides hundreds of small
+  * tasks. Helpers that find nothing to do for some seconds end; there is nothing to shut down.
   *
   * @param worksAside false where nothing is rendered, for which work aside prepares
   */
 final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends Parallel:
   require(threads >= 1, s"`threads` must be at least 1, found $threads")
 
+  private lazy val helpers =
+    val started = AtomicInteger()
+    val made = ThreadPoolExecutor(
+      threads - 1,
+      threads - 1,
+      ThreadPool.Patience,
+      SECONDS,
+      LinkedBlockingQueue[Runnable](),
+      task => ThreadPool.thread(s"helper-${started.incrementAndGet()}", task)
+    )
+    made.allowCoreThreadTimeOut(true)
+    made
+
   def each(count: Int)(task: Int => Unit): Unit =
     if threads == 1 || count <= 1 then Parallel.Alone.each(count)(task)
     else
       val next = AtomicInteger()
+      val left = CountDownLatch(count)
       val failure = AtomicReference[Throwable | Null](null)
       val work: Runnable = () =>
-        try
-          var i = next.getAndIncrement()
-          while i < count && failure.get == null do
-            task(i)
-            i = next.getAndIncrement()
-        catch
-          case e: Throwable =>
-            val _ = failure.compareAndSet(null, e)
-      val others =
-        Vector.tabulate(Math.min(threads, count) - 1)(i => start(s"helper-${i + 1}", work))
+        var i = next.getAndIncrement()
+        while i < count do
+          try if failure.get == null then task(i)
+          catch
+            case e: Throwable =>
+              val _ = failure.compareAndSet(null, e)
+          finally left.countDown()
+          i = next.getAndIncrement()
+      var more = Math.min(threads, count) - 1
+      while more > 0 do
+        helpers.execute(work)
+        more -= 1
       work.run()
-      others.foreach(_.join())
+      left.await()
       val thrown = failure.get
       if thrown != null then throw thrown
 
   def aside(name: String)(task: => Unit): Unit =
-    if worksAside then
-      val _ = start(name, () => task)
+    if worksAside then ThreadPool.thread(name, () => task).start()
 
-  private def start(name: String, work: Runnable): Thread =
-    val thread = Thread(work, s"candela-$name")
-    thread.setDaemon(true)
-    thread.start()
-    thread
+object ThreadPool:
+  /** Seconds after which an idle helper ends. */
+  private inline val Patience = 5L
+
+  /** One that does not keep the JVM alive. */
+  private def thread(name: String, work: Runnable): Thread =
+    val made = Thread(work, s"candela-$name")
+    made.setDaemon(true)
+    made

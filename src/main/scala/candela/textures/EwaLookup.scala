@@ -12,7 +12,7 @@ import candela.math.*
   * @param maxAnisotropy maximum ratio of the ellipse's axes; longer ellipses are widened
   */
 final class EwaLookup(
-    pyramid: Array[MipLevel],
+    pyramid: MipMap,
     maxAnisotropy: Float,
     bottomUp: Boolean,
     turned: Boolean

@@ -65,9 +65,9 @@ abstract class ImageLookup(bottomUp: Boolean):
   * @param turned whether the t derivatives point up in the image, as t does; pbrt-v4 omits to flip
   *   them with t
   */
-abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turned: Boolean)
+abstract class FilteredLookup(pyramid: MipMap, bottomUp: Boolean, turned: Boolean)
     extends ImageLookup(bottomUp):
-  protected final val last: Int = pyramid.length - 1
+  protected final val last: Int = pyramid.size - 1
   private val down = if bottomUp && turned then -1f else 1f
 
   final def color(mapping: Mapping2D, at: ShadingPoint): Rgb =
@@ -94,13 +94,13 @@ abstract class FilteredLookup(pyramid: Array[MipLevel], bottomUp: Boolean, turne
   * "bilinear").
   */
 final class LevelLookup(
-    pyramid: Array[MipLevel],
+    pyramid: MipMap,
     interpolates: Boolean,
     bottomUp: Boolean,
     turned: Boolean
 ) extends FilteredLookup(pyramid, bottomUp, turned):
   override def slopes(c: TexCoord): Slopes | Null =
-    if pyramid.length > 1 then null
+    if pyramid.size > 1 then null
     else if !interpolates then Slopes(0f, 0f)
     else
       val here = pyramid(0).slopes(c.s, row(c.t))
@@ -119,7 +119,7 @@ final class LevelLookup(
   * @param fromSecond whether interpolation starts only past the second level, as in pbrt-v4
   */
 final class TrilinearLookup(
-    pyramid: Array[MipLevel],
+    pyramid: MipMap,
     factor: Float,
     fromSecond: Boolean,
     bottomUp: Boolean,

@@ -27,6 +27,10 @@ object Pyramid:
     while levels.last.width > 1 || levels.last.height > 1 do levels += halved(levels.last, parallel)
     levels.map(MipLevel(_, wrap)).toArray
 
+  /** Number of levels of an image. */
+  def size(width: Int, height: Int): Int =
+    Integer.numberOfTrailingZeros(powerOfTwo(Math.max(width, height))) + 1
+
   /** If an edge is one texel long, that texel counts twice. */
   private def halved(from: Texels, parallel: Parallel): Texels =
     val width = Math.max(1, from.width / 2)

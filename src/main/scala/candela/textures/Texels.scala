@@ -41,10 +41,7 @@ object Texels:
     else
       image match
         case stored: ByteImage =>
-          val bytes = new Array[Byte](stored.width * stored.height * 3)
-          loop(stored.width * stored.height): i =>
-            loop(3)(c => bytes(3 * i + c) = stored.bytes(i * stored.channels + channels(c)))
-          ByteTexels(stored.width, stored.height, 3, bytes, table(decode))
+          ByteTexels(stored.width, stored.height, 3, selected(stored, channels), table(decode))
         case floats: Image =>
           val values = new Array[Float](floats.width * floats.height * 3)
           loop(floats.width * floats.height): i =>
@@ -78,13 +75,30 @@ object Texels:
     else if isGray(image, channels) then single(image, channels(0), decode)
     else combined(image, channels)((r, g, b) => (decode(r) + decode(g) + decode(b)) * (1f / 3f))
 
+  /** Some channels; the image's own bytes if these are all. */
+  private def selected(image: ByteImage, channels: Array[Int]): Array[Byte] =
+    if channels.sameElements(Array.range(0, image.channels)) then image.bytes
+    else
+      val bytes = new Array[Byte](image.width * image.height * channels.length)
+      loop(image.width * image.height): i =>
+        loop(channels.length): c =>
+          bytes(channels.length * i + c) = image.bytes(i * image.channels + channels(c))
+      bytes
+
   private def isOpaque(image: StoredImage, alpha: Int): Boolean =
     every(image)(i => stored(image, i * image.channels + alpha) == 1f)
 
-  private def isGray(image: StoredImage, c: Array[Int]): Boolean =
-    every(image): i =>
-      val r = stored(image, i * image.channels + c(0))
-      r == stored(image, i * image.channels + c(1)) && r == stored(image, i * image.channels + c(2))
+  private def isGray(image: StoredImage, c: Array[Int]): Boolean = image match
+    case stored: ByteImage =>
+      val bytes = stored.bytes
+      every(image): i =>
+        val at = i * image.channels
+        bytes(at + c(0)) == bytes(at + c(1)) && bytes(at + c(0)) == bytes(at + c(2))
+    case floats: Image =>
+      val data = floats.data
+      every(image): i =>
+        val at = i * image.channels
+        data(at + c(0)) == data(at + c(1)) && data(at + c(0)) == data(at + c(2))
 
   private inline def every(image: StoredImage)(inline holds: Int => Boolean): Boolean =
     val count = image.width * image.height
@@ -97,13 +111,12 @@ object Texels:
     case floats: Image => floats.data(index)
 
   private def single(image: StoredImage, channel: Int, decode: Float => Float): Texels =
-    val count = image.width * image.height
     image match
       case stored: ByteImage =>
-        val bytes = new Array[Byte](count)
-        loop(count)(i => bytes(i) = stored.bytes(i * stored.channels + channel))
+        val bytes = selected(stored, Array(channel))
         ByteTexels(stored.width, stored.height, 1, bytes, table(decode))
       case floats: Image =>
+        val count = image.width * image.height
         val values = new Array[Float](count)
         loop(count)(i => values(i) = decode(floats.data(i * floats.channels + channel)))
         FloatTexels(floats.width, floats.height, 1, values)

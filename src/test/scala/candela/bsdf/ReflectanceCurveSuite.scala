@@ -19,7 +19,7 @@ class ReflectanceCurveSuite extends AnyFunSuite:
     assert(ConductorReflectance.ofReflectance(Rgb.White)(1f).isFinite)
 
   test("a table of a linear curve is that curve, and ends where the curve ends"):
-    val line = TabulatedReflectance.of(5)(c => Rgb(c, 1 - c, 0.5f))
+    val line = TabulatedReflectance(5, c => Rgb(c, 1 - c, 0.5f))
     for c <- Seq(0f, 0.1f, 0.33f, 0.99f, 1f, -0.7f) do
       val x = Math.abs(c)
       // Two roundings.
@@ -29,10 +29,22 @@ class ReflectanceCurveSuite extends AnyFunSuite:
 
   test("a metal's curve is within 0.002 of its table of 64 values"):
     val metal = ConductorReflectance(Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.6f, 2.4f))
-    val table = TabulatedReflectance.of(64)(metal.apply)
+    val table = TabulatedReflectance(64, metal.apply)
     for i <- 0 to 1000 do
       val c = i / 1000f
       assert((table(c) - metal(c)).map(x => Math.abs(x)).max < 0.002f, s"at $c")
 
+  test("a table is computed when it is first asked, once"):
+    var count = 0
+    val table = TabulatedReflectance(
+      8,
+      c =>
+        count += 1
+        Rgb.gray(c)
+    )
+    assert(count == 0)
+    for c <- Seq(0.3f, 0.7f) do table(c): Unit
+    assert(count == 8)
+
   test("a table needs two values at least"):
-    assertThrows[IllegalArgumentException](TabulatedReflectance(IArray(1f, 1f, 1f)))
+    assertThrows[IllegalArgumentException](TabulatedReflectance(1, _ => Rgb.White))

@@ -46,6 +46,13 @@ class LauncherSuite extends AnyFunSuite:
       assert(missing.err.startsWith("candela: CANDELA_JAVA must be a JDK, found /no/jdk"))
       assert(p.starts.isEmpty)
 
+  test("each JDK gets the options that it knows"):
+    staged: p =>
+      for (version, options) <- Seq("17.0.1" -> "options", "25.0.1" -> "options-25") do
+        val jdk = p.jdk(version, in = version)
+        assert(p.run(env = Map(None_, "CANDELA_JAVA" -> jdk.toString)).code == 0)
+        assert(p.starts.last(1) == s"@${p.lib.toRealPath().resolve(options)}")
+
   test("words reach the program as they are, behind JAVA_OPTS, and its exit code comes back"):
     staged: p =>
       val _ = p.jdk("99", java = "echo out; echo err >&2; exit 3")

@@ -4,7 +4,8 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.Parallel
 
-import java.util.concurrent.atomic.AtomicIntegerArray
+import java.util.concurrent.CountDownLatch
+import java.util.concurrent.atomic.{AtomicInteger, AtomicIntegerArray}
 
 class ThreadPoolSuite extends AnyFunSuite:
 
@@ -31,14 +32,39 @@ class ThreadPoolSuite extends AnyFunSuite:
         pool.each(100)(i => if i == 57 then throw IllegalStateException("57"))
       assert(error.getMessage == "57")
 
+  test("the same threads help again"):
+    val pool = ThreadPool(3)
+    val seen = java.util.concurrent.ConcurrentHashMap.newKeySet[Thread]()
+    for _ <- 1 to 50 do
+      pool.each(3): _ =>
+        seen.add(Thread.currentThread): Unit
+        Thread.sleep(1)
+    assert(seen.contains(Thread.currentThread) && seen.size <= 3)
+
+  test("nobody waits for a helper that is busy with other work"):
+    val pool = ThreadPool(2)
+    val (isHelping, mayEnd) = (CountDownLatch(1), CountDownLatch(1))
+    val other = Thread(() =>
+      pool.each(2): _ =>
+        if Thread.currentThread.getName.startsWith("candela-helper") then isHelping.countDown()
+        mayEnd.await()
+    )
+    other.start()
+    isHelping.await()
+    val done = AtomicInteger()
+    pool.each(100)(_ => done.incrementAndGet(): Unit)
+    assert(done.get == 100)
+    mayEnd.countDown()
+    other.join()
+
   test("several threads work at the same time"):
-    val both = java.util.concurrent.CountDownLatch(2)
+    val both = CountDownLatch(2)
     ThreadPool(2).each(2): _ =>
       both.countDown()
       if !both.await(10, java.util.concurrent.TimeUnit.SECONDS) then fail("one waits for the other")
 
   test("a task aside runs while the caller goes on, on a thread that does not keep the JVM alive"):
-    val latch = java.util.concurrent.CountDownLatch(1)
+    val latch = CountDownLatch(1)
     val thread = java.util.concurrent.CompletableFuture[Thread]()
     ThreadPool(1).aside("some-task"):
       latch.await()
@@ -48,6 +74,6 @@ class ThreadPoolSuite extends AnyFunSuite:
     assert(found.getName == "candela-some-task" && found.isDaemon)
 
   test("nothing runs aside where nothing is rendered"):
-    val hasRun = java.util.concurrent.CountDownLatch(1)
+    val hasRun = CountDownLatch(1)
     ThreadPool(2, worksAside = false).aside("some-task")(hasRun.countDown())
     assert(!hasRun.await(200, java.util.concurrent.TimeUnit.MILLISECONDS))

@@ -13,11 +13,11 @@ class FilteredLookupSuite extends AnyFunSuite:
     Pyramid.of(FloatTexels(w, h, 1, values), wrap, Float.PositiveInfinity)
 
   private def lookups(levels: Array[MipLevel]): Seq[FilteredLookup] = Seq(
-    EwaLookup(levels, 8f, bottomUp = false, turned = false),
-    TrilinearLookup(levels, 2f, fromSecond = true, bottomUp = false, turned = false),
-    TrilinearLookup(levels, 1f, fromSecond = false, bottomUp = false, turned = false),
-    LevelLookup(levels, interpolates = true, bottomUp = false, turned = false),
-    LevelLookup(levels, interpolates = false, bottomUp = false, turned = false)
+    EwaLookup(MipMap.of(levels), 8f, bottomUp = false, turned = false),
+    TrilinearLookup(MipMap.of(levels), 2f, fromSecond = true, bottomUp = false, turned = false),
+    TrilinearLookup(MipMap.of(levels), 1f, fromSecond = false, bottomUp = false, turned = false),
+    LevelLookup(MipMap.of(levels), interpolates = true, bottomUp = false, turned = false),
+    LevelLookup(MipMap.of(levels), interpolates = false, bottomUp = false, turned = false)
   )
 
   private def footprint(draws: Draws): Seq[Float] =
@@ -50,7 +50,8 @@ class FilteredLookupSuite extends AnyFunSuite:
 
   test("a footprint as large as a texel of a level gives the mean of what that texel covers"):
     val levels = pyramid(Size, Size)((s, t) => (s * 977 % 1) * (t * 331 % 1))
-    val lookup = TrilinearLookup(levels, 1f, fromSecond = false, bottomUp = false, turned = false)
+    val lookup =
+      TrilinearLookup(MipMap.of(levels), 1f, fromSecond = false, bottomUp = false, turned = false)
     for k <- 1 to 6; x <- 0 until Size / (1 << k) by 3 do
       val n = 1 << k
       val texels = for j <- 0 until n; i <- x * n until (x + 1) * n yield levels(0)(j * Size + i, 0)
@@ -83,7 +84,7 @@ class FilteredLookupSuite extends AnyFunSuite:
   test("an elliptical average follows the ellipse's direction"):
     // Stripes: along them nothing is blurred, across them all is
     val stripes = pyramid(Size, Size)((s, t) => if (s + t) * 8 % 2 < 1 then 1f else 0f)
-    val ewa = EwaLookup(stripes, 64f, bottomUp = false, turned = false)
+    val ewa = EwaLookup(MipMap.of(stripes), 64f, bottomUp = false, turned = false)
     val (l, w) = (0.15f, 0.005f)
     val along = ewa.filtered(0.53f, 0.53f, l, -l, w, w).r
     val across = ewa.filtered(0.53f, 0.53f, l, l, w, -w).r
@@ -93,8 +94,8 @@ class FilteredLookupSuite extends AnyFunSuite:
   test("an ellipse that is too long is widened, not shortened"):
     val draws = Draws(3)
     val levels = pyramid(Size, Size)((_, _) => draws.unit())
-    val narrow = EwaLookup(levels, 4f, bottomUp = false, turned = false)
-    val wide = EwaLookup(levels, 1e9f, bottomUp = false, turned = false)
+    val narrow = EwaLookup(MipMap.of(levels), 4f, bottomUp = false, turned = false)
+    val wide = EwaLookup(MipMap.of(levels), 1e9f, bottomUp = false, turned = false)
     for _ <- 0 until 100 do
       val (s, t) = (draws.unit(), draws.unit())
       val expected = wide.filtered(s, t, 0.4f, 0f, 0f, 0.1f).r

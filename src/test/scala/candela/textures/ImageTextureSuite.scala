@@ -20,7 +20,8 @@ class ImageTextureSuite extends AnyFunSuite:
       interpolates: Boolean,
       wrap: Wrap = Wrap.Repeat,
       bottomUp: Boolean = true
-  ) = LevelLookup(Array(MipLevel(Texels.color(image, linear), wrap)), interpolates, bottomUp, true)
+  ) =
+    LevelLookup(MipMap.plain(wrap)(() => Texels.color(image, linear)), interpolates, bottomUp, true)
 
   extension (lookup: LevelLookup)
     private def color(c: TexCoord): Rgb = lookup.color(UvMapping(1f, 1f, 0f, 0f), at(c.s, c.t))
@@ -65,7 +66,8 @@ class ImageTextureSuite extends AnyFunSuite:
     val uv = UvMapping(1f, 1f, 0f, 0f)
     assert(FloatImageTexture(uv, lookup(image, Point)).slopes(at(0.4f, 0.6f)).nn.byU == 0f)
     val levels = Pyramid.of(FloatTexels(2, 2, 1, Array(0f, 1f, 2f, 3f)), Wrap.Repeat, 9f)
-    val filtered = LevelLookup(levels, interpolates = true, bottomUp = true, turned = true)
+    val filtered =
+      LevelLookup(MipMap.of(levels), interpolates = true, bottomUp = true, turned = true)
     assert(FloatImageTexture(uv, filtered).slopes(at(0.4f, 0.6f)) == null)
 
   test("v counted from the top turns the picture over"):

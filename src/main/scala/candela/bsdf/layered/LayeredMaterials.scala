@@ -124,5 +124,5 @@ object CoatedConductorMaterial:
     val isSmooth = bottom.isSmooth && (top.isSmooth || (top.isConstant && eta == 1f))
     mirrored.filter(_ => isSmooth) match
       case Some(curve) =>
-        SummedConductorMaterial(Mirror(Rgb.White, TabulatedReflectance.of(256)(curve)), walked)
+        SummedConductorMaterial(Mirror(Rgb.White, TabulatedReflectance(256, curve)), walked)
       case None => walked

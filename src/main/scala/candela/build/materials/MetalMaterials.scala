@@ -67,7 +67,7 @@ private[build] trait MetalFields extends SpectrumFields:
     (spectral(index, outside), tint) match
       case (Some(reflected), _) =>
         site.resources.counting.foreach(_.addReflectance(site.declaration, reflected(1f)))
-        UniformMetal(TabulatedReflectance.of(128)(Spectra.underWhite(reflected)))
+        UniformMetal(TabulatedReflectance(128, Spectra.underWhite(reflected)))
       case (None, Some(reflectance)) => TintedMetal(reflectance, outside)
       case (None, None) =>
         def varying(source: SpectrumSource) = SpectrumSource.textured(source): value =>

@@ -68,7 +68,7 @@ final class ColorCensus(basis: ColorBasis):
     val isGrey = (c - Rgb.gray(c.g)).largest <= 1e-4f * c.g
     if c.isFinite && c.max > 0f then
       // Half as bright as can be, as in pbrt-v4
-      val half = SmoothSpectra.spectrum(c * (0.5f / c.max))
+      lazy val half = SmoothSpectra.spectrum(c * (0.5f / c.max))
       val smooth = (nm: Float) => if isGrey then c.g else half(nm) * 2f * c.max
       role match
         case SpectrumRole.Emission =>
@@ -137,13 +137,19 @@ private object ColorCensus:
     spread(all.distinct)((a, b) => (a - b).largest.toDouble)
 
   /** A subset whose members are far from each other, greedily (Gonzalez 1985). */
-  private def spread[T](all: Vector[T])(distance: (T, T) => Double): Vector[T] =
+  private inline def spread[T](all: Vector[T])(inline distance: (T, T) => Double): Vector[T] =
     if all.size <= Most then all
     else
-      var chosen = Vector(all.head)
-      val nearest = all.map(distance(_, all.head)).toArray
-      while chosen.size < Most do
-        val next = all(nearest.indices.maxBy(nearest(_)))
-        chosen :+= next
-        for i <- all.indices do nearest(i) = Math.min(nearest(i), distance(all(i), next))
-      chosen
+      val chosen = Vector.newBuilder[T]
+      val nearest = Array.fill(all.size)(Double.PositiveInfinity)
+      var count = 0
+      var next = 0
+      while count < Most do
+        chosen += all(next)
+        count += 1
+        val last = all(next)
+        next = 0
+        loop(nearest.length): i =>
+          nearest(i) = Math.min(nearest(i), distance(all(i), last))
+          if nearest(i) > nearest(next) then next = i
+      chosen.result()

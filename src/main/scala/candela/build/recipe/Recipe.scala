@@ -22,6 +22,8 @@ abstract class Recipe[A](
   private val declared = mutable.ArrayBuffer.empty[Field[?]]
   private val unused = mutable.HashMap.empty[Field[?], Support]
 
+  private lazy val byName = declared.toVector.groupBy(_.name)
+
   protected def make()(using Site): A
 
   /** Wraps `make` with the steps common to a category. */
@@ -57,7 +59,7 @@ abstract class Recipe[A](
 
   final def build(site: Site): A =
     for p <- site.declaration.params do
-      val named = declared.filter(_.name == p.name)
+      val named = byName.getOrElse(p.name, Vector.empty)
       named.find(_.dialects(site.dialect)) match
         case Some(field) => inspect(field, p.at, site)
         case None if named.nonEmpty =>
@@ -92,9 +94,11 @@ abstract class Recipe[A](
   */
 final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
+  private lazy val byName = all.groupBy(_.name)
+
   /** Finds the recipe of this name, preferably of this dialect. */
   def find(name: String, dialect: Dialect): Option[Recipe[A]] =
-    val candidates = all.filter(_.name == name)
+    val candidates = byName.getOrElse(name, Vector.empty)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
   /** Builds the declared type. A substituted type is a warning; an unknown one is an error, or a

@@ -1,6 +1,7 @@
 package candela.build.recipe
 
 import java.nio.file.{Files, Path}
+import java.util.concurrent.ConcurrentHashMap
 
 import scala.collection.mutable
 import scala.util.Try
@@ -46,6 +47,10 @@ final class SharedResources(
   def askForFootprints(what: String): Unit = synchronized:
     if !footprints.contains(what) then footprints :+= what
 
+  // Each of a hundred colour bases asks again
+  private val files = ConcurrentHashMap[(Path, String), Path]()
+  private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()
+
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
   private val made = java.util.IdentityHashMap[Declaration, mutable.Map[String, Any]]()
 
@@ -67,11 +72,20 @@ final class SharedResources(
   def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
     val name = p.strings.headOption.getOrElse("")
     def path = from.folder.resolve(name.replace('\\', '/'))
-    // some names are not valid paths, e.g. with a zero byte
-    val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
-    if found.isEmpty then
-      problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
-    found
+    Option(files.get((from.folder, name))).orElse:
+      // some names are not valid paths, e.g. with a zero byte
+      val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
+      found match
+        case Some(there) => files.put((from.folder, name), there): Unit
+        case None => problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
+      found
+
+  private def load(path: Path): Either[String, StoredImage] = synchronized:
+    images.getOrElseUpdate(
+      path.toAbsolutePath.normalize,
+      try Right(ImageFiles.load(path))
+      catch case e: ImageError => Left(e.getMessage)
+    )
 
   /** Loads the image that a parameter names; images are cached. */
   def image(
@@ -81,13 +95,7 @@ final class SharedResources(
       standIn: String = StandIns.Magentas
   ): Option[StoredImage] =
     file(p, from, problems, standIn).flatMap: path =>
-      val read = synchronized:
-        images.getOrElseUpdate(
-          path.toAbsolutePath.normalize,
-          try Right(ImageFiles.load(path))
-          catch case e: ImageError => Left(e.getMessage)
-        )
-      read match
+      loaded.computeIfAbsent(path, load) match
         case Right(image) => Some(image)
         case Left(message) =>
           problems.missing(p.valuesAt, message, standIn)

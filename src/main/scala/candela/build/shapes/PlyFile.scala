@@ -140,11 +140,18 @@ private[build] final class PlyReader(
     val strides = roles.map(_.fold(0)(_._2)).toArray
     val places = roles.map(_.fold(0)(_._3)).toArray
     val properties = element.properties.toArray
+    val row = new Array[Float](properties.length)
+    val isRow = properties.forall(p => p.countType.isEmpty && p.valueType == PlyType.Float32)
     loop(element.count): i =>
-      loop(properties.length): k =>
-        val target = targets(k)
-        if target == null then skip(properties(k))
-        else target(i * strides(k) + places(k)) = number(properties(k), target eq positions, i)
+      if isRow && in.finiteRow(row) then
+        loop(row.length): k =>
+          val target = targets(k)
+          if target != null then target(i * strides(k) + places(k)) = row(k)
+      else
+        loop(properties.length): k =>
+          val target = targets(k)
+          if target == null then skip(properties(k))
+          else target(i * strides(k) + places(k)) = number(properties(k), target eq positions, i)
 
   /** The property's value; 0 if it is not finite, except in positions, where that is an error. */
   private def number(p: PlyProperty, isPosition: Boolean, vertex: Int): Float =
@@ -167,9 +174,13 @@ private[build] final class PlyReader(
       val found = element.properties.map(_.name).mkString("`", "`, `", "`")
       fail(in.offset, s"faces must have a list `vertex_indices`, found $found")
     val properties = element.properties.toArray
+    val isPlain = properties.length == 1 && PlyReader.isUsualList(properties(0))
+    val three = new Array[Int](3)
     loop(element.count): _ =>
-      loop(properties.length): k =>
-        if k == corners then readCorners(properties(k), vertexCount) else skip(properties(k))
+      if isPlain && in.triangle(three, vertexCount) then triangle(three(0), three(1), three(2))
+      else
+        loop(properties.length): k =>
+          if k == corners then readCorners(properties(k), vertexCount) else skip(properties(k))
 
   private def readCorners(p: PlyProperty, vertexCount: Int): Unit =
     val length = in.length(p.countType.get)
@@ -212,6 +223,12 @@ private[build] object PlyReader:
   private val Position = Seq("x", "y", "z")
   private val Normal = Seq("nx", "ny", "nz")
   private val Corners = Set("vertex_indices", "vertex_index")
+
+  /** Whether [[PlyNumbers.triangle]] can read it. */
+  private def isUsualList(p: PlyProperty): Boolean =
+    p.countType.exists(_.bytes == 1) && (p.valueType match
+      case PlyType.Int32 | PlyType.UInt32 => true
+      case _ => false)
 
   private val NoCoordinates = Seq.empty[String]
 

@@ -64,7 +64,7 @@ private[build] object PlyHeader:
       def wrong(what: String) =
         val shown = line.take(60).map(c => if Character.isISOControl(c) then '?' else c)
         fail(lines.lastStart, s"$what: `$shown`")
-      line.split("\\s+").toList match
+      words(line) match
         case "format" :: name :: _ =>
           format = Some(Formats.getOrElse(name, wrong("unknown format")))
         case "element" :: name :: count :: Nil =>
@@ -75,10 +75,14 @@ private[build] object PlyHeader:
           val added = property(rest).getOrElse(wrong("unknown property"))
           elements(elements.length - 1) = last.copy(properties = last.properties :+ added)
         case "end_header" :: Nil => more = false
-        case ("comment" | "obj_info" | "") :: _ => ()
+        case Nil | ("comment" | "obj_info") :: _ => ()
         case _ => wrong("unknown header line")
     val known = format.getOrElse(fail(0, "the header must have a `format`"))
     PlyHeader(known, elements.toVector, lines.end)
+
+  private def words(line: String): List[String] =
+    val each = java.util.StringTokenizer(line, " \t\n\u000b\f\r")
+    List.fill(each.countTokens)(each.nextToken())
 
   private def property(words: List[String]): Option[PlyProperty] = words match
     case "list" :: count :: value :: name :: Nil =>
@@ -162,6 +166,16 @@ private[build] sealed abstract class PlyNumbers(
   /** Reads the next number, of type `t`. */
   def next(t: PlyType): Double
 
+  /** Reads a row of numbers of type Float32; or nothing, and returns false, where they are not all
+    * finite or not binary.
+    */
+  def finiteRow(row: Array[Float]): Boolean = false
+
+  /** Reads a list of three numbers of four bytes, with its length of one byte, as indices below
+    * `count`; or nothing, and returns false.
+    */
+  def triangle(corners: Array[Int], count: Int): Boolean = false
+
   /** Minimum size of the element in bytes. */
   protected def leastSize(element: PlyElement): Long
 
@@ -244,9 +258,38 @@ private[build] final class BinaryPlyNumbers(
         val bits = if isLittle then second << 32 | first else first << 32 | second
         java.lang.Double.longBitsToDouble(bits)
 
-  private def need(size: Int): Unit =
-    if !source.isLast then fetch()
-    if source.limit - at < size then tooShort()
+  override def finiteRow(row: Array[Float]): Boolean =
+    hold(4 * row.length) && {
+      val bytes = source.bytes
+      var isFinite = true
+      var i = 0
+      while i < row.length do
+        val x = java.lang.Float.intBitsToFloat(int(bytes, at + 4 * i))
+        isFinite &= Math.abs(x) <= Float.MaxValue
+        row(i) = x
+        i += 1
+      if isFinite then at += 4 * row.length
+      isFinite
+    }
+
+  override def triangle(corners: Array[Int], count: Int): Boolean =
+    hold(13) && source.bytes(at) == 3 && {
+      var isInRange = true
+      var i = 0
+      while i < 3 do
+        corners(i) = int(source.bytes, at + 1 + 4 * i)
+        isInRange &= Integer.compareUnsigned(corners(i), count) < 0
+        i += 1
+      if isInRange then at += 13
+      isInRange
+    }
+
+  /** Whether there are so many bytes more. */
+  private def hold(size: Int): Boolean =
+    if source.limit - at < size && !source.isLast then fetch()
+    source.limit - at >= size
+
+  private def need(size: Int): Unit = if !hold(size) then tooShort()
 
   private def short(bytes: Array[Byte], i: Int): Short =
     if isLittle then (bytes(i) & 0xff | bytes(i + 1) << 8).toShort

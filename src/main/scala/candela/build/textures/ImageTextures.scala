@@ -36,8 +36,11 @@ abstract class ImageMapRecipe[A](standIn: String)
   private val anisotropy =
     float("maxanisotropy", "maximum anisotropy: footprint length over width")(8f)
 
-  /** Returns the image's lookup. Reports problems and returns None. */
-  protected def lookup(texels: (StoredImage, Float => Float) => Texels)(using
+  /** Returns the image's lookup. Reports problems and returns None.
+    *
+    * @param texels how to make the texels, when the texture is first seen
+    */
+  protected def lookup(texels: (StoredImage, Float => Float) => () => Texels)(using
       site: Site
   ): Option[ImageLookup] =
     site.declaration.param("filename").filter(_ => filename().nonEmpty) match
@@ -55,7 +58,7 @@ abstract class ImageMapRecipe[A](standIn: String)
           site.resources.once(site.declaration, "pyramid"):
             filtered(texels(stored, decoding(stored)), wrapping, stored)
 
-  private def filtered(texels: Texels, wrap: Wrap, stored: StoredImage)(using
+  private def filtered(texels: () => Texels, wrap: Wrap, stored: StoredImage)(using
       site: Site
   ): ImageLookup =
     val dialect = site.dialect
@@ -69,12 +72,14 @@ abstract class ImageMapRecipe[A](standIn: String)
       case _: ByteImage => true
       case _: Image => false
     val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
-    val levels =
-      // Mitsuba neither enlarges images nor reduces them
-      val switches = site.resources.switches
-      if switches.isMitsubas && !switches.meanImages then Array(MipLevel(texels, wrap))
-      else Pyramid.of(texels, wrap, most, site.resources.pool)
-    val pyramid = if site.resources.switches.meanImages then levels.takeRight(1) else levels
+    // Mitsuba neither enlarges images nor reduces them
+    val switches = site.resources.switches
+    val pyramid =
+      if switches.isMitsubas && !switches.meanImages then MipMap.plain(wrap)(texels)
+      else
+        val pool = site.resources.pool
+        val all = MipMap.ofImage(stored.width, stored.height, wrap, most, pool)(texels)
+        if switches.meanImages then MipMap.ofMean(all) else all
     kind match
       case "point" => LevelLookup(pyramid, interpolates = false, bottomUp, turned = !isV4)
       case "bilinear" => LevelLookup(pyramid, interpolates = true, bottomUp, turned = !isV4)
@@ -122,17 +127,20 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
       if site.resources.switches.isMitsubas then Texels.decodedLuminance
       else if site.dialect == Dialect.V4 then Texels.meanOrAlpha
       else Texels.luminance
-    lookup(read).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
+    def texels(stored: StoredImage, decode: Float => Float) =
+      val _ = stored.colorChannels // an error without any
+      () => read(stored, decode)
+    lookup(texels).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
-    def texels(stored: StoredImage, decode: Float => Float): Texels =
+    def texels(stored: StoredImage, decode: Float => Float) =
       val made = inSrgb(stored, decode)
       for census <- site.resources.counting if made.channels == 3 do
         census.addImage(made.width * made.height, SpectrumRole.Reflectance): i =>
           Rgb(made(i, 0), made(i, 1), made(i, 2))
-      made
+      () => made
     lookup(texels).fold(StandIns.color(basis)): found =>
       val image = RgbImageTexture(mapped(), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)

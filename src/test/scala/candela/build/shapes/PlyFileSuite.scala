@@ -29,6 +29,7 @@ class PlyFileSuite extends AnyFunSuite:
        |end_header
        |""".stripMargin
 
+  private val NormalYz = "property float ny\nproperty float nz\n"
   private val corners = "0 0 0\n1 0 0\n1 1 0\n0 1 0.5\n"
 
   /** A header and the bytes that `write` puts in. */
@@ -199,6 +200,34 @@ class PlyFileSuite extends AnyFunSuite:
     assert(message == s"mesh `m.ply`, byte $firstZ: `z` of vertex 0 must be finite, found NaN")
     val m = mesh(bytes.patch(bytes.indexOfSlice(normal, firstZ), nan, 4))
     assert(m.normals.take(3).toVector == Vector(0f, 0f, 0f))
+
+  test("a binary mesh is read alike by rows and number by number, through any window"):
+    // what else a vertex or a face has makes them unusual: no rows, no plain triangles
+    def head(vertex: String, face: String) =
+      header("binary_little_endian", 40, 30)
+        .replace("property float z\n", s"property float z\nproperty float nx\n$NormalYz$vertex")
+        .replace("vertex_indices\n", s"vertex_indices\n$face")
+    def bytes(isUsual: Boolean) =
+      val h = if isUsual then head("", "") else head("property uchar a\n", "property uchar b\n")
+      val body = ByteBuffer.allocate(4000).order(ByteOrder.LITTLE_ENDIAN)
+      for i <- 0 until 40 do
+        for k <- 0 until 6 do
+          body.putFloat(if k == 4 && i % 7 == 3 then Float.NaN else i * 0.3f - k): Unit
+        if !isUsual then body.put(1.toByte): Unit
+      for i <- 0 until 30 do
+        val count = if i % 5 == 2 then 4 else if i % 11 == 4 then 2 else 3
+        body.put(count.toByte)
+        for k <- 0 until count do body.putInt((7 * i + k) % 40): Unit
+        if !isUsual then body.put(2.toByte): Unit
+      h.getBytes("ISO-8859-1") ++ body.array.take(body.position)
+    def numbers(m: PlyMesh) =
+      (m.positions.toVector, m.normals.toVector, m.indices.toVector, m.quads.toVector)
+    val slow = mesh(bytes(isUsual = false))
+    assert(slow.normals(3 * 3 + 1) == 0f && slow.indices.length == 3 * (30 + 6 - 3))
+    assert(numbers(mesh(bytes(isUsual = true))) == numbers(slow))
+    for room <- Seq(3, 17, 50) do
+      val through = PlyFile.mesh(Source.windowed("m", bytes(isUsual = true), room), None)
+      assert(numbers(through) == numbers(slow), s"a window of $room bytes")
 
   test("a file that was cut anywhere is an error, never another mesh"):
     val ascii = (header("ascii", 4, 1) + corners + "4 0 1 2 3").getBytes("ISO-8859-1")
