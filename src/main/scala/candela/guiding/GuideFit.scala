@@ -209,7 +209,7 @@ private[guiding] object GuideFit:
   /** Distances that each lobe tries. */
   private inline val Nears = 7
 
-  private inline val FirstRounds = 10
+  private inline val FirstRounds = 4
   private inline val Rounds = 3
 
   /** More light counts as this much, in units of the region's mean, lest single paths decide. */
@@ -222,7 +222,7 @@ private[guiding] object GuideFit:
   private inline val Widening = 0.2
 
   /** Weight of a lobe that is used. */
-  private inline val Lightest = 0.01f
+  private inline val Lightest = 0.025f
 
   /** The part of old weights, beside the new ones, and of equal ones in the beginning. */
   private inline val Old = 0.25f
