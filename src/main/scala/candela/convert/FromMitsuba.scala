@@ -26,6 +26,12 @@ object FromMitsuba:
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
         without(d, "nothing is clipped", "nearclip", "farclip")
+      else if d.category == "Integrator" then
+        without(d, "lamps and sky are visible", "hideemitters")
+      else if d.category == "Medium" then
+        if d.name.endsWith("grid") then
+          warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
+        d
       else if d.category != "Material" || d.dialect.isDefined then d
       else
         d.name match

@@ -58,7 +58,7 @@ final class PathTracer(
       if !isHit then walk.addEnvironment()
       else
         walk.addEmission()
-        if walk.vertex.isInterface then walk.passThrough()
+        if walk.isPassed then walk.passThrough()
         else if walk.depth == maxDepth then walk.end()
         else
           walk.evaluate()

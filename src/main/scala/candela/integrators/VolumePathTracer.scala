@@ -43,7 +43,7 @@ final class VolumePathTracer(
       else
         walk.meetSurface()
         walk.addEmission()
-        if walk.vertex.isInterface then walk.passThrough()
+        if walk.isPassed then walk.passThrough()
         else if walk.isAtPane then
           walk.crossPane(sampler)
           if walk.depth > maxDepth then walk.end()

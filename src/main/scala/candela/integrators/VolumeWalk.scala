@@ -55,6 +55,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   private val crossesPanes = options.crossesPanes && scene.hasPanes
   private val visibility = MediumVisibility(scene, media, work, crossesPanes)
   private val regularizes = options.regularizes
+  private val hidesLamps = options.hidesLamps
   private val samplesLights = options.samplesLights && scene.lights.length > 0
   private val disperses = scene.isDispersive
 
@@ -113,19 +114,21 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   /** Adds the environment's radiance and ends the path. Weight: scattering against light sampling.
     */
   def addEnvironment(): Unit =
-    val found = LightTransport.environment(
-      scene,
-      ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
-      (i, light) => if parts != null then parts.addEnvironment(i, depth, weights.throughput * light)
-    )
-    radiance.add(weights.throughput * found)
+    if !hidesLamps || depth > 0 then
+      val arriving = weights.throughput
+      val found = LightTransport.environment(
+        scene,
+        ray,
+        (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
+        (i, light) => if parts != null then parts.addEnvironment(i, depth, arriving * light)
+      )
+      radiance.add(arriving * found)
     end()
 
   /** Adds what the surface emits. Weight: scattering against light sampling. */
   def addEmission(): Unit =
     val at = vertex.at
-    if at.areaLight >= 0 then
+    if at.areaLight >= 0 && !isHidden then
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
@@ -142,6 +145,11 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
       val chosen = scene.selection.probability(lastP, lastN, light)
       LightTransport.powerHeuristic(1f, density * chosen * pointPdf)
     else 1f
+
+  /** As [[Walk.isPassed]]. */
+  def isPassed: Boolean = vertex.isInterface || isHidden
+
+  private def isHidden = hidesLamps && depth == 0 && vertex.at.areaLight >= 0
 
   /** Continues through an interface. Light sampling passes it, too, and goes on competing. */
   def passThrough(): Unit =

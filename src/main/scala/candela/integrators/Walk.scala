@@ -15,12 +15,14 @@ import candela.scene.Scene
   * @param samplesLights does light sampling look for lights, too?
   * @param crossesPanes  do paths and light samples through media pass panes without a scattering
   *   event, as they pass interfaces?
+  * @param hidesLamps    does the camera see through lamps, and no sky?
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
     subsurface: Boolean = false,
     samplesLights: Boolean = true,
-    crossesPanes: Boolean = false
+    crossesPanes: Boolean = false,
+    hidesLamps: Boolean = false
 )
 
 /** A path from the camera over surfaces: its state, and the steps of which integrators are made.
@@ -71,6 +73,7 @@ class Walk(
   private var rays = 0L
   private val regularizes = options.regularizes
   private val samplesLights = options.samplesLights
+  private val hidesLamps = options.hidesLamps
   private val disperses = scene.isDispersive
 
   /** The light found so far, divided, if the scene asks for it. */
@@ -132,19 +135,20 @@ class Walk(
     * sampling.
     */
   def addEnvironment(): Unit =
-    val found = LightTransport.environment(
-      scene,
-      ray,
-      (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
-      (i, light) => if parts != null then parts.addEnvironment(i, depth, throughput.toRgb * light)
-    )
-    radiance.addProduct(throughput, found)
+    if !hidesLamps || depth > 0 then
+      val found = LightTransport.environment(
+        scene,
+        ray,
+        (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
+        (i, light) => if parts != null then parts.addEnvironment(i, depth, throughput.toRgb * light)
+      )
+      radiance.addProduct(throughput, found)
     end()
 
   /** Adds what the surface emits. Weight: BSDF sampling against light sampling. */
   def addEmission(): Unit =
     val at = vertex.at
-    if at.areaLight >= 0 then
+    if at.areaLight >= 0 && !isHidden then
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
@@ -159,6 +163,11 @@ class Walk(
       val chosen = scene.selection.probability(lastP, lastN, light)
       LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
     else 1f
+
+  /** Does the path go on behind the surface as if it weren't there? */
+  final def isPassed: Boolean = vertex.isInterface || isHidden
+
+  private def isHidden = hidesLamps && depth == 0 && vertex.at.areaLight >= 0
 
   /** Continues through an interface. Shadow rays pass it, too: light sampling keeps competing. */
   def passThrough(): Unit = vertex.passThrough(ray)

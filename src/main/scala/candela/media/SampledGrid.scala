@@ -7,7 +7,7 @@ enum GridEdge:
   /** Zero, as in pbrt-v3 and v4. */
   case Zero
 
-  /** Clamped to the outermost samples, as in pbrt-v2. */
+  /** Clamped to the outermost samples, as in pbrt-v2 and Mitsuba. */
   case Clamped
 
 /** Values over the unit cube, trilinearly interpolated between cell centres.

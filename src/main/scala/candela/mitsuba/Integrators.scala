@@ -9,14 +9,18 @@ final class Integrators(session: Session):
   def apply(p: Plugin): Declaration = session.of(p): in =>
     in.ignore("rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "block_size",
       "samples_per_pass", "timeout", "use_nee", "sampling_integrator")
-    if in.flag("hide_emitters", false) then
-      session.warn(in.atOf("hide_emitters"), "lamps can't be hidden here; they are visible")
     p.name match
-      case "path" | "prb" | "prb_basic" => limited(in, "path")
-      case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath")
-      case "ptracer" => limited(in, "lightpath")
-      case "direct" =>
-        session.declare("Integrator", "path", in.at, Seq(Param.int("maxdepth", in.at, 1)))
+      case "path" | "prb" | "prb_basic" => limited(in, "path", hiding(in)*)
+      case "volpath" | "volpathmis" | "prbvolpath" => limited(in, "volpath", hiding(in)*)
+      case "ptracer" =>
+        in.lose("lamps are visible", "hide_emitters")
+        limited(in, "lightpath")
+      case "direct" => session.declare(
+          "Integrator",
+          "path",
+          in.at,
+          Param.int("maxdepth", in.at, 1) +: hiding(in)
+        )
       case "aov" | "moment" | "stokes" =>
         in.ignore("aovs")
         if p.name == "aov" then
@@ -30,7 +34,7 @@ final class Integrators(session: Session):
         Integrators.default(session, in.at)
 
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
-  private def limited(in: Asked, name: String): Declaration =
+  private def limited(in: Asked, name: String, more: Param*): Declaration =
     val depth = in.integer("max_depth", -1)
     val edges = if depth < 0 then Integrators.Unlimited else Math.max(0, depth - 1)
     if depth == 0 then session.warn(in.atOf("max_depth"), "a depth of 0 is black in Mitsuba")
@@ -38,8 +42,12 @@ final class Integrators(session: Session):
       "Integrator",
       name,
       in.at,
-      Seq(Param.int("maxdepth", in.atOf("max_depth"), edges))
+      Param.int("maxdepth", in.atOf("max_depth"), edges) +: more
     )
+
+  private def hiding(in: Asked): Seq[Param] =
+    val at = in.atOf("hide_emitters")
+    Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", at, true)).toSeq
 
 object Integrators:
   /** Russian roulette ends paths long before. */

@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.SourcePos
 import candela.color.Rgb
 import candela.scenefile.{GraphicsState, MediumDescription, Param, ParamType}
 
@@ -26,18 +27,25 @@ final class Media(session: Session, colors: Colors):
     in.ignore("sample_emitters", "has_spectral_extinction", "majorant_resolution_factor")
     val scale = in.number("scale", 1).toFloat
     in.plugin.name match
-      case "homogeneous" =>
-        homogeneous(in, phase, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
+      case "homogeneous" => even(in, phase, scale)
       case "heterogeneous" =>
         in.objectNamed("sigma_t").filter(_.kind == "volume").map(v => (v, v.name)) match
           case Some((v, "gridvolume")) =>
             session.of(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
-          case _ =>
-            homogeneous(in, phase, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
+          case _ => even(in, phase, scale)
       case _ =>
         Plugins.unsupported(in.plugin, "ignored", session)
         in.ignore(in.plugin.properties.map(_.name)*)
         empty(in)
+
+  /** Of constant extinction. */
+  private def even(in: Asked, g: Float, scale: Float): MediumDescription =
+    albedoGrid(in) match
+      case Some(v) => shares(in, v, g, scale).getOrElse(empty(in))
+      case None => homogeneous(in, g, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
+
+  private def albedoGrid(in: Asked): Option[Plugin] =
+    in.objectNamed("albedo").filter(v => v.kind == "volume" && v.name == "gridvolume")
 
   private def empty(in: Asked): MediumDescription =
     homogeneous(in, 0f, 1f, Rgb.Black, Rgb.Black)
@@ -73,43 +81,60 @@ final class Media(session: Session, colors: Colors):
 
   /** Extinction by a grid; the albedo may be another. */
   private def grid(in: Asked, volume: Asked, g: Float, scale: Float): Option[MediumDescription] =
-    val albedoGrid = in.objectNamed("albedo").filter(v => v.kind == "volume")
-      .filter(_.name == "gridvolume")
     for
       sigmaT <- volumes(volume)
-      albedo <- albedoGrid match
+      albedo <- albedoGrid(in) match
         case Some(v) => session.of(v)(volumes(_)).map(Left(_))
         case None => Some(Right(fixed(in, "albedo", 0.75f)))
     yield
       val file = sigmaT.file
       val at = volume.at
-      val place = Seq(
-        Param.int("nx", at, file.size(0)),
-        Param.int("ny", at, file.size(1)),
-        Param.int("nz", at, file.size(2)),
-        Param.floats(ParamType.Point3, "p0", at, sigmaT.box.take(3)),
-        Param.floats(ParamType.Point3, "p1", at, sigmaT.box.drop(3))
-      )
       val (kind, params) = albedo match
         case Right(a) if file.channels == 1 =>
           val density = Param.floats(ParamType.Float, "density", at, file.values)
           ("uniformgrid", coefficients(in, Rgb.White - a, a, g, scale) :+ density)
         case _ =>
-          val (absorbed, scattered) = sigmaT.parted(albedo)
-          (
-            "rgbgrid",
-            Seq(
-              Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
-              Param.floats(ParamType.Rgb, "sigma_s", at, scattered),
-              Param.float("g", in.at, g),
-              Param.float("scale", in.at, scale)
-            )
-          )
-      MediumDescription(
-        fresh(in),
-        session.declare("Medium", kind, in.at, params ++ place),
-        GraphicsState.still(sigmaT.toWorld)
-      )
+          ("rgbgrid", cells(in, sigmaT.parted(albedo), at, g, scale))
+      placed(in, kind, params, sigmaT, at)
+
+  /** A grid of albedos alone: empty beyond its box, unlike Mitsuba's. */
+  private def shares(in: Asked, v: Plugin, g: Float, scale: Float): Option[MediumDescription] =
+    session.of(v)(volumes(_)).map: albedo =>
+      session.warn(v.at, "the medium ends at the box of its albedos")
+      val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
+      placed(in, "rgbgrid", cells(in, parted, v.at, g, scale), albedo, v.at)
+
+  private def cells(
+      in: Asked,
+      coefficients: (Array[Float], Array[Float]),
+      at: SourcePos,
+      g: Float,
+      scale: Float
+  ): Seq[Param] =
+    val (absorbed, scattered) = coefficients
+    Seq(
+      Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
+      Param.floats(ParamType.Rgb, "sigma_s", at, scattered),
+      Param.float("g", in.at, g),
+      Param.float("scale", in.at, scale)
+    )
+
+  private def placed(
+      in: Asked,
+      kind: String,
+      params: Seq[Param],
+      grid: PlacedGrid,
+      at: SourcePos
+  ): MediumDescription =
+    val place = Seq("nx", "ny", "nz").zip(grid.file.size).map(Param.int(_, at, _)) ++ Seq(
+      Param.floats(ParamType.Point3, "p0", at, grid.box.take(3)),
+      Param.floats(ParamType.Point3, "p1", at, grid.box.drop(3))
+    )
+    MediumDescription(
+      fresh(in),
+      session.declare("Medium", kind, in.at, params ++ place),
+      GraphicsState.still(grid.toWorld)
+    )
 
   private def asymmetry(p: Plugin): Float = p.name match
     case "isotropic" => 0f

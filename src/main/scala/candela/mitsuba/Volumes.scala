@@ -8,7 +8,11 @@ import candela.math.*
 private[mitsuba] final class Volumes(session: Session):
 
   def apply(in: Asked): Option[PlacedGrid] =
-    in.ignore("filter_type", "wrap_mode", "raw", "accel")
+    in.ignore("raw", "accel")
+    if in.word("filter_type", "trilinear", "trilinear", "nearest") == "nearest" then
+      session.warn(in.atOf("filter_type"), "a gridvolume is interpolated; using `trilinear`")
+    if in.word("wrap_mode", "clamp", "clamp", "repeat", "mirror") != "clamp" then
+      session.warn(in.atOf("wrap_mode"), "a gridvolume ends at its box; using `clamp`")
     val toWorld = in.transform("to_world")
     val usesBox = in.flag("use_grid_bbox", false)
     for
@@ -39,13 +43,20 @@ private[mitsuba] final class PlacedGrid(
     * @param albedo a grid, which is interpolated at the cells' centres, or one colour
     */
   def parted(albedo: Either[PlacedGrid, Rgb]): (Array[Float], Array[Float]) =
+    parted((cell, centre) => (cellColor(cell), albedo.fold(_.color(centre()), identity)))
+
+  /** Likewise, if this is a grid of albedos. */
+  def sharing(sigmaT: Rgb): (Array[Float], Array[Float]) =
+    parted((cell, _) => (sigmaT, cellColor(cell)))
+
+  /** @param of extinction and albedo of a cell, given its index and its centre */
+  private def parted(of: (Int, () => Vec3) => (Rgb, Rgb)): (Array[Float], Array[Float]) =
     val absorbed, scattered = new Array[Float](3 * values.length / channels)
     loop(size(2)): k =>
       loop(size(1)): j =>
         loop(size(0)): i =>
           val cell = (k * size(1) + j) * size(0) + i
-          val share = albedo.fold(_.color(centre(i, j, k)), identity)
-          val sigmaT = cellColor(cell)
+          val (sigmaT, share) = of(cell, () => centre(i, j, k))
           val scatters = sigmaT * share
           val rest = sigmaT - scatters
           Seq(scatters -> scattered, rest -> absorbed).foreach: (c, to) =>

@@ -46,7 +46,10 @@ final class PbrtParametersSuite extends AnyFunSuite:
     // Scenes of Mitsuba have materials of their own
     val own = Set("principled", "roughplastic")
     val ofMitsuba =
-      Set("distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip")
+      Set(
+        "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
+        "hideemitters"
+      )
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))
     val foreign = beyond.toSet.filter: (dialect, recipe, field) =>
       dialect == Dialect.V4 && (own(recipe) || ofMitsuba(field))

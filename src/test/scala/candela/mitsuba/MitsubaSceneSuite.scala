@@ -146,6 +146,15 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(number(planes, "nearclip").contains(0.5f) && number(planes, "farclip").contains(9f))
     assert(number(planes, "focaldistance").contains(9f))
 
+  test("lamps and sky are hidden from the camera where paths begin there"):
+    def hides(kind: String) =
+      val flag = "<boolean name=\"hide_emitters\" value=\"true\"/>"
+      val scene = read(s"$Sensor<integrator type=\"$kind\">$flag</integrator>")
+      (scene.integrator.get.param("hideemitters").exists(_.bools.head), scene.warnings.size)
+    for kind <- Seq("path", "prb", "direct", "volpath", "volpathmis") do
+      assert(hides(kind) == (true, 0), kind)
+    assert(hides("ptracer") == (false, 1))
+
   test("every type that is read has its row in docs/MITSUBA.md"):
     val page = Files.readString(Path.of("docs/MITSUBA.md"))
     val missing = Plugins.read.values.flatten.filterNot(name => page.contains(s"`$name`"))

@@ -38,6 +38,13 @@ class VolumesSuite extends AnyFunSuite:
     assert(scattered.toVector == Vector(0.5f, 0.5f, 4f, 4f, 0f, 2f))
     assert(absorbed.toVector == Vector(0.5f, 1.5f, 0f, 4f, 0f, 0f))
 
+  test("a grid of albedos parts one extinction"):
+    val shares =
+      PlacedGrid(read(Seq(2, 1, 1), 3, 0.5f, 0.25f, 1f, 1f, 0f, 0.5f), Transform.Identity, unit)
+    val (absorbed, scattered) = shares.sharing(Rgb(2f, 4f, 8f))
+    assert(scattered.toVector == Vector(1f, 1f, 8f, 2f, 0f, 4f))
+    assert(absorbed.toVector == Vector(1f, 3f, 0f, 0f, 4f, 4f))
+
   test("a grid of albedos is interpolated at the centres of the cells, wherever it lies"):
     val grey = PlacedGrid(read(Seq(4, 1, 1), 1, 1f, 1f, 1f, 1f), Transform.Identity, unit)
     val shares = read(Seq(2, 1, 1), 1, 0f, 1f)

@@ -13,6 +13,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     with Regularizing:
   private val threshold =
     float("rrthreshold", "throughput below which Russian roulette may end a path", onlyV3)(1f)
+  private val hides =
+    bool("hideemitters", "hide lamps and sky from the camera, in Mitsuba's scenes", onlyV4)(false)
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
@@ -21,11 +23,14 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val regularizes = regularize()
     // Mitsuba's "path" counts what thin glass transmits as scattered, "volpath" does not
-    val crossesPanes = name == "volpath" && site.resources.switches.isMitsubas
+    val isMitsubas = site.resources.switches.isMitsubas
+    val crossesPanes = name == "volpath" && isMitsubas
+    val hidesLamps = isMitsubas && hides()
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
-        val options = WalkOptions(regularizes, goesBeneath && scene.hasSubsurface)
+        val beneath = goesBeneath && scene.hasSubsurface
+        val options = WalkOptions(regularizes, beneath, hidesLamps = hidesLamps)
         GuidedMethod(g => PathTracer(scene, limits, options, guide = g))
       ,
       samplesBsdf = true,
@@ -39,7 +44,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           scene,
           media,
           limits,
-          WalkOptions(regularizes, scene.hasSubsurface, crossesPanes = crossesPanes)
+          WalkOptions(
+            regularizes,
+            scene.hasSubsurface,
+            crossesPanes = crossesPanes,
+            hidesLamps = hidesLamps
+          )
         ))
       ),
       throughVolumes = Some((scene, _, march) =>

@@ -145,7 +145,8 @@ trait HasGrid extends Fields:
       site.error(s"`$name` must have $shape numbers, found ${values.length}")
       None
     else
-      val edge = if site.dialect == Dialect.V2 then GridEdge.Clamped else GridEdge.Zero
+      val isClamped = site.dialect == Dialect.V2 || site.resources.switches.isMitsubas
+      val edge = if isClamped then GridEdge.Clamped else GridEdge.Zero
       Some(Vector.tabulate(channels): c =>
         val one = Array.tabulate(values.length / channels): i =>
           val v = values(i * channels + c)
