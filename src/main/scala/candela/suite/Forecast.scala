@@ -48,6 +48,8 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
       .orElse(mean(_.step == run.step))
 
 private[suite] object Forecast:
+  /** Of a [[TimeCurve]], about. */
+  private val Trials = 4
 
   /** @param step step of the [[Job]] */
   final case class Run(program: String, scene: String, step: Int)
@@ -56,7 +58,7 @@ private[suite] object Forecast:
   def runs(entry: Entry, suite: Suite): Vector[Run] =
     val (pilots, steps, firstImages) = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => (1, counts.size, if counts.contains(1) then 0 else suite.seeds)
-      case Work.Seconds(budgets) => (2, budgets.size, suite.seeds)
+      case Work.Seconds(budgets) => (Trials, budgets.size, suite.seeds)
     def run(step: Int) = Run(entry.program.name, entry.scene.name, step)
     Vector.fill(pilots)(run(Job.WarmUp)) ++ Vector.fill(firstImages)(run(Job.FirstImage)) ++
       (0 until steps).flatMap(k => Vector.fill(suite.seeds)(run(k)))

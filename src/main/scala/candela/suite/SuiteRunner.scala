@@ -140,10 +140,7 @@ final class SuiteRunner(
     val counts = entry.scene.work.getOrElse(suite.work) match
       case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
       case Work.Seconds(budgets) =>
-        for
-          one <- seconds(1)
-          many <- seconds(SuiteRunner.Pilot)
-        yield budgets.map(SuiteRunner.samplesFor(_, one, many)).distinct
+        TimeCurve.measured(budgets.max)(seconds).map(curve => budgets.map(curve.samplesIn).distinct)
     forecast.dropFrom(entry, counts.fold(0)(_.size), counts.exists(firstImage(_).isDefined))
     counts
 
@@ -200,13 +197,3 @@ final class SuiteRunner(
     val scene = copies.of(job.entry.file, program.edits, Commands.filled(_, values))
     val files = Map("scene" -> scene.toAbsolutePath.toString, "out" -> out.toString)
     commands.words(program, values ++ files)
-
-private[suite] object SuiteRunner:
-  /** Samples of the second pilot run, which measures the time per sample. */
-  val Pilot = 8
-
-  /** Number of samples that take `seconds`, if one takes `one` and [[Pilot]] take `many`. */
-  def samplesFor(seconds: Double, one: Double, many: Double): Int =
-    // Limited by the clock's resolution: no program renders ten thousand samples in a second.
-    val each = Math.max(1e-4, (many - one) / (Pilot - 1))
-    Math.max(1, ((seconds - one) / each).toInt + 1)

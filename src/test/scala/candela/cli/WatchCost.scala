@@ -3,6 +3,7 @@ package candela.cli
 import candela.image.ImageFiles
 import candela.testing.{Chromium, OpenPage}
 
+import java.io.IOException
 import java.lang.management.ManagementFactory
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
@@ -17,8 +18,20 @@ import scala.jdk.CollectionConverters.*
   * Usage: `./sbt "Test/runMain candela.cli.WatchCost --rounds 7"`; more in docs/WATCHING.md.
   */
 object WatchCost:
-  /** In seconds: of rendering, of Candela's processor time, of the browsers' meanwhile. */
-  private final case class Cost(render: Double, own: Double, browsers: Double)
+  // Names as Linux has them: 15 characters
+  private val PageThreads = Vector("candela-observe", "candela-viewers", "HTTP-Dispatcher")
+  private val CompilerThreads = Vector("C1 CompilerThre", "C2 CompilerThre")
+
+  /** In seconds: of rendering, of Candela's processor time, of that of the page's threads and of
+    * the JIT compilers (Linux only), of the browsers' meanwhile.
+    */
+  private final case class Cost(
+      render: Double,
+      own: Double,
+      page: Double,
+      compilers: Double,
+      browsers: Double
+  )
 
   def main(args: Array[String]): Unit =
     val options = args.grouped(2).collect { case Array(key, value) => key -> value }.toMap
@@ -43,12 +56,13 @@ object WatchCost:
     def median(all: Vector[Double]) = all.sorted.apply(all.size / 2)
     def more(i: Int)(time: Cost => Double) =
       median(costs.map(c => 100 * (time(c(i)) / time(c(0)) - 1)))
-    println("                         render           processor        browsers")
+    println("                         render           processor      page's  compilers  browsers")
     for (way, i) <- ways.map(_._1).zipWithIndex do
       def seconds(time: Cost => Double) = median(costs.map(c => time(c(i))))
       println(
         f"$way%-20s ${seconds(_.render)}%7.2f s ${more(i)(_.render)}%+6.2f %%" +
-          f" ${seconds(_.own)}%7.2f s ${more(i)(_.own)}%+6.2f %% ${seconds(_.browsers)}%7.2f s"
+          f" ${seconds(_.own)}%7.2f s ${more(i)(_.own)}%+6.2f %% ${seconds(_.page)}%7.2f s" +
+          f" ${seconds(_.compilers)}%7.2f s ${seconds(_.browsers)}%7.2f s"
       )
 
   private def cost(
@@ -72,13 +86,21 @@ object WatchCost:
           val address = link(folder)
           pages.foreach(_.value(s"void (location.href = '$address')"))
         var own = 0.0
+        val threads = ThreadTimes(process.pid)
         while process.isAlive do
           own = Math.max(own, processorSeconds(process.toHandle))
+          threads.read()
           Thread.sleep(20)
         if process.exitValue != 0 then sys.error(Files.readString(folder.resolve("err.txt")))
         assert(ImageFiles.read(image).data.exists(_ > 0f))
         val now = ProcessHandle.current.descendants.iterator.asScala.toVector
-        Cost(renderSeconds(image), own, now.map(processorSeconds).sum - before)
+        Cost(
+          renderSeconds(image),
+          own,
+          threads.seconds(PageThreads),
+          threads.seconds(CompilerThreads),
+          now.map(processorSeconds).sum - before
+        )
 
   /** As the image's metadata tell them. */
   private def renderSeconds(image: Path): Double =
@@ -97,6 +119,27 @@ object WatchCost:
       if count > 0 then Thread.sleep(2000)
       use(pages)
     else Chromium.use(browser, "about:blank")(page => opened(browser, count, pages :+ page)(use))
+
+  /** Processor times of a process's threads, ended ones included; nothing where there is no /proc.
+    */
+  private final class ThreadTimes(process: Long):
+    private val found = scala.collection.mutable.Map.empty[Path, (String, Double)]
+
+    def read(): Unit =
+      val tasks = Path.of(s"/proc/$process/task").toFile.listFiles
+      if tasks != null then tasks.foreach(task => read(task.toPath))
+
+    private def read(task: Path): Unit =
+      // A thread may end meanwhile
+      try
+        // utime and stime of proc(5), in hundredths of a second
+        val fields = Files.readString(task.resolve("stat")).split("[)] ").last.split(' ')
+        val ticks = fields(11).toDouble + fields(12).toDouble
+        found(task) = (Files.readString(task.resolve("comm")).trim, ticks / 100)
+      catch case _: IOException => ()
+
+    def seconds(names: Vector[String]): Double =
+      found.values.collect { case (name, time) if names.contains(name) => time }.sum
 
   /** The classes that run here. */
   private def compiled: Vector[String] =

@@ -287,8 +287,3 @@ class SuiteRunnerSuite extends AnyFunSuite:
   test("the target is what half of the programs reach, rounded up to two digits"):
     assert(Math.abs(SuiteResults.reachable(Vector(0.0123, 0.5, 0.001)) - 0.013) < 1e-12)
     assert(Math.abs(SuiteResults.reachable(Vector(0.02)) - 0.02) < 1e-12)
-
-  test("a time is filled with as many samples as fit into it, and one at least"):
-    // Half a second to start, a tenth for each sample
-    assert(SuiteRunner.samplesFor(2.65, one = 0.6, many = 1.3) == 21)
-    assert(SuiteRunner.samplesFor(0.1, one = 0.6, many = 1.3) == 1)
