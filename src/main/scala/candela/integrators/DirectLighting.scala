@@ -37,7 +37,7 @@ class DirectLighting(
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
-      if light.choose(vertex.at.p, vertex.at.frame.n, sampler.next1D()) then
+      if light.choose(vertex.at.p, vertex.lightNormal, sampler.next1D()) then
         sum = estimate(vertex, sampler)
     else
       var i = 0

@@ -34,7 +34,7 @@ final class LightConnection(
   /** A new camera path starts. */
   def begin(time: Float): Unit = ray.time = time
 
-  /** Chooses one light for a point with normal `n` (zero: in a medium); false if none can
+  /** Chooses one light for a point with normal `n`, as [[LightSelection]]; false if none can
     * contribute.
     *
     * @param u uniform in [0, 1)

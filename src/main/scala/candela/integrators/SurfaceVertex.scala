@@ -14,7 +14,7 @@ import candela.scene.Scene
   */
 class SurfaceVertex(scene: Scene):
   final val at: ShadingPoint = scene.newPoint()
-  private val ownWo, ownLocalWo, departing = MutableVec3()
+  private val ownWo, ownLocalWo, departing, sided = MutableVec3()
 
   /** The direction that [[draw]] sampled. */
   final val bounce: Bounce = Bounce()
@@ -27,8 +27,18 @@ class SurfaceVertex(scene: Scene):
   /** Is it a scattering event in a medium? */
   final var isInMedium: Boolean = false
 
-  /** Normal for the choice of lights; zero in a medium. */
-  final def lightNormal: Vec3 = if isInMedium then Vec3.Zero else at.frame.n
+  /** Normal for the choice of lights, on the side of `wo`; zero where light may come from both
+    * sides, and in a medium.
+    */
+  final def lightNormal: Vec3 =
+    if isInMedium || bsdf.isTransmissive then Vec3.Zero
+    else
+      val n = at.frame.n
+      val isFront =
+        if !scene.sidesByGeometry then localWo.z > 0f
+        else ((wo dot at.geometricNormal) > 0f) == ((n dot at.geometricNormal) > 0f)
+      if !isFront then sided.set(-n.x, -n.y, -n.z) else sided.set(n)
+      sided
 
   /** Puts the vertex in a medium, whose phase function is `phase`. */
   final def scatterAt(p: Vec3, wo: Vec3, phase: Bsdf): Unit =

@@ -205,7 +205,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
     sampler.next2D()
     val p = vertex.at.p
     !vertex.bsdf.isSpecular && samplesLights &&
-    light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
+    light.choose(p, vertex.lightNormal, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against scattering, whose density is that of the
     * local direction to the light.
@@ -268,7 +268,7 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
     isSpread ||= regularizes && !bounce.isSpecular
     weights.turn(if bounce.isSpecular || !options.samplesLights then 0f else bounce.pdf)
     lastP.set(vertex.at.p)
-    lastN.set(vertex.at.frame.n)
+    lastN.set(vertex.lightNormal)
     etaScale *= square(bounce.eta)
     medium = media.beyond(vertex.at, vertex.at.frame.toWorld(bounce.wi), medium)
     val isOpen = vertex.leave(ray)

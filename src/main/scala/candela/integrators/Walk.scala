@@ -194,7 +194,7 @@ class Walk(
       val choice = sampler.next1D()
       sampler.next2D()
       val p = vertex.at.p
-      light.choose(p, vertex.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
+      light.choose(p, vertex.lightNormal, choice) && light.samplePoint(p, sampler.x, sampler.y)
 
   /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
   inline def addLight(inline weight: Vec3 => Float): Unit =
@@ -247,7 +247,7 @@ class Walk(
     isSpread ||= regularizes && !bounce.isSpecular
     directionPdf = if bounce.isSpecular || !samplesLights then 0f else bounce.pdf
     lastP.set(vertex.at.p)
-    lastN.set(vertex.at.frame.n)
+    lastN.set(vertex.lightNormal)
     etaScale *= square(bounce.eta)
     val isOpen = vertex.leave(ray)
     goesOn = isOpen && !throughput.isBlack

@@ -4,7 +4,11 @@ import candela.geometry.{Ball, Bounds3}
 import candela.math.*
 import candela.sampling.Discrete
 
-/** Light sampling distribution over the lights of a scene. Immutable. */
+/** Light sampling distribution over the lights of a scene. Immutable.
+  *
+  * Normals are those of the side on which light is received, which lights behind the surface are
+  * not likely to reach; zero where light is received from all directions.
+  */
 abstract class LightSelection:
 
   /** Samples a light for the point `p` with normal `n`; returns its index, or −1 if no light can
@@ -25,6 +29,13 @@ final class LightChoice:
   /** Index of the light; −1 if none. */
   var light: Int = -1
   var probability: Float = 0f
+
+  private var numbers = new Array[Float](0)
+
+  /** Scratch memory for so many numbers. */
+  private[lights] def scratch(count: Int): Array[Float] =
+    if numbers.length < count then numbers = new Array[Float](count)
+    numbers
 
 /** The only light. */
 final class SingleLight extends LightSelection:
@@ -152,7 +163,9 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
 object LightSelection:
   /** The simplest exact specialisation for these lights. */
   def of(lights: Array[Light]): LightSelection =
-    if lights.length == 1 then SingleLight() else LightTree(lights)
+    if lights.length == 1 then SingleLight()
+    else if FewLights.suits(lights) then FewLights(lights)
+    else LightTree(lights)
 
   /** @param scene bounds of all surfaces */
   def of(lights: Array[Light], strategy: LightStrategy, scene: Bounds3): LightSelection =

@@ -17,6 +17,10 @@ final class LightSelectionSuite extends AnyFunSuite:
     val (axis, spread) = disk.normals
     AreaLight(disk, Rgb.gray(draws.between(0.1f, 10f)), draws.coin(), disk.bounds, axis, spread)
 
+  private def spots(draws: Draws, count: Int): Seq[Light] = Seq.fill(count):
+    val frame = LightFrame(draws.translation(5) * draws.rotation())
+    SpotLight(frame, Vec3.Z, Rgb.gray(draws.between(0.1f, 10f)), 0.3f, 0.6f, Fade.Cubic)
+
   private def points(draws: Draws, count: Int): Seq[Light] =
     Seq.fill(count)(PointLight(draws.vec(-5, 5), Rgb.gray(draws.between(0.1f, 10f))))
 
@@ -31,15 +35,22 @@ final class LightSelectionSuite extends AnyFunSuite:
       "two at infinity" -> Seq(sky, sun),
       "points" -> points(draws, 7),
       "disks" -> disks(draws, 13),
+      "spots" -> spots(draws, 5),
       "one disk and the sun" -> (disks(draws, 1) :+ sun),
-      "all kinds" -> (Seq(sky) ++ points(draws, 3) ++ Seq(sun, unused) ++ disks(draws, 6))
+      "all kinds" -> (Seq(sky) ++ points(draws, 3) ++ Seq(sun, unused) ++ disks(draws, 6)),
+      "many" -> (disks(draws, 60) ++ spots(draws, 5))
     )
 
   private val around = Bounds3(Vec3(-6, -6, -6), Vec3(6, 6, 6))
 
-  for (set, lights) <- sets; strategy <- LightStrategy.values do
-    val name = s"$set, $strategy"
-    val selection = LightSelection.of(lights.toArray, strategy, around)
+  /** All that may be used for so many lights or more. */
+  private def selections(lights: Array[Light]): Seq[(String, LightSelection)] =
+    val byStrategy = LightStrategy.values.toSeq.map: strategy =>
+      s"$strategy" -> LightSelection.of(lights, strategy, around)
+    byStrategy :+ ("light BVH" -> LightTree(lights)) :+ ("few" -> FewLights(lights))
+
+  for (set, lights) <- sets; (how, selection) <- selections(lights.toArray) do
+    val name = s"$set, $how"
 
     test(s"$name: probabilities are those with which lights are chosen"):
       val draws = Draws(22)
@@ -69,8 +80,45 @@ final class LightSelectionSuite extends AnyFunSuite:
         lights(i).sample(p, draws.unit(), draws.unit(), out)
         val edgeOn = !out.isInfinite && !out.target.n.isZero &&
           Math.abs(out.wi dot out.target.n) < 1e-3f // all digits lost
-        if out.pdf > 0f && !edgeOn && Math.abs(out.wi dot n) > 1e-3f then
+        if out.pdf > 0f && !out.radiance.isBlack && !edgeOn && Math.abs(out.wi dot n) > 1e-3f then
           assert(selection.probability(p, n, i) > 0f, s"light $i at $p"): Unit
+
+  /** Second moment of light sampling at random points, by the lights' contributions there without
+    * shadows, in units of the squared mean.
+    */
+  private def noise(lights: Array[Light], selection: LightSelection, seed: Int): Double =
+    val draws = Draws(seed)
+    val out = LightSample()
+    val moments = Seq.fill(400):
+      val (p, n) = (draws.vec(-6, 6), draws.direction())
+      val found = lights.map: light =>
+        val samples = Seq.fill(32):
+          light.sample(p, draws.unit(), draws.unit(), out)
+          if out.pdf > 0f then out.radiance.g / out.pdf * Math.max(0f, out.wi dot n) else 0f
+        samples.sum.toDouble / samples.size
+      val all = found.sum
+      Option.when(all > 0):
+        lights.indices.filter(found(_) > 0)
+          .map(i => found(i) * found(i) / selection.probability(p, n, i)).sum / (all * all)
+    val known = moments.flatten
+    known.sum / known.size
+
+  test(
+    "a few lights are chosen with less noise than by a tree, and much less than by equal chances"
+  ):
+    for (count, seed) <- Seq(4, 13, 36).zipWithIndex do
+      val lights = disks(Draws(41 + seed), count).toArray
+      val few = noise(lights, FewLights(lights), seed)
+      val tree = noise(lights, LightTree(lights), seed)
+      val uniform = noise(lights, FixedSelection.uniform(lights), seed)
+      assert(few < tree && few < 0.7 * uniform, s"$count: $few, $tree, $uniform")
+
+  test("few lights take a loop, many a tree; spotlights count more"):
+    def how(lights: Seq[Light]) = LightSelection.of(lights.toArray)
+    assert(how(disks(Draws(51), 36)).isInstanceOf[FewLights])
+    assert(how(disks(Draws(51), 60)).isInstanceOf[LightTree])
+    assert(how(spots(Draws(51), 6)).isInstanceOf[FewLights])
+    assert(how(spots(Draws(51), 20)).isInstanceOf[LightTree])
 
   test("points that face all around always find one of some point lights"):
     val lights = points(Draws(31), 9)

@@ -101,13 +101,13 @@ trait Windowed extends Recipe[IntegratorPlan]:
 trait Choosing extends Recipe[IntegratorPlan]:
   private val sampler = oneOf(
     "lightsampler",
-    "light sampling strategy (bvh and exhaustive: light BVH)",
+    "light sampling strategy (bvh and exhaustive: by importance)",
     Vector("bvh", "exhaustive", "power", "uniform"),
     onlyV4
   )("bvh")
   private val strategy = oneOf(
     "lightsamplestrategy",
-    "light sampling strategy (spatial: light BVH)",
+    "light sampling strategy (spatial: by importance)",
     Vector("spatial", "power", "uniform"),
     onlyV3
   )("spatial")
