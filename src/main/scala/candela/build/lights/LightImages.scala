@@ -67,9 +67,11 @@ private[build] object LightImages:
       )
     isSquare
 
-  /** Replaces the components of each pixel by their mean. */
-  def gray(image: Image): Image =
-    image.mapped(c => Rgb.gray(c.average))
+  /** Replaces the components of each pixel by the mean of those in the file. */
+  def gray(image: Image)(using site: Site): Image =
+    val basis = site.resources.basis
+    val isAsInFile = basis.isSrgb || basis.isSpectral
+    image.mapped(c => Rgb.gray((if isAsInFile then c else basis.toSrgb(c)).average))
 
   private def rebased(image: Image, basis: ColorBasis): Image =
     if basis.isSrgb || basis.isSpectral then image else image.mapped(basis.fromSrgb)
