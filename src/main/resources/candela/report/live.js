@@ -135,7 +135,8 @@ function liveView(size) {
     live.dataset.mean = data.reduce((a, b) => a + b, 0) / data.length;
   }
 
-  async function show(state) {
+  // The image only if there is time for it, or if it was asked for or is the last one
+  async function show(state, hasTime) {
     const select = byId("layer"), names = [...select.options].map(o => o.value);
     if (names.join() !== state.layers.join()) {
       select.replaceChildren(...state.layers.map(l => new Option(l, l)));
@@ -143,6 +144,7 @@ function liveView(size) {
       select.value = s.layer;
     }
     s.tiles = state.tiles.map(t => [t[0] - size.x0, t[1] - size.y0, t[2] - size.x0, t[3] - size.y0]);
+    if (!hasTime && !s.stale) return;
     if (state.version > 0 && (state.version !== s.version || s.stale)) { s.stale = false; await load(state); }
     else draw();
     if (state.points !== s.points) {
@@ -203,6 +205,8 @@ function liveView(size) {
 
 let view = null, run = null, timer = null, polling = false;
 
+const isOver = state => ["done", "stopped"].includes(state.stage);
+
 function figures(state) {
   const words = { rendering: "rendering", stopping: "stopping", stopped: "stopped: a partial image",
     done: "done" };
@@ -214,19 +218,24 @@ function figures(state) {
   write("left", state.left === null ? "–" : clock(state.left));
   write("rate", metric(state.rate));
   write("error", state.error === null ? "–" : short(state.error));
-  const isOver = state.stage === "done" || state.stage === "stopped";
   byId("stop").disabled = state.stage !== "rendering";
   byId("keep").hidden = state.keepsOn === null;
   byId("keep").setAttribute("aria-pressed", state.keepsOn === true);
   byId("keep").disabled = byId("save").disabled = byId("end").disabled = false;
-  byId("end").hidden = !(isOver && state.stays);
+  byId("end").hidden = !(isOver(state) && state.stays);
   live.dataset.stage = state.stage;
 }
 
 // Pauses between two looks, in milliseconds; the server forgets pages that don't ask for six seconds
 const Soonest = 400, Latest = 4000;
-// Of the time, for this page's scripts; and pause in relation to the time so far
-const Share = 0.02, Growth = 0.05;
+// Pause in relation to the time so far
+const Growth = 0.05;
+// A page on the machine that renders takes its processors' time. Scripts get this share of it, images
+// wait for it; what the browser does to show them takes about as long again. The first images are
+// awaited most: for them there are some milliseconds at once.
+const isNear = ["127.0.0.1", "[::1]", "localhost"].includes(location.hostname);
+const Share = isNear ? 0.006 : 0.1, First = 150;
+let busy = 0; // milliseconds in scripts
 
 async function poll() {
   if (polling) return;
@@ -242,16 +251,13 @@ async function poll() {
     run = state.run;
     figures(state);
     view ||= liveView(state);
-    await view.show(state);
-    // The machine that renders draws the page, too: drawing gets little of its time, and less often
-    // the longer the rendering takes.
-    const busy = performance.now() - began - waited;
+    await view.show(state, isOver(state) || began > (busy - First) / Share);
+    busy += performance.now() - began - waited;
     const end = state.left === null ? Latest : Math.max(Soonest, 1000 * state.left);
-    pause = Math.min(Latest, end, Math.max(Soonest, busy / Share, 1000 * Growth * state.seconds));
+    pause = Math.min(Latest, end, Math.max(Soonest, 1000 * Growth * state.seconds));
     live.dataset.lost = "";
   } catch (e) {
-    const isOver = ["done", "stopped"].includes(live.dataset.stage);
-    byId("stage").textContent = isOver ? `${live.dataset.stage}; the program has ended` : "no connection to the program";
+    byId("stage").textContent = isOver(live.dataset) ? `${live.dataset.stage}; the program has ended` : "no connection to the program";
     for (const b of ["stop", "keep", "save", "end"]) byId(b).disabled = true;
     live.dataset.lost = "yes";
     pause = 2000;

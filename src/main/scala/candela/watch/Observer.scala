@@ -72,9 +72,11 @@ final class Observer(
       val rendering = live.rendering
       val samples = rendering.samplesTaken
       val measures = rendering.samplesDone > 0 && samples >= Growth * measuredSamples
-      if samples > seenSamples && (measures || isWatched()) then take(rendering, measures)
-      // The first ones cost most, as the JVM still interprets them, and are awaited most.
-      val longest = if taken.forall(_.version < Early) then EarlyPause else LongestPause
+      val watched = isWatched()
+      if samples > seenSamples && (measures || watched) then take(rendering, measures)
+      // The first ones cost most, as the JVM still interprets them, and viewers await them most.
+      val longest =
+        if watched && taken.forall(_.version < Early) then EarlyPause else LongestPause
       val pause = ((processorNanos - began) / (Share * threads)).toLong
       nextNanos = System.nanoTime + Math.min(longest, pause)
 

@@ -19,7 +19,7 @@ import scala.jdk.CollectionConverters.*
   */
 object WatchCost:
   // Names as Linux has them: 15 characters
-  private val PageThreads = Vector("candela-observe", "candela-viewers", "HTTP-Dispatcher")
+  private[cli] val PageThreads = Vector("candela-observe", "candela-viewers", "HTTP-Dispatcher")
   private val CompilerThreads = Vector("C1 CompilerThre", "C2 CompilerThre")
 
   /** In seconds: of rendering, of Candela's processor time, of that of the page's threads and of
@@ -79,7 +79,7 @@ object WatchCost:
         val watch = viewers.fold(Vector.empty)(_ => Vector("--watch", "0"))
         val words = Vector(scene, "--spp", spp, "--outfile", s"$image", "--store-time")
         // They are the only descendants so far
-        val browsers = ProcessHandle.current.descendants.iterator.asScala.toVector
+        val browsers = descendants
         val before = browsers.map(processorSeconds).sum
         val process = start(folder, (program :+ "render") ++ words ++ watch)
         if pages.nonEmpty then
@@ -93,13 +93,12 @@ object WatchCost:
           Thread.sleep(20)
         if process.exitValue != 0 then sys.error(Files.readString(folder.resolve("err.txt")))
         assert(ImageFiles.read(image).data.exists(_ > 0f))
-        val now = ProcessHandle.current.descendants.iterator.asScala.toVector
         Cost(
           renderSeconds(image),
           own,
-          threads.seconds(PageThreads),
-          threads.seconds(CompilerThreads),
-          now.map(processorSeconds).sum - before
+          threads.seconds(PageThreads.contains(_)),
+          threads.seconds(CompilerThreads.contains(_)),
+          descendants.map(processorSeconds).sum - before
         )
 
   /** As the image's metadata tell them. */
@@ -108,7 +107,10 @@ object WatchCost:
       .findFirstMatchIn(Files.readString(image, ISO_8859_1))
       .fold(sys.error("no time in the image"))(_.group(1).toDouble)
 
-  private def processorSeconds(process: ProcessHandle): Double =
+  private[cli] def descendants: Vector[ProcessHandle] =
+    ProcessHandle.current.descendants.iterator.asScala.toVector
+
+  private[cli] def processorSeconds(process: ProcessHandle): Double =
     process.info.totalCpuDuration.map(_.toNanos * 1e-9).orElse(0.0)
 
   /** Empty pages of browsers that have done their starting. */
@@ -122,7 +124,7 @@ object WatchCost:
 
   /** Processor times of a process's threads, ended ones included; nothing where there is no /proc.
     */
-  private final class ThreadTimes(process: Long):
+  private[cli] final class ThreadTimes(process: Long):
     private val found = scala.collection.mutable.Map.empty[Path, (String, Double)]
 
     def read(): Unit =
@@ -138,22 +140,22 @@ object WatchCost:
         found(task) = (Files.readString(task.resolve("comm")).trim, ticks / 100)
       catch case _: IOException => ()
 
-    def seconds(names: Vector[String]): Double =
-      found.values.collect { case (name, time) if names.contains(name) => time }.sum
+    def seconds(counts: String => Boolean): Double =
+      found.values.collect { case (name, time) if counts(name) => time }.sum
 
   /** The classes that run here. */
-  private def compiled: Vector[String] =
+  private[cli] def compiled: Vector[String] =
     val java = ProcessHandle.current.info.command.orElse("java")
     val flags = ManagementFactory.getRuntimeMXBean.getInputArguments
     (java +: flags.asScala.toVector) ++
       Vector("-cp", System.getProperty("java.class.path"), "candela.cli.Main")
 
-  private def start(folder: Path, command: Vector[String]): Process =
+  private[cli] def start(folder: Path, command: Vector[String]): Process =
     ProcessBuilder(command.asJava)
       .redirectOutput(folder.resolve("out.txt").toFile)
       .redirectError(folder.resolve("err.txt").toFile).start()
 
-  private def link(folder: Path): String = Chromium.eventually("link"):
+  private[cli] def link(folder: Path): String = Chromium.eventually("link"):
     val err = folder.resolve("err.txt")
     Option.when(Files.exists(err))(Files.readString(err)).flatMap: text =>
       raw"watch at (http://\S+)\n".r.findFirstMatchIn(text).map(_.group(1))
