@@ -68,8 +68,7 @@ object WatchRates:
     busy("the page's threads")(_.page)
     busy("the browser")(_.browsers)
 
-  /** Every pixel costs the same, so that the part of the image that is being rendered doesn't count.
-    */
+  /** Every pixel costs the same, so that it doesn't matter which part is being rendered. */
   private val Furnace =
     """Camera "perspective" "float fov" 60
       |Film "rgb" "integer xresolution" 1000 "integer yresolution" 750
