@@ -55,8 +55,15 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
     val here = context.site(dressed.declared, dressed.shape.objectToWorld.start)
     for plan <- Shapes.all.build(here).flatten do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
+        .filter(_ => !isUnlit(dressed.material, here))
       if lamp.isDefined || !isNothing(dressed.material) then
         Placement(dressed, here, plan, lamp).place(plan.geometry)
+
+  private def isUnlit(material: Int, here: Site): Boolean =
+    val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&
+      (materials.materials(material) eq InterfaceMaterial)
+    if is then here.warn("a shape of material \"interface\" gives no light, as in pbrt-v4")
+    is
 
   /** pbrt-v2's volumes have no interfaces, so surfaces without a material are dropped. */
   private def isNothing(material: Int): Boolean =

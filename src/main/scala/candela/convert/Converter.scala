@@ -44,12 +44,14 @@ object Converter:
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
-    val own =
-      if scene.isMitsubas then FromMitsuba.converted(scene) else Converted(scene, Vector.empty)
-    val moved = Declarations.map(own.scene)(FileNames(files.folder).moved)
+    val own = if scene.isMitsubas then ofMitsuba(scene, to) else Converted(scene, Vector.empty)
+    val there = Declarations.map(own.scene)(FileNames(files.folder).moved)
+    val images =
+      if scene.isMitsubas then MitsubaInV4.images(there, files) else Converted(there, Vector.empty)
+    val moved = images.scene
     val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
     val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val start = based.copy(warnings = own.warnings ++ based.warnings)
+    val start = based.copy(warnings = own.warnings ++ images.warnings ++ based.warnings)
     // v2's and v4's marble are the same
     val solid = baking.filter(_ => Seq(scene.dialect, to).count(_ == Dialect.V3) == 1) match
       case Some(b) =>
@@ -62,6 +64,13 @@ object Converter:
       Converted(result, before.warnings ++ run.warnings)
     val plain = withoutBacks(done)
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
+
+  private def ofMitsuba(scene: SceneDescription, to: Dialect): Converted =
+    val plain = FromMitsuba.converted(scene)
+    if to != Dialect.V4 then plain
+    else
+      val done = MitsubaInV4.converted(plain.scene)
+      done.copy(warnings = plain.warnings ++ done.warnings)
 
   /** pbrt has no surfaces that are black from behind. */
   private def withoutBacks(from: Converted): Converted =

@@ -5,7 +5,10 @@ import scala.collection.mutable
 import candela.base.{Problem, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
-import candela.scenefile.{Declaration, Dialect, MaterialRef, Param, ParamType, SceneDescription}
+import candela.scenefile.{
+  Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
+  TextureDescription
+}
 
 /** Replaces the materials that pbrt lacks in scenes of Mitsuba, and reports lights that differ. */
 object FromMitsuba:
@@ -15,11 +18,14 @@ object FromMitsuba:
     run.disks(scene)
     run.panes(scene)
     val plain = Declarations.map(scene)(run.plain)
-    Converted(plain.copy(isMitsubas = false), run.warnings)
+    val textures = plain.textures ++ run.addedTextures
+    Converted(plain.copy(textures = textures, isMitsubas = false), run.warnings)
 
   private final class Run:
     private val problems = mutable.LinkedHashSet.empty[Problem]
+    private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
     def warnings: Vector[Problem] = problems.toVector
+    def addedTextures: Vector[TextureDescription] = added.values.toVector
 
     def plain(d: Declaration): Declaration =
       if d.category == "LightSource" then light(d)
@@ -32,17 +38,25 @@ object FromMitsuba:
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
         d
-      else if d.category != "Material" || d.dialect.isDefined then d
+      else if d.category != "Material" then d
       else
-        d.name match
-          case "roughplastic" => plastic(isotropic(d))
-          case "conductor" => conductor(isotropic(d))
-          case "dielectric" => dielectric(isotropic(d))
-          case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
-          case "principled" =>
-            warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
-            d.copy(name = "disney", dialect = Some(Dialect.V3))
-          case _ => d
+        for p <- d.params if FromMitsuba.Reliefs(p.name) do
+          problems += Problem.warning(
+            p.at,
+            "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
+          )
+        if d.dialect.isDefined then d else material(d)
+
+    private def material(d: Declaration): Declaration =
+      d.name match
+        case "roughplastic" => plastic(isotropic(d))
+        case "conductor" => conductor(isotropic(d))
+        case "dielectric" => dielectric(isotropic(d))
+        case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
+        case "principled" =>
+          warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
+          d.copy(name = "disney", dialect = Some(Dialect.V3))
+        case _ => d
 
     private def warn(d: Declaration, message: String): Unit =
       problems += Problem.warning(d.at, message)
@@ -98,11 +112,37 @@ object FromMitsuba:
           Some(s"the thin glass is at ${pane.at}")
         )
 
-    /** pbrt has one distribution. */
+    /** pbrt has one distribution. Half the microfacets of a Beckmann distribution are steeper than
+      * α √(ln 2), half those of GGX than α.
+      */
     private def isotropic(d: Declaration): Declaration =
-      for p <- d.param("distribution") if p.strings.contains("beckmann") do
-        problems += Problem.warning(p.at, "pbrt has no distribution `beckmann`; using `ggx`")
-      without(d, "", "distribution")
+      val others = without(d, "", "distribution")
+      d.param("distribution").filter(_.strings.contains("beckmann")).fold(others): p =>
+        problems += Problem.warning(
+          p.at,
+          "pbrt has no distribution `beckmann`; using `ggx` of equal median slope"
+        )
+        val factor = Math.sqrt(Math.log(2)).toFloat
+        others.copy(params = others.params.map: q =>
+          if q.name != "uroughness" && q.name != "vroughness" then q
+          else if q.paramType == ParamType.Texture then times(q, "float", factor)
+          else Param.float(q.name, q.at, q.floats.head * factor))
+
+    /** A texture times a number. */
+    private def times(p: Param, valueType: String, factor: Float): Param =
+      val name = s"${p.strings.head} times ${NumberText.of(factor)}"
+      val scale = Declaration(
+        "Texture",
+        "scale",
+        Vector(Param.texture("tex", p.at, p.strings.head), Param.float("scale", p.at, factor)),
+        p.at,
+        java.nio.file.Path.of("")
+      )
+      added.getOrElseUpdate(
+        name,
+        TextureDescription(name, valueType, scale, GraphicsState.Identity)
+      )
+      Param.texture(p.name, p.at, name)
 
     private def without(d: Declaration, instead: String, names: String*): Declaration =
       for p <- d.params if names.contains(p.name) && instead.nonEmpty do
@@ -114,7 +154,7 @@ object FromMitsuba:
 
     private def conductor(d: Declaration): Declaration =
       val isMirror = color(d, "eta").contains(Rgb.Black) && color(d, "k").contains(Rgb.White)
-      if !isMirror then without(d, "using 1", "scale")
+      if !isMirror then metal(d)
       else
         val isSmooth = d.param("uroughness").isEmpty
         val others = without(d, "", "scale", "eta", "k").params
@@ -123,6 +163,24 @@ object FromMitsuba:
         if isSmooth then
           d.copy(name = "mirror", params = tint +: others, dialect = Some(Dialect.V3))
         else d.copy(params = tint +: others)
+
+    /** A metal whose reflection is scaled becomes one of equal albedo. */
+    private def metal(d: Declaration): Declaration =
+      (d.param("scale"), color(d, "eta"), color(d, "k")) match
+        case (Some(tint), Some(eta), Some(k)) =>
+          val own = ConductorAlbedo.ofIndex(eta, k)
+          val reflectance = color(d, "scale") match
+            case Some(c) => rgb("reflectance", (own * c).map(ConductorAlbedo.normal), d)
+            case None =>
+              val name = renamed(tint, "reflectance")
+              times(name, "spectrum", ConductorAlbedo.normal(own.luminance))
+          problems += Problem.warning(
+            tint.at,
+            "pbrt has no `scale` of \"conductor\"; using a `reflectance` of equal albedo"
+          )
+          val others = without(d, "", "scale", "eta", "k")
+          others.copy(params = reflectance +: others.params)
+        case _ => without(d, "using 1", "scale")
 
     /** v3's glass has colours. */
     private def dielectric(d: Declaration): Declaration =
@@ -162,6 +220,8 @@ object FromMitsuba:
       p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault,
       p.colorSpace
     )
+
+  private val Reliefs = Set("displacement", "bumpmap", "normalmap")
 
   /** Events of paths that hardly any light reaches. */
   private val Deep = 100

@@ -6,7 +6,7 @@ import java.security.MessageDigest
 import scala.util.Try
 
 import candela.base.{loop, Problem, SceneError, WholeFile}
-import candela.color.Rgb
+import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.scenefile.Param
 
@@ -80,6 +80,25 @@ object RewrittenImages:
         loop(3): c =>
           made.data(3 * i + c) = change(image.data(image.channels * i + sources(c)), c)
       made
+
+  /** The stored values as linear ones, unless the file is PNG, for which scenes name the encoding,
+    * or linear as it is: name of the file, or why it can't be read.
+    */
+  def raw(folder: Path, p: Param, files: SideFiles): Either[String, String] =
+    val name = p.strings.head
+    if name.toLowerCase.endsWith(".png") then Right(name)
+    else
+      try
+        val image = ImageFiles.read(folder.resolve(name.replace('\\', '/')))
+        Right(
+          if image.encoding == Encoding.Linear then name
+          else files.add("image", "exr", ImageFiles.exr(plain(image)))
+        )
+      catch
+        case e: ImageError => Left(e.getMessage)
+        case _: InvalidPathException => Left("the name is not valid")
+
+  private def plain(i: Image): Image = Image(i.width, i.height, i.channelNames, i.data)
 
   /** Name of the new file; of the old one, after a warning, if it can't be read. */
   private def written(s: Statement, p: Param)(change: Image => Image): String =

@@ -211,3 +211,12 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(SceneTexts.problems(scene).exists(_.message.contains("no light")))
     val lit = scene + "LightSource \"point\"\n"
     assert(SceneTexts.problems(lit).isEmpty)
+
+  test("shapes of an interface give no light in v4, as in pbrt"):
+    val lamp = "AreaLightSource \"diffuse\"\nShape \"disk\"\n"
+    val sky = "LightSource \"infinite\"\n"
+    val v4 = s"WorldBegin\n${sky}Material \"interface\"\n$lamp"
+    assert(feature(SceneTexts.plan(v4, Dialect.V4), "lights").startsWith("one light"))
+    assert(SceneTexts.problems(v4, Dialect.V4).exists(_.message.contains("gives no light")))
+    val v3 = s"WorldBegin\n${sky}Material \"none\"\n$lamp"
+    assert(feature(SceneTexts.plan(v3, Dialect.V3), "lights").startsWith("2 lights"))

@@ -47,7 +47,7 @@ class FromMitsubaSuite extends AnyFunSuite:
     def lost(bsdf: String) = converted(bsdf)._2
     assert(
       lost("<bsdf type=\"roughdielectric\"/>") ==
-        Vector("pbrt has no distribution `beckmann`; using `ggx`")
+        Vector("pbrt has no distribution `beckmann`; using `ggx` of equal median slope")
     )
     assert(lost("<bsdf type=\"principled\"/>").head.contains("approximated"))
     val red = "<rgb name=\"specular_reflectance\" value=\"1, 0, 0\"/>"

@@ -7,7 +7,7 @@ import candela.bsdf.{
 import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
-import candela.color.Rgb
+import candela.color.{Encoding, Rgb}
 import candela.scenefile.Dialect
 import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
 
@@ -108,8 +108,18 @@ abstract class MaterialRecipe(
       name <- field.given_() if name.nonEmpty
       p <- site.declaration.param("normalmap")
       stored <- site.resources.image(p, site.declaration, site.problems)
-    yield site.resources.once(site.declaration, "normals"):
-      MipLevel(Texels.color(stored, identity), Wrap.Repeat)
+    yield
+      // pbrt-v4 decodes 8-bit files, except for PNG
+      val isDecoded = !site.resources.switches.isMitsubas &&
+        stored.encoding != Encoding.Linear && !name.toLowerCase.endsWith(".png")
+      if isDecoded then
+        site.problems.warn(
+          p.at,
+          "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
+        )
+      val decode: Float => Float = if isDecoded then Encoding.Srgb.decode(_) else identity
+      site.resources.once(site.declaration, "normals"):
+        MipLevel(Texels.color(stored, decode), Wrap.Repeat)
 
 /** Base of materials with the common roughness parameters.
   *

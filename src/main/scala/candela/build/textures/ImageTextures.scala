@@ -101,8 +101,9 @@ abstract class ImageMapRecipe[A](standIn: String)
         val flag = if isNumber then None else gammaFlag.given_()
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
       case Dialect.V4 =>
-        // `encoding` applies to PNG; floating-point images are linear, TGA and JPEG sRGB
-        if filename().toLowerCase.endsWith(".png") then encoded()
+        // Floating-point images are linear; in pbrt, `encoding` applies to PNG, all else is sRGB
+        val isOpen = site.resources.switches.isMitsubas && stored.encoding != Encoding.Linear
+        if isOpen || filename().toLowerCase.endsWith(".png") then encoded()
         else if stored.encoding == Encoding.Linear then identity
         else Encoding.Srgb.decode(_)
 

@@ -1,0 +1,71 @@
+package candela.convert
+
+import candela.base.Problem
+import candela.scenefile.{
+  Declaration, MaterialRef, Param, ParamType, SceneDescription, ShapeDescription
+}
+
+/** What only pbrt-v4, not v3, does otherwise than Mitsuba. */
+private[convert] object MitsubaInV4:
+
+  def converted(scene: SceneDescription): Converted =
+    val lit = lamps(scene)
+    lit.copy(warnings = lit.warnings ++ SpectralColors.warning(scene))
+
+  /** pbrt-v4 takes no light from shapes without a material. Glass of index 1 looks the same: rays
+    * pass it unscattered.
+    */
+  private def lamps(scene: SceneDescription): Converted =
+    val named = scene.namedMaterials.toMap
+    def isNull(s: ShapeDescription) = s.areaLight.isDefined && (s.material match
+      case MaterialRef.Inline(d) => d.name == "interface"
+      case MaterialRef.Named(name, _) => named.get(name).exists(_.name == "interface")
+      case MaterialRef.Default => false)
+    def clear(shapes: Vector[ShapeDescription]) = shapes.map: s =>
+      if !isNull(s) then s
+      else
+        val at = s.shape.at
+        val index = Vector(Param.float("eta", at, 1f))
+        val glass = Declaration("Material", "dielectric", index, at, s.shape.folder)
+        s.copy(material = MaterialRef.Inline(glass))
+    val shaded = scene.lights.find(l => Points(l.light.name))
+    val lost = (scene.shapes ++ scene.objects.values.flatten).find(isNull).zip(shaded).map:
+      (lamp, point) =>
+        Problem.warning(
+          lamp.shape.at,
+          "pbrt-v4 has no lamps that light passes; this one casts shadows",
+          Some(s"of the light at ${point.light.at}")
+        )
+    Converted(
+      scene.copy(
+        shapes = clear(scene.shapes),
+        objects = scene.objects.map((name, shapes) => name -> clear(shapes))
+      ),
+      lost.toVector
+    )
+
+  /** Lights that no ray hits by chance. */
+  private val Points = Set("point", "spot", "distant", "projection", "goniometric")
+
+  /** pbrt-v4 decodes all 8-bit files but PNG as sRGB. */
+  def images(scene: SceneDescription, files: SideFiles): Converted =
+    val problems = Vector.newBuilder[Problem]
+    val made = scala.collection.mutable.HashMap.empty[(java.nio.file.Path, String), String]
+    def isMisread(d: Declaration, p: Param) =
+      val isRaw = p.name == "normalmap" || p.name == "filename" && d.category == "Texture" &&
+        d.param("encoding").exists(_.strings.contains("linear"))
+      p.paramType == ParamType.String && isRaw
+    def linear(d: Declaration, p: Param): Param =
+      val name = made.getOrElseUpdate(
+        (d.folder, p.strings.head),
+        RewrittenImages.raw(d.folder, p, files) match
+          case Right(name) => name
+          case Left(why) =>
+            problems += Problem.warning(p.at, s"can't read the image, leaving it unchanged: $why")
+            p.strings.head
+      )
+      p.withStrings(Vector(name))
+    val result = Declarations.map(scene): d =>
+      if !d.params.exists(isMisread(d, _)) then d
+      else d.copy(params = d.params.map(p => if isMisread(d, p) then linear(d, p) else p))
+    Converted(result, problems.result())
