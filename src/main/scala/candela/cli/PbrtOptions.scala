@@ -12,8 +12,11 @@ enum Here:
   /** These options. */
   case As(words: String*)
 
-  /** Accepted, without effect, which is said if `isTold`. */
-  case Ignored(reason: String, isTold: Boolean = false)
+  /** Accepted, without effect, which is said if `isTold`.
+    *
+    * @param values all that pbrt takes; empty: any
+    */
+  case Ignored(reason: String, isTold: Boolean = false, values: Vector[String] = Vector.empty)
 
   /** An error that says what to write instead. */
   case Refused(instead: String)
@@ -30,6 +33,13 @@ final case class PbrtOption(name: String, value: String, dialects: Set[Dialect],
 /** All options of the command lines of pbrt-v2, v3 and v4: the table of docs/PBRT-OPTIONS.md. */
 object PbrtOptions:
   import Here.*
+
+  private val LogLevel = Ignored(
+    "warnings and errors are printed; `--verbose`: more",
+    values = Vector("verbose", "error", "fatal")
+  )
+  private val Space =
+    Ignored("it affects rounding only", values = Vector("camera", "cameraworld", "world"))
 
   private val all3 = Dialect.values.toSet
   private val fine = Same()
@@ -67,7 +77,7 @@ object PbrtOptions:
     v4("gpu-device", "N", Ignored("rendering takes no GPU", isTold = true)),
     v4("interactive", "", Refused("--watch shows the image while it is rendered")),
     v4("log-file", "FILE", Ignored("messages go to standard error: `2> FILE`", isTold = true)),
-    v4("log-level", "LEVEL", Ignored("warnings and errors are printed; `--verbose`: more")),
+    v4("log-level", "LEVEL", LogLevel),
     v4("log-utilization", "", Ignored("`--report` shows what the threads did", isTold = true)),
     v4("mse-reference-image", "FILE", fine),
     v4("mse-reference-out", "FILE", Same("at 1, 2, 4, 8, … samples per pixel")),
@@ -79,7 +89,7 @@ object PbrtOptions:
       "",
       Refused("--aov variance shows where the noise is, and --report what rendering does")
     ),
-    v4("render-coord-sys", "NAME", Ignored("it affects rounding only")),
+    v4("render-coord-sys", "NAME", Space),
     v4("seed", "N", fine),
     v4("spp", "N", fine),
     v4("stats", "", As("--verbose")),
@@ -128,7 +138,11 @@ object PbrtOptions:
           known.here match
             case Same(_) if !known.takesValue => words += s"--${known.name}"
             case Same(_) => words ++= Vector(s"--${known.name}", value.mkString(","))
-            case Ignored(reason, isTold) =>
+            case Ignored(_, _, values) if values.nonEmpty && !value.exists(values.contains) =>
+              val found = value.headOption.fold("nothing")(v => s"`$v`")
+              problem =
+                Some(s"`--${known.name}` takes ${values.mkString(", ")}, found $found")
+            case Ignored(reason, isTold, _) =>
               if isTold then notes += s"`--${known.name}` has no effect: $reason"
             case Refused(instead) =>
               problem = Some(s"`--${known.name}` is an option of pbrt; here, $instead")
@@ -158,7 +172,7 @@ object PbrtOptions:
         case Same("") => "the same"
         case Same(note) => s"the same; $note"
         case As(words*) => s"`${words.mkString(" ")}`"
-        case Ignored(reason, _) => s"accepted, without effect: $reason"
+        case Ignored(reason, _, _) => s"accepted, without effect: $reason"
         case Refused(instead) => s"refused: $instead"
       val versions = Dialect.values.filter(o.dialects).map(Dialects.name).mkString(" ")
       s"| `${o.shown}` | $versions | $here |"

@@ -2,7 +2,9 @@ package candela.mitsuba
 
 import candela.base.{Problem, SceneError, SourcePos}
 
-import java.io.IOException
+import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
+import java.nio.charset.{CharacterCodingException, Charset}
+import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.{Files, Path}
 import javax.xml.stream.{Location, XMLInputFactory, XMLStreamException, XMLStreamReader}
 
@@ -34,7 +36,7 @@ object XmlFile:
       SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
     try
       Using.resource(Files.newInputStream(file)): in =>
-        val reader = factory.createXMLStreamReader(in)
+        val reader = factory.createXMLStreamReader(text(in))
         try Document(reader, place).root()
         finally reader.close()
     catch
@@ -50,6 +52,30 @@ object XmlFile:
         val why = s"can't read `$name`: ${Option(e.getMessage).getOrElse(e)}"
         throw SceneError(includedFrom.fold(Problem.general(why))(Problem.error(_, why)))
 
+  /** Decoded here, as the JDK's parser prints what it can't decode. The encoding is that of the
+    * byte order mark or of the declaration, else UTF-8.
+    */
+  private def text(file: InputStream): Reader =
+    val in = BufferedInputStream(file)
+    in.mark(HeadSize)
+    val head = in.readNBytes(HeadSize)
+    in.reset()
+    val marks = head.take(3).map(_ & 0xff).toVector
+    val isUtf16 = marks.startsWith(Vector(0xfe, 0xff)) || marks.startsWith(Vector(0xff, 0xfe))
+    if marks == Vector(0xef, 0xbb, 0xbf) then in.skipNBytes(3)
+    val charset =
+      if isUtf16 then UTF_16
+      else
+        val declared = Encoding.findFirstMatchIn(String(head, ISO_8859_1)).map(_.group(1))
+        try declared.fold(UTF_8)(Charset.forName)
+        catch
+          case _: IllegalArgumentException =>
+            throw XMLStreamException(s"unknown encoding ${declared.mkString}")
+    InputStreamReader(in, charset.newDecoder)
+
+  private val HeadSize = 200
+  private val Encoding = """^(?:\u00EF\u00BB\u00BF)?<\?xml[^>]*encoding\s*=\s*["']([\w.:-]+)""".r
+
   private def factory: XMLInputFactory =
     val made = XMLInputFactory.newDefaultFactory()
     made.setProperty(XMLInputFactory.SUPPORT_DTD, false)
@@ -57,9 +83,12 @@ object XmlFile:
     made
 
   /** The parser repeats the position before its message, and names its own properties after it. */
-  private def message(e: Exception): String =
-    val all = Option(e.getMessage).getOrElse(e.toString)
-    all.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
+  private def message(e: Exception): String = e match
+    case x: XMLStreamException if x.getNestedException.isInstanceOf[CharacterCodingException] =>
+      "the text is not of its encoding, which is UTF-8 unless the file declares another"
+    case _ =>
+      val all = Option(e.getMessage).getOrElse(e.toString)
+      all.split("Message: ", 2).last.linesIterator.nextOption.getOrElse("unreadable").trim
 
   /** More than any scene has; fewer than a stack has room for. */
   private val Deepest = 100

@@ -118,3 +118,9 @@ final class SwitchesSuite extends AnyFunSuite:
   test("a scale of edges that is not above 0 is an error"):
     val found = SceneTexts.problems("Option \"displacementedgescale\" 0\nWorldBegin", Dialect.V4)
     assert(found.exists(_.message.contains("must be above 0")))
+
+  test("an unknown space of ray tracing is an error, as in pbrt, though the space has no effect"):
+    def found(space: String) =
+      SceneTexts.problems(s"Option \"string rendercoordsys\" \"$space\"\nWorldBegin", Dialect.V4)
+    assert(!found("world").exists(_.message.contains("rendercoordsys")))
+    assert(found("eye").exists(_.message.contains("must be one of camera, cameraworld, world")))

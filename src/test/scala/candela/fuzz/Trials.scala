@@ -56,7 +56,8 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val meshes = Mutator(files(".ply") ++ Trials.meshes, random)
   private val pictures =
     Mutator(
-      files(".exr", ".png", ".hdr", ".tga", ".jpg", ".pfm", ".qoi") ++ Trials.pictures(folder),
+      files(".exr", ".png", ".hdr", ".tga", ".jpg", ".pfm", ".qoi") ++ Trials.pictures(folder) ++
+        Trials.foreignExr,
       random
     )
 
@@ -258,6 +259,13 @@ object Trials:
   private def openExr: Vector[Array[Byte]] =
     val names = "tiled tiled-window multipart luminance window many integer decreasing half-piz " +
       "half-b44 half-pxr24 half-rle"
+    exr(names)
+
+  /** Codings that the OpenEXR library reads, where it is installed. */
+  private def foreignExr: Vector[Array[Byte]] =
+    exr("luminance-chroma half-dwaa half-dwab half-b44a half-htj2k")
+
+  private def exr(names: String): Vector[Array[Byte]] =
     for name <- names.split(' ').toVector
     yield getClass.getResourceAsStream(s"/exr/$name.exr").readAllBytes()
 

@@ -3,6 +3,9 @@ package candela.mitsuba
 import candela.base.SceneError
 import candela.scenefile.{Parser, SceneDescription}
 
+import java.io.{ByteArrayOutputStream, PrintStream}
+import java.nio.charset.Charset
+import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -95,6 +98,26 @@ class MitsubaSceneSuite extends AnyFunSuite:
         val error = intercept[SceneError](MitsubaScene.readable(bomb, Map.empty, false))
         assert(error.problems.head.message.contains("entity"), error.problems.head)
     assert(fatal("<shape>").startsWith("malformed XML"))
+
+  test("XML has the encoding that it declares; text of another is reported, and nothing printed"):
+    val folder = Files.createTempDirectory("candela-xml")
+    def name(declared: String, bytes: Charset, mark: String = ""): String =
+      val xml = s"$mark<?xml version='1.0'$declared?>\n<scene version='é'/>"
+      XmlFile.read(Files.write(folder.resolve("a.xml"), xml.getBytes(bytes)), None)("version").get
+    assert(name("", UTF_8) == "é")
+    assert(name(" encoding='utf-8'", UTF_8, mark = "\uFEFF") == "é")
+    assert(name(" encoding=\"ISO-8859-1\"", ISO_8859_1) == "é")
+    assert(name(" encoding='UTF-16'", UTF_16) == "é")
+    val printed = ByteArrayOutputStream()
+    val before = System.err
+    System.setErr(PrintStream(printed))
+    val error =
+      try intercept[SceneError](name("", ISO_8859_1)).problems.head
+      finally System.setErr(before)
+    assert(error.message.contains("the text is not of its encoding"), error)
+    assert(!printed.toString.contains("Error"), printed.toString)
+    val unknown = intercept[SceneError](name(" encoding='klingon'", UTF_8)).problems.head
+    assert(unknown.message == "malformed XML: unknown encoding klingon")
 
   test("files of a version before 2 may use the old names"):
     val old = """<scene version="0.6.0"><sensor type="perspective">

@@ -26,7 +26,9 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
     shown = "none"
   )("")
   noMeaning("it affects rounding only")(
-    string("rendercoordsys", "space of ray tracing: camera, cameraworld, world")("cameraworld")
+    oneOf("rendercoordsys", "space of ray tracing", Seq("camera", "cameraworld", "world"))(
+      "cameraworld"
+    )
   )
   noMeaning("`--aov` and `--report` show what pixels and rendering do")(
     bool("pixelstats", "write statistics images")(false)
