@@ -160,3 +160,6 @@ object UseProbesRecipe
   override def substitute: Option[String] =
     Some("using \"path\", which needs no probe file and keeps all detail")
   declare(string("filename", "probe file")("probes.out"))
+
+  /** As v2's "path" without parameters. */
+  override protected def depth()(using Site): Int = 6

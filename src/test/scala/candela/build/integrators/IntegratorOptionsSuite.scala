@@ -35,7 +35,7 @@ final class IntegratorOptionsSuite extends AnyFunSuite:
     val asked = BuildOptions(cropWindow = Some((0f, 0.25f, 0f, 1f)))
     assert(SceneTexts.plan(both, options = asked).crop == PixelBounds(0, 0, 20, 60))
 
-  test("v2's igi and irradiancecache are replaced by paths with as many bounces"):
+  test("v2's igi and irradiancecache are replaced by paths with as many bounces, probes by path"):
     def depth(integrator: String) =
       val text = window(integrator).replace("Integrator", "SurfaceIntegrator") + "WorldEnd"
       val said = SceneTexts.plan(text, Dialect.V2).features.map(_._2).mkString("\n")
@@ -43,6 +43,7 @@ final class IntegratorOptionsSuite extends AnyFunSuite:
     assert(depth("\"irradiancecache\"").contains(4))
     assert(depth("\"irradiancecache\" \"integer maxindirectdepth\" 7").contains(8))
     assert(depth("\"igi\" \"integer maxdepth\" 2").exists(_ >= 1000))
+    assert(depth("\"useprobes\"").contains(6) && depth("\"path\"").contains(6))
 
   test("the part is the same of a smaller image"):
     val text = window("\"path\" \"integer pixelbounds\" [40 80 0 30]")
