@@ -1,10 +1,12 @@
 package candela.convert
 
 import scala.collection.mutable
+import scala.util.Try
 
 import candela.base.{Problem, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
+import candela.image.ImageFiles
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
   TextureDescription
@@ -75,8 +77,21 @@ object FromMitsuba:
             d,
             "a \"spot\" fades linearly in Mitsuba, along a smooth curve in pbrt; using pbrt's"
           )
+        case "projection" =>
+          warn(d, "pbrt's projected images get darker to their sides, Mitsuba's do not")
         case _ =>
-      d
+      if d.name == "projection" then projection(d) else d
+
+    /** pbrt's field of view is the shorter side's, not the width's. */
+    private def projection(d: Declaration): Declaration =
+      val sizes = d.param("mapname").map(p => d.folder.resolve(p.strings.head))
+        .flatMap(file => Try(ImageFiles.read(file)).toOption).map(i => i.width.toFloat / i.height)
+      val narrow = Math.max(1f, sizes.getOrElse(1f))
+      d.copy(params = d.params.map: p =>
+        if p.name != "fov" then p
+        else
+          val half = Math.tan(Math.toRadians(p.floats.head) / 2) / narrow
+          Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(half)).toFloat))
 
     private def texture(d: Declaration): Declaration =
       val upright = without(d, "the texture is left upright", "uskew", "vskew")

@@ -94,13 +94,16 @@ final class GoniometricLight(frame: LightFrame, image: SphereImage)
   * @param slide   image to project; if empty, a white square
   * @param upright whether the top of the image is at the light's +y, as in pbrt-v4; at −y in v2 and
   *   v3
+  * @param onPlane whether a plane across the axis shows the image as it is, as in Mitsuba; pbrt's
+  *   images are intensities, and get darker to the sides
   */
 final class ProjectionLight(
     frame: LightFrame,
     all: Rgb,
     tanHalf: Float,
     slide: Option[Picture],
-    upright: Boolean
+    upright: Boolean,
+    onPlane: Boolean = false
 ) extends ConeLight(frame, Vec3.Z, ProjectionLight.spread(slide, tanHalf)):
   private val picture = slide.orNull
   private val screen = ProjectionLight.Screen(slide.fold(1f)(_.aspect), tanHalf)
@@ -113,12 +116,14 @@ final class ProjectionLight(
       val up = d.y / (d.z * screen.halfHeight)
       val y = ((if upright then -up else up) + 1f) * 0.5f
       if x < 0f || x > 1f || y < 0f || y > 1f then Rgb.Black
-      else if picture == null then all
-      else all * picture(x, y)
+      else
+        val light = if picture == null then all else all * picture(x, y)
+        if onPlane then light * (1f / (d.z * d.z * d.z)) else light
 
   def bounds: Option[LightBounds] =
     val mean = slide.fold(1f)(_.mean((c, _, _) => c.max))
-    val power = 4f * Pi * all.max * mean
+    val most = if onPlane then 1f / (screen.cosCorner * square(screen.cosCorner)) else 1f
+    val power = 4f * Pi * all.max * mean * most
     if !frame.keepsAngles then Some(LightBounds.everywhere(frame.position, power))
     else
       Some(

@@ -95,18 +95,24 @@ final class Emitters(session: Session, colors: Colors, medium: Plugin => String)
       Param.floats(ParamType.Point3, "to", in.at, Array(x.toFloat, y.toFloat, z.toFloat))
     )
 
+  /** Irradiance of the plane at distance 1, by an image or a colour; the intensity of pbrt-v3's
+    * projection is a π-th of it, without a cosine.
+    */
   private def projector(in: Asked, around: String): Option[LightDescription] =
-    val scale = in.number("scale", 1).toFloat
-    val fov = in.number("fov", 45).toFloat
-    in.ignore("to_world_scale")
-    session.warn(in.at, "a projector is approximated by pbrt's \"projection\"")
-    val irradiance = in.objectNamed("irradiance").flatMap(picture)
-    irradiance.map: (_, params) =>
-      val mirrored = in.transform("to_world") * Transform.scale(-1, 1, 1).get
-      light(in, "projection", mirrored, around)(
-        (params.filterNot(_.name == "scale") ++
-          Seq(Param.float("fov", in.at, fov), Param.float("scale", in.at, scale)))*
-      )
+    val scale = Rgb.gray((in.number("scale", 1) * Math.PI).toFloat)
+    def lit(params: Param*) =
+      // The width's, as of a square; what shows the image knows its height
+      val fov = Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, 1).toFloat)
+      val upright = in.transform("to_world") * Transform.scale(-1, -1, 1).get
+      light(in, "projection", upright, around, Some(Dialect.V3))((params :+ fov)*)
+    colors.shade(in, "irradiance", Rgb.White, Role.Emission) match
+      case Shade.Constant(c) => Some(lit(Textures.rgb("I", c * scale, in.at)))
+      case Shade.Textured(t) =>
+        for axis <- in.text("fov_axis") if axis != "x" do
+          session.warn(in.atOf("fov_axis"), "only x can be the axis beside an image; using x")
+        picture(t).map: (_, params) =>
+          val slide = params.map(p => Param.string("mapname", p.at, p.strings.head))
+          lit((Textures.rgb("I", scale, in.at) +: slide)*)
 
   /** The file of a bitmap that emits. */
   private def picture(p: Plugin): Option[(String, Seq[Param])] =
@@ -115,8 +121,10 @@ final class Emitters(session: Session, colors: Colors, medium: Plugin => String)
       None
     else
       session.of(p): in =>
-        in.ignore("filter_type", "wrap_mode", "raw", "format", "accel")
+        in.ignore("filter_type", "wrap_mode", "format", "accel")
         in.lose("ignored", "to_uv")
+        if in.flag("raw", false) then
+          session.warn(in.atOf("raw"), "images that emit are decoded if they have 8 bits")
         for
           name <- in.text("filename")
           path <- session.file(name, in.atOf("filename"), "skipped")

@@ -2,6 +2,7 @@ package candela.mitsuba
 
 import candela.base.SourcePos
 import candela.color.Rgb
+import candela.math.{Transform, Vec3}
 import candela.scenefile.{GraphicsState, MediumDescription, Param, ParamType}
 
 import scala.collection.mutable
@@ -32,7 +33,8 @@ final class Media(session: Session, colors: Colors):
         in.objectNamed("sigma_t").filter(_.kind == "volume").map(v => (v, v.name)) match
           case Some((v, "gridvolume")) =>
             session.of(v)(grid(in, _, phase, scale)).getOrElse(empty(in))
-          case _ => even(in, phase, scale)
+          case _ if albedoGrid(in).nonEmpty => even(in, phase, scale)
+          case found => boxed(in, found.map(_._1), phase, scale)
       case _ =>
         Plugins.unsupported(in.plugin, "ignored", session)
         in.ignore(in.plugin.properties.map(_.name)*)
@@ -44,6 +46,35 @@ final class Media(session: Session, colors: Colors):
       case Some(v) => shares(in, v, g, scale).getOrElse(empty(in))
       case None => homogeneous(in, g, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
 
+  /** Of constant extinction, which Mitsuba's heterogeneous media have in a box only: that of the
+    * volume's unit cube, along the axes of the world.
+    */
+  private def boxed(in: Asked, v: Option[Plugin], g: Float, scale: Float): MediumDescription =
+    val sigmaT = fixed(in, "sigma_t", 1f)
+    val albedo = fixed(in, "albedo", 0.75f)
+    val toWorld = v.fold(Transform.Identity)(Asked(_, session).transform("to_world"))
+    val corners =
+      for x <- Seq(0f, 1f); y <- Seq(0f, 1f); z <- Seq(0f, 1f) yield toWorld.point(Vec3(x, y, z))
+    def bound(least: Seq[Float] => Float) =
+      Array(least(corners.map(_.x)), least(corners.map(_.y)), least(corners.map(_.z)))
+    val at = in.at
+    // More cells than one, since pbrt's densities fall to 0 in the outermost
+    val density = Array.fill(Boxed * Boxed * Boxed)(1f)
+    val place = Seq("nx", "ny", "nz").map(Param.int(_, at, Boxed)) ++ Seq(
+      Param.floats(ParamType.Point3, "p0", at, bound(_.min)),
+      Param.floats(ParamType.Point3, "p1", at, bound(_.max)),
+      Param.floats(ParamType.Float, "density", at, density)
+    )
+    val parts = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, g, scale)
+    MediumDescription(
+      fresh(in),
+      session.declare("Medium", "uniformgrid", at, parts ++ place),
+      GraphicsState.Identity
+    )
+
+  /** Cells of such a box along each axis. */
+  private val Boxed = 8
+
   private def albedoGrid(in: Asked): Option[Plugin] =
     in.objectNamed("albedo").filter(v => v.kind == "volume" && v.name == "gridvolume")
 
@@ -54,7 +85,9 @@ final class Media(session: Session, colors: Colors):
   private def fixed(in: Asked, name: String, default: Float): Rgb =
     in.objectNamed(name).filter(_.kind == "volume") match
       case Some(v) if v.name == "constvolume" =>
-        session.of(v)(colors.fixed(_, "value", Rgb.gray(default), Role.Plain))
+        session.of(v): of =>
+          of.ignore("to_world")
+          colors.fixed(of, "value", Rgb.gray(default), Role.Plain)
       case Some(v) =>
         session.warn(v.at, s"${v.shown} is not supported as `$name`; using $default")
         Rgb.gray(default)

@@ -58,8 +58,9 @@ final class Views(session: Session, media: Media, scene: Path):
         if name != "perspective" && name != "thinlens" then
           Plugins.unsupported(in.plugin, "using \"perspective\"", session)
           in.ignore(in.plugin.properties.map(_.name)*)
-        val view = Seq(Param.float("fov", in.atOf("fov"), fov(in, aspect).toFloat)) ++
-          Option.when(dx != 0 || dy != 0)(window(halfX, halfY))
+        val view =
+          Seq(Param.float("fov", in.atOf("fov"), FieldOfView.shorter(in, aspect).toFloat)) ++
+            Option.when(dx != 0 || dy != 0)(window(halfX, halfY))
         val focus = in.number("focus_distance")
         val lens =
           if name != "thinlens" then Nil
@@ -73,32 +74,6 @@ final class Views(session: Session, media: Media, scene: Path):
               )
             )
         session.declare("Camera", "perspective", in.at, view ++ lens ++ always)
-
-  /** Angle along the shorter side, in degrees. */
-  private def fov(in: Asked, aspect: Double): Double =
-    val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
-    val focal = in.property("focal_length").map(p => (p.value, p.at))
-    val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
-    def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
-    // Half of the width at distance 1
-    val half = (in.number("fov"), focal) match
-      case (Some(degrees), _) =>
-        if !(degrees > 0 && degrees < 180) then
-          session.error(in.atOf("fov"), "`fov` must be between 0 and 180 degrees")
-        axis match
-          case "x" => tan(degrees)
-          case "y" => tan(degrees) * aspect
-          case "diagonal" => tan(degrees) / diagonal
-          case "smaller" => tan(degrees) * Math.max(1, aspect)
-          case _ => tan(degrees) * Math.min(1, aspect)
-      case (None, given_) =>
-        // On film of 36 × 24 mm, along the diagonal
-        val millimetres = given_ match
-          case Some((Value.Text(text), at)) => Values.number(text.trim.stripSuffix("mm"), at)
-          case Some((Value.Number(x), _)) => x
-          case _ => 50.0
-        Math.sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres) / diagonal
-    Math.toDegrees(2 * Math.atan(half / Math.max(1, aspect)))
 
   /** Width and height in pixels, and the film. */
   private def filmOf(in: Asked): (Int, Int, Declaration) =

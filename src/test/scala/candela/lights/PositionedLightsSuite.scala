@@ -105,6 +105,14 @@ final class PositionedLightsSuite extends AnyFunSuite:
     assert(Seq(seen(false, -0.5f, -0.5f), seen(false, 0.5f, -0.5f), seen(false, -0.5f, 0.5f)) ==
       Seq(1f, 2f, 3f))
 
+  test("a plane across the axis is lit evenly by a projector of Mitsuba's"):
+    val light =
+      ProjectionLight(LightFrame(Transform.Identity), Rgb.White, 1f, None, true, onPlane = true)
+    for at <- Seq(Vec3(0f, 0f, 1f), Vec3(0.9f, 0f, 1f), Vec3(-0.5f, 0.8f, 1f)) do
+      // Irradiance: the intensity times the cosine, by the squared distance
+      val w = at.normalized
+      assert(Math.abs(light.intensity(w).r * w.z / at.lengthSquared - 1f) < 1e-5f)
+
   test("the pole of a goniometric image is the light's +y"):
     val image = Image(1, 2, Image.RgbNames, Array(1f, 1f, 1f, 0f, 0f, 0f))
     val sphere = SphereImage(image, LatLongMap, Rgb.White, smooth = false)

@@ -184,3 +184,19 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(missing.isEmpty)
     val others = Plugins.others.values.flatten.filterNot(name => page.contains(s"`$name`"))
     assert(others.isEmpty)
+
+  test("a heterogeneous medium of constant extinction fills its volume's cube"):
+    def medium(volume: String) =
+      val sigmaT = s"<volume type=\"constvolume\" name=\"sigma_t\">$volume" +
+        "<float name=\"value\" value=\"2\"/></volume>"
+      val fog = s"<medium type=\"heterogeneous\" name=\"interior\">$sigmaT</medium>"
+      read(s"$Sensor<shape type=\"cube\"><bsdf type=\"null\"/>$fog</shape>").media.head.medium
+    val unit = medium("")
+    assert(unit.param("p0").get.floats.toSeq == Seq(0f, 0f, 0f))
+    assert(unit.param("p1").get.floats.toSeq == Seq(1f, 1f, 1f))
+    assert(unit.param("sigma_s").get.floats.head == 1.5f)
+    assert(unit.param("density").get.floats.forall(_ == 1f))
+    // Of a turned cube, the box along the axes
+    val turned = medium("<transform name=\"to_world\"><rotate z=\"1\" angle=\"45\"/></transform>")
+    assert(Math.abs(turned.param("p0").get.floats(0) + 0.7071f) < 1e-4f)
+    assert(Math.abs(turned.param("p1").get.floats(1) - 1.4142f) < 1e-4f)

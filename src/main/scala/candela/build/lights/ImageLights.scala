@@ -69,7 +69,10 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
     val slide = image.map(Picture(_, lookup, LightImages.conversion))
-    val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat
+    // In Mitsuba's scenes, along the width
+    val onPlane = site.resources.switches.isMitsubas
+    val narrow = slide.fold(1f)(s => if onPlane then Math.max(1f, s.aspect) else 1f)
+    val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat / narrow
     val basis = site.resources.basis
     val perUnit = slide.fold(1f): s =>
       site.resources.once(site.declaration, "power"):
@@ -86,6 +89,6 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     else
       LightPlan(
         (toWorld, _) =>
-          Some(ProjectionLight(LightFrame(toWorld), all, tanHalf, slide, upright = isV4)),
+          Some(ProjectionLight(LightFrame(toWorld), all, tanHalf, slide, upright = isV4, onPlane)),
         samples = 1
       )

@@ -12,8 +12,8 @@ private[build] object LightImages:
   /** Returns the image named by the string parameter `name`, in the scene's basis. Reports images
     * that can't be used.
     *
-    * pbrt-v2 and v3 treat the values of 8-bit files as linear; v4 decodes them. v2 reads the rows
-    * of TGA files bottom-up.
+    * pbrt-v2 and v3 treat the values of 8-bit files as linear; v4 and Mitsuba decode them. v2
+    * reads the rows of TGA files bottom-up.
     */
   def read(name: String)(using site: Site): Option[Image] =
     // Each basis has its own copy, but lookups convert the colours of sRGB to wavelengths
@@ -44,7 +44,7 @@ private[build] object LightImages:
 
   private def usable(image: Image, fail: String => Unit)(using site: Site): Option[Image] =
     val linear =
-      if site.dialect == Dialect.V4 then image.linear
+      if site.dialect == Dialect.V4 || site.resources.switches.isMitsubas then image.linear
       else Image(image.width, image.height, image.channelNames, image.data)
     try
       val rgb = linear.toRgb

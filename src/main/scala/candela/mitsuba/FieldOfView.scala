@@ -1,0 +1,34 @@
+package candela.mitsuba
+
+/** The field of view of cameras and projectors, by an angle or a focal length. */
+private[mitsuba] object FieldOfView:
+
+  /** Angle along the shorter side, in degrees.
+    *
+    * @param aspect width over height
+    */
+  def shorter(in: Asked, aspect: Double): Double =
+    val axis = in.word("fov_axis", "x", "x", "y", "diagonal", "smaller", "larger")
+    import in.session
+    val focal = in.property("focal_length").map(p => (p.value, p.at))
+    val diagonal = Math.sqrt(1 + 1 / (aspect * aspect))
+    def tan(degrees: Double) = Math.tan(Math.toRadians(degrees) / 2)
+    // Half of the width at distance 1
+    val half = (in.number("fov"), focal) match
+      case (Some(degrees), _) =>
+        if !(degrees > 0 && degrees < 180) then
+          session.error(in.atOf("fov"), "`fov` must be between 0 and 180 degrees")
+        axis match
+          case "x" => tan(degrees)
+          case "y" => tan(degrees) * aspect
+          case "diagonal" => tan(degrees) / diagonal
+          case "smaller" => tan(degrees) * Math.max(1, aspect)
+          case _ => tan(degrees) * Math.min(1, aspect)
+      case (None, given_) =>
+        // On film of 36 × 24 mm, along the diagonal
+        val millimetres = given_ match
+          case Some((Value.Text(text), at)) => Values.number(text.trim.stripSuffix("mm"), at)
+          case Some((Value.Number(x), _)) => x
+          case _ => 50.0
+        Math.sqrt(36.0 * 36 + 24 * 24) / (2 * millimetres) / diagonal
+    Math.toDegrees(2 * Math.atan(half / Math.max(1, aspect)))
