@@ -7,7 +7,7 @@ import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.integrators.{LightConnection, LightTransport, SceneIntegrator}
 import candela.math.*
 import candela.media.SceneMedia
-import candela.sampling.Sampler
+import candela.sampling.{RandomStream, Sampler}
 import candela.scene.Scene
 
 /** Bidirectional path tracing: each sample traces a camera and a light subpath, and connects every
@@ -39,6 +39,7 @@ final class BidirectionalPathTracer(
     through: SceneMedia | Null = null
 ) extends SceneIntegrator(scene)
     with ChainPaths:
+  import BidirectionalPaths.*
   import PartialWeights.mis
 
   private val ownMedia, lightMedia: PathMedia | Null =
@@ -54,6 +55,11 @@ final class BidirectionalPathTracer(
   private val shadowRay = Ray()
   private val shadowHit = Hit()
   private var rays = 0L
+
+  // Contributions to a sample below this share of what it has found so far are minor
+  private var minor = 0f
+  private var found = Rgb.Black
+  private val dice = RandomStream()
 
   // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
@@ -74,7 +80,8 @@ final class BidirectionalPathTracer(
 
   override def lastMaterial: Int = at.material
 
-  def radiance(ray: Ray, sampler: Sampler): Rgb = radiance(ray, sampler, sampler, sampler)
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    radiance(ray, sampler, sampler, sampler, MinorShare)
 
   /** As [[radiance]], with separate samplers.
     *
@@ -88,13 +95,27 @@ final class BidirectionalPathTracer(
       joins: Sampler,
       onward: Sampler
   ): Rgb =
+    // Chance in the connections would make the function that chains explore rugged
+    radiance(ray, light, joins, onward, minorShare = 0f)
+
+  private def radiance(
+      ray: Ray,
+      light: Sampler,
+      joins: Sampler,
+      onward: Sampler,
+      minorShare: Float
+  ): Rgb =
+    minor = minorShare
     shadowRay.time = ray.time
     camera.begin(ray.time)
     connection.begin(ray.time)
     val hero =
       if through != null && through.isChromatic then (light.next1D() * 3f).toInt else 0
+    // What leads away from the camera matters most: it has the same dimensions in all samples
+    light.skipTo(LightRequests)
     lightPaths.trace(ray.time, light, hero)
     camera.connect(lightPaths, isWeighted = true, light)
+    onward.skipTo(CameraRequests)
     val media = ownMedia
     if media == null || through == null then fromCamera(ray, joins, onward)
     else
@@ -103,7 +124,7 @@ final class BidirectionalPathTracer(
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
     val eye = ray.origin
-    var found = Rgb.Black
+    found = Rgb.Black
     path.throughput = Rgb.White
     path.isSpecularSoFar = true
     path.isAlone = false
@@ -150,7 +171,8 @@ final class BidirectionalPathTracer(
             vertex.evaluate(regularizes && !path.isSpecularSoFar)
             if scene.isDispersive then path.disperse(vertex)
           if !vertex.bsdf.isSpecular then
-            found += carried * (direct(joins) + connected())
+            found += carried * direct(joins)
+            found += carried * connected(joins)
           alive = edges <= maxDepth && path.scatter(vertex, ray, onward)
           lastP.set(at.p)
           lastN.set(vertex.lightNormal)
@@ -251,17 +273,32 @@ final class BidirectionalPathTracer(
         val weight = vertex.shadingCosine(wi) / (connection.pdf * (1 + others))
         f * sample.radiance.toRgb * weight.toFloat * passed
 
+  /** Factor of a contribution, before its shadow ray is traced: Russian roulette ends most of the
+    * minor ones. What has been found so far depends on none of this, so the mean stays.
+    *
+    * Source: Veach 1997, §10.3.3, roulette for shadow rays, with a threshold for each sample.
+    */
+  private def worth(contribution: Float, least: Float): Float =
+    if !(contribution < least) then 1f
+    else if dice.next() * least < contribution then least / contribution
+    else 0f
+
   /** Connects the camera vertex to all light vertices. */
-  private def connected(): Rgb =
+  private def connected(joins: Sampler): Rgb =
+    dice.seed(joins.next1D(), vertex.edges.toFloat)
+    val carries = carried.largest
+    connected(if carries > 0f then minor * found.largest / carries else 0f)
+
+  private def connected(least: Float): Rgb =
     var sum = Rgb.Black
     var i = 0
     while i < lightPaths.count do
       val lit = lightPaths(i)
-      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit)
+      if lit.edges + vertex.edges <= maxDepth then sum += connected(lit, least)
       i += 1
     sum
 
-  private def connected(lit: PathVertex): Rgb =
+  private def connected(lit: PathVertex, least: Float): Rgb =
     val d = lit.at.p - at.p
     val distance2 = d.lengthSquared
     val wi = d * (1f / sqrt(distance2))
@@ -284,7 +321,8 @@ final class BidirectionalPathTracer(
         // If both subpaths carry their hero alone, each stands for all three wavelengths
         val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
         val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
-        val light = f * g * lit.throughput * weight
+        val whole = f * g * lit.throughput * weight
+        val light = whole * worth(whole.largest, least)
         val media = ownMedia
         if light.isBlack then light
         else if media != null then light * media.between(vertex, lit, wi)
@@ -298,3 +336,12 @@ final class BidirectionalPathTracer(
     shadowRay.set(origin, end - origin, LightConnection.shadowEnd(cosine))
     rays += 1
     scene.isOccluded(shadowRay, shadowHit)
+
+private object BidirectionalPaths:
+  /** Share of what a sample has found so far; smaller contributions are subject to roulette. */
+  val MinorShare = 0.1f
+
+  // Where the sampler's requests for each subpath begin: behind those for the camera ray, and
+  // behind all that a camera subpath can need
+  val CameraRequests = 8
+  val LightRequests = 1 << 20

@@ -14,6 +14,11 @@ final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
     places = CenteredSampler.Places
     times = if moves then 1 else 0
 
+  override def skipTo(requests: Int): Unit =
+    inner.skipTo(requests)
+    places = 0
+    times = 0
+
   def next1D(): Float =
     val u = inner.next1D()
     if times > 0 then

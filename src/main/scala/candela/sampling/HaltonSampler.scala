@@ -21,14 +21,19 @@ import candela.math.*
   * 1995.
   */
 final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
-  private var counter = 0L // the same for all samples of a pixel
+  private var counter, first = 0L // the same for all samples of a pixel
   private var index = 0
   private var dimension = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    counter = SampleHash.pixel(x, y, seed)
+    first = SampleHash.pixel(x, y, seed)
+    counter = first
     index = sample
     dimension = 0
+
+  override def skipTo(requests: Int): Unit =
+    counter = first + requests * SampleHash.Step
+    dimension = requests
 
   def next1D(): Float =
     counter += SampleHash.Step

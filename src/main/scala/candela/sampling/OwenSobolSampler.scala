@@ -15,12 +15,16 @@ package candela.sampling
   */
 final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
   override def isProgressive: Boolean = true
-  private var counter = 0L // the same for all samples of a pixel
+  private var counter, first = 0L // the same for all samples of a pixel
   private var reversedIndex = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    counter = SampleHash.pixel(x, y, seed)
+    first = SampleHash.pixel(x, y, seed)
+    counter = first
     reversedIndex = Integer.reverse(sample)
+
+  override def skipTo(requests: Int): Unit =
+    counter = first + requests * SampleHash.Step
 
   def next1D(): Float =
     val bits = nextBits()

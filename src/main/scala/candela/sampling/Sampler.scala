@@ -16,6 +16,13 @@ abstract class Sampler:
   /** Starts at dimension 0 of sample `sample` of the pixel. */
   def start(x: Int, y: Int, sample: Int): Unit
 
+  /** Continues as after so many calls of `next1D` since `start`. What comes after a random walk
+    * thus has the same dimensions in all samples, however long each walk was.
+    *
+    * Samplers without dimensions just go on.
+    */
+  def skipTo(requests: Int): Unit = ()
+
   /** The next dimension, in [0, 1). */
   def next1D(): Float
 
@@ -33,10 +40,14 @@ abstract class Sampler:
   */
 final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
   override def isProgressive: Boolean = true
-  private var counter = 0L
+  private var counter, first = 0L
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    counter = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample)
+    first = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample)
+    counter = first
+
+  override def skipTo(requests: Int): Unit =
+    counter = first + requests * SampleHash.Step
 
   def next1D(): Float =
     SampleHash.toUnit((nextBits() >>> 32).toInt)

@@ -19,12 +19,16 @@ final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, see
   require(xSamples > 0 && ySamples > 0, s"a grid of $xSamples by $ySamples has no cells")
   val samplesPerPixel: Int = Math.multiplyExact(xSamples, ySamples)
 
-  private var counter = 0L // the same for all samples of one pass over a pixel's cells
+  private var counter, first = 0L // the same for all samples of one pass over a pixel's cells
   private var index = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
     index = sample % samplesPerPixel
-    counter = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel)
+    first = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel)
+    counter = first
+
+  override def skipTo(requests: Int): Unit =
+    counter = first + requests * SampleHash.Step
 
   def next1D(): Float =
     val bits = nextBits()

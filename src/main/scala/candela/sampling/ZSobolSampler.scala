@@ -34,6 +34,9 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
     counter = start0
     place = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | sample
 
+  override def skipTo(requests: Int): Unit =
+    counter = start0 + requests * SampleHash.Step
+
   def next1D(): Float =
     val bits = nextBits()
     fraction(Sobol.scramble(shuffled(bits).toInt, bits.toInt))

@@ -167,6 +167,25 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
     assert(Math.sqrt(va + vb) < 0.005 * b, "too much noise to tell")
 
+  test("roulette for minor connections keeps the mean, where most are minor: in a bright ball"):
+    def found(integrator: String) =
+      val text = s"""Integrator $integrator
+        |Camera "perspective" "float fov" 60
+        |Film "rgb" "integer xresolution" 8 "integer yresolution" 8
+        |Sampler "paddedsobol" "integer pixelsamples" 256
+        |WorldBegin
+        |Material "diffuse" "rgb reflectance" [.9 .9 .9]
+        |Shape "sphere" "float radius" 1
+        |AreaLightSource "diffuse" "rgb L" [1 1 1]
+        |Translate .4 .5 -.4
+        |Shape "sphere" "float radius" .3
+        |""".stripMargin
+      meanAndVariance(means(text, Dialect.V4))
+    val (a, va) = found("\"bdpt\" \"integer maxdepth\" 12")
+    val (b, vb) = found("\"path\" \"integer maxdepth\" 12")
+    assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
+    assert(Math.sqrt(va + vb) < 0.002 * b, "too much noise to tell")
+
   test("a point in the middle of a glass ball lights as it does without: no path finds it"):
     // All of the light leaves along the radius at last, however often it is reflected
     def text(integrator: String, glass: String, camera: String, space: String) =

@@ -59,7 +59,7 @@ final class MetropolisSuite extends AnyFunSuite:
       val paths =
         if dialect == Dialect.V2 then "SurfaceIntegrator \"path\" \"integer maxdepth\" 4"
         else "Integrator \"bdpt\""
-      val asked = if dialect == Dialect.V2 then 10000 else 300
+      val asked = if dialect == Dialect.V2 then 10000 else 6000
       val expected =
         image(room(paths, dialect).replace("samples\" 300", s"samples\" $asked"), dialect)
       def mean(data: Array[Float]) = data.map(_.toDouble).sum / data.length

@@ -56,6 +56,18 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
     assert((0 until 20).map(_ => a.next1D()) == (0 until 20).map(_ => b.next1D()))
     assert(a.samplesPerPixel == b.samplesPerPixel)
 
+  test("after skipTo come the numbers that follow so many requests, for pairs, too"):
+    val (a, b) = (make(16, 5), make(16, 5))
+    for skip <- Seq(0, 1, 8, 21) do
+      a.start(1, 2, 3)
+      for _ <- 0 until skip do a.next1D(): Unit
+      b.start(1, 2, 3)
+      for _ <- 0 until 30 do b.next2D()
+      b.skipTo(skip)
+      a.next2D()
+      b.next2D()
+      assert(a.x == b.x && a.y == b.y && a.next1D() == b.next1D(), s"after $skip")
+
   test("another seed gives other numbers"):
     assert(points(make(16, 1), 0, 0, 16, 0) != points(make(16, 2), 0, 0, 16, 0))
 
