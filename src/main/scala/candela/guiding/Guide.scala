@@ -76,7 +76,8 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   private def growth(was: Lesson, sample: Int): GuideGrowth =
     val events = was.records.nn.sorted()
     val lit = perPath(was, sample, GuideRecords.firsts(events))
-    GuideGrowth(was.field, events, settings, Math.min(1.0, lit))
+    val all = was.records.nn.counts.map(_ * was.records.nn.rate)
+    GuideGrowth(was.field, events, settings, Math.min(1.0, lit), all)
 
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
@@ -101,7 +102,11 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     val end = next(begun)
     val expected = pixels * (end - begun) * Math.max(found, 1e-3)
     val rate = Math.min(1.0, settings.records / expected).toFloat
-    Lesson(field, begun, if isLongEnough && goesOn(end) then GuideRecords(rate) else null)
+    Lesson(
+      field,
+      begun,
+      if isLongEnough && goesOn(end) then GuideRecords(rate, field.regions) else null
+    )
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -124,7 +129,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     tally.bounces = from.long()
     tally.guided = from.long()
     val rate = from.float()
-    val records = if rate == 0f then null else GuideRecords(rate)
+    val records = if rate == 0f then null else GuideRecords(rate, field.regions)
     if records != null then records.load(from)
     current = Lesson(field, begun, records)
 

@@ -22,6 +22,9 @@ import candela.math.*
   *                (three numbers), one over its distance, the concentration, the weight; then,
   *                leaving light lobes out, the weight times the factor that normalises the lobe,
   *                and the sum of weights up to this lobe. Without light all are zero
+  * @param scattered of each region, the mean light that paths find after an event there, over their
+  *                  throughput before; 0: not known
+  * @param whole     likewise, with what paths whose first event is there have found before it
   */
 final class GuideField private[guiding] (
     val axis: Array[Int],
@@ -29,7 +32,9 @@ final class GuideField private[guiding] (
     val below: Array[Int],
     val shares: Array[Float],
     val centres: Array[Float],
-    val lobes: Array[Float]
+    val lobes: Array[Float],
+    val scattered: Array[Float],
+    val whole: Array[Float]
 ):
   import GuideField.*
 
@@ -62,7 +67,7 @@ final class GuideField private[guiding] (
     for all <- Vector(axis, below) do
       to.int(all.length)
       loop(all.length)(i => to.int(all(i)))
-    for all <- Vector(split, shares, centres, lobes) do
+    for all <- Vector(split, shares, centres, lobes, scattered, whole) do
       to.int(all.length)
       loop(all.length)(i => to.float(all(i)))
 
@@ -97,7 +102,9 @@ object GuideField:
     Array.tabulate(Sides)(-1 - _),
     Array.fill(Sides)(1f),
     new Array[Float](3 * Sides),
-    new Array[Float](Sides * Lobes * Size)
+    new Array[Float](Sides * Lobes * Size),
+    new Array[Float](Sides),
+    new Array[Float](Sides)
   )
 
   private[guiding] def load(from: CheckedInput): GuideField =
@@ -105,4 +112,5 @@ object GuideField:
     def floats() = Array.fill(from.int())(from.float())
     val (axis, below) = (ints(), ints())
     val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
-    GuideField(axis, split, below, shares, centres, lobes)
+    val (scattered, whole) = (floats(), floats())
+    GuideField(axis, split, below, shares, centres, lobes, scattered, whole)

@@ -10,12 +10,15 @@ import scala.collection.mutable.ArrayBuffer
   *
   * @param events sorted ([[GuideRecords]])
   * @param lit    part of all paths that has events
+  * @param all    of each region of the old field, events that would have been recorded if all found
+  *               light
   */
 private[guiding] final class GuideGrowth(
     old: GuideField,
     val events: Array[Float],
     settings: GuideSettings,
-    lit: Double
+    lit: Double,
+    all: Array[Float]
 ):
   import GuideField.{Lobes, Sides}
   import GuideGrowth.*
@@ -36,12 +39,17 @@ private[guiding] final class GuideGrowth(
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
-    val centres, lobes, shares = FloatBuffer()
+    val centres, lobes, shares, scattered, whole = FloatBuffer()
     for leaf <- leaves do
       shares += leaf.share
+      scattered += leaf.scattered
+      whole += leaf.whole
       loop(3)(a => centres += leaf.centre(a))
       loop(Lobes * GuideField.Size)(i => lobes += leaf.lobes(i))
-    GuideField(axis.take(), split.take(), below.take(), shares.take(), centres.take(), lobes.take())
+    GuideField(
+      axis.take(), split.take(), below.take(), shares.take(), centres.take(), lobes.take(),
+      scattered.take(), whole.take()
+    )
 
   /** What the paths of the pass tell of guiding, when all regions have grown. */
   def verdict: GuideVerdict =
@@ -68,7 +76,10 @@ private[guiding] final class GuideGrowth(
   /** Copies the node `from` to `to`. */
   private def copy(from: Int, to: Int, of: Array[IntBuffer]): Unit =
     val next = old.below(from)
-    if next < 0 then divide(-1 - next, of(-1 - next).take(), to)
+    if next < 0 then
+      val region = -1 - next
+      val here = of(region).take()
+      divide(region, here, to, found = Math.min(1f, here.length / Math.max(1f, all(region))))
     else
       val child = newChildren(to, old.axis(from), old.split(from))
       copy(next, child, of)
@@ -82,8 +93,11 @@ private[guiding] final class GuideGrowth(
     newNode()
     below(to)
 
-  /** Makes a leaf or more of an old region, or part of one, with the events at `of`. */
-  private def divide(region: Int, of: Array[Int], to: Int): Unit =
+  /** Makes a leaf or more of an old region, or part of one, with the events at `of`.
+    *
+    * @param found part of its events that found light
+    */
+  private def divide(region: Int, of: Array[Int], to: Int, found: Float): Unit =
     val (mean, variance) = spread(of)
     val a = (0 until 3).maxBy(variance(_))
     val middle = mean(a).toFloat
@@ -92,14 +106,14 @@ private[guiding] final class GuideGrowth(
       else (of, Array.emptyIntArray)
     if low.length > 0 && high.length > 0 then
       val child = newChildren(to, a, middle)
-      divide(region, low, child)
-      divide(region, high, child + 1)
+      divide(region, low, child, found)
+      divide(region, high, child + 1, found)
     else
       below(to) = -1 - leaves.length
       val centre =
         if of.length >= Fewest then mean.map(_.toFloat)
         else old.centres.slice(3 * region, 3 * region + 3)
-      leaves += GuideLeaf(old, region, events, of, centre, settings, lit)
+      leaves += GuideLeaf(old, region, events, of, centre, settings, lit, found)
 
   /** Mean and variance of the points, by axis. */
   private def spread(of: Array[Int]): (Array[Double], Array[Double]) =

@@ -7,6 +7,7 @@ import candela.base.loop
   * @param region of the old field that it was, or was part of
   * @param of     places of its events among all
   * @param lit    part of all paths that has events
+  * @param found  part of the region's events that found light
   */
 private[guiding] final class GuideLeaf(
     old: GuideField,
@@ -15,7 +16,8 @@ private[guiding] final class GuideLeaf(
     of: Array[Int],
     val centre: Array[Float],
     settings: GuideSettings,
-    lit: Double
+    lit: Double,
+    found: Float
 ):
   import GuideField.{Lobes, Size}
   import GuideLeaf.*
@@ -27,6 +29,10 @@ private[guiding] final class GuideLeaf(
   /** The probability of BSDF sampling. */
   var share: Float = old.shares(region)
 
+  /** As in [[GuideField]]. */
+  var scattered: Float = old.scattered(region)
+  var whole: Float = old.whole(region)
+
   /** Paths whose first event is here. */
   var paths = 0
 
@@ -36,10 +42,26 @@ private[guiding] final class GuideLeaf(
   /** Learns from the events. */
   def grow(fit: GuideFit): Unit =
     if of.length >= GuideGrowth.Fewest then
-      share = bestShare(fit.meanLight(of))
+      val light = fit.meanLight(of)
+      share = bestShare(light)
+      expect(light)
       compare()
       val start = if old.isFitted(region) then GuideFit.moved(old, region, centre) else null
       lobes = fit(of, centre, start)
+
+  /** How much light paths find after an event here, and camera paths in all. Light that they found
+    * before their first event does not depend on whether they find more.
+    */
+  private def expect(meanLight: Float): Unit =
+    scattered = meanLight * found
+    var before = 0.0
+    var count = 0
+    loop(of.length): j =>
+      val total = events(of(j) + Total)
+      if total > 0f then
+        before += Math.max(0f, total - events(of(j) + Light))
+        count += 1
+    whole = scattered + (before / Math.max(1, count)).toFloat
 
   /** Compares paths as they are with those that would have sampled BSDFs alone, by the same paths.
     */

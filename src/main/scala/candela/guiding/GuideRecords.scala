@@ -6,18 +6,22 @@ import candela.sampling.SampleHash
 /** The scattering events of one pass that found light. Each worker adds to a part of its own. What
   * is kept, and its order, depends on the events' own numbers, not on workers.
   *
-  * @param rate part of the events that is kept
+  * @param rate    part of the events that is kept
+  * @param regions of the field that the paths use
   */
-private[guiding] final class GuideRecords(val rate: Float):
+private[guiding] final class GuideRecords(val rate: Float, regions: Int):
   import GuideRecords.*
   private var parts = Vector.empty[Part]
   private val limit = if rate >= 1f then Long.MaxValue else (rate * Long.MaxValue.toDouble).toLong
 
   /** For a worker. */
   def newPart(): Part = synchronized:
-    val part = Part(limit)
+    val part = Part(limit, regions)
     parts :+= part
     part
+
+  /** Of each region, its events: those without light and those that are not kept, too. */
+  def counts: Array[Long] = Array.tabulate(regions)(region => parts.map(_.counts(region)).sum)
 
   /** All events, [[Size]] numbers each, in an order that depends on these only. */
   def sorted(): Array[Float] =
@@ -55,10 +59,12 @@ private[guiding] final class GuideRecords(val rate: Float):
     val all = sorted()
     to.int(all.length)
     loop(all.length)(i => to.float(all(i)))
+    counts.foreach(to.long(_))
 
   def load(from: CheckedInput): Unit =
     val part = newPart()
     loop(from.int())(_ => part.data += from.float())
+    loop(regions)(i => part.counts(i) = from.long())
 
 object GuideRecords:
   /** How many of the events are the first ones of their paths? */
@@ -85,8 +91,13 @@ object GuideRecords:
   private inline val PlaceMask = 0xffffffL
 
   /** What one worker records. */
-  final class Part private[guiding] (limit: Long):
+  final class Part private[guiding] (limit: Long, regions: Int):
     private[guiding] val data = FloatBuffer()
+    private[guiding] val counts = new Array[Long](regions)
+
+    /** Counts an event. */
+    def saw(region: Int): Unit = counts(region) += 1
+
     private[guiding] def count: Int = data.length / Size
 
     /** Adds an event or leaves it. */

@@ -39,6 +39,13 @@ final class GuidedWalk(
   private var isFitted = false
   private var share = 1f
   private val wi, localWi, normal = MutableVec3()
+  private var region = -1
+
+  /** Mean light of paths from where the camera's path begins to be kept; 0: not known. */
+  private var whole = 0f
+
+  /** Was the path's end at this vertex decided by what the field expects? */
+  private var isExpected = false
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
@@ -48,6 +55,7 @@ final class GuidedWalk(
     path.clear()
     unguided.set(Rgb.White)
     ratio = 1f
+    whole = 0f
 
   override def evaluate(): Unit =
     super.evaluate()
@@ -55,10 +63,11 @@ final class GuidedWalk(
     isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
     isFitted = false
     share = 1f
+    region = -1
     if isKept then
       val n = vertex.at.frame.n
       if vertex.localWo.z < 0f then normal.set(-n.x, -n.y, -n.z) else normal.set(n)
-      val region = mixture.region(field, vertex.at.p, normal)
+      region = mixture.region(field, vertex.at.p, normal)
       share = if ratio < LeastRatio then 1f else field.shares(region)
       isFitted = field.isFitted(region)
       isKept = part != null || share < 1f
@@ -66,6 +75,7 @@ final class GuidedWalk(
 
   override def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
     isKept = false
+    region = -1
     share = 1f
     super.emerge(inside, sampler)
 
@@ -84,6 +94,7 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     if !vertex.bsdf.isSpecular then tally.bounces += 1
+    endOrGoOn(sampler)
     if !isKept then
       super.scatter(sampler)
       unguided.scale(vertex.bounce.weight)
@@ -140,21 +151,54 @@ final class GuidedWalk(
     throughput.scale(bounce.weight)
     unguided.scale(value * (1f / byBsdf))
     ratio *= pdf / byBsdf
-    if part != null && !vertex.crosses(bounce.wi) then
+    val to = part
+    if to != null && before > 0f && !vertex.crosses(bounce.wi) then
+      to.saw(region)
       path.add(
         vertex.at.p, normal, wi, radiance.toRgb.average, before, pdf, byBsdf, byField, ratio
       )
+
+  /** Russian roulette by what the field expects the path to find: relative to what camera paths
+    * find where this one began, so that all paths that go on contribute about as much.
+    *
+    * Light through the surface is not in the field: there, and where it knows nothing,
+    * [[roulette]] decides.
+    *
+    * Source: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
+    * Simulation", SIGGRAPH 2016; the image's estimate is that of the first region.
+    */
+  private def endOrGoOn(sampler: Sampler): Unit =
+    isExpected = false
+    if region >= 0 then
+      val field = lesson.field
+      val expected = field.scattered(region)
+      if whole == 0f then whole = field.whole(region) * throughput.toRgb.average
+      else if expected > 0f && !vertex.bsdf.isTransmissive then
+        isExpected = true
+        val u = sampler.next1D()
+        val survival = Expectation * throughput.toRgb.average * expected / whole
+        if survival < 1f then
+          val q = Math.max(LeastSurvival, survival)
+          val factor = if u < q then 1f / q else 0f
+          throughput.scale(factor)
+          unguided.scale(factor)
 
   /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
     * paths are many because much light comes from there: it must not end them.
     */
   override def roulette(threshold: Float, sampler: Sampler): Unit =
-    val factor = LightTransport.roulette(unguided.largest * etaScale, threshold, sampler)
+    val factor =
+      if isExpected then 1f
+      else LightTransport.roulette(unguided.largest * etaScale, threshold, sampler)
     throughput.scale(factor)
     unguided.scale(factor)
     goesOn = !throughput.isBlack
 
 private object GuidedWalk:
+  /** Paths that are expected to contribute less than one part in so many of the pixel may end. */
+  inline val Expectation = 3f
+  inline val LeastSurvival = 0.1f
+
   inline val LargestBelowOne = 0.99999994f
 
   /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much

@@ -56,7 +56,7 @@ class GuideFieldSuite extends AnyFunSuite:
 
   test("what is recorded is the same in any order, by any number of workers"):
     def sorted(order: Seq[Int], workers: Int) =
-      val records = GuideRecords(rate = 0.5f)
+      val records = GuideRecords(rate = 0.5f, regions = 6)
       val parts = Vector.fill(workers)(records.newPart())
       for (i, j) <- order.zipWithIndex do parts(j % workers).add(event(i))
       records.sorted().toVector
@@ -64,6 +64,23 @@ class GuideFieldSuite extends AnyFunSuite:
     // Half of them, with a deviation of 50
     assert(Math.abs(one.length / GuideRecords.Size - 5000) < 300)
     assert(sorted((0 until 10000).reverse, 3) == one)
+
+  test("a region knows the mean light of all its events, and of the paths that begin there"):
+    val settings = GuideSettings(adapts = false, perRegion = 1e6)
+    val records = GuideRecords(1f, GuideField.Start.regions)
+    val (one, other) = (records.newPart(), records.newPart())
+    for i <- 0 until 10000 do
+      val found = event(i)
+      // Each second one is the first of its path, which had found 3 before
+      if i % 2 == 0 then found(GuideRecords.Total) = found(GuideRecords.Light) + 3f
+      (if i % 3 == 0 then one else other).add(found)
+    for i <- 0 until 40000 do (if i % 3 == 0 then one else other).saw(GuideField.side(Up))
+    val counts = records.counts
+    assert(counts(GuideField.side(Up)) == 40000 && counts.sum == 40000)
+    val field = grown(GuideField.Start, records.sorted(), settings, everything = 40000f).result()
+    val region = GuideMixture().region(field, Vec3.Zero, Up)
+    assert(Math.abs(field.scattered(region) - 1.05f / 4) < 0.002f)
+    assert(Math.abs(field.whole(region) - (1.05f / 4 + 3f)) < 0.01f)
 
 private object GuideFieldSuite:
   val Samples: Int = 1 << 16
@@ -109,13 +126,20 @@ private object GuideFieldSuite:
   val learnt: GuideField =
     val settings = GuideSettings(adapts = false, perRegion = 5.0)
     (1 to 4).foldLeft(GuideField.Start): (field, pass) =>
-      val records = GuideRecords(1f)
+      val records = GuideRecords(1f, field.regions)
       val part = records.newPart()
       for i <- 0 until 10000 * pass do part.add(event(i))
       grown(field, records.sorted(), settings).result()
 
-  def grown(old: GuideField, events: Array[Float], settings: GuideSettings): GuideGrowth =
-    val learning = GuideLearning(GuideGrowth(old, events, settings, lit = 1.0))
+  /** @param everything events of each region, also those without light; at least those with it */
+  def grown(
+      old: GuideField,
+      events: Array[Float],
+      settings: GuideSettings,
+      everything: Float = 1f
+  ): GuideGrowth =
+    val all = Array.fill(old.regions)(everything)
+    val learning = GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all))
     learning.help()
     learning.growth
 

@@ -48,7 +48,7 @@ private object GuidePathSuite:
 
   private def mean(shareOfBright: Double)(of: (Array[Float], Int) => Double): Double =
     val sampler = IndependentSampler(Paths, 3)
-    val (path, records) = (GuidePath(), GuideRecords(1f))
+    val (path, records) = (GuidePath(), GuideRecords(1f, regions = 6))
     val part = records.newPart()
     for i <- 0 until Paths do
       sampler.start(0, 0, i)
