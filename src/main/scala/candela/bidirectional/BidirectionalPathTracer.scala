@@ -285,7 +285,7 @@ final class BidirectionalPathTracer(
 
   /** Connects the camera vertex to all light vertices. */
   private def connected(joins: Sampler): Rgb =
-    dice.seed(joins.next1D(), vertex.edges.toFloat)
+    if minor > 0f then dice.seed(joins.next1D(), vertex.edges.toFloat)
     val carries = carried.largest
     connected(if carries > 0f then minor * found.largest / carries else 0f)
 
