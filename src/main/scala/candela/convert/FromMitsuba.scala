@@ -1,5 +1,7 @@
 package candela.convert
 
+import java.nio.file.Path
+
 import scala.collection.mutable
 import scala.util.Try
 
@@ -77,13 +79,12 @@ object FromMitsuba:
             d,
             "a \"spot\" fades linearly in Mitsuba, along a smooth curve in pbrt; using pbrt's"
           )
-        case "projection" =>
-          warn(d, "pbrt's projected images get darker to their sides, Mitsuba's do not")
         case _ =>
       if d.name == "projection" then projection(d) else d
 
     /** pbrt's field of view is the shorter side's, not the width's. */
     private def projection(d: Declaration): Declaration =
+      warn(d, "pbrt's projected images get darker to their sides, Mitsuba's do not")
       val sizes = d.param("mapname").map(p => d.folder.resolve(p.strings.head))
         .flatMap(file => Try(ImageFiles.read(file)).toOption).map(i => i.width.toFloat / i.height)
       val narrow = Math.max(1f, sizes.getOrElse(1f))
@@ -151,7 +152,7 @@ object FromMitsuba:
         "scale",
         Vector(Param.texture("tex", p.at, p.strings.head), Param.float("scale", p.at, factor)),
         p.at,
-        java.nio.file.Path.of("")
+        Path.of("")
       )
       added.getOrElseUpdate(
         name,

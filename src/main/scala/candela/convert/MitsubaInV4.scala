@@ -1,5 +1,9 @@
 package candela.convert
 
+import java.nio.file.Path
+
+import scala.collection.mutable
+
 import candela.base.Problem
 import candela.scenefile.{
   Declaration, MaterialRef, Param, ParamType, SceneDescription, ShapeDescription
@@ -50,7 +54,7 @@ private[convert] object MitsubaInV4:
   /** pbrt-v4 decodes all 8-bit files but PNG as sRGB. */
   def images(scene: SceneDescription, files: SideFiles): Converted =
     val problems = Vector.newBuilder[Problem]
-    val made = scala.collection.mutable.HashMap.empty[(java.nio.file.Path, String), String]
+    val made = mutable.HashMap.empty[(Path, String), String]
     def isMisread(d: Declaration, p: Param) =
       val isRaw = p.name == "normalmap" || p.name == "filename" && d.category == "Texture" &&
         d.param("encoding").exists(_.strings.contains("linear"))

@@ -41,10 +41,12 @@ final class GuidedWalk(
   private val wi, localWi, normal = MutableVec3()
   private var region = -1
 
-  /** Mean light of paths from where the camera's path begins to be kept; 0: not known. */
+  /** Light that paths like this one find on average, as the region of its first event knows it; 0:
+    * not known.
+    */
   private var whole = 0f
 
-  /** Was the path's end at this vertex decided by what the field expects? */
+  /** Has the field decided at this vertex whether the path ends? */
   private var isExpected = false
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
@@ -195,7 +197,9 @@ final class GuidedWalk(
     goesOn = !throughput.isBlack
 
 private object GuidedWalk:
-  /** Paths that are expected to contribute less than one part in so many of the pixel may end. */
+  /** A path goes on if what it is expected to add is at least the average light of such paths over
+    * this; else with a probability in proportion, but with the least one.
+    */
   inline val Expectation = 3f
   inline val LeastSurvival = 0.1f
 

@@ -20,24 +20,21 @@ import candela.math.*
   * multi-dimensional integrals", 1960; Owen, "Randomly permuted (t,m,s)-nets and (t,s)-sequences",
   * 1995.
   */
-final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
-  private var counter, first = 0L // the same for all samples of a pixel
+final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSampler:
   private var index = 0
   private var dimension = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    first = SampleHash.pixel(x, y, seed)
-    counter = first
+    begin(SampleHash.pixel(x, y, seed))
     index = sample
     dimension = 0
 
   override def skipTo(requests: Int): Unit =
-    counter = first + requests * SampleHash.Step
+    super.skipTo(requests)
     dimension = requests
 
   def next1D(): Float =
-    counter += SampleHash.Step
-    val bits = SampleHash.mix64(counter)
+    val bits = nextBits()
     val d = dimension
     dimension = d + 1
     if d < HaltonSampler.Dimensions then radicalInverse(HaltonSampler.primes(d), bits)

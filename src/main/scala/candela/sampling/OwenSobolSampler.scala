@@ -13,18 +13,13 @@ package candela.sampling
   *
   * Source: Burley, "Practical hash-based Owen scrambling", JCGT 9(4), 2020.
   */
-final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
+final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends HashedSampler:
   override def isProgressive: Boolean = true
-  private var counter, first = 0L // the same for all samples of a pixel
   private var reversedIndex = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    first = SampleHash.pixel(x, y, seed)
-    counter = first
+    begin(SampleHash.pixel(x, y, seed))
     reversedIndex = Integer.reverse(sample)
-
-  override def skipTo(requests: Int): Unit =
-    counter = first + requests * SampleHash.Step
 
   def next1D(): Float =
     val bits = nextBits()
@@ -46,7 +41,3 @@ final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Sample
     Integer.reverse(Sobol.scramble(reversedIndex, orderSeed))
 
   private def fraction(reversed: Int): Float = SampleHash.toUnit(Integer.reverse(reversed))
-
-  private def nextBits(): Long =
-    counter += SampleHash.Step
-    SampleHash.mix64(counter)

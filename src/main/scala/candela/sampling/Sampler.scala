@@ -34,20 +34,31 @@ abstract class Sampler:
 
   def copy(): Sampler
 
+/** A sampler whose requests are numbered: each takes the bits of its number ([[SampleHash]]). */
+abstract class HashedSampler extends Sampler:
+  private var counter, first = 0L
+
+  /** Numbers the requests from here: the same for all samples that form one set of points. */
+  protected final def begin(at: Long): Unit =
+    first = at
+    counter = at
+
+  override def skipTo(requests: Int): Unit = counter = first + requests * SampleHash.Step
+
+  /** Of the next request. */
+  protected final def nextBits(): Long =
+    counter += SampleHash.Step
+    SampleHash.mix64(counter)
+
 /** Independent random numbers: the baseline for the other samplers.
   *
   * In pbrt: `independent` (v4), `random` (v2, v3).
   */
-final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends Sampler:
+final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends HashedSampler:
   override def isProgressive: Boolean = true
-  private var counter, first = 0L
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    first = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample)
-    counter = first
-
-  override def skipTo(requests: Int): Unit =
-    counter = first + requests * SampleHash.Step
+    begin(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample))
 
   def next1D(): Float =
     SampleHash.toUnit((nextBits() >>> 32).toInt)
@@ -58,7 +69,3 @@ final class IndependentSampler(val samplesPerPixel: Int, seed: Int) extends Samp
     y = SampleHash.toUnit(bits.toInt)
 
   def copy(): IndependentSampler = IndependentSampler(samplesPerPixel, seed)
-
-  private def nextBits(): Long =
-    counter += SampleHash.Step
-    SampleHash.mix64(counter)

@@ -14,21 +14,16 @@ import candela.math.*
   * @param jitter whether to sample a random point in each cell; if false, its centre
   */
 final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, seed: Int)
-    extends Sampler:
+    extends HashedSampler:
 
   require(xSamples > 0 && ySamples > 0, s"a grid of $xSamples by $ySamples has no cells")
   val samplesPerPixel: Int = Math.multiplyExact(xSamples, ySamples)
 
-  private var counter, first = 0L // the same for all samples of one pass over a pixel's cells
   private var index = 0
 
   def start(x: Int, y: Int, sample: Int): Unit =
     index = sample % samplesPerPixel
-    first = SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel)
-    counter = first
-
-  override def skipTo(requests: Int): Unit =
-    counter = first + requests * SampleHash.Step
+    begin(SampleHash.mix64(SampleHash.pixel(x, y, seed) + sample / samplesPerPixel))
 
   def next1D(): Float =
     val bits = nextBits()
@@ -43,10 +38,6 @@ final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, see
     y = place(cell / xSamples, offset.toInt, ySamples)
 
   def copy(): StratifiedSampler = StratifiedSampler(xSamples, ySamples, jitter, seed)
-
-  private def nextBits(): Long =
-    counter += SampleHash.Step
-    SampleHash.mix64(counter)
 
   private def offsetBits(bits: Long, cell: Int): Long =
     SampleHash.mix64(bits + (cell + 1) * SampleHash.Step)

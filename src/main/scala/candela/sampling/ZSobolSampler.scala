@@ -16,7 +16,7 @@ package candela.sampling
   * @param width     of the full image in pixels; with `height` it bounds the pixels passed to
   *   `start`
   */
-final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends Sampler:
+final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends HashedSampler:
   require(requested > 0 && requested <= (1 << 24), s"$requested samples per pixel")
 
   private val logSamples = ZSobolSampler.ceilLog2(requested)
@@ -27,15 +27,11 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
     2 * ZSobolSampler.ceilLog2(Math.max(width, height)) + logSamples - 2
 
   private val start0 = SampleHash.mix64(seed + SampleHash.Step)
-  private var counter = 0L // the same for the whole image
   private var place = 0L // along the curve, samples of a pixel side by side
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    counter = start0
+    begin(start0)
     place = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | sample
-
-  override def skipTo(requests: Int): Unit =
-    counter = start0 + requests * SampleHash.Step
 
   def next1D(): Float =
     val bits = nextBits()
@@ -67,10 +63,6 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
     SampleHash.mix(key ^ (prefix ^ (prefix >>> 32)).toInt)
 
   private def fraction(reversed: Int): Float = SampleHash.toUnit(Integer.reverse(reversed))
-
-  private def nextBits(): Long =
-    counter += SampleHash.Step
-    SampleHash.mix64(counter)
 
 object ZSobolSampler:
 
