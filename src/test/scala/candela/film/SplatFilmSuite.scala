@@ -2,8 +2,11 @@ package candela.film
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.base.{CheckedFile, CheckedOutput}
 import candela.color.{ColorBasis, Rgb}
 import candela.testing.Draws
+
+import java.nio.file.{Files, Path}
 
 final class SplatFilmSuite extends AnyFunSuite:
   private val box = BoxFilter(0.5f, 0.5f)
@@ -15,6 +18,16 @@ final class SplatFilmSuite extends AnyFunSuite:
     val data = new Array[Float](36)
     film.addTo(data, 1f)
     data.toVector
+
+  /** The film's file. */
+  private def saved[A](film: SplatFilm)(use: Path => A): A =
+    val file = Files.createTempFile("splats", ".bin")
+    try
+      CheckedFile.write(file, "splats")((out: CheckedOutput) => film.save(out))
+      use(file)
+    finally Files.delete(file)
+
+  private def bytes(film: SplatFilm): Vector[Byte] = saved(film)(Files.readAllBytes(_).toVector)
 
   private def splats(count: Int): Vector[(Float, Float, Rgb)] =
     val draws = Draws(4)
@@ -40,6 +53,33 @@ final class SplatFilmSuite extends AnyFunSuite:
     all.foreach((x, y, c) => a.add(x, y, c))
     all.reverse.foreach((x, y, c) => b.add(x, y, c))
     assert(values(a) == values(b))
+    assert(bytes(a) == bytes(b))
+
+  test("many bright splats are added without any rounding"):
+    val f = film()
+    f.begin()
+    for _ <- 1 to 5000 do f.add(0.5f, 0.5f, Rgb(100.25f, 127.5f, 129f))
+    val read = film()
+    saved(f)(CheckedFile.read(_, "splats")(read.load))
+    for sums <- Seq(f, read, f.copy(), f.since(film())) do
+      assert(values(sums).take(3) == Vector(6015000f, 7650000f, 7740000f))
+
+  test("splats of several threads at once, across bands of rows, are those of one"):
+    val filter = GaussianFilter.ofSigma(2.5f, 2.5f, 0.8f)
+    def high = SplatFilm(0, 0, 8, 40, filter, 320.0, ColorBasis.Srgb, None)
+    val draws = Draws(9)
+    val all = Vector.fill(20000)((draws.between(-1, 9), draws.between(-2, 42)))
+    def add(film: SplatFilm, from: Int) =
+      for i <- from until all.size by 4 do
+        film.begin()
+        film.add(all(i)._1, all(i)._2, Rgb(0.1f * (i % 7), 300f, 1e-8f * i))
+    val (together, alone) = (high, high)
+    val threads = (0 until 4).map(k => Thread(() => add(together, k)))
+    threads.foreach(_.start())
+    threads.foreach(_.join())
+    (0 until 4).foreach(add(alone, _))
+    assert(together.pathCount == 20000)
+    assert(bytes(together) == bytes(alone))
 
   test("small and large splats keep their digits"):
     val f = film()
