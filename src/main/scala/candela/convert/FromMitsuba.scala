@@ -57,6 +57,7 @@ object FromMitsuba:
         case "conductor" => conductor(isotropic(d))
         case "dielectric" => dielectric(isotropic(d))
         case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
+        case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
         case "principled" =>
           warn(d, "\"principled\" is approximated by pbrt-v3's \"disney\"")
           d.copy(name = "disney", dialect = Some(Dialect.V3))
@@ -228,6 +229,20 @@ object FromMitsuba:
               p
       val layer = Seq(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))
       d.copy(name = "coateddiffuse", params = params ++ layer)
+
+    /** A sheet that transmits as much, but spreads all of it. */
+    private def sheet(d: Declaration): Declaration =
+      warn(d, "\"principledthin\" is approximated by pbrt-v4's \"diffusetransmission\"")
+      def number(name: String) = d.param(name).flatMap(_.floats.headOption).getOrElse(0f)
+      val clear = number("spectrans")
+      val near = (1f - clear) * (1f - 0.5f * number("difftrans"))
+      val colors = Vector("reflectance" -> near, "transmittance" -> (1f - near)).map:
+        (name, part) =>
+          color(d, "color") match
+            case Some(c) => rgb(name, c * part, d)
+            case None => times(renamed(d.param("color").get, name), "spectrum", part)
+      val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
+      d.copy(name = "diffusetransmission", params = colors ++ reliefs)
 
     private def rgb(name: String, c: Rgb, d: Declaration): Param =
       Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.color.Rgb
-import candela.scenefile.{Dialect, Param}
+import candela.scenefile.Param
 
 /** Translates BSDFs that contain no others. */
 private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, textures: Textures):
@@ -35,10 +35,10 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
   def grey(in: Asked): Surface =
     made(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", Textures.Fallback, in.at))
 
-  private def made(in: Asked, name: String, isOneSided: Boolean, dialect: Option[Dialect] = None)(
+  private def made(in: Asked, name: String, isOneSided: Boolean)(
       params: Param*
   ): Surface =
-    Surface(session.declare("Material", name, in.at, params, dialect), isOneSided)
+    Surface(session.declare("Material", name, in.at, params), isOneSided)
 
   private def color(in: Asked, property: String, default: Float, name: String): Param =
     val shade = colors.shade(in, property, Rgb.gray(default), Role.Reflectance)
@@ -111,37 +111,39 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       ) ++ scales(in, "specular_reflectance" -> "specular") ++ rough)*
     )
 
-  /** Disney's BSDF; of its thin edition, v3's is another. */
+  /** Burley's BSDF, or that of a thin sheet. */
   private def principled(in: Asked, isThin: Boolean): Surface =
-    if isThin then
-      session.warn(in.at, s"${in.plugin.shown} is approximated by pbrt-v3's \"disney\"")
     val eta =
-      in.number("eta").getOrElse:
-        2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
-    val numbers = Vector(
-      "roughness" -> ("roughness", 0.5),
-      "anisotropic" -> ("anisotropic", 0.0),
-      "metallic" -> ("metallic", 0.0),
-      "spec_trans" -> ("spectrans", 0.0),
-      "spec_tint" -> ("speculartint", 0.0),
-      "sheen" -> ("sheen", 0.0),
-      "sheen_tint" -> ("sheentint", 0.0),
-      "flatness" -> ("flatness", 0.0),
-      "clearcoat" -> ("clearcoat", 0.0),
-      "clearcoat_gloss" -> ("clearcoatgloss", 0.0),
-      "diff_trans" -> ("difftrans", 0.0)
-    ).filter((property, _) => in.has(property) || property == "clearcoat_gloss")
-      .map { case (property, (name, default)) => textures.number(name, in, property, default) }
+      if isThin then textures.number("eta", in, "eta", 1.5)
+      else
+        val index = in.number("eta").getOrElse:
+          2 / (1 - Math.sqrt(0.08 * in.number("specular", 0.5))) - 1
+        Param.float("eta", in.at, index.toFloat)
+    val numbers = BasicSurfaces.Principled
+      .filter((property, _, default) => in.has(property) || default.isDefined)
+      .map((property, name, default) => textures.number(name, in, property, default.getOrElse(0.0)))
     in.ignore(
       "main_specular_sampling_rate", "clearcoat_sampling_rate",
       "diffuse_reflectance_sampling_rate", "specular_reflectance_sampling_rate",
-      "spec_trans_sampling_rate", "diff_trans_sampling_rate", "diffuse_sampling_rate"
+      "diffuse_transmittance_sampling_rate", "specular_transmittance_sampling_rate"
     )
-    val isOpaque = !isThin && !in.has("spec_trans")
-    val (name, dialect) = if isThin then ("disney", Some(Dialect.V3)) else ("principled", None)
-    made(in, name, isOpaque, dialect)(
-      (color(in, "base_color", 0.5f, "color") +:
-        Param.float("eta", in.at, eta.toFloat) +:
-        Param.bool("thin", in.at, isThin) +:
-        numbers)*
+    made(in, "principled", !isThin && !in.has("spec_trans"))(
+      (color(in, "base_color", 0.5f, "color") +: eta +:
+        Param.bool("thin", in.at, isThin) +: numbers)*
     )
+
+private object BasicSurfaces:
+  /** Mitsuba's name, pbrt's, and Mitsuba's default where pbrt's differs. */
+  private val Principled = Vector(
+    ("roughness", "roughness", None),
+    ("anisotropic", "anisotropic", None),
+    ("metallic", "metallic", None),
+    ("spec_trans", "spectrans", None),
+    ("spec_tint", "speculartint", None),
+    ("sheen", "sheen", None),
+    ("sheen_tint", "sheentint", Some(0.0)),
+    ("flatness", "flatness", None),
+    ("clearcoat", "clearcoat", None),
+    ("clearcoat_gloss", "clearcoatgloss", Some(0.0)),
+    ("diff_trans", "difftrans", Some(0.0))
+  )

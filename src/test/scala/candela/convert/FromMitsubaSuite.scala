@@ -58,6 +58,15 @@ class FromMitsubaSuite extends AnyFunSuite:
     val (glass, _) = converted(s"<bsdf type=\"dielectric\">$red</bsdf>")
     assert(glass.name == "glass" && glass.param("Kr").get.floats.toVector == Vector(1f, 0f, 0f))
 
+  test("a thin sheet keeps the light that it transmits"):
+    val more = "<rgb name=\"base_color\" value=\"0.8, 0.4, 0.2\"/>" +
+      "<float name=\"spec_trans\" value=\"0.25\"/><float name=\"diff_trans\" value=\"0.8\"/>"
+    val (sheet, warnings) = converted(s"<bsdf type=\"principledthin\">$more</bsdf>")
+    assert(sheet.name == "diffusetransmission" && warnings.head.contains("approximated"))
+    // 0.75 of 0.6 are reflected
+    assert(Math.abs(sheet.param("reflectance").get.floats(0) - 0.8f * 0.45f) < 1e-6f)
+    assert(Math.abs(sheet.param("transmittance").get.floats(1) - 0.4f * 0.55f) < 1e-6f)
+
   test("lights that differ in pbrt are reported with their place"):
     def lost(emitter: String) = FromMitsuba.converted(read("", emitter)).warnings
     def spot(beam: Int) =

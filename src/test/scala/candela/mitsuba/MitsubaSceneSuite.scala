@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.base.SceneError
-import candela.scenefile.{Parser, SceneDescription}
+import candela.scenefile.{MaterialRef, Parser, SceneDescription}
 
 import java.io.{ByteArrayOutputStream, PrintStream}
 import java.nio.charset.Charset
@@ -139,6 +139,17 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(sides("<bsdf type=\"diffuse\"/>"))
     assert(!sides("<bsdf type=\"dielectric\"/>"))
     assert(!sides("<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/></bsdf>"))
+
+  test("parameters of `principled` that are not given are Mitsuba's, not pbrt's"):
+    def material(kind: String) =
+      val bsdf = s"<bsdf type=\"$kind\"><float name=\"sheen\" value=\"1\"/></bsdf>"
+      read(s"$Sensor<shape type=\"sphere\">$bsdf</shape>").shapes.head.material match
+        case MaterialRef.Inline(d) => d
+        case other => fail(other.toString)
+    for kind <- Seq("principled", "principledthin") do
+      for name <- Seq("sheentint", "clearcoatgloss", "difftrans") do
+        assert(material(kind).param(name).get.floats.head == 0f, s"$kind $name")
+    assert(material("principledthin").param("thin").get.bools.head)
 
   test("a rotated texture and a mirrored one keep their coordinates, with v from the bottom"):
     def texture(more: String) =

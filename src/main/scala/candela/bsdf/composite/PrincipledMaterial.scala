@@ -21,9 +21,7 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
     // Matched indices would bend nothing
     val eta = if index == 1f then 1.001f else index
     val roughness = p.roughness(at)
-    val luminance = color.luminance
-    val hue = if luminance > 0f then color * (1f / luminance) else Rgb.White
-    def towardsHue(part: Float) = Rgb.White * (1f - part) + hue * part
+    val hue = Principled.hue(color)
     val clear = (1f - metallic) * p.transmission(at)
     val diffuse = (1f - metallic) * (1f - p.transmission(at))
 
@@ -31,7 +29,8 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
     val flat = p.flatness(at)
     val base = color * diffuse
     val cloth =
-      if diffuse > 0f then towardsHue(p.sheenTint(at)) * (p.sheen(at) * (1f - metallic))
+      if diffuse > 0f then
+        Principled.tinted(hue, p.sheenTint(at)) * (p.sheen(at) * (1f - metallic))
       else Rgb.Black
     lobes.add(
       OneSided(
@@ -40,9 +39,7 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
       base.max + 0.2f * cloth.max
     )
 
-    val aspect = safeSqrt(1f - 0.9f * p.anisotropic(at))
-    def alpha(stretch: Float) = Math.max(roughness * roughness * stretch, 1e-3f)
-    val facets = SeparableTrowbridgeReitz(alpha(1f / aspect), alpha(aspect))
+    val facets = Principled.facets(roughness, p.anisotropic(at))
     val tint = p.specularTint(at)
     val curve = PrincipledReflectance(color, hue, metallic, tint, eta, clear)
     lobes.add(MicrofacetReflection(facets, curve), Math.max(color.max * metallic, 0.04f))
@@ -57,6 +54,21 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
     val passed = color.map(c => sqrt(c)) * clear
     lobes.add(RoughDielectric(facets, eta, Rgb.Black, passed), passed.max)
     lobes.result
+
+/** What [[PrincipledMaterial]] and [[PrincipledThinMaterial]] share. */
+private[composite] object Principled:
+
+  /** The colour at a luminance of 1. */
+  def hue(color: Rgb): Rgb =
+    val luminance = color.luminance
+    if luminance > 0f then color * (1f / luminance) else Rgb.White
+
+  def tinted(hue: Rgb, part: Float): Rgb = Rgb.White * (1f - part) + hue * part
+
+  def facets(roughness: Float, anisotropic: Float): SeparableTrowbridgeReitz =
+    val aspect = safeSqrt(1f - 0.9f * anisotropic)
+    def alpha(stretch: Float) = Math.max(roughness * roughness * stretch, 1e-3f)
+    SeparableTrowbridgeReitz(alpha(1f / aspect), alpha(aspect))
 
 /** Fresnel reflectance of [[PrincipledMaterial]]: a blend of a dielectric and of Schlick's
   * approximations for a metal and for a tinted dielectric.

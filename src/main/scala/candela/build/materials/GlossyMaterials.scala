@@ -2,7 +2,8 @@ package candela.build.materials
 
 import candela.bsdf.Material
 import candela.bsdf.composite.{
-  DisneyMaterial, DisneyParameters, Edition, PlasticMaterial, PrincipledMaterial, UberMaterial
+  DisneyMaterial, DisneyParameters, Edition, PlasticMaterial, PrincipledMaterial,
+  PrincipledThinMaterial, UberMaterial
 }
 import candela.bsdf.microfacet.{Roughness, RoughnessModel, SubstrateMaterial}
 import candela.build.recipe.*
@@ -115,4 +116,6 @@ object DisneyRecipe
 
 object PrincipledRecipe
     extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyV4):
-  protected def make()(using Site): Material = PrincipledMaterial(parameters())
+  protected def make()(using Site): Material =
+    val p = parameters()
+    if p.isThin then PrincipledThinMaterial(p) else PrincipledMaterial(p)
