@@ -114,6 +114,9 @@ final class Bounce:
     ownIsSpecular = isSpecular
     ownEta = eta
 
+  /** Scales the weight. */
+  def scale(s: Float): Unit = ownWeight.scale(s)
+
   /** Sets the absorbed sample. */
   def absorb(): Unit = set(Vec3.Z, Rgb.Black, 0f, isSpecular = false)
 

@@ -1,6 +1,8 @@
 package candela.guiding
 
 import candela.base.{CheckedInput, CheckedOutput}
+import candela.math.Vec3
+import candela.sampling.SampleHash
 
 /** What the paths of one rendering learn, shared by all workers. Passes end after 1, 2, 4, 8, …
   * samples per pixel: the paths of a pass use the field of those before, and record for the next.
@@ -16,9 +18,9 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   private val isLongEnough =
     !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths
 
-  @volatile private var current = lesson(GuideField.Start, 0, UsualEvents)
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
+  @volatile private var current = lesson(GuideField.Start, 0, UsualEvents, lit = 1.0)
   private var tallies = Vector.empty[GuideTally]
 
   /** The field to use, and where to record, until the pass ends. */
@@ -71,7 +73,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   /** Events per path that found light, in a pass that ends. */
   private def perPath(was: Lesson, sample: Int, events: Int): Double =
     val rate = was.records.nn.rate
-    events / (pixels.toDouble * (sample - was.begun) * rate)
+    events / (pixels.toDouble * (sample - was.begun) * was.part * rate)
 
   private def growth(was: Lesson, sample: Int): GuideGrowth =
     val events = was.records.nn.sorted()
@@ -83,12 +85,12 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     val was = current
     val found = perPath(was, sample, growth.events.length / GuideRecords.Size)
     if was.field.guides then progress = progress.after(growth.verdict)
-    val following = lesson(growth.result(), sample, found)
+    val following = lesson(growth.result(), sample, found, growth.lit)
     val isLast = following.records == null
     val ends =
       settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
     if ends then progress = progress.copy(gaveUp = true)
-    current = if ends then Lesson(GuideField.Start, sample, null) else following
+    current = if ends then Lesson(GuideField.Start, sample, part = 0f, null) else following
     learning = null
 
   /** The sample before which the last pass ends. */
@@ -97,16 +99,19 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   /** Does a pass that ends then record? The first always ends before the samples do. */
   private def goesOn(end: Int): Boolean = end < samples && (end == 1 || 4 * end <= samples)
 
-  /** @param found events per sample that found light */
-  private def lesson(field: GuideField, begun: Int, found: Double): Lesson =
+  /** @param found events per sample that found light
+    * @param lit   part of all paths that has such events
+    */
+  private def lesson(field: GuideField, begun: Int, found: Double, lit: Double): Lesson =
     val end = next(begun)
-    val expected = pixels * (end - begun) * Math.max(found, 1e-3)
-    val rate = Math.min(1.0, settings.records / expected).toFloat
-    Lesson(
-      field,
-      begun,
-      if isLongEnough && goesOn(end) then GuideRecords(rate, field.regions) else null
-    )
+    val learns = isLongEnough && goesOn(end)
+    val paths = pixels.toDouble * (end - begun)
+    val part =
+      if !learns && !field.guides then 0f
+      else if !learns || !settings.adapts || progress.pays then 1f
+      else Math.min(1.0, TrialPaths / (paths * Math.max(lit, 1e-3))).toFloat
+    val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
+    Lesson(field, begun, part, if learns then GuideRecords(rate, field.regions) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -117,6 +122,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     progress.save(to)
     to.long(tallies.map(_.bounces).sum)
     to.long(tallies.map(_.guided).sum)
+    to.float(now.part)
     to.float(if records == null then 0f else records.rate)
     if records != null then records.save(to)
 
@@ -128,20 +134,31 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     val tally = newTally()
     tally.bounces = from.long()
     tally.guided = from.long()
+    val part = from.float()
     val rate = from.float()
     val records = if rate == 0f then null else GuideRecords(rate, field.regions)
     if records != null then records.load(from)
-    current = Lesson(field, begun, records)
+    current = Lesson(field, begun, part, records)
 
 object Guide:
   /** @param begun   the first sample that uses it
+    * @param part    of the paths that use it, and record
     * @param records null: nothing more is learnt
     */
   final class Lesson private[guiding] (
       val field: GuideField,
       val begun: Int,
+      private[guiding] val part: Float,
       private[guiding] val records: GuideRecords | Null
   ):
+    /** Does the path that begins in this direction use it? Chosen at random. */
+    def takes(direction: Vec3): Boolean =
+      part == 1f || part > 0f && {
+        def bits(x: Float) = java.lang.Float.floatToRawIntBits(x)
+        val places = SampleHash.mix(bits(direction.x) ^ SampleHash.mix(bits(direction.y)))
+        SampleHash.toUnit(places) < part
+      }
+
     /** Where a worker records; null: nothing more is learnt. */
     def newPart(): GuideRecords.Part | Null =
       val to = records
@@ -150,6 +167,9 @@ object Guide:
   /** Samples per pixel, and paths, of a rendering in which learning may pay. */
   private val FewestSamples = 16
   private val FewestPaths = 1 << 17
+
+  /** Paths of a pass that learn and find light, about, until guiding was seen to pay. */
+  private val TrialPaths = 1 << 15
 
   /** Events per sample that find light, before they were counted. */
   private val UsualEvents = 3.0

@@ -4,14 +4,14 @@ import candela.base.{CheckedInput, CheckedOutput, loop}
 import candela.math.*
 
 /** What earlier passes have learnt. Space is divided into regions, separately for each side that a
-  * surface may face (±x, ±y, ±z: its normal's largest component); each has a mixture of lobes. A
-  * lobe is a von Mises-Fisher distribution around the direction to a point, so that neighbouring
-  * places see it in different directions. Immutable; shared by all workers.
+  * surface may face (±x, ±y, ±z: its normal's largest component) and for events in media; each has
+  * a mixture of lobes. A lobe is a von Mises-Fisher distribution around the direction to a point:
+  * neighbouring places see it in different directions. Immutable; shared by all workers.
   *
   * Source: Ruppert, Herholz, Lensch, "Robust Fitting of Parallax-Aware Mixtures for Path Guiding",
   * SIGGRAPH 2020.
   *
-  * @param axis    of each node of space that is divided: 0, 1 or 2; the first six are the roots
+  * @param axis    of each node of space that is divided: 0, 1 or 2; the first seven are the roots
   * @param split   where it is divided
   * @param below   first of its two children, which follow each other; of a leaf −1 − its region
   * @param shares  of each region, the probability that directions are sampled from the BSDF
@@ -84,7 +84,7 @@ object GuideField:
   private[guiding] inline val End = 7
 
   /** Number of the side that a surface with this normal faces. */
-  private[guiding] def side(n: Vec3): Int =
+  def side(n: Vec3): Int =
     val x = Math.abs(n.x)
     val y = Math.abs(n.y)
     val z = Math.abs(n.z)
@@ -93,7 +93,10 @@ object GuideField:
     else if n.z > 0f then 4
     else 5
 
-  private[guiding] inline val Sides = 6
+  /** Number of the side of all scattering events in media. */
+  inline val Medium = 6
+
+  private[guiding] inline val Sides = 7
 
   /** One region for each side, unguided. */
   val Start: GuideField = GuideField(

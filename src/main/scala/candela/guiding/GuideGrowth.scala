@@ -17,7 +17,7 @@ private[guiding] final class GuideGrowth(
     old: GuideField,
     val events: Array[Float],
     settings: GuideSettings,
-    lit: Double,
+    val lit: Double,
     all: Array[Float]
 ):
   import GuideField.{Lobes, Sides}

@@ -12,12 +12,12 @@ final class GuideMixture:
 
   private val place = new Array[Float](3)
 
-  /** The region of a point on a surface with normal `n`. */
-  def region(field: GuideField, p: Vec3, n: Vec3): Int =
+  /** The region of a point of this side ([[GuideField.side]]). */
+  def region(field: GuideField, p: Vec3, side: Int): Int =
     place(0) = p.x
     place(1) = p.y
     place(2) = p.z
-    field.region(side(n), place, 0)
+    field.region(side, place, 0)
 
   /** Takes the mixture of the region, as seen from `p`. */
   def locate(field: GuideField, region: Int, p: Vec3): Unit =

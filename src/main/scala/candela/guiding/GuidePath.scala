@@ -11,7 +11,7 @@ final class GuidePath:
 
   def clear(): Unit = size = 0
 
-  /** @param n          normal on the side where the path came from
+  /** @param side       of the surface ([[GuideField.side]])
     * @param wi         direction taken
     * @param before     light that the path found so far
     * @param throughput before the event
@@ -22,7 +22,7 @@ final class GuidePath:
     */
   def add(
       p: Vec3,
-      n: Vec3,
+      side: Int,
       wi: Vec3,
       before: Float,
       throughput: Float,
@@ -37,7 +37,7 @@ final class GuidePath:
       to(0) = p.x
       to(1) = p.y
       to(2) = p.z
-      to(Side) = GuideField.side(n).toFloat
+      to(Side) = side.toFloat
       to(Wi) = wi.x
       to(Wi + 1) = wi.y
       to(Wi + 2) = wi.z

@@ -15,6 +15,9 @@ private[guiding] final case class GuideProgress(
 ):
   import GuideProgress.*
 
+  /** Did the last pass pay? */
+  def pays: Boolean = left.exists(_ < WorthIt)
+
   /** After another pass. One of few paths says nothing. */
   def after(verdict: GuideVerdict): GuideProgress =
     if verdict.paths < Enough then this

@@ -1,6 +1,7 @@
 package candela.integrators
 
 import candela.color.Rgb
+import candela.film.LightParts
 import candela.geometry.Ray
 import candela.guiding.Guide
 import candela.sampling.Sampler
@@ -27,7 +28,7 @@ final case class PathLimits(
   *
   * @param volumes pbrt-v2's: the camera ray gathers what they emit and scatter, and they attenuate
   *                all other light
-  * @param guide   learns from where light comes, if paths are to be guided
+  * @param parts   as in [[Walk]]
   *
   * Sources: Kajiya, "The Rendering Equation", SIGGRAPH 1986; Veach 1997, §9 and §10; PBRT 4th ed.,
   * §13.4.
@@ -37,20 +38,54 @@ final class PathTracer(
     limits: PathLimits,
     options: WalkOptions = WalkOptions(),
     volumes: VolumeMarch | Null = null,
-    guide: Guide | Null = null
+    parts: LightParts | Null = null
 ) extends CameraPathIntegrator(scene):
-  import limits.*
-
-  protected val walk: Walk =
-    if guide == null then Walk(scene, volumes, options = options)
-    else GuidedWalk(scene, volumes, options, guide)
+  protected val walk: Walk = Walk(scene, volumes, options = options, sharedParts = parts)
   private val hasVolumes = volumes != null
 
   protected def over(scene: Scene): PathTracer =
-    PathTracer(scene, limits, options, VolumeMarch.copy(volumes), guide)
+    PathTracer(scene, limits, options, VolumeMarch.copy(volumes))
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)
+    PathLoop.follow(walk, scene, limits, sampler, hasVolumes, light(sampler, _))
+    walk.radiance.toRgb
+
+  private def light(sampler: Sampler, isBoundary: Boolean): Unit =
+    PathLoop.light(walk, sampler, isBoundary)
+
+/** A path tracer whose paths are guided. */
+final class GuidedPathTracer(
+    scene: Scene,
+    limits: PathLimits,
+    options: WalkOptions,
+    guide: Guide,
+    parts: LightParts | Null
+) extends CameraPathIntegrator(scene):
+  protected val walk: GuidedWalk = GuidedWalk(scene, options, guide, parts)
+
+  protected def over(scene: Scene): GuidedPathTracer =
+    GuidedPathTracer(scene, limits, options, guide, parts)
+
+  def radiance(ray: Ray, sampler: Sampler): Rgb =
+    walk.begin(ray, sampler)
+    PathLoop.follow(walk, scene, limits, sampler, hasVolumes = false, light(sampler, _))
+    walk.finish()
+    walk.radiance.toRgb
+
+  private def light(sampler: Sampler, isBoundary: Boolean): Unit =
+    PathLoop.light(walk, sampler, isBoundary)
+
+/** The loop of path tracers. It is inlined: the JIT compiler then knows the walk of each. */
+private object PathLoop:
+  inline def follow[W <: Walk](
+      walk: W,
+      scene: Scene,
+      limits: PathLimits,
+      sampler: Sampler,
+      inline hasVolumes: Boolean,
+      inline light: Boolean => Unit
+  ): Unit =
     while walk.goesOn do
       val isHit = walk.intersect()
       if hasVolumes then
@@ -59,30 +94,27 @@ final class PathTracer(
       else
         walk.addEmission()
         if walk.isPassed then walk.passThrough()
-        else if walk.depth == maxDepth then walk.end()
+        else if walk.depth == limits.maxDepth then walk.end()
         else
           walk.evaluate()
-          addOneLight(
-            sampler,
-            isBoundary = seesThrough && scene.isSubsurface(walk.vertex.at.material)
-          )
+          light(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material))
           walk.scatter(sampler)
           val inside = walk.beneath
           if inside != null && walk.emerge(inside, sampler) then
-            addOneLight(sampler, isBoundary = false)
+            light(false)
             walk.scatter(sampler)
           walk.leave()
-          if walk.goesOn && walk.depth > rouletteAfter then
-            walk.roulette(rouletteThreshold, sampler)
-    walk.finish()
-    walk.radiance.toRgb
+          if walk.goesOn && walk.depth > limits.rouletteAfter then
+            walk.roulette(limits.rouletteThreshold, sampler)
 
-  /** @param isBoundary does light sampling alone find light straight through the surface? */
-  private def addOneLight(sampler: Sampler, isBoundary: Boolean): Unit =
+  /** Adds light of one light.
+    *
+    * @param isBoundary does light sampling alone find light straight through the surface?
+    */
+  inline def light[W <: Walk](walk: W, sampler: Sampler, isBoundary: Boolean): Unit =
     if walk.sampleOneLight(sampler) then
-      val light = walk.light
       walk.addLight(weight =
         wi =>
           if isBoundary && walk.vertex.crosses(wi) then 1f
-          else LightTransport.powerHeuristic(light.pdf, walk.scatterPdf(wi))
+          else LightTransport.powerHeuristic(walk.light.pdf, walk.scatterPdf(wi))
       )

@@ -30,12 +30,14 @@ final case class WalkOptions(
   *
   * @param volumes pbrt-v2's volumes between surfaces, if any
   * @param steps   their step size towards lights, in units of that towards the camera
+  * @param sharedParts where to divide the light, if another walk does it there, too
   */
 class Walk(
     scene: Scene,
     volumes: VolumeMarch | Null = null,
     steps: Float = VolumeMarch.StepsToLights,
-    options: WalkOptions = WalkOptions()
+    options: WalkOptions = WalkOptions(),
+    sharedParts: LightParts | Null = null
 ) extends CameraPath:
   /** Light found so far. */
   final val radiance: MutableRgb = MutableRgb()
@@ -77,7 +79,8 @@ class Walk(
   private val disperses = scene.isDispersive
 
   /** The light found so far, divided, if the scene asks for it. */
-  val parts: LightParts | Null = scene.lightGroups.map(LightParts(_)).orNull
+  val parts: LightParts | Null =
+    if sharedParts != null then sharedParts else scene.lightGroups.map(LightParts(_)).orNull
 
   /** Does the path carry its hero wavelength only? */
   private var isAlone = false
@@ -107,9 +110,6 @@ class Walk(
     if march != null then march.start(ray, sampler)
 
   def end(): Unit = goesOn = false
-
-  /** Called when all light of the path is found. */
-  def finish(): Unit = ()
 
   /** Traces the ray to the next vertex; false if it leaves the scene. */
   def intersect(): Boolean =

@@ -56,7 +56,7 @@ class GuideFieldSuite extends AnyFunSuite:
 
   test("what is recorded is the same in any order, by any number of workers"):
     def sorted(order: Seq[Int], workers: Int) =
-      val records = GuideRecords(rate = 0.5f, regions = 6)
+      val records = GuideRecords(rate = 0.5f, regions = GuideField.Start.regions)
       val parts = Vector.fill(workers)(records.newPart())
       for (i, j) <- order.zipWithIndex do parts(j % workers).add(event(i))
       records.sorted().toVector
@@ -78,7 +78,7 @@ class GuideFieldSuite extends AnyFunSuite:
     val counts = records.counts
     assert(counts(GuideField.side(Up)) == 40000 && counts.sum == 40000)
     val field = grown(GuideField.Start, records.sorted(), settings, everything = 40000f).result()
-    val region = GuideMixture().region(field, Vec3.Zero, Up)
+    val region = GuideMixture().region(field, Vec3.Zero, GuideField.side(Up))
     assert(Math.abs(field.scattered(region) - 1.05f / 4) < 0.002f)
     assert(Math.abs(field.whole(region) - (1.05f / 4 + 3f)) < 0.01f)
 
@@ -143,4 +143,4 @@ private object GuideFieldSuite:
     learning.help()
     learning.growth
 
-  def region(p: Vec3, n: Vec3): Int = GuideMixture().region(learnt, p, n)
+  def region(p: Vec3, n: Vec3): Int = GuideMixture().region(learnt, p, GuideField.side(n))

@@ -76,7 +76,8 @@ private object GuidePathSuite:
   ): Unit =
     val up = Vec3(0f, 0f, 1f)
     path.add(
-      Vec3.Zero, up, up, before.toFloat, throughput.toFloat, p.toFloat, q.toFloat, 0f, ratio.toFloat
+      Vec3.Zero, GuideField.side(up), up, before.toFloat, throughput.toFloat, p.toFloat, q.toFloat,
+      0f, ratio.toFloat
     )
 
   def unguidedMoment(shareOfBright: Double): Double =

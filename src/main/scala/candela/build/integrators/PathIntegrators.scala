@@ -1,9 +1,11 @@
 package candela.build.integrators
 
 import candela.build.recipe.*
+import candela.film.LightParts
 import candela.guiding.{Guide, GuideSettings, GuidingMode}
 import candela.integrators.*
 import candela.render.RenderMethod
+import candela.scene.Scene
 import candela.scenefile.Dialect
 
 final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -31,7 +33,13 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       (scene, _) =>
         val beneath = goesBeneath && scene.hasSubsurface
         val options = WalkOptions(regularizes, beneath, hidesLamps = hidesLamps)
-        GuidedMethod(g => PathTracer(scene, limits, options, guide = g))
+        def plain(over: Scene, parts: LightParts | Null) =
+          PathTracer(over, limits, options, parts = parts)
+        GuidedMethod(
+          plain(scene, null),
+          guide =>
+            PartlyGuided(scene, guide, GuidedPathTracer(_, limits, options, guide, _), plain)
+        )
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
@@ -59,12 +67,12 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
 
 /** Methods of integrators that can be guided. */
 private object GuidedMethod:
-  def apply(integrator: Guide | Null => Integrator)(using site: Site): RenderMethod =
+  def apply(unguided: Integrator, guided: Guide => Integrator)(using site: Site): RenderMethod =
     val mode = site.resources.switches.guiding
-    if mode == GuidingMode.Off then RenderMethod.Tiles(integrator(null))
+    if mode == GuidingMode.Off then RenderMethod.Tiles(unguided)
     else
       val settings = GuideSettings(adapts = mode == GuidingMode.Auto)
-      RenderMethod.Guided(integrator(null), Guide(settings, _, _), integrator)
+      RenderMethod.Guided(unguided, Guide(settings, _, _), guided)
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
   private val samplesLights =

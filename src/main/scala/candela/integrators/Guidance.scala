@@ -1,0 +1,203 @@
+package candela.integrators
+
+import candela.guiding.*
+import candela.math.*
+import candela.sampling.Sampler
+
+/** Samples directions at the vertices of a path from BSDFs and from what earlier paths have learnt,
+  * and records what the path finds. Specular directions, those through a surface, and those that
+  * the BSDF would not sample, are left to it. Mutable, one per worker.
+  *
+  * Each direction is weighted by the density of both ways of sampling it. That of BSDF sampling may
+  * be approximate, if it is the same for both: it only weighs them.
+  *
+  * Throughputs and light are averages of the colours.
+  *
+  * @param vertex where the path is
+  */
+private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
+  import Guidance.*
+  private val path = GuidePath()
+  private var lesson = guide.lesson
+  private var part: GuideRecords.Part | Null = lesson.newPart()
+  private val mixture = GuideMixture()
+  private val tally = guide.newTally()
+
+  /** Density of the path over that of BSDF sampling: its throughput times this is the one that BSDF
+    * sampling of the same path would have.
+    */
+  private var ratio = 1f
+
+  // Of the vertex: is it guided or recorded?
+  private var isKept = false
+  private var isFitted = false
+  private var share = 1f
+  private val wi, localWi = MutableVec3()
+  private var side, region = -1
+
+  /** Light that paths like this one find on average, as the region of its first event knows it; 0:
+    * not known.
+    */
+  private var whole = 0f
+
+  /** Has the field decided at this vertex whether the path ends? */
+  private var isExpected = false
+
+  /** Starts a path. */
+  def begin(): Unit =
+    if lesson ne guide.lesson then
+      lesson = guide.lesson
+      part = lesson.newPart()
+    path.clear()
+    ratio = 1f
+    whole = 0f
+
+  /** The vertex has its BSDF. */
+  def arrive(): Unit =
+    val field = lesson.field
+    leaveAlone()
+    isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
+    if isKept then
+      side =
+        if vertex.isInMedium then GuideField.Medium
+        else
+          GuideField.side(if vertex.localWo.z < 0f then -vertex.at.frame.n else vertex.at.frame.n)
+      region = mixture.region(field, vertex.at.p, side)
+      share = if ratio < LeastRatio then 1f else field.shares(region)
+      isFitted = field.isFitted(region)
+      isKept = part != null || share < 1f
+      if isKept && isFitted then mixture.locate(field, region, vertex.at.p)
+
+  /** The vertex is neither guided nor recorded. */
+  def leaveAlone(): Unit =
+    isKept = false
+    isFitted = false
+    region = -1
+    share = 1f
+
+  /** Density of the directions that are taken. */
+  def pdf(local: Vec3, world: Vec3, byBsdf: Float): Float =
+    if share == 1f || byBsdf == 0f then byBsdf
+    else share * byBsdf + (1f - share) * fieldPdf(local, world)
+
+  /** Density of the field's directions. */
+  private def fieldPdf(local: Vec3, world: Vec3): Float =
+    if crosses(local) then 0f else mixture.pdf(world)
+
+  private def crosses(local: Vec3) = !vertex.isInMedium && vertex.crosses(local)
+
+  /** The path is over, and found `light` in all. */
+  def finish(light: Float): Unit =
+    val to = part
+    if to != null then path.record(light, to)
+
+  /** Samples a direction: the vertex' bounce.
+    *
+    * @param throughput before it
+    * @param found      light so far
+    */
+  def scatter(throughput: Float, found: Float, sampler: Sampler): Unit =
+    if throughput == 0f then vertex.bounce.absorb()
+    else if !isKept then
+      if !vertex.bsdf.isSpecular then tally.bounces += 1
+      vertex.draw(sampler)
+    else
+      tally.bounces += 1
+      val choice = sampler.next1D()
+      sampler.next2D()
+      if share < 1f then tally.guided += 1
+      val byBsdf =
+        if choice < share then drawBsdf(Math.min(choice / share, LargestBelowOne), sampler)
+        else drawField(sampler)
+      if byBsdf > 0f then take(byBsdf, throughput, found)
+
+  /** @return the BSDF's density of the direction; 0: the bounce is as it shall be */
+  private def drawBsdf(choice: Float, sampler: Sampler): Float =
+    val bounce = vertex.bounce
+    vertex.bsdf.draw(vertex.localWo, choice, sampler.x, sampler.y, bounce)
+    // The density of the draw may be that of its random walk only
+    val byBsdf =
+      if bounce.isSpecular || bounce.pdf == 0f then 0f else vertex.localPdf(bounce.wi)
+    if byBsdf > 0f then
+      vertex.at.frame.toWorld(bounce.wi, wi)
+      bounce.scale(byBsdf)
+    else if share < 1f then
+      ratio *= share
+      bounce.scale(1f / share)
+    byBsdf
+
+  /** Likewise. */
+  private def drawField(sampler: Sampler): Float =
+    mixture.sample(sampler.x, sampler.y, wi)
+    vertex.at.frame.toLocal(wi, localWi)
+    val byBsdf = if crosses(localWi) then 0f else vertex.localPdf(localWi)
+    if byBsdf == 0f then vertex.bounce.absorb()
+    else
+      val cosine = if vertex.isInMedium then 1f else Math.abs(localWi.z)
+      val value = vertex.bsdf.f(vertex.localWo, localWi) * cosine
+      vertex.bounce.set(localWi, value, byBsdf, isSpecular = false)
+    byBsdf
+
+  /** Goes on in the direction `wi`, which is also that of the bounce, whose weight is f·|cos|, or
+    * an estimate of it.
+    */
+  private def take(byBsdf: Float, throughput: Float, found: Float): Unit =
+    val bounce = vertex.bounce
+    val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
+    val pdf = share * byBsdf + (1f - share) * byField
+    bounce.set(bounce.wi, bounce.weight * (1f / pdf), pdf, isSpecular = false, bounce.eta)
+    ratio *= pdf / byBsdf
+    val to = part
+    if to != null && !crosses(bounce.wi) then
+      to.saw(region)
+      path.add(vertex.at.p, side, wi, found, throughput, pdf, byBsdf, byField, ratio)
+
+  /** Russian roulette by what the field expects the path to find: relative to what camera paths
+    * find where this one began, so that all paths that go on contribute about as much.
+    *
+    * Light through the surface is not in the field: there, and where it knows nothing,
+    * [[roulette]] decides.
+    *
+    * Source: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
+    * Simulation", SIGGRAPH 2016; the image's estimate is that of the first region.
+    *
+    * @return factor of the throughput
+    */
+  def survival(throughput: Float, sampler: Sampler): Float =
+    isExpected = false
+    if region < 0 then 1f
+    else
+      val field = lesson.field
+      val expected = field.scattered(region)
+      if whole == 0f then
+        whole = field.whole(region) * throughput
+        1f
+      else if expected == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
+      else
+        isExpected = true
+        val u = sampler.next1D()
+        val q = Math.max(LeastSurvival, Expectation * throughput * expected / whole)
+        if q >= 1f then 1f else if u < q then 1f / q else 0f
+
+  /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
+    * paths are many because much light comes from there: it must not end them.
+    *
+    * @param largest of the throughput's colours, without the radiance scaling of refraction
+    * @return factor of the throughput
+    */
+  def roulette(largest: Float, threshold: Float, sampler: Sampler): Float =
+    if isExpected then 1f else LightTransport.roulette(largest * ratio, threshold, sampler)
+
+private object Guidance:
+  /** A path goes on if what it is expected to add is at least the average light of such paths over
+    * this; else with a probability in proportion, but with the least one.
+    */
+  inline val Expectation = 3f
+  inline val LeastSurvival = 0.1f
+
+  inline val LargestBelowOne = 0.99999994f
+
+  /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much
+    * their light counts.
+    */
+  inline val LeastRatio = 0.1f

@@ -1,0 +1,66 @@
+package candela.integrators
+
+import candela.bsdf.{Bssrdf, PhaseLobe}
+import candela.film.LightParts
+import candela.geometry.Ray
+import candela.guiding.Guide
+import candela.math.*
+import candela.media.SceneMedia
+import candela.sampling.{HenyeyGreenstein, Sampler}
+import candela.scene.Scene
+
+/** A [[VolumeWalk]] with [[Guidance]], on surfaces and in media. */
+final class GuidedVolumeWalk(
+    scene: Scene,
+    media: SceneMedia,
+    options: WalkOptions,
+    guide: Guide,
+    parts: LightParts | Null
+) extends VolumeWalk(scene, media, options, parts):
+  private val guidance = Guidance(guide, vertex)
+  private val lobes = media.media.map(medium => PhaseLobe(medium.phase))
+
+  override def begin(cameraRay: Ray, sampler: Sampler): Unit =
+    super.begin(cameraRay, sampler)
+    guidance.begin()
+
+  override protected def arrive(p: Vec3, wo: Vec3): Unit =
+    vertex.scatterAt(p, wo, lobes(medium))
+    guidance.arrive()
+
+  override protected def phasePdf(value: Float): Float =
+    guidance.pdf(Vec3.Z, light.wi, value)
+
+  override protected def turn(phase: HenyeyGreenstein, wo: Vec3, sampler: Sampler): Vec3 =
+    scatterGuided(sampler)
+    weights.turn(if options.samplesLights then vertex.bounce.pdf else 0f)
+    vertex.at.frame.toWorld(vertex.bounce.wi)
+
+  override def evaluate(): Unit =
+    super.evaluate()
+    guidance.arrive()
+
+  override def crossPane(sampler: Sampler): Unit =
+    guidance.leaveAlone()
+    super.crossPane(sampler)
+
+  override def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
+    guidance.leaveAlone()
+    super.emerge(inside, sampler)
+
+  override def scatterPdf(local: Vec3): Float =
+    guidance.pdf(local, light.wi, vertex.localPdf(local))
+
+  override def scatter(sampler: Sampler): Unit = scatterGuided(sampler)
+
+  private def scatterGuided(sampler: Sampler): Unit =
+    weights.scale(guidance.survival(weights.throughput.average, sampler))
+    guidance.scatter(weights.throughput.average, total.average, sampler)
+    weights.scale(vertex.bounce.weight)
+
+  override def roulette(threshold: Float, sampler: Sampler): Unit =
+    weights.scale(guidance.roulette(weights.brightest * etaScale, threshold, sampler))
+    goesOn = !isAbsorbed
+
+  /** All light of the path is found. */
+  def finish(): Unit = guidance.finish(total.average)
