@@ -1,13 +1,13 @@
 package candela.bidirectional
 
-import candela.bsdf.{Bsdf, BsdfSample}
+import candela.bsdf.PhaseLobe
 import candela.color.Rgb
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.integrators.MediumVisibility
 import candela.lights.LightSample
 import candela.math.*
 import candela.media.{MediumWork, SceneMedia}
-import candela.sampling.{HenyeyGreenstein, Sampler}
+import candela.sampling.Sampler
 import candela.scene.Scene
 
 /** A subpath's way through participating media: the medium around it, the weights of its sampling
@@ -142,13 +142,3 @@ private[candela] object PathMedia:
       found = media.beyond(border, direction, found)
       ahead.set(border.offsetOrigin(direction), direction, Float.PositiveInfinity)
     found
-
-/** A phase function as the BSDF of a vertex without a surface, whose cosines are 1. */
-private[bidirectional] final class PhaseLobe(phase: HenyeyGreenstein) extends Bsdf:
-  def f(wo: Vec3, wi: Vec3): Rgb = Rgb.gray(phase.value(wo, wi))
-  def pdf(wo: Vec3, wi: Vec3): Float = phase.value(wo, wi)
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val wi = phase.sample(wo, u1, u2)
-    BsdfSample(wi, Rgb.White, phase.value(wo, wi), isSpecular = false)
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = true

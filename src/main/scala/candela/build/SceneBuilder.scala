@@ -214,7 +214,7 @@ object SceneBuilder:
       "guiding" -> (method match
         case RenderMethod.Guided(_, guide, _) =>
           guide(sampling.sampler.samplesPerPixel, pixels).describe
-        case _ => "none: only path tracing without media and pbrt-v2's volumes is guided")
+        case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(
       context: BuildContext,

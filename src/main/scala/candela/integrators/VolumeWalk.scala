@@ -5,8 +5,8 @@ import candela.color.{MutableRgb, Rgb}
 import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
 import candela.math.*
-import candela.media.{MediumWork, SceneMedia}
-import candela.sampling.Sampler
+import candela.media.{MediumWork, PathWeights, SceneMedia}
+import candela.sampling.{HenyeyGreenstein, Sampler}
 import candela.scene.Scene
 
 /** A path from the camera through participating media: its state, and the steps of which
@@ -14,15 +14,19 @@ import candela.scene.Scene
   * kept for each colour, since media scatter colours with different densities
   * ([[candela.media.PathWeights]]). Mutable, one per worker.
   */
-final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
-    extends CameraPath:
+class VolumeWalk(
+    scene: Scene,
+    media: SceneMedia,
+    options: WalkOptions,
+    sharedParts: LightParts | Null = null
+) extends CameraPath:
   /** Light found so far, but for what media emit. */
-  val radiance: MutableRgb = MutableRgb()
+  final val radiance: MutableRgb = MutableRgb()
 
   private val work = MediumWork()
 
   /** Throughput, density of the path, and density with which light sampling would have made it. */
-  private val weights = work.weights
+  protected final val weights: PathWeights = work.weights
 
   /** Scattering events so far, in media and on surfaces. */
   var depth: Int = 0
@@ -41,10 +45,10 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   var goesOn: Boolean = false
 
   /** Where the path is, if on a surface. */
-  val vertex: SurfaceVertex = SurfaceVertex(scene)
+  final val vertex: SurfaceVertex = SurfaceVertex(scene)
 
   /** Next-event estimation. */
-  val light: LightConnection = LightConnection(scene)
+  final val light: LightConnection = LightConnection(scene)
 
   // Where the current direction was sampled
   private val lastP, lastN = MutableVec3()
@@ -60,7 +64,8 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
   private val disperses = scene.isDispersive
 
   /** As [[Walk.parts]]. */
-  val parts: LightParts | Null = scene.lightGroups.map(LightParts(_)).orNull
+  val parts: LightParts | Null =
+    if sharedParts != null then sharedParts else scene.lightGroups.map(LightParts(_)).orNull
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
 
@@ -176,22 +181,36 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
     val p = ray.at(t)
     val wo = -ray.direction
     val phase = media.media(medium).phase
+    arrive(p, wo)
     if samplesLights then
       val choice = sampler.next1D()
       sampler.next2D()
       if light.choose(p, Vec3.Zero, choice) && light.samplePoint(p, sampler.x, sampler.y) then
         val value = phase.value(wo, light.wi)
         if visibility.reaches(p, light.sample, medium) then
-          add(arriving(scatterPdf = value) * value)
-    sampler.next2D()
-    val wi = phase.sample(wo, sampler.x, sampler.y)
-    weights.turn(if options.samplesLights then phase.value(wo, wi) else 0f)
+          add(arriving(phasePdf(value)) * value)
+    val wi = turn(phase, wo, sampler)
     lastP.set(p)
     lastN.set(Vec3.Zero)
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     isSpread = options.regularizes
     goesOn = !isAbsorbed
+
+  /** The path is scattered at `p` in the medium. */
+  protected def arrive(p: Vec3, wo: Vec3): Unit = ()
+
+  /** Solid-angle density with which [[turn]] takes the direction of the light sample, given the
+    * phase function's.
+    */
+  protected def phasePdf(value: Float): Float = value
+
+  /** Samples the phase function. */
+  protected def turn(phase: HenyeyGreenstein, wo: Vec3, sampler: Sampler): Vec3 =
+    sampler.next2D()
+    val wi = phase.sample(wo, sampler.x, sampler.y)
+    weights.turn(if options.samplesLights then phase.value(wo, wi) else 0f)
+    wi
 
   /** Evaluates the BSDF of the vertex: a scattering event. */
   def evaluate(): Unit =
@@ -242,6 +261,9 @@ final class VolumeWalk(scene: Scene, media: SceneMedia, options: WalkOptions)
     else
       val weight = LightTransport.powerHeuristic(byLight, byScattering) / byLight
       w.throughput * s.throughput * light.sample.radiance.toRgb * weight
+
+  /** As [[Walk.scatterPdf]]. */
+  def scatterPdf(localWi: Vec3): Float = vertex.localPdf(localWi)
 
   /** Samples the BSDF: `vertex.bounce`. */
   def scatter(sampler: Sampler): Unit =

@@ -29,11 +29,15 @@ final class GuidedWalkSuite extends AnyFunSuite:
   private def image(plan: RenderPlan, threads: Int = 1): Image =
     Renderer.render(plan, threads).image(plan.development)
 
-  for dialect <- Vector(Dialect.V3, Dialect.V4) do
-    test(s"guided images have the mean of unguided ones in every 8 × 8 block, in $dialect"):
+  for
+    dialect <- Vector(Dialect.V3, Dialect.V4)
+    fog <- Vector("", Fog)
+  do
+    val where = s"in $dialect" + (if fog.isEmpty then "" else ", in fog")
+    test(s"guided images have the mean of unguided ones in every 8 × 8 block, $where"):
       def blocks(mode: GuidingMode): Vector[Vector[Double]] =
         Vector.tabulate(Seeds)(seed =>
-          blockMeans(image(plan(rooms(dialect), dialect, mode, 16, seed)))
+          blockMeans(image(plan(rooms(dialect, fog), dialect, mode, 16, seed)))
         )
       val (guided, unguided) = (blocks(GuidingMode.On), blocks(GuidingMode.Off))
       val scores = guided.transpose.zip(unguided.transpose).map(score)
@@ -49,11 +53,21 @@ final class GuidedWalkSuite extends AnyFunSuite:
     // 1 / (1 − 0.7), without what is left after 30 bounces
     assert(Math.abs(seen - 1.0 / 0.3) < 0.02 / 0.3)
 
+  test("fog inside a glowing sphere can't be seen by guided paths"):
+    val medium = Fog.replace("sigma_a\" [.05 .05 .1]", "sigma_a\" [0 0 0]")
+    val oven = Oven.replace(".7 .7 .7", "0 0 0")
+    assert(medium != Fog && oven != Oven)
+    val made = plan(inFog(oven, medium).replace("30", "300"), Dialect.V4, GuidingMode.On, 256)
+    val data = image(made).data
+    val seen = data.map(_.toDouble).sum / data.length
+    assert(Math.abs(seen - 1.0) < 0.01)
+
   test("guided images are the same for any number of threads"):
-    for mode <- Vector(GuidingMode.On, GuidingMode.Auto) do
+    for mode <- Vector(GuidingMode.On, GuidingMode.Auto); fog <- Vector("", Fog) do
       def pixels(threads: Int) =
         // As many paths as may learn
-        val rendering = Renderer.render(plan(rooms(Dialect.V4), Dialect.V4, mode, 128), threads)
+        val made = plan(rooms(Dialect.V4, fog), Dialect.V4, mode, 128)
+        val rendering = Renderer.render(made, threads)
         val data = rendering.film.toImage(1f).data.toVector
         (data, rendering.learned)
       val one = pixels(1)
@@ -127,7 +141,7 @@ private object GuidedWalkSuite:
   /** A box divided by a wall with a gap; the lamp is behind it. Spheres are matte,
     * rough metal, coated and of glass.
     */
-  def rooms(dialect: Dialect): String =
+  def rooms(dialect: Dialect, fog: String = ""): String =
     val isV4 = dialect == Dialect.V4
     def material(v4: String, v3: String) = s"Material ${if isV4 then v4 else v3}"
     val white = material(
@@ -137,7 +151,7 @@ private object GuidedWalkSuite:
     val point = if isV4 then "point3" else "point"
     def quad(points: String) =
       s"""Shape "trianglemesh" "integer indices" [0 1 2 0 2 3] "$point P" [$points]"""
-    s"""LookAt 0 -.9 .5  .1 0 .4  0 0 1
+    val text = s"""LookAt 0 -.9 .5  .1 0 .4  0 0 1
        |Camera "perspective" "float fov" 70
        |Film "${if isV4 then "rgb" else "image"}" "integer xresolution" 32 "integer yresolution" 32
        |PixelFilter "box"
@@ -180,6 +194,17 @@ private object GuidedWalkSuite:
        |AttributeEnd
        |${if isV4 then "" else "WorldEnd"}
        |""".stripMargin
+    if fog.isEmpty then text else inFog(text, fog)
+
+  /** Grey but for what it absorbs. */
+  val Fog: String =
+    """"string type" "homogeneous" "rgb sigma_s" [.6 .6 .6] "rgb sigma_a" [.05 .05 .1]
+      | "float g" .5""".stripMargin.replace("\n", "")
+
+  /** The scene with a medium around the camera. */
+  def inFog(text: String, fog: String): String =
+    val medium = s"""MakeNamedMedium "fog" $fog\nMediumInterface "" "fog"\nCamera"""
+    text.replace("Camera", medium).replace("\"path\"", "\"volpath\"")
 
   /** From inside, a sphere that emits radiance 1 inwards. */
   val Oven: String =

@@ -47,19 +47,19 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
       crossesPanes = crossesPanes,
-      throughMedia = Option.when(name == "volpath")((scene, media) =>
-        RenderMethod.Tiles(VolumePathTracer(
-          scene,
-          media,
-          limits,
-          WalkOptions(
-            regularizes,
-            scene.hasSubsurface,
-            crossesPanes = crossesPanes,
-            hidesLamps = hidesLamps
-          )
-        ))
-      ),
+      throughMedia = Option.when(name == "volpath"): (scene, media) =>
+        val options = WalkOptions(
+          regularizes,
+          scene.hasSubsurface,
+          crossesPanes = crossesPanes,
+          hidesLamps = hidesLamps
+        )
+        def plain(over: Scene, parts: LightParts | Null) =
+          VolumePathTracer(over, media, limits, options, parts)
+        def guided(guide: Guide)(over: Scene, parts: LightParts | Null) =
+          GuidedVolumePathTracer(over, media, limits, options, guide, parts)
+        GuidedMethod(plain(scene, null), guide => PartlyGuided(scene, guide, guided(guide), plain))
+      ,
       throughVolumes = Some((scene, _, march) =>
         PathTracer(scene, limits, volumes = march)
       )
