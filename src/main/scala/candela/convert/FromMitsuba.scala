@@ -18,14 +18,14 @@ import candela.scenefile.{
 object FromMitsuba:
 
   def converted(scene: SceneDescription): Converted =
-    val run = Run()
+    val run = Run(scene.namedMaterials.toMap)
     run.disks(scene)
     run.panes(scene)
     val plain = Declarations.map(scene)(run.plain)
     val textures = plain.textures ++ run.addedTextures
     Converted(plain.copy(textures = textures, isMitsubas = false), run.warnings)
 
-  private final class Run:
+  private final class Run(named: Map[String, Declaration]):
     private val problems = mutable.LinkedHashSet.empty[Problem]
     private val added = mutable.LinkedHashMap.empty[String, TextureDescription]
     def warnings: Vector[Problem] = problems.toVector
@@ -55,6 +55,7 @@ object FromMitsuba:
       d.name match
         case "roughplastic" => plastic(isotropic(d))
         case "conductor" => conductor(isotropic(d))
+        case "twosided" => front(d)
         case "dielectric" => dielectric(isotropic(d))
         case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
         case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
@@ -229,6 +230,15 @@ object FromMitsuba:
               p
       val layer = Seq(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))
       d.copy(name = "coateddiffuse", params = params ++ layer)
+
+    /** pbrt's surfaces look the same from behind. */
+    private def front(d: Declaration): Declaration =
+      val names = d.param("materials").get.strings
+      if names.distinct.length > 1 then
+        warn(d, "pbrt has no other material on the back; using that of the front for both")
+      val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
+      val front = named(names.head)
+      material(front.copy(params = front.params ++ reliefs))
 
     /** A sheet that transmits as much, but spreads all of it. */
     private def sheet(d: Declaration): Declaration =

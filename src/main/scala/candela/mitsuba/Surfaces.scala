@@ -88,10 +88,50 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def twoSided(in: Asked, relief: Relief): Surface =
     in.nested("bsdf").toList match
-      case front :: back :: _ =>
-        session.warn(back.at, "different BSDFs of the two sides are not supported; using the first")
-        of(front, relief).copy(isOneSided = false)
+      case front :: back :: others =>
+        others.foreach: p =>
+          session.warn(p.at, s"${in.plugin.shown} has one bsdf too many; this one is ignored")
+        val both = sides(in, side(front), side(back), Vector.empty)
+        both.copy(material = raised(both.material, relief))
+      case only :: Nil =>
+        val s = of(only, relief)
+        if !isBlackBehind(s.material) then s.copy(isOneSided = false)
+        else
+          val (bumps, plain) = level(s)
+          sides(in, only -> plain, only -> plain, bumps).copy(alpha = s.alpha)
       case _ => child(in, relief).copy(isOneSided = false)
+
+  /** One of two sides. */
+  private def side(p: Plugin): (Plugin, Surface) =
+    val s = of(p, Relief.Flat)
+    val (bumps, plain) = level(s)
+    if bumps.nonEmpty then
+      session.warn(p.at, "bumps of one side alone are not supported; this side is level")
+    for alpha <- s.alpha do
+      session.warn(alpha.at, "a mask of one side alone is not supported; it is opaque")
+    p -> plain
+
+  /** The parameters of bumps, and the surface without them. */
+  private def level(s: Surface): (Vector[Param], Surface) =
+    val (bumps, others) = s.material.params.partition(p => Surfaces.Reliefs(p.name))
+    (bumps, if bumps.isEmpty then s else s.copy(material = s.material.copy(params = others)))
+
+  private def sides(
+      in: Asked,
+      front: (Plugin, Surface),
+      back: (Plugin, Surface),
+      bumps: Vector[Param]
+  ): Surface =
+    val names = List(front, back).map((p, s) => name(p.id.getOrElse(p.name), s.material))
+    val params = Param.string("materials", in.at, names*) +: bumps
+    Surface(session.declare("Material", "twosided", in.at, params), isOneSided = false)
+
+  /** Whether its lobes are black from behind. */
+  private def isBlackBehind(d: Declaration): Boolean = d.name match
+    case "principled" => !d.param("thin").exists(_.bools.contains(true))
+    case "mix" =>
+      d.param("materials").exists(_.strings.flatMap(named.get).exists(isBlackBehind))
+    case _ => false
 
   private def masked(in: Asked, relief: Relief): Surface =
     child(in, relief).copy(alpha = Some(textures.number("alpha", in, "opacity", 0.5)))
@@ -155,3 +195,6 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       case _ =>
         session.error(in.at, "blendbsdf must contain two bsdfs")
         basic.grey(in)
+
+private object Surfaces:
+  private val Reliefs = Set("displacement", "bumpmap", "normalmap")

@@ -67,6 +67,14 @@ class FromMitsubaSuite extends AnyFunSuite:
     assert(Math.abs(sheet.param("reflectance").get.floats(0) - 0.8f * 0.45f) < 1e-6f)
     assert(Math.abs(sheet.param("transmittance").get.floats(1) - 0.4f * 0.55f) < 1e-6f)
 
+  test("of two sides, the front's material is kept"):
+    val (both, warnings) = converted(
+      "<bsdf type=\"twosided\"><bsdf type=\"diffuse\"/><bsdf type=\"conductor\"/></bsdf>"
+    )
+    assert(both.name == "diffuse" && warnings.head.contains("on the back"))
+    val once = converted("<bsdf type=\"twosided\"><bsdf type=\"principled\"/></bsdf>")
+    assert(once._1.name == "disney" && !once._2.exists(_.contains("on the back")))
+
   test("lights that differ in pbrt are reported with their place"):
     def lost(emitter: String) = FromMitsuba.converted(read("", emitter)).warnings
     def spot(beam: Int) =

@@ -151,6 +151,21 @@ class MitsubaSceneSuite extends AnyFunSuite:
         assert(material(kind).param(name).get.floats.head == 0f, s"$kind $name")
     assert(material("principledthin").param("thin").get.bools.head)
 
+  test("two-sided surfaces have two materials if the sides differ, or are black from behind"):
+    def sides(inner: String) =
+      val scene =
+        read(s"$Sensor<shape type=\"sphere\"><bsdf type=\"twosided\">$inner</bsdf></shape>")
+      scene.shapes.head.material match
+        case MaterialRef.Inline(d) if d.name == "twosided" =>
+          val named = scene.namedMaterials.toMap
+          d.param("materials").get.strings.toVector.map(named(_).name)
+        case _ => Vector.empty
+    val plastic = "<bsdf type=\"plastic\"/>"
+    assert(sides(plastic) == Vector.empty)
+    assert(sides(plastic + "<bsdf type=\"diffuse\"/>") == Vector("roughplastic", "diffuse"))
+    assert(sides("<bsdf type=\"principled\"/>") == Vector("principled", "principled"))
+    assert(sides("<bsdf type=\"principledthin\"/>") == Vector.empty)
+
   test("a rotated texture and a mirrored one keep their coordinates, with v from the bottom"):
     def texture(more: String) =
       val bsdf = s"<bsdf type=\"diffuse\"><texture name=\"reflectance\" $more</texture></bsdf>"

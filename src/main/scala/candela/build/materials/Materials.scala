@@ -42,6 +42,7 @@ object Materials:
       MeasuredBsdfRecipe,
       FourierRecipe,
       MixRecipe,
+      TwoSidedRecipe,
       InterfaceRecipe("", sinceV3),
       InterfaceRecipe("none", sinceV3),
       InterfaceRecipe("interface", onlyV4)

@@ -1,6 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{InterfaceMaterial, Material}
+import candela.bsdf.{InterfaceMaterial, Material, TwoSidedMaterial}
 import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -35,12 +35,29 @@ object MixRecipe
       )
     MixedMaterial(a, b, amount)
 
-  private def named(name: String, parameter: String)(using site: Site): Material =
-    val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
-    val found = site.resources.materials(name, at, site.resources, site.problems)
-    if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
-      site.problems.error(at, s"`$parameter` of \"mix\" must not name an interface, found `$name`")
-    found
+object TwoSidedRecipe
+    extends MaterialRecipe(
+      "twosided",
+      "materials of the front and the back, as in Mitsuba",
+      onlyV4
+    ):
+  private val both =
+    strings("materials", "string[2]", "materials of the front and the back", onlyV4)
+
+  protected def make()(using site: Site): Material = both() match
+    case Vector(front, back) =>
+      TwoSidedMaterial(named(front, "materials"), named(back, "materials"))
+    case names =>
+      site.error(s"`materials` of \"twosided\" must be two material names, found ${names.length}")
+      Materials.default
+
+private def named(name: String, parameter: String)(using site: Site): Material =
+  val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
+  val found = site.resources.materials(name, at, site.resources, site.problems)
+  if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
+    val whole = site.declaration.name
+    site.problems.error(at, s"`$parameter` of \"$whole\" must not name an interface, found `$name`")
+  found
 
 /** A medium interface without a surface. */
 final class InterfaceRecipe(name: String, dialects: Set[Dialect])

@@ -1,0 +1,43 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.math.*
+import candela.textures.Textured
+
+/** A surface that looks like `back` from behind, as if that were in front, as in Mitsuba. */
+final class TwoSidedMaterial(front: Material, back: Material)
+    extends Material,
+      Textured(front, back):
+  def bsdf(at: ShadingPoint): Bsdf = TwoSided(front.bsdf(at), back.bsdf(at))
+  override def isDispersive: Boolean = front.isDispersive || back.isDispersive
+
+/** Reflects by `front` above the surface and by `back`, mirrored, below it. */
+final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    if !Hemisphere.same(wo, wi) then Rgb.Black
+    else if wo.z > 0f then front.f(wo, wi)
+    else back.f(Hemisphere.flipped(wo), Hemisphere.flipped(wi))
+
+  def pdf(wo: Vec3, wi: Vec3): Float =
+    if !Hemisphere.same(wo, wi) then 0f
+    else if wo.z > 0f then front.pdf(wo, wi)
+    else back.pdf(Hemisphere.flipped(wo), Hemisphere.flipped(wi))
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    val side = if wo.z > 0f then front else back
+    side.draw(Hemisphere.above(wo), choice, u1, u2, out)
+    val up = out.wi.toVec3
+    if up.z > 0f then
+      val wi = Hemisphere.seenFrom(wo, up)
+      out.set(wi, out.weight, out.pdf, out.isSpecular, out.eta)
+    else out.absorb()
+
+  override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    val s = (if wo.z > 0f then front else back).sampleSpecular(Hemisphere.above(wo), choice)
+    BsdfSample(Hemisphere.seenFrom(wo, s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
+
+  val isSpecular: Boolean = front.isSpecular && back.isSpecular
+  def isTransmissive: Boolean = false
+  override def regularized: Bsdf = TwoSided(front.regularized, back.regularized)
+  override def isDispersive: Boolean = front.isDispersive || back.isDispersive
