@@ -39,6 +39,7 @@ private object SurfaceExamples:
   val unseen: Map[String, Example] = Map(
     "principled" -> Unseen("of Mitsuba's scenes"),
     "roughplastic" -> Unseen("of Mitsuba's scenes"),
+    "twosided" -> Unseen("of Mitsuba's scenes"),
     "measured/v4" -> Unseen(foreign),
     "fourier" -> Unseen(foreign),
     "" -> Unseen(clear),
