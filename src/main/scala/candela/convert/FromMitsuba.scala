@@ -214,18 +214,27 @@ object FromMitsuba:
       */
     private def plastic(d: Declaration): Declaration =
       val isNonlinear = d.param("nonlinear").exists(_.bools.contains(true))
-      val others = without(without(d, "using 1", "specular"), "", "nonlinear")
-      val inner = diffuseReflectance(d.param("eta").flatMap(_.floats.headOption).getOrElse(1.49f))
+      val isOnce = d.param("interreflection").exists(_.bools.contains(false))
+      val others =
+        without(without(d, "using 1", "specular"), "", "nonlinear", "interreflection")
+      val eta = d.param("eta").flatMap(_.floats.headOption).getOrElse(1.49f)
+      val inner = diffuseReflectance(eta)
+      // The reflectance that gives the same light with interreflection
+      def same(r: Float) =
+        if isOnce then r * eta * eta / (1 + r * eta * eta * inner)
+        else r / (1 - inner + r * inner)
       val params = others.params.map: p =>
         if p.name != "reflectance" || isNonlinear then p
         else
           color(d, "reflectance") match
-            case Some(c) => rgb("reflectance", c.map(r => r / (1 - inner + r * inner)), d)
+            case Some(c) => rgb("reflectance", c.map(same), d)
             case None =>
               warn(
                 d,
-                "the colour of a textured \"plastic\" becomes that of `nonlinear`: less " +
-                  "saturated colours become darker"
+                if isOnce then "a textured \"pplastic\" becomes darker"
+                else
+                  "the colour of a textured \"plastic\" becomes that of `nonlinear`: less " +
+                    "saturated colours become darker"
               )
               p
       val layer = Seq(Param.float("thickness", d.at, 0f), Param.int("maxdepth", d.at, 100))

@@ -17,8 +17,11 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       )
     case "conductor" => conductor(in, isRough = false)
     case "roughconductor" => conductor(in, isRough = true)
-    case "plastic" => plastic(in, Vector(Param.float("roughness", in.at, 0f)))
-    case "roughplastic" => plastic(in, roughness(in))
+    case "plastic" => plastic(in, Vector(nonlinear(in), Param.float("roughness", in.at, 0f)))
+    case "roughplastic" => plastic(in, nonlinear(in) +: roughness(in))
+    case "pplastic" => plastic(in, Param.bool("interreflection", in.at, false) +: roughness(in))
+    case "polarizer" | "circular" => filter(in, 0.5f)
+    case "retarder" => filter(in, 1f)
     case "principled" | "principledthin" => principled(in, in.plugin.name == "principledthin")
     case "null" => made(in, "interface", isOneSided = false)()
     case "measured" =>
@@ -76,6 +79,18 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       (Param.float("eta", in.at, eta) +: (tints(in) ++ rough))*
     )
 
+  /** What does nothing to unpolarized light but to absorb it.
+    *
+    * @param share of the light that it lets pass, times its transmittance
+    */
+  private def filter(in: Asked, share: Float): Surface =
+    val passed = colors.shade(in, "transmittance", Rgb.White, Role.Reflectance)
+    in.ignore("theta", "delta", "polarizing", "left_handed")
+    made(in, "thindielectric", isOneSided = false)(
+      Param.float("eta", in.at, 1f),
+      textures.color("transmittance", passed, in.atOf("transmittance"), share)
+    )
+
   private def tints(in: Asked): Vector[Param] = scales(
     in,
     "specular_reflectance" -> "reflectance",
@@ -101,15 +116,17 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     made(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
 
   /** A coat on a diffuse base. */
-  private def plastic(in: Asked, rough: Vector[Param]): Surface =
+  private def plastic(in: Asked, others: Vector[Param]): Surface =
     val eta = Indices.relative(in, "polypropylene").toFloat
     made(in, "roughplastic", isOneSided = true)(
       (Vector(
         color(in, "diffuse_reflectance", 0.5f, "reflectance"),
-        Param.bool("nonlinear", in.at, in.flag("nonlinear", false)),
         Param.float("eta", in.at, eta)
-      ) ++ scales(in, "specular_reflectance" -> "specular") ++ rough)*
+      ) ++ scales(in, "specular_reflectance" -> "specular") ++ others)*
     )
+
+  private def nonlinear(in: Asked): Param =
+    Param.bool("nonlinear", in.at, in.flag("nonlinear", false))
 
   /** Burley's BSDF, or that of a thin sheet. */
   private def principled(in: Asked, isThin: Boolean): Surface =

@@ -5,9 +5,10 @@ package candela.mitsuba
   */
 object Plugins:
   val bsdfs: Vector[String] = Vector(
-    "blendbsdf", "bumpmap", "conductor", "dielectric", "diffuse",
-    "mask", "measured", "normalmap", "null", "plastic", "principled", "principledthin",
-    "roughconductor", "roughdielectric", "roughplastic", "thindielectric", "twosided"
+    "blendbsdf", "bumpmap", "circular", "conductor", "dielectric", "diffuse",
+    "mask", "measured", "normalmap", "null", "plastic", "polarizer", "pplastic", "principled",
+    "principledthin", "retarder", "roughconductor", "roughdielectric", "roughplastic",
+    "thindielectric", "twosided"
   )
   val shapes: Vector[String] = Vector("cube", "cylinder", "disk", "instance", "merge", "obj", "ply",
     "rectangle", "serialized", "shapegroup", "sphere")
@@ -30,7 +31,9 @@ object Plugins:
   /** Types that exist in Mitsuba 3, but are not read. */
   val others: Map[String, Vector[String]] = Map(
     "bsdf" -> Vector(
-      "acousticbsdf", "circular", "hair", "measured_polarized", "pplastic", "polarizer", "retarder"
+      "acousticbsdf",
+      "hair",
+      "measured_polarized"
     ),
     "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "sunsky", "timed_sunsky", "volumelight"),

@@ -20,13 +20,11 @@ final class Textures(session: Session, colors: Colors):
   def result(): Vector[TextureDescription] = made.result()
 
   /** A colour parameter. */
-  def color(name: String, shade: Shade, at: SourcePos): Param = shade match
-    case Shade.Constant(c) => Textures.rgb(name, c, at)
+  def color(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
+    case Shade.Constant(c) => Textures.rgb(name, c * scale, at)
     case Shade.Textured(t) =>
-      this(
-        t,
-        "spectrum"
-      ).fold(Textures.rgb(name, Textures.Fallback, at))(Param.texture(name, at, _))
+      this(t, "spectrum", scale).fold(Textures.rgb(name, Textures.Fallback * scale, at)):
+        Param.texture(name, at, _)
 
   /** A number or texture. */
   def number(name: String, in: Asked, property: String, default: Double): Param =
@@ -43,7 +41,7 @@ final class Textures(session: Session, colors: Colors):
         Param.texture(name, at, _)
 
   /** Name of the texture; None if it is not supported. */
-  private def apply(p: Plugin, valueType: String, scale: Float = 1f): Option[String] =
+  private def apply(p: Plugin, valueType: String, scale: Float): Option[String] =
     names.getOrElseUpdate(
       (p, valueType, scale), {
         depth += 1

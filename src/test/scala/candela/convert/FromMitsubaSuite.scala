@@ -36,6 +36,17 @@ class FromMitsubaSuite extends AnyFunSuite:
     // the fit of Egan and Hilgeman, which is right to 0.002
     assert(Math.abs(base("") - 0.5f / (1 - 0.5905f + 0.29525f)) < 2e-3f)
 
+  test("a coat without interreflection gets the base that looks the same with it"):
+    val white = "<rgb name=\"diffuse_reflectance\" value=\"1, 0.5, 0\"/>"
+    val (d, warnings) = converted(s"<bsdf type=\"pplastic\">$white</bsdf>")
+    val Array(r, g, b) = d.param("reflectance").get.floats: @unchecked
+    assert(d.param("interreflection").isEmpty && warnings.size == 1) // of the distribution
+    def light(base: Float) = base / (1 - 0.5905f * base) / (1.49f * 1.49f)
+    assert(Math.abs(light(r) - 1f) < 5e-3f && Math.abs(light(g) - 0.5f) < 3e-3f && b == 0f)
+    val textured = "<texture type=\"checkerboard\" name=\"diffuse_reflectance\"/>"
+    val (_, lost) = converted(s"<bsdf type=\"pplastic\">$textured</bsdf>")
+    assert(lost.contains("a textured \"pplastic\" becomes darker"))
+
   test("a conductor without a material is a mirror"):
     val (mirror, _) = converted("<bsdf type=\"conductor\"/>")
     assert(mirror.name == "mirror" && mirror.dialect.contains(Dialect.V3))

@@ -165,6 +165,23 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(sides(plastic + "<bsdf type=\"diffuse\"/>") == Vector("roughplastic", "diffuse"))
     assert(sides("<bsdf type=\"principled\"/>") == Vector("principled", "principled"))
     assert(sides("<bsdf type=\"principledthin\"/>") == Vector.empty)
+  test("filters of polarized light pass a share of light that is not"):
+    def passed(bsdf: String) =
+      val scene = read(Sensor + s"<shape type=\"rectangle\"><bsdf $bsdf</bsdf></shape>")
+      assert(scene.errors.isEmpty && scene.warnings.isEmpty)
+      scene.shapes.head.material match
+        case MaterialRef.Inline(d) =>
+          assert(d.name == "thindielectric" && d.param("eta").get.floats.toVector == Vector(1f))
+          (scene, d.param("transmittance").get)
+        case other => fail(other.toString)
+    val tint = "<rgb name=\"transmittance\" value=\"1, 0.5, 0\"/>"
+    for (kind, share) <- Seq("polarizer" -> 0.5f, "circular" -> 0.5f, "retarder" -> 1f) do
+      val found = passed(s"type=\"$kind\">$tint")._2.floats.toVector
+      assert(found == Vector(share, share * 0.5f, 0f))
+    val checks = "<texture type=\"checkerboard\" name=\"transmittance\"/>"
+    val (scene, p) = passed(s"type=\"polarizer\">$checks")
+    val texture = scene.textures.find(t => p.strings.contains(t.name)).get.texture
+    assert(texture.name == "scale" && texture.param("scale").get.floats.toVector == Vector(0.5f))
 
   test("a rotated texture and a mirrored one keep their coordinates, with v from the bottom"):
     def texture(more: String) =

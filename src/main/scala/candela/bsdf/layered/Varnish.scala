@@ -5,34 +5,53 @@ import candela.bsdf.microfacet.Roughness
 import candela.geometry.ShadingPoint
 import candela.textures.{RgbTexture, Textured}
 
-/** Mitsuba's `plastic` and `roughplastic`: a clear coat without thickness on a diffuse base.
+/** What becomes of light that the coat reflects back to the base. */
+enum Varnish:
+  /** The base reflects it as if it were white. */
+  case Plain
+
+  /** The base colours it again. */
+  case Colored
+
+  /** It is lost, and the coat lets light pass as a smooth one does. */
+  case Once
+
+/** Mitsuba's `plastic`, `roughplastic` and `pplastic`, the last for unpolarized light: a clear coat
+  * without thickness on a diffuse base.
   *
   * @param reflectance of the base; clamped to [0, 1]
   * @param specular    scale of the coat's reflection
-  * @param nonlinear   whether light that the coat reflects back to the base is coloured by it again
   * @param roughness   of the coat; what it lets pass is that of the roughness at (0, 0)
   */
 final class VarnishMaterial(
     reflectance: RgbTexture,
     specular: RgbTexture,
-    nonlinear: Boolean,
+    under: Varnish,
     roughness: Roughness,
     eta: Float
 ) extends Material,
       Textured(reflectance, specular, roughness):
   private val usual = roughness(ShadingPoint())
-  private val coat: Coat = if usual.isSmooth then SmoothCoat(eta, 0f) else RoughCoat(usual, eta, 0f)
+  private val coat: Coat =
+    if usual.isSmooth || under == Varnish.Once then SmoothCoat(eta, 0f)
+    else RoughCoat(usual, eta, 0f)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val albedo = reflectance.albedo(at)
-    def series(under: Coat) =
-      val back = reflected(under)
-      albedo.map(c => c / (1f - back * (if nonlinear then c else 1f)))
+    def series(coat: Coat) = under match
+      case Varnish.Plain =>
+        val back = reflected(coat)
+        albedo.map(_ / (1f - back))
+      case Varnish.Colored =>
+        val back = reflected(coat)
+        albedo.map(c => c / (1f - back * c))
+      // Light that leaves is spread by the factor η², which Mitsuba leaves out here
+      case Varnish.Once => albedo * (eta * eta)
     new CoatedDiffuse(series, roughness(at), coat, specular.positive(at))
 
   /** Of light from the base. Under rough coats Mitsuba takes the mean of 64 cosines, both ends
     * included, so that the reflectance at normal incidence counts too much.
     */
-  private def reflected(under: Coat): Float =
-    val mean = under.internalReflectance
+  private def reflected(coat: Coat): Float =
+    val mean = coat.internalReflectance
     if usual.isSmooth then mean else (63f * mean + Fresnel.dielectric(1f, eta)) / 64f

@@ -2,7 +2,8 @@ package candela.build.materials
 
 import candela.bsdf.{Fresnel, Material}
 import candela.bsdf.layered.{
-  CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, VarnishMaterial
+  CoatedConductorMaterial, CoatedDiffuseMaterial, LayerMedium, Varnish,
+  VarnishMaterial
 }
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
@@ -57,12 +58,18 @@ object RoughPlasticRecipe
   private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)
   private val nonlinear =
     bool("nonlinear", "colour light again that the coat reflects back to the base")(false)
+  private val interreflection =
+    bool("interreflection", "light returns from the coat to the base, as in nature")(true)
   private val eta = float("eta", "index of refraction of the coating")(1.49f)
   protected def make()(using site: Site): Material =
     val rough = roughness()
-    if !rough.isConstant then
+    if !rough.isConstant && interreflection() then
       site.warn("light below the coat of \"roughplastic\" is that of its roughness at (0, 0)")
-    VarnishMaterial(reflectance(), specular(), nonlinear(), rough, eta())
+    val under =
+      if !interreflection() then Varnish.Once
+      else if nonlinear() then Varnish.Colored
+      else Varnish.Plain
+    VarnishMaterial(reflectance(), specular(), under, rough, eta())
 
 object CoatedConductorRecipe
     extends MaterialRecipe("coatedconductor", "conductor under a dielectric coating", onlyV4)
