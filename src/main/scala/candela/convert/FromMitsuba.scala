@@ -217,6 +217,12 @@ object FromMitsuba:
       val isOnce = d.param("interreflection").exists(_.bools.contains(false))
       val others =
         without(without(d, "using 1", "specular"), "", "nonlinear", "interreflection")
+      if isOnce then
+        warn(
+          d,
+          "light returns to the base of pbrt's coats: using the base that is as bright under a " +
+            "smooth coat; under a rough one it is darker, by up to a quarter"
+        )
       val eta = d.param("eta").flatMap(_.floats.headOption).getOrElse(1.49f)
       val inner = diffuseReflectance(eta)
       // The reflectance that gives the same light with interreflection

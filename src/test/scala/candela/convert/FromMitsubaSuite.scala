@@ -40,7 +40,7 @@ class FromMitsubaSuite extends AnyFunSuite:
     val white = "<rgb name=\"diffuse_reflectance\" value=\"1, 0.5, 0\"/>"
     val (d, warnings) = converted(s"<bsdf type=\"pplastic\">$white</bsdf>")
     val Array(r, g, b) = d.param("reflectance").get.floats: @unchecked
-    assert(d.param("interreflection").isEmpty && warnings.size == 1) // of the distribution
+    assert(d.param("interreflection").isEmpty && warnings.exists(_.contains("as bright")))
     def light(base: Float) = base / (1 - 0.5905f * base) / (1.49f * 1.49f)
     assert(Math.abs(light(r) - 1f) < 5e-3f && Math.abs(light(g) - 0.5f) < 3e-3f && b == 0f)
     val textured = "<texture type=\"checkerboard\" name=\"diffuse_reflectance\"/>"
