@@ -3,6 +3,8 @@ package candela.render
 import java.nio.file.{Files, Path}
 
 import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.recipe.Switches
+import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
@@ -27,6 +29,11 @@ class RenderSuite extends AnyFunSuite:
         val first = wrong.take(5).map(_.what).mkString("\n  ")
         val paths = keep(scene, agreement).mkString("\n  ")
         fail(s"${wrong.size} disagreements, first\n  $first\nsee\n  $paths")
+
+  test("guided paths in fog agree with the reference"):
+    val scene = ReferenceScenes.named("v4-fog-gap")
+    val agreement = compare(scene, Files.readString(scene.file), GuidingMode.On)
+    assert(agreement.disagreements(Significance).isEmpty)
 
   test("every reference has its scene, its place in the manifest and its noise"):
     val images = ReferenceScenes.names(ReferenceScenes.References, ".exr")
@@ -93,9 +100,14 @@ object RenderSuite:
 
   private def bits(f: Float): Int = java.lang.Float.floatToRawIntBits(f)
 
-  private def compare(scene: ReferenceScene, text: String): Agreement =
+  private def compare(
+      scene: ReferenceScene,
+      text: String,
+      guiding: GuidingMode = GuidingMode.Off
+  ): Agreement =
+    val threads = Runtime.getRuntime.availableProcessors
     val renders = Vector.tabulate(Seeds): seed =>
-      render(scene, text, seed + 1, SamplesPerPixel, Runtime.getRuntime.availableProcessors)
+      render(scene, text, seed + 1, SamplesPerPixel, threads, guiding)
     val plan = planned(scene, text, seed = 1, SamplesPerPixel)
     val alike = if plan.sharesSamples then Agreement.alike(plan.filter) else 1.0
     Agreement(renders, scene.image, scene.noise, scene.allowance, alike)
@@ -105,19 +117,27 @@ object RenderSuite:
       text: String,
       seed: Int,
       spp: Int,
-      threads: Int
+      threads: Int,
+      guiding: GuidingMode = GuidingMode.Off
   ): Image =
-    val plan = planned(scene, text, seed, spp)
+    val plan = planned(scene, text, seed, spp, guiding)
     val rendering = Renderer.render(plan, threads)
     assert(rendering.refused.isEmpty, s"not a number: ${rendering.refused}")
     rendering.image(plan.development)
 
-  private def planned(scene: ReferenceScene, text: String, seed: Int, spp: Int): RenderPlan =
+  private def planned(
+      scene: ReferenceScene,
+      text: String,
+      seed: Int,
+      spp: Int,
+      guiding: GuidingMode = GuidingMode.Off
+  ): RenderPlan =
     val description =
       if scene.isMitsubas then
         Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
-    SceneBuilder.build(description, BuildOptions(spp = Some(spp), seed = seed))._1
+    val switches = Switches(guiding = guiding)
+    SceneBuilder.build(description, BuildOptions(Some(spp), seed, switches = switches))._1
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =
