@@ -2,7 +2,7 @@ package candela.bsdf
 
 import candela.geometry.{Frame, ShadingPoint}
 import candela.math.*
-import candela.textures.{FloatTexture, MipLevel, Slopes}
+import candela.textures.{FloatTexture, Mapping2D, MipLevel, Slopes}
 
 /** Base of materials that perturb the shading frame at each point. */
 abstract class DisplacedMaterial(inner: Material) extends Material:
@@ -85,11 +85,14 @@ final class SlopeBumpMaterial(inner: Material, height: FloatTexture, step: Float
 
 /** Normal mapping (pbrt-v4): red, green and blue in [0, 1] encode the components along u, v and the
   * normal in [−1, 1].
+  *
+  * @param mapping to the image, whose t begins at the bottom
   */
-final class NormalMapMaterial(inner: Material, map: MipLevel)
+final class NormalMapMaterial(inner: Material, map: MipLevel, mapping: Mapping2D)
     extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
-    val c = map.bilinear(at.u, 1f - at.v)
+    val place = mapping(at)
+    val c = map.bilinear(place.s, 1f - place.t)
     val frame = Frame.along(at.frame.n, at.tangentU)
     val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
     if n.lengthSquared > 0f then

@@ -44,12 +44,18 @@ object FromMitsuba:
         d
       else if d.category != "Material" then d
       else
+        for p <- d.param("normalmapuv") do
+          problems += Problem.warning(
+            p.at,
+            "pbrt's normal maps lie on u and v as they are; `to_uv` of this one is lost"
+          )
         for p <- d.params if FromMitsuba.Reliefs(p.name) do
           problems += Problem.warning(
             p.at,
             "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
           )
-        if d.dialect.isDefined then d else material(d)
+        val mapped = without(d, "", "normalmapuv")
+        if d.dialect.isDefined then mapped else material(mapped)
 
     private def material(d: Declaration): Declaration =
       d.name match

@@ -117,7 +117,8 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
 
   /** A coat on a diffuse base. */
   private def plastic(in: Asked, others: Vector[Param]): Surface =
-    val eta = Indices.relative(in, "polypropylene").toFloat
+    val own = if in.plugin.name == "pplastic" then in.number("eta") else None
+    val eta = own.getOrElse(Indices.relative(in, "polypropylene")).toFloat
     made(in, "roughplastic", isOneSided = true)(
       (Vector(
         color(in, "diffuse_reflectance", 0.5f, "reflectance"),

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.scenefile.{Declaration, MaterialRef, Param}
+import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
 import scala.collection.mutable
 
@@ -15,11 +15,11 @@ final case class Surface(
     alpha: Option[Param] = None
 )
 
-/** Bumps of a surface: a height, or the file of a normal map. */
+/** Bumps of a surface: a height, or the file of a normal map with the affine map of u and v. */
 private[mitsuba] enum Relief:
   case Flat
   case Height(texture: Plugin, scale: Float)
-  case Normals(file: String)
+  case Normals(file: String, mapping: Vector[Float])
 
 /** Translates BSDFs, each once. */
 final class Surfaces(session: Session, colors: Colors, textures: Textures):
@@ -157,10 +157,10 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       else
         session.of(t): of =>
           of.ignore("raw", "filter_type", "wrap_mode", "format", "accel")
-          of.lose("ignored", "to_uv")
+          val mapping = textures.imageMapping(of)
           of.text("filename").flatMap(session.file(_, of.atOf("filename"), "ignored"))
-            .map(session.named)
-    child(in, file.fold(relief)(Relief.Normals(_)))
+            .map(path => Relief.Normals(session.named(path), mapping))
+    child(in, file.getOrElse(relief))
 
   private def raised(d: Declaration, relief: Relief): Declaration =
     val isV4 = d.dialect.isEmpty
@@ -170,9 +170,11 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       case Relief.Height(texture, scale) =>
         val name = if isV4 then "displacement" else "bumpmap"
         d.copy(params = d.params :+ textures.number(name, Shade.Textured(texture), d.at, scale))
-      case Relief.Normals(file) if isV4 =>
-        d.copy(params = d.params :+ Param.string("normalmap", d.at, file))
-      case Relief.Normals(_) =>
+      case Relief.Normals(file, mapping) if isV4 =>
+        val place = Option.when(mapping != Textures.Upright):
+          Param.floats(ParamType.Float, "normalmapuv", d.at, mapping.toArray)
+        d.copy(params = (d.params :+ Param.string("normalmap", d.at, file)) ++ place)
+      case Relief.Normals(_, _) =>
         session.warn(d.at, "normal maps of this BSDF are not supported; ignored")
         d
 
@@ -197,4 +199,4 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
         basic.grey(in)
 
 private object Surfaces:
-  private val Reliefs = Set("displacement", "bumpmap", "normalmap")
+  private val Reliefs = Set("displacement", "bumpmap", "normalmap", "normalmapuv")

@@ -110,20 +110,28 @@ final class Textures(session: Session, colors: Colors):
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
   private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =
+    Seq("uscale", "uskew", "udelta", "vskew", "vscale", "vdelta").zip(mapping(in, flipped))
+      .map((name, x) => (name, x * factor))
+      .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
+      .map((name, x) => Param.float(name, in.at, x))
+
+  /** Of an image, by pbrt's u, v and 1: two rows of three factors. */
+  def imageMapping(in: Asked): Vector[Float] = mapping(in, flipped = true)
+
+  private def mapping(in: Asked, flipped: Boolean): Vector[Float] =
     val m = in.transform("to_uv").m
     // With v = 1 − ours
     val (su, skewU, du) = (m(0), -m(1), m(1) + m(3))
     val (skewV, sv, dv) = (m(4), -m(5), m(5) + m(7))
     val (across, up, shift) = if flipped then (-skewV, -sv, 1 - dv) else (skewV, sv, dv)
-    Seq("uscale" -> su, "uskew" -> skewU, "udelta" -> du)
-      .concat(Seq("vskew" -> across, "vscale" -> up, "vdelta" -> shift))
-      .map((name, x) => (name, x.toFloat * factor))
-      .filter((name, x) => if name.endsWith("scale") then x != 1f else x != 0f)
-      .map((name, x) => Param.float(name, in.at, x))
+    Vector(su, skewU, du, across, up, shift).map(_.toFloat)
 
 object Textures:
   /** Instead of a texture that is not supported. */
   val Fallback: Rgb = Rgb.gray(0.5f)
+
+  /** The mapping of an image that lies on u and v as they are. */
+  val Upright: Vector[Float] = Vector(1f, 0f, 0f, 0f, 1f, 0f)
 
   def rgb(name: String, c: Rgb, at: SourcePos): Param =
     Param.floats(ParamType.Rgb, name, at, Array(c.r, c.g, c.b))

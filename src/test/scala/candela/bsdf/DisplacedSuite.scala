@@ -98,9 +98,24 @@ class DisplacedSuite extends AnyFunSuite:
   test("a map of normals turns the frame to the picture's normal, along the tangents"):
     val blue = MipLevel(FloatTexels(1, 1, 3, Array(0.5f, 0.5f, 1f)), Wrap.Repeat)
     val tilted = MipLevel(FloatTexels(1, 1, 3, Array(0.8f, 0.5f, 0.9f)), Wrap.Repeat)
+    val upright = UvMapping(1f, 1f, 0f, 0f)
     val (dpdu, dpdv) = (Vec3(0f, 2f, 0f), Vec3(0f, 0f, 3f))
     val (flat, turned) = (plane(dpdu, dpdv), plane(dpdu, dpdv))
-    val _ = NormalMapMaterial(inner, blue).bsdf(flat)
-    val _ = NormalMapMaterial(inner, tilted).bsdf(turned)
+    val _ = NormalMapMaterial(inner, blue, upright).bsdf(flat)
+    val _ = NormalMapMaterial(inner, tilted, upright).bsdf(turned)
     near(flat.frame.n, Vec3.X)
     near(turned.frame.n, Vec3(0.8f, 0.6f, 0f))
+
+  test("a map of normals may be turned on the surface; its normals still follow the tangents"):
+    // Left, right: leaning along u, along v
+    val leans =
+      MipLevel(FloatTexels(2, 1, 3, Array(0.8f, 0.5f, 0.9f, 0.5f, 0.8f, 0.9f)), Wrap.Repeat)
+    val quarter = AffineUvMapping(0f, 1f, 0f, 1f, 0f, 0f)
+    def normal(mapping: Mapping2D) =
+      val at = plane(Vec3.X, Vec3.Y)
+      at.u = 0.25f
+      at.v = 0.75f
+      val _ = NormalMapMaterial(inner, leans, mapping).bsdf(at)
+      at.frame.n
+    near(normal(UvMapping(1f, 1f, 0f, 0f)), Vec3(0.6f, 0f, 0.8f))
+    near(normal(quarter), Vec3(0f, 0.6f, 0.8f))

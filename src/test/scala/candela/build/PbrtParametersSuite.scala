@@ -44,11 +44,11 @@ final class PbrtParametersSuite extends AnyFunSuite:
         if !known((dialect, category.name, recipe.name, field.name))
       yield (dialect, recipe.name, field.name)
     // Scenes of Mitsuba have materials of their own
-    val own = Set("principled", "roughplastic")
+    val own = Set("principled", "roughplastic", "twosided")
     val ofMitsuba =
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
-        "hideemitters"
+        "hideemitters", "normalmapuv"
       )
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))
     val foreign = beyond.toSet.filter: (dialect, recipe, field) =>

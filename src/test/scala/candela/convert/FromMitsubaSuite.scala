@@ -86,6 +86,17 @@ class FromMitsubaSuite extends AnyFunSuite:
     val once = converted("<bsdf type=\"twosided\"><bsdf type=\"principled\"/></bsdf>")
     assert(once._1.name == "disney" && !once._2.exists(_.contains("on the back")))
 
+  test("the mapping of a normal map is lost, with a warning"):
+    val image = Files.createTempFile("candela-mitsuba", ".png")
+    try
+      val map = s"<texture name=\"normalmap\" type=\"bitmap\"><string name=\"filename\" " +
+        s"value=\"$image\"/><transform name=\"to_uv\"><scale x=\"2\"/></transform></texture>"
+      val (d, warnings) =
+        converted(s"<bsdf type=\"normalmap\">$map<bsdf type=\"diffuse\"/></bsdf>")
+      assert(d.param("normalmapuv").isEmpty && d.param("normalmap").nonEmpty)
+      assert(warnings.exists(_.contains("`to_uv` of this one is lost")))
+    finally Files.delete(image)
+
   test("lights that differ in pbrt are reported with their place"):
     def lost(emitter: String) = FromMitsuba.converted(read("", emitter)).warnings
     def spot(beam: Int) =

@@ -201,6 +201,17 @@ class MitsubaSceneSuite extends AnyFunSuite:
     assert(place(s"type=\"checkerboard\">$matrix").map(_ / 2) == Vector(2f, 3f, 2f, 7f, -11f, 24f))
     val image = "type=\"bitmap\"><string name=\"filename\" value=\"a.png\"/>"
     assert(place(image + matrix) == Vector(2f, 3f, 2f, -7f, 11f, -23f))
+    def normals(more: String) =
+      val map = s"<texture name=\"normalmap\" $image$more</texture><bsdf type=\"diffuse\"/>"
+      val body = s"$Sensor<shape type=\"sphere\"><bsdf type=\"normalmap\">$map</bsdf></shape>"
+      inFolder(body, "a.png" -> ""): file =>
+        val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
+        assert(scene.warnings.isEmpty && scene.errors.isEmpty)
+        scene.shapes.head.material match
+          case MaterialRef.Inline(d) => d.param("normalmapuv").map(_.floats.toVector)
+          case other => fail(other.toString)
+    assert(normals(matrix).contains(Vector(2f, 3f, 2f, -7f, 11f, -23f)))
+    assert(normals("").isEmpty)
     val mirrored = texture(image + "<string name=\"wrap_mode\" value=\"mirror\"/>")
     assert(mirrored.param("wrap").get.strings.toVector == Vector("mirror"))
 

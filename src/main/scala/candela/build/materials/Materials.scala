@@ -9,7 +9,9 @@ import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
 import candela.scenefile.Dialect
-import candela.textures.{FloatTexture, MipLevel, Texels, Wrap}
+import candela.textures.{
+  AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, UvMapping, Wrap
+}
 
 /** Recipes of materials. */
 object Materials:
@@ -75,6 +77,13 @@ abstract class MaterialRecipe(
     floatTexture("displacement", "bump map height", onlyV4, "scene units", "none")(0f)
   private val normals: Option[Field[String]] = Option.when(bumps):
     string("normalmap", "normal map image", onlyV4, "none")("")
+  private val places: Option[Field[Array[Float]]] = Option.when(bumps):
+    numbers(
+      "normalmapuv",
+      "float[6]",
+      "of Mitsuba's scenes: s and t of the normal map, by u, v and 1",
+      onlyV4
+    )
 
   override protected def made(site: Site): Material =
     given Site = site
@@ -82,7 +91,7 @@ abstract class MaterialRecipe(
     normalMap() match
       case Some(picture) =>
         site.resources.askForFootprints("normal maps")
-        raised(smooth, NormalMapMaterial(_, picture))
+        raised(smooth, NormalMapMaterial(_, picture, place()))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
@@ -102,6 +111,11 @@ abstract class MaterialRecipe(
     if site.resources.switches.isMitsubas then
       SoftTerminatorMaterial(smooth, relief, shadows = true)
     else relief(smooth)
+
+  private def place()(using Site): Mapping2D =
+    places.map(_()) match
+      case Some(Array(su, sv, ds, tu, tv, dt)) => AffineUvMapping(su, sv, ds, tu, tv, dt)
+      case _ => UvMapping(1f, 1f, 0f, 0f)
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
