@@ -44,7 +44,8 @@ object Converter:
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
-    val own = if scene.isMitsubas then ofMitsuba(scene, to) else Converted(scene, Vector.empty)
+    val own =
+      if scene.isMitsubas then ofMitsuba(scene, to, files) else Converted(scene, Vector.empty)
     val there = Declarations.map(own.scene)(FileNames(files.folder).moved)
     val images =
       if scene.isMitsubas then MitsubaInV4.images(there, files) else Converted(there, Vector.empty)
@@ -65,12 +66,14 @@ object Converter:
     val plain = withoutBacks(done)
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
 
-  private def ofMitsuba(scene: SceneDescription, to: Dialect): Converted =
-    val plain = FromMitsuba.converted(scene)
-    if to != Dialect.V4 then plain
+  private def ofMitsuba(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
+    val skies = SunskyLights.converted(scene, files)
+    val plain = FromMitsuba.converted(skies.scene)
+    val warnings = skies.warnings ++ plain.warnings
+    if to != Dialect.V4 then plain.copy(warnings = warnings)
     else
       val done = MitsubaInV4.converted(plain.scene)
-      done.copy(warnings = plain.warnings ++ done.warnings)
+      done.copy(warnings = warnings ++ done.warnings)
 
   /** pbrt has no surfaces that are black from behind. */
   private def withoutBacks(from: Converted): Converted =

@@ -5,7 +5,7 @@ import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
 
 /** Translates emitters. */
-final class Emitters(session: Session, colors: Colors, medium: Plugin => String):
+final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plugin => String):
 
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
@@ -30,6 +30,9 @@ final class Emitters(session: Session, colors: Colors, medium: Plugin => String)
           val c = colors.fixed(in, "radiance", Rgb.White, Role.Emission)
           Some(light(in, "infinite", Transform.Identity, around)(Textures.rgb("L", c, in.at)))
         case "envmap" => environment(in)
+        case "sunsky" | "timed_sunsky" =>
+          val toWorld = in.transform("to_world")
+          Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
         case "point" =>
           val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
           val at = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>

@@ -36,12 +36,19 @@ private final class Translation(session: Session, file: Path):
   private val textures = Textures(session, colors)
   private val surfaces = Surfaces(session, colors, textures)
   private val media = Media(session, colors)
-  private val emitters = Emitters(session, colors, media(_))
+  private val emitters = Emitters(session, colors, Skies(session, colors, shutter), media(_))
   private val shapes = Shapes(session, surfaces, emitters, media)
   private val views = Views(session, media, file)
 
   private val all = session.objects.map(_.value).collect { case Value.Nested(p) => p }
   private def of(kind: String) = all.filter(_.kind == kind)
+
+  /** When the first sensor's shutter opens and closes. */
+  private def shutter: (Double, Double) =
+    def time(name: String) =
+      of("sensor").headOption.flatMap(_.properties.findLast(_.name == name)).map(_.value).collect:
+        case Value.Number(x) => x
+    (time("shutter_open").getOrElse(0), time("shutter_close").getOrElse(0))
 
   def result(): SceneDescription =
     of("shape").foreach(shapes.add)

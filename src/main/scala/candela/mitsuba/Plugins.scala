@@ -13,7 +13,8 @@ object Plugins:
   val shapes: Vector[String] = Vector("cube", "cylinder", "disk", "instance", "merge", "obj", "ply",
     "rectangle", "serialized", "shapegroup", "sphere")
   val emitters: Vector[String] =
-    Vector("area", "constant", "directional", "envmap", "point", "projector", "spot")
+    Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
+      "sunsky", "timed_sunsky")
   val textures: Vector[String] = Vector("bitmap", "blackbody", "checkerboard", "d65", "irregular",
     "regular", "srgb", "uniform")
   val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
@@ -36,7 +37,7 @@ object Plugins:
       "measured_polarized"
     ),
     "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
-    "emitter" -> Vector("directionalarea", "sunsky", "timed_sunsky", "volumelight"),
+    "emitter" -> Vector("directionalarea", "volumelight"),
     "texture" -> Vector("mesh_attribute", "raw", "volume"),
     "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
     "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",

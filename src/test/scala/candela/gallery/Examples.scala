@@ -46,7 +46,7 @@ object Examples:
     "Material" -> (shown(SurfaceExamples.materials) ++ SurfaceExamples.unseen),
     "Texture (float)" -> textures("float", SurfaceExamples.floats),
     "Texture (spectrum)" -> textures("spectrum", SurfaceExamples.colors),
-    "LightSource" -> shown(LightExamples.lights),
+    "LightSource" -> (shown(LightExamples.lights) ++ LightExamples.unseenLights),
     "AreaLightSource" -> shown(LightExamples.areaLights),
     "Camera" -> (shown(LightExamples.cameras) ++ LightExamples.unseenCameras),
     "MakeNamedMedium" -> shown(MediumExamples.media),

@@ -23,6 +23,8 @@ private object LightExamples:
     "exinfinite" -> "LightSource \"exinfinite\" \"string mapname\" \"textures/sky-latlong.exr\""
   )
 
+  val unseenLights: Map[String, Example] = Map("sunsky" -> Unseen("of Mitsuba's scenes"))
+
   val areaLights: Vector[(String, String)] = Vector(
     "diffuse" -> "AreaLightSource \"diffuse\" \"rgb L\" [9 8 6]",
     "area" -> "AreaLightSource \"area\" \"rgb L\" [9 8 6]"

@@ -17,7 +17,8 @@ object Lights:
       ProjectionLightRecipe,
       DistantLightRecipe,
       InfiniteLightRecipe("infinite", every),
-      InfiniteLightRecipe("exinfinite", untilV3)
+      InfiniteLightRecipe("exinfinite", untilV3),
+      SunskyLightRecipe
     )
   )
 

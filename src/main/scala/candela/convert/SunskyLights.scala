@@ -1,0 +1,69 @@
+package candela.convert
+
+import candela.base.Problem
+import candela.color.Rgb
+import candela.image.ImageFiles
+import candela.lights.{EqualAreaMap, SkyModel, SunAndSky}
+import candela.math.*
+import candela.scenefile.{
+  Declaration, Dialect, LightDescription, Param, ParamType, SceneDescription
+}
+
+/** Replaces the clear sky of Mitsuba's scenes by an environment map, its sun by a distant light. */
+private[convert] object SunskyLights:
+
+  /** @param files where maps are written */
+  def converted(scene: SceneDescription, files: SideFiles): Converted =
+    val problems = Vector.newBuilder[Problem]
+    val lights = scene.lights.flatMap: l =>
+      if l.light.name != "sunsky" then Vector(l)
+      else
+        val both = inTwo(l, files)
+        if both.exists(_.light.name == "distant") then
+          problems += Problem.warning(
+            l.light.at,
+            "the sun becomes a distant light: its shadows are sharp, and no ray sees it"
+          )
+        both
+    Converted(scene.copy(lights = lights), problems.result())
+
+  private def inTwo(l: LightDescription, files: SideFiles): Vector[LightDescription] =
+    val d = l.light
+    def numbers(name: String) = d.param(name).map(_.floats)
+    def number(name: String, default: Float) =
+      numbers(name).flatMap(_.headOption).getOrElse(default)
+    val ground = numbers("albedo") match
+      case Some(Array(r, g, b)) => Rgb(r, g, b)
+      case _ => Rgb.gray(0.3f)
+    val toSun = numbers("sun") match
+      case Some(Array(x, y, z)) => Vec3(x, y, z).normalized
+      case _ => Vec3.Z
+    val (sky, sun) = (number("skyscale", 1f), number("sunscale", 1f))
+    if toSun.z < 0f then Vector.empty
+    else
+      val model =
+        SkyModel(number("turbidity", 3f), ground, Math.asin(toSun.z.toDouble).toFloat)
+      def light(name: String, params: Param*) =
+        l.copy(light =
+          Declaration(
+            "LightSource", name, params.toVector, d.at, files.folder, dialect = Some(Dialect.V4)
+          )
+        )
+      val map = Option.when(sky > 0f):
+        val picture = SunAndSky.picture(model, toSun, Side, Side, EqualAreaMap, Parts)
+        val file = files.add("sky", "exr", ImageFiles.exr(picture))
+        val scale = Option.when(sky != 1f)(Param.float("scale", d.at, sky))
+        light("infinite", Param.string("filename", d.at, file) +: scale.toSeq*)
+      val disk = Option.when(sun > 0f):
+        val c = (model.sunIrradiance * sun).map(Math.max(0f, _))
+        light(
+          "distant",
+          Param.floats(ParamType.Rgb, "L", d.at, Array(c.r, c.g, c.b)),
+          Param.floats(ParamType.Point3, "from", d.at, Array(toSun.x, toSun.y, toSun.z)),
+          Param.floats(ParamType.Point3, "to", d.at, Array(0f, 0f, 0f))
+        )
+      map.toVector ++ disk
+
+  /** Pixels along each side of a map, and parts of each pixel that are averaged. */
+  private val Side = 1024
+  private val Parts = 2
