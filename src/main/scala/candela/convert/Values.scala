@@ -21,7 +21,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       case ParamType.Float if Values.Spectral(name) && to == Dialect.V4 =>
         if isUnbounded then Some(Values.constant(p)) else colored(p, d, isUnbounded)
       case ParamType.Rgb => colored(p, d, isUnbounded)
-      case ParamType.Spectrum if isUnbounded => indices(p, d)
+      case ParamType.Spectrum if isUnbounded && !Values.Coefficients(name) => indices(p, d)
       case ParamType.Spectrum => colored(p, d, isUnbounded)
       case _ => Some(p)
 
@@ -93,6 +93,9 @@ object Values:
   private val Unbounded =
     Set("eta", "k", "sigma_a", "sigma_s", "mfp", "Le", "conductor.eta", "conductor.k",
       "interface.eta")
+
+  /** Of media. Where a renderer multiplies colours, a flat spectrum is grey in v4 only. */
+  private val Coefficients = Set("sigma_a", "sigma_s", "mfp")
 
   /** Parameters for which v4 requires a colour or a spectrum, not a number. */
   private val Spectral = Set("reflectance", "transmittance", "k", "sigma_a", "sigma_s", "albedo")

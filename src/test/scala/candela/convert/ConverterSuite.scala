@@ -44,7 +44,7 @@ object ConverterSuite:
   /** Of a quarter's mean: what noise alone makes of the same picture. */
   private val Most = 0.1
 
-  /** The demo; and fog that is too noisy in so few samples, and reddish as spectra of pbrt-v3. */
+  /** The demo; and fog that is too noisy in so few samples. */
   private val LeftOut = Set("showcase", "v4-fog-gap")
 
   /** Scenes that lose nothing. */

@@ -31,6 +31,14 @@ class MeaningSuite extends AnyFunSuite:
     for (x, y) <- Seq(a.r -> b.r, a.g -> b.g, a.b -> b.b) do
       assert(Math.abs(x - y) < 2e-3 * Math.max(1f, Math.abs(x)), s"$light: $a and $b")
 
+  test("flat spectra of media stay grey"):
+    val fog = "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" " +
+      "\"spectrum sigma_s\" [300 .6 800 .6]\nWorldEnd"
+    val made = converted(fog, Dialect.V4, Dialect.V3)
+    val scattered = made.scene.media.head._2.param("sigma_s").get
+    assert(scattered.paramType == ParamType.Rgb)
+    assert(scattered.floats.forall(x => Math.abs(x - 0.6f) < 1e-3f))
+
   test("lights are as bright and have the same colour, however they are written"):
     for light <- Vector(
         "\"blackbody L\" [3000 2.5]", "\"blackbody L\" [9000 1] \"rgb scale\" [2 2 2]",
