@@ -5,11 +5,9 @@ import candela.color.Rgb
 import candela.image.ImageFiles
 import candela.lights.{EqualAreaMap, SkyModel, SunAndSky}
 import candela.math.*
-import candela.scenefile.{
-  Declaration, Dialect, LightDescription, Param, ParamType, SceneDescription
-}
+import candela.scenefile.{Declaration, Dialect, LightDescription, Param, SceneDescription}
 
-/** Replaces the clear sky of Mitsuba's scenes by an environment map, its sun by a distant light. */
+/** Replaces the clear sky of Mitsuba's scenes and its sun by environment maps. */
 private[convert] object SunskyLights:
 
   /** @param files where maps are written */
@@ -18,13 +16,12 @@ private[convert] object SunskyLights:
     val lights = scene.lights.flatMap: l =>
       if l.light.name != "sunsky" then Vector(l)
       else
-        val both = inTwo(l, files)
-        if both.exists(_.light.name == "distant") then
+        if !l.light.param("sunscale").exists(_.floats.contains(0f)) then
           problems += Problem.warning(
             l.light.at,
-            "the sun becomes a distant light: its shadows are sharp, and no ray sees it"
+            "the sun becomes an image, whose pixels blur its edge by 0.1 degrees"
           )
-        both
+        inTwo(l, files)
     Converted(scene.copy(lights = lights), problems.result())
 
   private def inTwo(l: LightDescription, files: SideFiles): Vector[LightDescription] =
@@ -54,13 +51,14 @@ private[convert] object SunskyLights:
         val file = files.add("sky", "exr", ImageFiles.exr(picture))
         val scale = Option.when(sky != 1f)(Param.float("scale", d.at, sky))
         light("infinite", Param.string("filename", d.at, file) +: scale.toSeq*)
-      val disk = Option.when(sun > 0f):
-        val c = (model.sunIrradiance * sun).map(Math.max(0f, _))
+      val c = (model.sunIrradiance * sun).map(Math.max(0f, _))
+      val disk = Option.when(c.max > 0f):
+        val (picture, scale) = SunImage(toSun, number("sunaperture", 0.5358f), c)
+        val file = files.add("sun", "exr", ImageFiles.exr(picture))
         light(
-          "distant",
-          Param.floats(ParamType.Rgb, "L", d.at, Array(c.r, c.g, c.b)),
-          Param.floats(ParamType.Point3, "from", d.at, Array(toSun.x, toSun.y, toSun.z)),
-          Param.floats(ParamType.Point3, "to", d.at, Array(0f, 0f, 0f))
+          "infinite",
+          Param.string("filename", d.at, file),
+          Param.float("scale", d.at, scale)
         )
       map.toVector ++ disk
 

@@ -93,7 +93,9 @@ object SunAndSky:
   /** Rows of the table of directions. */
   private val Rows = 256
 
-  /** The sky without its sun; each pixel is the mean of `parts` × `parts` directions. */
+  /** The sky without its sun; each pixel is the mean of `parts` × `parts` directions. If these are
+    * several, none is on a diagonal, where equal-area maps have the horizon.
+    */
   def picture(
       model: SkyModel,
       toSun: Vec3,
@@ -106,10 +108,9 @@ object SunAndSky:
     val data = made.data
     loop(width * height): i =>
       loop(parts * parts): part =>
-        val d = layout.toDirection(
-          (i % width + (part % parts + 0.5f) / parts) / width,
-          (i / width + (part / parts + 0.5f) / parts) / height
-        )
+        val across = (part % parts + 0.5f) / parts
+        val down = (part / parts + across) / parts
+        val d = layout.toDirection((i % width + across) / width, (i / width + down) / height)
         if d.z >= 0f then
           val c = model.radiance(d.z, d dot toSun) * (1f / (parts * parts))
           data(3 * i) += Math.max(0f, c.r)

@@ -1,7 +1,8 @@
 package candela.convert
 
-import candela.image.ImageFiles
-import candela.lights.EqualAreaMap
+import candela.color.Rgb
+import candela.image.{Image, ImageFiles}
+import candela.lights.{EqualAreaMap, SkyModel, SunAndSky}
 import candela.math.Vec3
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.Dialect
@@ -29,12 +30,12 @@ class SunskyLightsSuite extends AnyFunSuite:
     val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
     Converter.convert(scene, Dialect.V4, folder)
 
-  test("a sky becomes a map, brightest around the sun, and a distant light"):
+  test("a sky becomes a map, brightest around the sun, and the sun another"):
     inFolder: folder =>
       val done = converted(folder, "")
       val Vector(sky, sun) = done.scene.lights.map(_.light): @unchecked
-      assert(sky.name == "infinite" && sun.name == "distant")
-      assert(done.warnings.exists(_.message.contains("distant light")))
+      assert(sky.name == "infinite" && sun.name == "infinite")
+      assert(done.warnings.exists(_.message.contains("blur its edge")))
       val map = ImageFiles.read(folder.resolve(sky.param("filename").get.strings.head))
       def seen(x: Float, y: Float, z: Float): Float =
         val place = EqualAreaMap.toImage(Vec3(x, y, z).normalized)
@@ -42,8 +43,39 @@ class SunskyLightsSuite extends AnyFunSuite:
       assert(seen(1f, 0.1f, 1f) > 2 * seen(-1f, 0f, 1f))
       assert(seen(-1f, 0f, 1f) > 0f && seen(1f, 0f, -1f) == 0f)
 
-  test("a sky without its sun is a map alone, the sun alone a distant light"):
+  test("the sky or the sun alone is one map"):
     inFolder: folder =>
-      def names(inside: String) = converted(folder, inside).scene.lights.map(_.light.name)
-      assert(names("""<float name="sun_scale" value="0"/>""") == Vector("infinite"))
-      assert(names("""<float name="sky_scale" value="0"/>""") == Vector("distant"))
+      def files(inside: String) =
+        converted(folder, inside).scene.lights.map(_.light.param("filename").get.strings.head)
+      val Vector(sky) = files("""<float name="sun_scale" value="0"/>"""): @unchecked
+      val Vector(sun) = files("""<float name="sky_scale" value="0"/>"""): @unchecked
+      assert(sky.startsWith("sky-") && sun.startsWith("sun-"))
+
+  private val toSun = Vec3(0.48f, -0.6f, 0.64f)
+
+  private def irradiance(image: Image, scale: Float): Rgb =
+    val pixel = 4 * Math.PI / (image.width.toDouble * image.height)
+    val sums = (0 to 2).map(c => image.data.indices.by(3).map(i => image.data(i + c).toDouble).sum)
+    Rgb(sums(0).toFloat, sums(1).toFloat, sums(2).toFloat) * (scale * pixel).toFloat
+
+  test("the sun's map has the sun's irradiance, at its place"):
+    val expected = Rgb(1.5f, 1f, 0.5f)
+    val (image, scale) = SunImage(toSun, 0.5358f, expected)
+    assert((irradiance(image, scale) - expected).map(Math.abs(_)).max < 1e-4f)
+    assert(image.data.max <= 1f)
+    val lit = image.data.indices.by(3).filter(i => image.data(i) > 0f).map(_ / 3)
+    val side = image.width
+    assert(lit.nonEmpty && lit.forall: i =>
+      val d = EqualAreaMap.toDirection((i % side + 0.5f) / side, (i / side + 0.5f) / side)
+      (d - toSun).length < 0.0047f + SunImage.PixelAngle)
+
+  test("half of a sun at the horizon is dark"):
+    val (image, scale) = SunImage(Vec3.Y, 2f, Rgb.White)
+    assert(Math.abs(irradiance(image, scale).r - 0.5f) < 0.005f)
+
+  test("half of a pixel of the sky at the horizon is dark"):
+    val model = SkyModel(3f, Rgb.gray(0.3f), 0.6f)
+    def mean(parts: Int) =
+      val sky = SunAndSky.picture(model, toSun, 32, 32, EqualAreaMap, parts)
+      sky.data.foldLeft(0.0)(_ + _)
+    assert(Math.abs(mean(2) / mean(16) - 1) < 0.02)
