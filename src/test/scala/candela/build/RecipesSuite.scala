@@ -48,7 +48,10 @@ final class ShapeRecipesSuite
     )
 
 final class MaterialRecipesSuite
-    extends RecipeLaws[Material](Materials.all, demanding = Set("measured", "fourier", "mix"))
+    extends RecipeLaws[Material](
+      Materials.all,
+      demanding = Set("measured", "fourier", "mix", "twosided")
+    )
 
 final class LightRecipesSuite
     extends RecipeLaws[LightPlan](

@@ -13,7 +13,7 @@ class VaryingMaterialsSuite extends AnyFunSuite:
   /** Parameters that are read beside others only. */
   private def beside(material: String, parameter: String, dialect: Dialect): String =
     (material, parameter, dialect) match
-      case ("mix", _, Dialect.V4) => "\"string materials\" [\"a\" \"b\"]"
+      case ("mix" | "twosided", _, Dialect.V4) => "\"string materials\" [\"a\" \"b\"]"
       case ("mix", _, _) => "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\""
       case ("subsurface", "sigma_a", Dialect.V4) => "\"rgb sigma_s\" [1 1 1]"
       case ("subsurface", "sigma_s", Dialect.V4) => "\"rgb sigma_a\" [1 1 1]"
