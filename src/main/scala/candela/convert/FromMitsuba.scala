@@ -88,7 +88,9 @@ object FromMitsuba:
             "a \"spot\" fades linearly in Mitsuba, along a smooth curve in pbrt; using pbrt's"
           )
         case _ =>
-      if d.name == "projection" then projection(d) else d
+      if d.name == "projection" then projection(d)
+      else if d.name == "spot" then without(d, "the light is as in white parts", "mapname")
+      else d
 
     /** pbrt's field of view is the shorter side's, not the width's. */
     private def projection(d: Declaration): Declaration =

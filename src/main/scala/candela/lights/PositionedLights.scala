@@ -26,6 +26,8 @@ enum Fade:
   * @param all     intensity within the inner cone, in W·sr⁻¹
   * @param cosEdge cosine of the angle between axis and edge, where the light ends
   * @param cosFull cosine of the angle at which the falloff begins
+  * @param slide   scales the light, as in Mitsuba: its width and height span the cone, x to the
+  *   right in light space
   */
 final class SpotLight(
     frame: LightFrame,
@@ -33,16 +35,24 @@ final class SpotLight(
     all: Rgb,
     cosEdge: Float,
     cosFull: Float,
-    fade: Fade
+    fade: Fade,
+    slide: Option[Picture] = None
 ) extends ConeLight(frame, axis, 1f - cosEdge):
+  private val picture = slide.orNull
+  private val tanEdge = sqrt(Math.max(0f, 1f - cosEdge * cosEdge)) / cosEdge
   private val edge = Math.acos(cosEdge)
   private val full = Math.acos(cosFull)
 
   def intensity(w: Vec3): Rgb =
-    val cosine = frame.toLight(w) dot axis
+    val d = frame.toLight(w)
+    val cosine = d dot axis
     if cosine < cosEdge then Rgb.Black
-    else if cosine >= cosFull then all
-    else all * fade(inward(cosine))
+    else
+      val lit = if cosine >= cosFull then all else all * fade(inward(cosine))
+      if picture == null then lit
+      else
+        val across = 0.5f / (d.z * tanEdge)
+        lit * picture(0.5f + d.x * across, 0.5f + d.y * across)
 
   /** Position between edge (0) and inner cone (1). */
   private def inward(cosine: Float): Float =

@@ -38,7 +38,7 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
           val at = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
             Transform.translate(x, y, z)
           Some(light(in, "point", at, around)(Textures.rgb("I", c, in.at)))
-        case "spot" => Some(spot(in, around))
+        case "spot" => spot(in, around)
         case "directional" => Some(directional(in))
         case "projector" => projector(in, around)
         case "area" =>
@@ -78,16 +78,24 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
         Textures.rgb("L", Rgb.gray(scale), in.at)
       )
 
-  private def spot(in: Asked, around: String): LightDescription =
+  private def spot(in: Asked, around: String): Option[LightDescription] =
     val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
     val cutoff = in.number("cutoff_angle", 20)
     val beam = in.number("beam_width", cutoff * 0.75)
-    in.lose("using white", "texture")
-    light(in, "spot", in.transform("to_world"), around)(
-      Textures.rgb("I", c, in.at),
-      Param.float("coneangle", in.at, cutoff.toFloat),
-      Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
-    )
+    def lit(tint: Rgb, slide: Seq[Param]) =
+      val params = Vector(
+        Textures.rgb("I", c * tint, in.at),
+        Param.float("coneangle", in.at, cutoff.toFloat),
+        Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
+      )
+      Some(light(in, "spot", in.transform("to_world"), around)((params ++ slide)*))
+    colors.shade(in, "texture", Rgb.White, Role.Reflectance) match
+      case Shade.Constant(tint) => lit(tint, Vector.empty)
+      case Shade.Textured(t) =>
+        picture(t).flatMap((_, params) => lit(Rgb.White, slides(params)))
+
+  private def slides(params: Seq[Param]): Seq[Param] =
+    params.map(p => Param.string("mapname", p.at, p.strings.head))
 
   private def directional(in: Asked): LightDescription =
     val c = colors.fixed(in, "irradiance", Rgb.White, Role.Emission)
@@ -114,8 +122,7 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
         for axis <- in.text("fov_axis") if axis != "x" do
           session.warn(in.atOf("fov_axis"), "only x can be the axis beside an image; using x")
         picture(t).map: (_, params) =>
-          val slide = params.map(p => Param.string("mapname", p.at, p.strings.head))
-          lit((Textures.rgb("I", scale, in.at) +: slide)*)
+          lit((Textures.rgb("I", scale, in.at) +: slides(params))*)
 
   /** The file of a bitmap that emits. */
   private def picture(p: Plugin): Option[(String, Seq[Param])] =

@@ -3,7 +3,7 @@ package candela.convert
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Declaration, Dialect, MaterialRef, SceneDescription}
 
-import java.nio.file.Files
+import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -35,6 +35,17 @@ class FromMitsubaSuite extends AnyFunSuite:
     // r / (1 − f + r f), with the diffuse reflectance f inside an index of 1.49: 0.5905 by
     // the fit of Egan and Hilgeman, which is right to 0.002
     assert(Math.abs(base("") - 0.5f / (1 - 0.5905f + 0.29525f)) < 2e-3f)
+
+  test("the image of a spotlight is lost"):
+    val chart = Path.of("scenes/textures/chart.png").toAbsolutePath
+    val image = "<texture type=\"bitmap\" name=\"texture\">" +
+      s"<string name=\"filename\" value=\"$chart\"/></texture>"
+    def spot(more: String) =
+      val done = FromMitsuba.converted(read("", s"<emitter type=\"spot\">$more</emitter>"))
+      (done.scene.lights.head.light.param("mapname"), done.warnings.map(_.message))
+    assert(spot("")._2.size == 1)
+    val (slide, lost) = spot(image)
+    assert(slide.isEmpty && lost.exists(_.contains("no `mapname` of \"spot\"")), lost)
 
   test("a coat without interreflection gets the base that looks the same with it"):
     val white = "<rgb name=\"diffuse_reflectance\" value=\"1, 0.5, 0\"/>"

@@ -32,8 +32,12 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     float("conedeltaangle", "angular width of the falloff inside the edge", unit = "degrees")(5f)
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val slide =
+    string("mapname", "image that scales the light across the cone; Mitsuba's", onlyV4, "none")("")
 
   protected def make()(using site: Site): LightPlan =
+    val image = if slide().isEmpty then None else LightImages.read("mapname")
+    val picture = image.map(Picture(_, PictureLookup.SmoothRepeating, LightImages.conversion))
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val (p, axis) = (from(), to() - from())
@@ -44,11 +48,12 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")
+    else if slide().nonEmpty && image.isEmpty then LightPlan.nothing
     else
       LightPlan(
         (toWorld, _) =>
           val frame = LightFrame(toWorld * Transform.translate(p.x, p.y, p.z))
-          Some(SpotLight(frame, axis.normalized, i, edge, full, fade))
+          Some(SpotLight(frame, axis.normalized, i, edge, full, fade, picture))
         ,
         samples = 1
       )
