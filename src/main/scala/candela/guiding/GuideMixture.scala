@@ -2,6 +2,7 @@ package candela.guiding
 
 import candela.geometry.Frame
 import candela.math.*
+import candela.sampling.Warp
 
 /** The mixture of a region as seen from one point. Mutable, one per worker. */
 final class GuideMixture:
@@ -68,9 +69,8 @@ final class GuideMixture:
     val inverse = Math.log(within + (1f - within) * least + Tiny).toFloat / kappa
     val cos = Math.max(-1f, Math.min(1f + inverse, 1f))
     val sin = sqrt(1f - cos * cos)
-    val phi = 2f * Pi * v
     val frame = Frame.around(Vec3(xs(k), ys(k), zs(k)))
-    to.set(frame.toWorld(Vec3(sin * Math.cos(phi).toFloat, sin * Math.sin(phi).toFloat, cos)))
+    to.set(frame.toWorld(Warp.around(cos, sin, v)))
 
 private[guiding] object Lobe:
   /** Keeps the logarithm finite. */

@@ -51,7 +51,7 @@ final class LightConnection(
   /** Samples a point on the chosen light as seen from `p`; false if it contributes nothing. */
   def samplePoint(p: Vec3, u1: Float, u2: Float): Boolean =
     scene.lights(choice.light).sample(p, u1, u2, sample)
-    sample.pdf > 0f && !sample.radiance.isBlack
+    sample.isLit
 
   /** Index of the chosen light. */
   def index: Int = choice.light

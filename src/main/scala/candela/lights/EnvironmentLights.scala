@@ -46,10 +46,15 @@ final class ImageEnvironment(
     val place = distribution.sample(u1, u2)
     val s = layout.stretch(place.y)
     out.wi = frame.toWorld(layout.toDirection(place.x, place.y))
-    // With constant pixels, the sampled position saves mapping the direction back to the image
-    out.radiance = if image.smooth then radiance(from, out.wi) else image.at(place)
+    out.defer(this, place)
     out.pdf = if s > 0f then place.z / s else 0f
     out.isInfinite = true
+
+  /** Radiance of a sampled direction, from its place in the image. With constant pixels, the place
+    * saves mapping the direction back.
+    */
+  private[lights] def radianceAt(place: Vec3, wi: Vec3): Rgb =
+    if image.smooth then image(frame.toLight(wi)) else image.at(place)
 
 object ImageEnvironment:
   /** @param complete see [[distribution]] */

@@ -50,6 +50,8 @@ abstract class Light:
 final class LightSample:
   private val ownWi = MutableVec3(0f, 0f, 1f)
   private val ownRadiance = MutableRgb()
+  private val imagePlace = MutableVec3()
+  private var deferred: ImageEnvironment | Null = null
 
   /** Unit vector towards the light. */
   def wi: MutableVec3 = ownWi
@@ -58,8 +60,23 @@ final class LightSample:
   /** Unoccluded incident radiance; for delta lights, the irradiance on a plane facing the light,
     * with `pdf` 1.
     */
-  def radiance: MutableRgb = ownRadiance
-  def radiance_=(c: Rgb): Unit = ownRadiance.set(c)
+  def radiance: MutableRgb =
+    val light = deferred
+    if light != null then radiance = light.radianceAt(imagePlace, wi)
+    ownRadiance
+  def radiance_=(c: Rgb): Unit =
+    deferred = null
+    ownRadiance.set(c)
+
+  /** Looks the radiance up in the light's image only when it is asked for, as it is not where the
+    * sample is occluded.
+    */
+  private[lights] def defer(light: ImageEnvironment, place: Vec3): Unit =
+    deferred = light
+    imagePlace.set(place)
+
+  /** May the light arrive? */
+  def isLit: Boolean = pdf > 0f && (deferred != null || !ownRadiance.isBlack)
 
   /** Pdf per solid angle. */
   var pdf: Float = 0f

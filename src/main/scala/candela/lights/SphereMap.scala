@@ -1,6 +1,7 @@
 package candela.lights
 
 import candela.math.*
+import candela.sampling.Warp
 
 /** Mapping between an image and the sphere of directions; (x, y) in [0, 1], y down from the top.
   */
@@ -32,10 +33,7 @@ object LatLongMap extends SphereMap:
     Vec3(clamp((if phi < 0f then phi + TwoPi else phi) * InvTwoPi, 0f, 1f), theta * InvPi, 0f)
 
   def toDirection(x: Float, y: Float): Vec3 =
-    val phi = x * TwoPi
-    val theta = y * Pi
-    val s = sin(theta)
-    Vec3(s * cos(phi), s * sin(phi), cos(theta))
+    sinCos(y * Math.PI)((sine, cosine) => Warp.around(cosine.toFloat, sine.toFloat, x))
 
   def stretch(y: Float): Float = 2f * Pi * Pi * sin(y * Pi)
 
@@ -109,11 +107,14 @@ object EqualAreaMap extends SphereMap:
     val av = Math.abs(v)
     val signed = 1f - (au + av)
     val r = 1f - Math.abs(signed)
-    val phi = (if r == 0f then 1f else (av - au) / r + 1f) * (Pi / 4f)
-    val horizontal = r * safeSqrt(2f - r * r)
+    // From the middle of the octant
+    val phi = if r == 0f then 0.0 else 0.25 * Math.PI * ((av - au) / r)
+    val horizontal = r * safeSqrt(1f - 0.5f * (r * r))
+    val along = cosOfEighth(phi).toFloat
+    val across = sinOfEighth(phi).toFloat
     Vec3(
-      Math.copySign(cos(phi) * horizontal, u),
-      Math.copySign(sin(phi) * horizontal, v),
+      Math.copySign((along - across) * horizontal, u),
+      Math.copySign((along + across) * horizontal, v),
       Math.copySign(1f - r * r, signed)
     )
 

@@ -25,8 +25,7 @@ final class HenyeyGreenstein(val g: Float):
         val s = (1f - g * g) / (1f + g - 2f * g * u1)
         clamp((s * s - 1f - g * g) / (2f * g), -1f, 1f)
     val sinTheta = safeSqrt(1f - cosTheta * cosTheta)
-    val phi = TwoPi * u2
-    Frame.around(wo).toWorld(Vec3(sinTheta * cos(phi), sinTheta * sin(phi), cosTheta))
+    Frame.around(wo).toWorld(Warp.around(cosTheta, sinTheta, u2))
 
 object HenyeyGreenstein:
   /** Below this |g| the inversion divides rounding errors by almost zero. */

@@ -1,5 +1,7 @@
 package candela.sampling
 
+import candela.math.sinCos
+
 /** Spherical rectangle: samples directions uniformly over the solid angle of a rectangle.
   *
   * The rectangle is [x0, x1] × [y0, y1] at height `z` ≠ 0 over the reference point. Mutable, one
@@ -36,9 +38,9 @@ final class SphericalRectangle:
   /** Samples a point; requires a positive solid angle. */
   def sample(u1: Float, u2: Float): Unit =
     // The part of the rectangle from x0 to x has the fraction u1 of the solid angle
-    val (cosine, sine) = (Math.cos(u1 * area), Math.sin(u1 * area))
-    val slope = ((cosine * cosRest - sine * sinRest) * lower - upper) /
-      (sine * cosRest + cosine * sinRest)
+    val slope = sinCos(u1 * area): (sine, cosine) =>
+      ((cosine * cosRest - sine * sinRest) * lower - upper) /
+        (sine * cosRest + cosine * sinRest)
     val c = clamp(Math.signum(slope) / Math.sqrt(slope * slope + lower * lower), -1, 1)
     val depth = Math.abs(z)
     x = clamp(c * depth / Math.sqrt(Math.max(1e-30, 1 - c * c)), x0, x1)

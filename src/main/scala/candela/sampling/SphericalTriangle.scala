@@ -68,8 +68,10 @@ final class SphericalTriangle:
   def sample(u1: Float, u2: Float): MutableVec3 =
     // Moves the corner c along its arc until the remaining part has the fraction u1 of the area.
     val part = u1 * area
-    val s = Math.sin(part) * cosAlpha - Math.cos(part) * sinAlpha
-    val t = Math.cos(part) * cosAlpha + Math.sin(part) * sinAlpha
+    var s, t = 0.0
+    sinCos(part): (sine, cosine) =>
+      s = sine * cosAlpha - cosine * sinAlpha
+      t = cosine * cosAlpha + sine * sinAlpha
     val u = t - cosAlpha
     val v = s + sinAlpha * cosAB
     val q = clamped(((v * t - u * s) * cosAlpha - v) / ((v * s + u * t) * sinAlpha))

@@ -21,11 +21,12 @@ object Warp:
     // A single Vec3 for both branches: the compiler keeps only that off the heap
     val isWide = abs(a) > abs(b)
     val r = if isWide then a else b
-    val phi =
-      if isWide then (Pi / 4f) * (b / a)
-      else if b == 0f then 0f
-      else Pi / 2f - (Pi / 4f) * (a / b)
-    Vec3(r * cos(phi), r * sin(phi), 0f)
+    val other = if isWide then b else a
+    // The angle to the nearer axis
+    val phi = if r == 0f then 0.0 else 0.25 * Math.PI * (other / r)
+    val along = r * cosOfEighth(phi).toFloat
+    val across = r * sinOfEighth(phi).toFloat
+    Vec3(if isWide then along else across, if isWide then across else along, 0f)
 
   /** Cosine-weighted directions with z ≥ 0.
     *
@@ -74,6 +75,7 @@ object Warp:
       val b0 = u1 - b1
       Vec3(b0, b1, 1f - b0 - b1)
 
-  private def around(cosTheta: Float, sinTheta: Float, u: Float): Vec3 =
-    val phi = TwoPi * u
-    Vec3(sinTheta * cos(phi), sinTheta * sin(phi), cosTheta)
+  /** The direction at an angle of θ to +z, and `u` of a turn around it. */
+  def around(cosTheta: Float, sinTheta: Float, u: Float): Vec3 =
+    sinCos(2.0 * Math.PI * u): (sine, cosine) =>
+      Vec3(sinTheta * cosine.toFloat, sinTheta * sine.toFloat, cosTheta)

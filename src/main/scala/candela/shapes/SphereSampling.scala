@@ -2,6 +2,7 @@ package candela.shapes
 
 import candela.geometry.Frame
 import candela.math.*
+import candela.sampling.Warp
 
 /** Samples the part of a sphere visible from a point outside: uniform over the cone of directions.
   *
@@ -41,9 +42,8 @@ object SphereSampling:
     val toSample = (distance2 - radius2) / (distance * cosTheta + halfChord)
     val sinAlpha = (toSample * Math.sqrt(sin2Theta) / radius).toFloat
     val cosAlpha = ((distance - toSample * cosTheta) / radius).toFloat
-    val phi = u2 * TwoPi
     val frame = Frame.around((from - center).normalized)
-    val n = frame.toWorld(Vec3(sinAlpha * cos(phi), sinAlpha * sin(phi), cosAlpha))
+    val n = frame.toWorld(Warp.around(cosAlpha, sinAlpha, u2))
     out.n = n
     out.p = center + n * radius
     // centre + r·n: one product and one sum, each rounded; the terms may exceed the result

@@ -46,6 +46,24 @@ final class EnvironmentLightsSuite extends AnyFunSuite:
   private val constant =
     ("constant", ConstantEnvironment(Rgb(1f, 2f, 3f), complete = true), true)
 
+  for smooth <- Seq(true, false) do
+    test(s"colours of samples are converted when they are asked for, once; smooth: $smooth"):
+      var conversions = 0
+      val colors = Some((c: Rgb) =>
+        conversions += 1; c
+      )
+      val image = SphereImage(picture(16, 8), LatLongMap, Rgb.White, smooth, colors)
+      val env = ImageEnvironment(LightFrame(turned), image, complete = true)
+      conversions = 0
+      val (draws, out) = (Draws(6), LightSample())
+      for _ <- 1 to 10 do
+        env.sample(Vec3.Zero, draws.unit(), draws.unit(), out)
+        assert(out.isLit)
+      assert(conversions == 0)
+      val radiance = out.radiance.toRgb
+      assert(out.radiance.toRgb == radiance && conversions == 1)
+      assert(radiance == env.radiance(Vec3.Zero, out.wi))
+
   for (name, env, complete) <- all :+ constant do
     test(s"$name: a sample's density and radiance are those of its direction"):
       val draws = Draws(5)

@@ -4,6 +4,7 @@ import candela.bsdf.{CosineSampled, Fresnel, Hemisphere, ReflectanceCurve}
 import candela.bsdf.microfacet.MicrofacetDistribution
 import candela.color.Rgb
 import candela.math.*
+import candela.sampling.Warp
 
 /** The diffuse lobes of Disney's material: all terms that depend on the cosines alone.
   *
@@ -107,12 +108,7 @@ final class ClearcoatDistribution(alpha: Float, isBare: Boolean = false)
     // Samples sin²θ rather than cos²θ: most are tiny
     val sine2 = (Math.pow(alpha2, 1.0 - u2) - alpha2) / (1.0 - alpha2)
     val sine = Math.sqrt(Math.max(0.0, sine2))
-    val phi = 2.0 * Math.PI * u1
-    Vec3(
-      (sine * Math.cos(phi)).toFloat,
-      (sine * Math.sin(phi)).toFloat,
-      Math.sqrt(Math.max(0.0, 1.0 - sine2)).toFloat
-    )
+    Warp.around(Math.sqrt(Math.max(0.0, 1.0 - sine2)).toFloat, sine.toFloat, u1)
 
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float =
     if m.z > 0f then 4f * Math.abs(wi.z) * visibility(wo, wi, m) * Math.abs(wo dot m) / m.z else 0f

@@ -1,6 +1,7 @@
 package candela.bsdf.microfacet
 
 import candela.math.*
+import candela.sampling.Warp
 
 /** A microfacet normal distribution with its masking-shadowing function.
   *
@@ -90,11 +91,11 @@ final class TrowbridgeReitz(val alphaX: Float, val alphaY: Float) extends Microf
 
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
     val view = Vec3(ax * wo.x, ay * wo.y, wo.z).normalized
-    val phi = TwoPi * u1
     val up = (1f - u2) * (1f + view.z)
     val z = up - view.z
     val r = safeSqrt(1f - z * z)
-    Vec3(ax * (r * cos(phi) + view.x), ay * (r * sin(phi) + view.y), up).normalized
+    val around = Warp.around(up, r, u1)
+    Vec3(ax * (around.x + view.x), ay * (around.y + view.y), up).normalized
 
   def sampleWeight(wo: Vec3, wi: Vec3, m: Vec3): Float =
     val cosO = Math.abs(wo.z)
@@ -167,9 +168,9 @@ final class CosinePower(exponentX: Float, exponentY: Float) extends MicrofacetDi
   def pdf(wo: Vec3, m: Vec3): Float = (count * power(m)).toFloat
 
   def sample(wo: Vec3, u1: Float, u2: Float): Vec3 =
-    val angle = 2.0 * Math.PI * u1
-    val x = Math.sqrt(ey + 1.0) * Math.cos(angle)
-    val y = Math.sqrt(ex + 1.0) * Math.sin(angle)
+    val around = Warp.around(0f, 1f, u1)
+    val x = Math.sqrt(ey + 1.0) * around.x
+    val y = Math.sqrt(ex + 1.0) * around.y
     val length2 = x * x + y * y
     val exponent = (ex * x * x + ey * y * y) / length2
     // 1 − u2 is never 0, so neither is the cosine.
