@@ -63,7 +63,8 @@ object Architecture:
 
   private val measure = Set("base", "math", "color", "image")
   private val report = measure + "measure"
-  private val convert = measure ++ Set("bsdf", "bsdf.microfacet", "lights", "scenefile")
+  private val convert =
+    measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
   private val mitsuba = Set("base", "math", "color", "scenefile", "build.shapes")
   private val towers = (runtime ++ file).toSet
 

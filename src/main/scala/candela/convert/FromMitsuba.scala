@@ -9,6 +9,7 @@ import candela.base.{Problem, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.image.ImageFiles
+import candela.sampling.PhaseFunction
 import candela.scenefile.{
   Declaration, Dialect, GraphicsState, MaterialRef, Param, ParamType, SceneDescription,
   TextureDescription
@@ -41,7 +42,7 @@ object FromMitsuba:
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")
-        d
+        phased(d)
       else if d.category != "Material" then d
       else
         for p <- d.param("normalmapuv") do
@@ -56,6 +57,23 @@ object FromMitsuba:
           )
         val mapped = without(d, "", "normalmapuv")
         if d.dialect.isDefined then mapped else material(mapped)
+
+    /** pbrt's media scatter by Henyey and Greenstein: the mean cosine stays. */
+    private def phased(d: Declaration): Declaration =
+      def numbers(name: String) = d.param(name).fold(Vector.empty)(_.floats.toVector)
+      val summed =
+        for
+          kinds <- d.param("phases")
+          phase <- PhaseFunction.of(kinds.strings, numbers("phaseweights"), numbers("phasevalues"))
+        yield (kinds.strings, Param.float("g", d.at, phase.asymmetry))
+      summed.fold(d): (kinds, g) =>
+        val named = without(
+          d,
+          s"using g = ${Math.round(g.floats(0) * 100) / 100.0} for ${kinds.mkString(" and ")}",
+          "phases"
+        )
+        val plain = without(named, "", "phaseweights", "phasevalues")
+        plain.copy(params = plain.params :+ g)
 
     private def material(d: Declaration): Declaration =
       d.name match

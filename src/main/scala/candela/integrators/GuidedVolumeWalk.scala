@@ -6,7 +6,7 @@ import candela.geometry.Ray
 import candela.guiding.Guide
 import candela.math.*
 import candela.media.SceneMedia
-import candela.sampling.{HenyeyGreenstein, Sampler}
+import candela.sampling.{PhaseFunction, Sampler}
 import candela.scene.Scene
 
 /** A [[VolumeWalk]] with [[Guidance]], on surfaces and in media. */
@@ -31,7 +31,7 @@ final class GuidedVolumeWalk(
   override protected def phasePdf(value: Float): Float =
     guidance.pdf(Vec3.Z, light.wi, value)
 
-  override protected def turn(phase: HenyeyGreenstein, wo: Vec3, sampler: Sampler): Vec3 =
+  override protected def turn(phase: PhaseFunction, wo: Vec3, sampler: Sampler): Vec3 =
     scatterGuided(sampler)
     weights.turn(if options.samplesLights then vertex.bounce.pdf else 0f)
     vertex.at.frame.toWorld(vertex.bounce.wi)

@@ -6,7 +6,7 @@ import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
 import candela.math.*
 import candela.media.{MediumWork, PathWeights, SceneMedia}
-import candela.sampling.{HenyeyGreenstein, Sampler}
+import candela.sampling.{PhaseFunction, Sampler}
 import candela.scene.Scene
 
 /** A path from the camera through participating media: its state, and the steps of which
@@ -206,7 +206,7 @@ class VolumeWalk(
   protected def phasePdf(value: Float): Float = value
 
   /** Samples the phase function. */
-  protected def turn(phase: HenyeyGreenstein, wo: Vec3, sampler: Sampler): Vec3 =
+  protected def turn(phase: PhaseFunction, wo: Vec3, sampler: Sampler): Vec3 =
     sampler.next2D()
     val wi = phase.sample(wo, sampler.x, sampler.y)
     weights.turn(if options.samplesLights then phase.value(wo, wi) else 0f)

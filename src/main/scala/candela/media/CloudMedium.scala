@@ -2,7 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.math.*
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.PhaseFunction
 import candela.textures.PerlinNoise
 
 /** Procedural cloud of noise, denser at the bottom.
@@ -25,7 +25,7 @@ final class CloudMedium(
     density: Float,
     wispiness: Float,
     frequency: Float,
-    val phase: HenyeyGreenstein
+    val phase: PhaseFunction
 ) extends VaryingMedium(toUnit, MajorantGrid.constant(1f), absorption + scattering):
   def isEmissive: Boolean = false
   def isChromatic: Boolean = Medium.isChromatic(absorption, scattering)

@@ -2,7 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.math.Transform
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.PhaseFunction
 
 /** A medium with a grid of densities, which scale its coefficients.
   *
@@ -14,7 +14,7 @@ final class GridMedium(
     absorption: Rgb,
     scattering: Rgb,
     glow: Option[Glow],
-    val phase: HenyeyGreenstein
+    val phase: PhaseFunction
 ) extends VaryingMedium(toUnit, density.majorants, absorption + scattering):
   private val glowing: Glow | Null = glow.orNull
   def isEmissive: Boolean = glow.isDefined
@@ -59,7 +59,7 @@ final class ColorGridMedium(
     constant: Float,
     factor: Float,
     glow: Option[ColorGrid],
-    val phase: HenyeyGreenstein
+    val phase: PhaseFunction
 ) extends VaryingMedium(
       toUnit,
       ColorGridMedium.bounds(size, absorption, scattering, constant, factor),

@@ -3,7 +3,7 @@ package candela.media
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.math.*
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.PhaseFunction
 
 /** Homogeneous, unbounded medium. Distances and transmittances are exact.
   *
@@ -14,7 +14,7 @@ final class HomogeneousMedium(
     absorption: Rgb,
     scattering: Rgb,
     emitted: Rgb,
-    val phase: HenyeyGreenstein
+    val phase: PhaseFunction
 ) extends Medium:
   private val extinction = absorption + scattering
   private val glow = absorption * emitted

@@ -2,7 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.sampling.{HenyeyGreenstein, RandomStream}
+import candela.sampling.{PhaseFunction, RandomStream}
 
 /** A participating medium, which scatters, absorbs or emits light between surfaces. Immutable.
   *
@@ -10,7 +10,7 @@ import candela.sampling.{HenyeyGreenstein, RandomStream}
   * transmittance is known analytically, and little where it is estimated.
   */
 abstract class Medium:
-  val phase: HenyeyGreenstein
+  val phase: PhaseFunction
 
   /** Traces the camera path along `ray`, up to `ray.tMax`, to the next scattering event. Multiplies
     * `work.weights` by the path's weight, and adds the emission on the way to `work`'s glow.

@@ -3,7 +3,7 @@ package candela.media
 import candela.color.Rgb
 import candela.geometry.{Bounds3, Ray}
 import candela.math.*
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.PhaseFunction
 
 /** A box filled with a medium of varying density: pbrt-v2's volumes. Unlike a [[Medium]] it needs
   * no bounding surface, and several may overlap. Immutable.
@@ -16,7 +16,7 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   val scattering: Rgb = filling.scattering
   val extinction: Rgb = filling.absorption + filling.scattering
   val emitted: Rgb = filling.emitted
-  val phase: HenyeyGreenstein = filling.phase
+  val phase: PhaseFunction = filling.phase
 
   /** Density at a point of volume space within the box. */
   protected def density(p: Vec3): Float
@@ -47,7 +47,7 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
   *
   * @param absorption, scattering, emitted  at a density of 1, per scene unit
   */
-final case class Filling(absorption: Rgb, scattering: Rgb, emitted: Rgb, phase: HenyeyGreenstein)
+final case class Filling(absorption: Rgb, scattering: Rgb, emitted: Rgb, phase: PhaseFunction)
 
 /** An interval of a ray; mutable. */
 final class Overlap:

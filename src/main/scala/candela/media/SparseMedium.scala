@@ -2,7 +2,7 @@ package candela.media
 
 import candela.color.Rgb
 import candela.math.Transform
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.PhaseFunction
 
 /** Densities of a sparse grid with their majorants, which serve any colour basis.
   *
@@ -38,7 +38,7 @@ final class SparseMedium(
     absorption: Rgb,
     scattering: Rgb,
     glow: Option[SparseGlow],
-    val phase: HenyeyGreenstein
+    val phase: PhaseFunction
 ) extends VaryingMedium(toUnit, density.bounds, absorption + scattering):
   private val densities = density.grid
   private val glowing: SparseGlow | Null = glow.orNull

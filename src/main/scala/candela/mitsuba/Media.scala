@@ -24,7 +24,7 @@ final class Media(session: Session, colors: Colors):
     (Iterator(wanted) ++ Iterator.from(2).map(i => s"$wanted $i")).find(!taken(_)).get
 
   private def translated(in: Asked): MediumDescription =
-    val phase = in.nested("phase").headOption.fold(0f)(asymmetry)
+    val phase = in.nested("phase").headOption.fold(Phase.Isotropic)(phaseOf)
     in.ignore("sample_emitters", "has_spectral_extinction", "majorant_resolution_factor")
     val scale = in.number("scale", 1).toFloat
     in.plugin.name match
@@ -41,15 +41,16 @@ final class Media(session: Session, colors: Colors):
         empty(in)
 
   /** Of constant extinction. */
-  private def even(in: Asked, g: Float, scale: Float): MediumDescription =
+  private def even(in: Asked, phase: Phase, scale: Float): MediumDescription =
     albedoGrid(in) match
-      case Some(v) => shares(in, v, g, scale).getOrElse(empty(in))
-      case None => homogeneous(in, g, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
+      case Some(v) => shares(in, v, phase, scale).getOrElse(empty(in))
+      case None =>
+        homogeneous(in, phase, scale, fixed(in, "albedo", 0.75f), fixed(in, "sigma_t", 1f))
 
   /** Of constant extinction, which Mitsuba's heterogeneous media have in a box only: that of the
     * volume's unit cube, along the axes of the world.
     */
-  private def boxed(in: Asked, v: Option[Plugin], g: Float, scale: Float): MediumDescription =
+  private def boxed(in: Asked, v: Option[Plugin], phase: Phase, scale: Float): MediumDescription =
     val sigmaT = fixed(in, "sigma_t", 1f)
     val albedo = fixed(in, "albedo", 0.75f)
     val toWorld = v.fold(Transform.Identity)(Asked(_, session).transform("to_world"))
@@ -65,7 +66,7 @@ final class Media(session: Session, colors: Colors):
       Param.floats(ParamType.Point3, "p1", at, bound(_.max)),
       Param.floats(ParamType.Float, "density", at, density)
     )
-    val parts = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, g, scale)
+    val parts = coefficients(in, sigmaT * (Rgb.White - albedo), sigmaT * albedo, phase, scale)
     MediumDescription(
       fresh(in),
       session.declare("Medium", "uniformgrid", at, parts ++ place),
@@ -79,7 +80,7 @@ final class Media(session: Session, colors: Colors):
     in.objectNamed("albedo").filter(v => v.kind == "volume" && v.name == "gridvolume")
 
   private def empty(in: Asked): MediumDescription =
-    homogeneous(in, 0f, 1f, Rgb.Black, Rgb.Black)
+    homogeneous(in, Phase.Isotropic, 1f, Rgb.Black, Rgb.Black)
 
   /** A colour, which may be given as a constant volume. */
   private def fixed(in: Asked, name: String, default: Float): Rgb =
@@ -93,7 +94,7 @@ final class Media(session: Session, colors: Colors):
         Rgb.gray(default)
       case None => colors.fixed(in, name, Rgb.gray(default), Role.Plain)
 
-  private def homogeneous(in: Asked, g: Float, scale: Float, albedo: Rgb, sigmaT: Rgb) =
+  private def homogeneous(in: Asked, phase: Phase, scale: Float, albedo: Rgb, sigmaT: Rgb) =
     // Coefficients may be given instead of albedo and extinction
     val (a, s) =
       if in.has("sigma_a") || in.has("sigma_s") then
@@ -101,19 +102,23 @@ final class Media(session: Session, colors: Colors):
       else (sigmaT * (Rgb.White - albedo), sigmaT * albedo)
     MediumDescription(
       fresh(in),
-      session.declare("Medium", "homogeneous", in.at, coefficients(in, a, s, g, scale)),
+      session.declare("Medium", "homogeneous", in.at, coefficients(in, a, s, phase, scale)),
       GraphicsState.Identity
     )
 
-  private def coefficients(in: Asked, a: Rgb, s: Rgb, g: Float, scale: Float): Seq[Param] = Seq(
+  private def coefficients(in: Asked, a: Rgb, s: Rgb, phase: Phase, scale: Float): Seq[Param] = Seq(
     Textures.rgb("sigma_a", a, in.at),
     Textures.rgb("sigma_s", s, in.at),
-    Param.float("g", in.at, g),
     Param.float("scale", in.at, scale)
-  )
+  ) ++ phase.params(in.at)
 
   /** Extinction by a grid; the albedo may be another. */
-  private def grid(in: Asked, volume: Asked, g: Float, scale: Float): Option[MediumDescription] =
+  private def grid(
+      in: Asked,
+      volume: Asked,
+      phase: Phase,
+      scale: Float
+  ): Option[MediumDescription] =
     for
       sigmaT <- volumes(volume)
       albedo <- albedoGrid(in) match
@@ -125,32 +130,31 @@ final class Media(session: Session, colors: Colors):
       val (kind, params) = albedo match
         case Right(a) if file.channels == 1 =>
           val density = Param.floats(ParamType.Float, "density", at, file.values)
-          ("uniformgrid", coefficients(in, Rgb.White - a, a, g, scale) :+ density)
+          ("uniformgrid", coefficients(in, Rgb.White - a, a, phase, scale) :+ density)
         case _ =>
-          ("rgbgrid", cells(in, sigmaT.parted(albedo), at, g, scale))
+          ("rgbgrid", cells(in, sigmaT.parted(albedo), at, phase, scale))
       placed(in, kind, params, sigmaT, at)
 
   /** A grid of albedos alone: empty beyond its box, unlike Mitsuba's. */
-  private def shares(in: Asked, v: Plugin, g: Float, scale: Float): Option[MediumDescription] =
+  private def shares(in: Asked, v: Plugin, phase: Phase, scale: Float): Option[MediumDescription] =
     session.of(v)(volumes(_)).map: albedo =>
       session.warn(v.at, "the medium ends at the box of its albedos")
       val parted = albedo.sharing(fixed(in, "sigma_t", 1f))
-      placed(in, "rgbgrid", cells(in, parted, v.at, g, scale), albedo, v.at)
+      placed(in, "rgbgrid", cells(in, parted, v.at, phase, scale), albedo, v.at)
 
   private def cells(
       in: Asked,
       coefficients: (Array[Float], Array[Float]),
       at: SourcePos,
-      g: Float,
+      phase: Phase,
       scale: Float
   ): Seq[Param] =
     val (absorbed, scattered) = coefficients
     Seq(
       Param.floats(ParamType.Rgb, "sigma_a", at, absorbed),
       Param.floats(ParamType.Rgb, "sigma_s", at, scattered),
-      Param.float("g", in.at, g),
       Param.float("scale", in.at, scale)
-    )
+    ) ++ phase.params(in.at)
 
   private def placed(
       in: Asked,
@@ -169,9 +173,5 @@ final class Media(session: Session, colors: Colors):
       GraphicsState.still(grid.toWorld)
     )
 
-  private def asymmetry(p: Plugin): Float = p.name match
-    case "isotropic" => 0f
-    case "hg" => session.of(p)(_.number("g", 0.8).toFloat)
-    case _ =>
-      Plugins.unsupported(p, "using \"isotropic\"", session)
-      0f
+  private def phaseOf(p: Plugin): Phase =
+    Phase.translated(p, session)((in, name) => fixed(in, name, 0.5f).average)

@@ -26,7 +26,8 @@ object Plugins:
   val filters: Vector[String] =
     Vector("box", "catmullrom", "gaussian", "lanczos", "mitchell", "tent")
   val films: Vector[String] = Vector("hdrfilm", "ldrfilm")
-  val phases: Vector[String] = Vector("hg", "isotropic")
+  val phases: Vector[String] =
+    Vector("blendphase", "hg", "isotropic", "rayleigh", "tabphase")
   val volumes: Vector[String] = Vector("constvolume", "gridvolume")
 
   /** Types that exist in Mitsuba 3, but are not read. */
@@ -43,7 +44,7 @@ object Plugins:
     "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
       "prb_projective", "volprim_rf_basic"),
     "film" -> Vector("specfilm"),
-    "phase" -> Vector("blendphase", "rayleigh", "sggx", "tabphase")
+    "phase" -> Vector("sggx")
   )
 
   /** By element. */

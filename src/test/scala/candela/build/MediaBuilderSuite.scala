@@ -98,6 +98,18 @@ final class MediaBuilderSuite extends AnyFunSuite:
     val known = SceneTexts.problems(text.replace("milc", "milk"), Dialect.V3)
     assert(known.isEmpty, known)
 
+  test("phase functions that don't match their numbers are an error"):
+    def problems(values: String) = found(
+      scene(
+        "volpath",
+        s"""MakeNamedMedium "m" "string type" "homogeneous" "string phases" [ "rayleigh" "hg" ]
+           |"float phaseweights" [ .5 .5 ] "float phasevalues" [ $values ]""".stripMargin
+      )
+    ).map(_.message)
+    assert(problems(".5").isEmpty)
+    val wrong = Vector("`phases`, `phaseweights` and `phasevalues` don't match")
+    assert(problems("") == wrong && problems(".5 .5") == wrong && problems("1.5") == wrong)
+
   test("volumes are rendered by the surface integrator and the volume integrator together"):
     val text =
       """Camera "perspective"

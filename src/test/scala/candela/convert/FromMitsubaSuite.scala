@@ -36,6 +36,23 @@ class FromMitsubaSuite extends AnyFunSuite:
     // the fit of Egan and Hilgeman, which is right to 0.002
     assert(Math.abs(base("") - 0.5f / (1 - 0.5905f + 0.29525f)) < 2e-3f)
 
+  test("phase functions that pbrt lacks keep their mean cosine"):
+    def medium(phase: String) =
+      val inside = s"<medium type=\"homogeneous\" name=\"interior\">$phase</medium>"
+      val done = FromMitsuba.converted(read(inside))
+      (done.scene.media.head.medium, done.warnings.map(_.message))
+    val hg = "<phase type=\"hg\"><float name=\"g\" value=\"0.6\"/></phase>"
+    assert(medium(hg)._2.isEmpty)
+    val (d, lost) = medium(
+      s"<phase type=\"blendphase\"><float name=\"weight\" value=\"0.25\"/>" +
+        s"<phase type=\"rayleigh\"/>$hg</phase>"
+    )
+    assert(Math.abs(d.param("g").get.floats.head - 0.15f) < 1e-6f)
+    assert(d.params.forall(!_.name.startsWith("phase")))
+    assert(
+      lost == Vector("pbrt has no `phases` of \"homogeneous\"; using g = 0.15 for rayleigh and hg")
+    )
+
   test("the image of a spotlight is lost"):
     val chart = Path.of("scenes/textures/chart.png").toAbsolutePath
     val image = "<texture type=\"bitmap\" name=\"texture\">" +

@@ -239,6 +239,31 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val others = Plugins.others.values.flatten.filterNot(name => page.contains(s"`$name`"))
     assert(others.isEmpty)
 
+  test("phase functions are blended by constant weights, and checked"):
+    def medium(phase: String) =
+      s"<shape type=\"cube\"><medium type=\"homogeneous\" name=\"interior\">\n$phase" +
+        "</medium></shape>"
+    def table(values: String) =
+      s"<phase type=\"tabphase\"><string name=\"values\" value=\"$values\"/></phase>"
+    def blend(parts: String) =
+      "<phase type=\"blendphase\"><volume type=\"constvolume\" name=\"weight\">" +
+        s"<float name=\"value\" value=\"0.75\"/></volume>$parts</phase>"
+    val d = read(Sensor + medium(blend(table("1, 2 3") + "<phase type=\"rayleigh\"/>")))
+      .media.head.medium
+    assert(d.param("phases").get.strings == Vector("tabulated", "rayleigh"))
+    assert(d.param("phaseweights").get.floats.toSeq == Seq(0.25f, 0.75f))
+    assert(d.param("phasevalues").get.floats.toSeq == Seq(3f, 1f, 2f, 3f))
+    assert(
+      problems(medium(table("1 -2"))) == Vector(
+        "2:24: `values` of phase \"tabphase\" must be two numbers or more, at least 0, and not " +
+          "all 0, found 2: 1.0, -2.0"
+      )
+    )
+    assert(
+      problems(medium(blend("<phase type=\"rayleigh\"/>"))) ==
+        Vector("2:1: phase \"blendphase\" must have two phase functions, found 1")
+    )
+
   test("a heterogeneous medium of constant extinction fills its volume's cube"):
     def medium(volume: String) =
       val sigmaT = s"<volume type=\"constvolume\" name=\"sigma_t\">$volume" +

@@ -6,7 +6,7 @@ import candela.color.Rgb
 import candela.geometry.Bounds3
 import candela.math.*
 import candela.media.{GridEdge, Medium, Region, SampledGrid}
-import candela.sampling.HenyeyGreenstein
+import candela.sampling.{HenyeyGreenstein, PhaseFunction}
 import candela.scenefile.Dialect
 
 /** Recipes of v3's and v4's participating media. An empty medium is None. */
@@ -30,7 +30,30 @@ private[build] val PerUnit = "1/scene unit"
 trait Scatters extends Fields:
   private val asymmetry = float("g", "scattering asymmetry, -1 to 1")(0f)
 
-  protected def phase()(using site: Site): HenyeyGreenstein =
+  private val kinds =
+    strings(
+      "phases",
+      "string[]",
+      s"phase functions of Mitsuba's scenes, summed: ${PhaseFunction.Kinds.mkString(", ")}",
+      onlyV4
+    )
+  private val weights = numbers("phaseweights", "float[]", "weights of `phases`", onlyV4)
+  private val values =
+    numbers(
+      "phasevalues",
+      "float[]",
+      "of each of `phases` in turn: g of hg; the number of tabulated values, and these",
+      onlyV4
+    )
+
+  protected def phase()(using site: Site): PhaseFunction =
+    if kinds().isEmpty then plain()
+    else
+      val summed = PhaseFunction.of(kinds(), weights().toVector, values().toVector)
+      if summed.isEmpty then site.error("`phases`, `phaseweights` and `phasevalues` don't match")
+      summed.getOrElse(HenyeyGreenstein(0f))
+
+  private def plain()(using site: Site): PhaseFunction =
     // pbrt-v4's bound; nearer to 1 the phase function exceeds Float precision
     val most = if site.dialect == Dialect.V4 then 0.99f else 0.999f
     val g = asymmetry()
