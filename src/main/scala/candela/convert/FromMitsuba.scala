@@ -123,6 +123,20 @@ object FromMitsuba:
           Param.float("fov", p.at, Math.toDegrees(2 * Math.atan(half)).toFloat))
 
     private def texture(d: Declaration): Declaration =
+      if d.name == "grid" then gridMean(d) else plainTexture(d)
+
+    private def gridMean(d: Declaration): Declaration =
+      def cells(axis: String) = d.param(axis).fold(1)(_.ints.headOption.getOrElse(1))
+      val values = d.param("values").fold(Array.emptyFloatArray)(_.floats)
+      val channels = values.length / Math.max(1, cells("nx") * cells("ny") * cells("nz"))
+      val mean = Array.tabulate(channels): c =>
+        val own = values.indices.by(channels).map(i => values(i + c).toDouble)
+        (own.sum / own.size).toFloat
+      warn(d, "pbrt has no textures that are grids in space; using the mean of its values")
+      val kind = if channels == 3 then ParamType.Rgb else ParamType.Float
+      d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.at, mean)))
+
+    private def plainTexture(d: Declaration): Declaration =
       val upright = without(d, "the texture is left upright", "uskew", "vskew")
       upright.copy(params = upright.params.map: p =>
         if p.name != "wrap" || !p.strings.contains("mirror") then p

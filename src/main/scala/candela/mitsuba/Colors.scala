@@ -64,9 +64,31 @@ final class Colors(session: Session):
           in.ignore("wavelength_min", "wavelength_max")
           blackbody(in.number("temperature", 5000).toFloat, in.at) *
             in.number("scale", 1).toFloat)
+      case "rawconstant" => Some(session.of(p)(raw))
+      case "volume" =>
+        val asked = Asked(p, session)
+        asked.objectNamed("volume") match
+          case Some(v) if v.kind == "volume" && v.name == "constvolume" =>
+            Some(everywhere(v, Rgb.gray(0.75f), role))
+          case Some(v) if v.kind == "volume" => None
+          case _ => Some(session.of(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
       case "irregular" => Some(session.of(p)(in => color(irregular(in), role)))
       case "regular" => Some(session.of(p)(in => color(regular(in), role)))
       case _ => None
+
+  /** Of a constant volume. */
+  def everywhere(v: Plugin, default: Rgb, role: Role): Rgb =
+    session.of(v): of =>
+      of.ignore("to_world")
+      fixed(of, "value", default, role)
+
+  /** A number or three. */
+  private def raw(in: Asked): Rgb = in.property("value").map(_.value) match
+    case Some(Value.Triple(x, y, z)) => Rgb(x.toFloat, y.toFloat, z.toFloat)
+    case None =>
+      session.error(in.at, s"${in.plugin.shown} must have a `value`")
+      Rgb.White
+    case _ => Rgb.gray(in.number("value", 1).toFloat)
 
   /** A constant colour. */
   def fixed(in: Asked, name: String, default: Rgb, role: Role): Rgb =

@@ -86,9 +86,7 @@ final class Media(session: Session, colors: Colors):
   private def fixed(in: Asked, name: String, default: Float): Rgb =
     in.objectNamed(name).filter(_.kind == "volume") match
       case Some(v) if v.name == "constvolume" =>
-        session.of(v): of =>
-          of.ignore("to_world")
-          colors.fixed(of, "value", Rgb.gray(default), Role.Plain)
+        colors.everywhere(v, Rgb.gray(default), Role.Plain)
       case Some(v) =>
         session.warn(v.at, s"${v.shown} is not supported as `$name`; using $default")
         Rgb.gray(default)
@@ -163,13 +161,9 @@ final class Media(session: Session, colors: Colors):
       grid: PlacedGrid,
       at: SourcePos
   ): MediumDescription =
-    val place = Seq("nx", "ny", "nz").zip(grid.file.size).map(Param.int(_, at, _)) ++ Seq(
-      Param.floats(ParamType.Point3, "p0", at, grid.box.take(3)),
-      Param.floats(ParamType.Point3, "p1", at, grid.box.drop(3))
-    )
     MediumDescription(
       fresh(in),
-      session.declare("Medium", kind, in.at, params ++ place),
+      session.declare("Medium", kind, in.at, params ++ grid.place(at)),
       GraphicsState.still(grid.toWorld)
     )
 

@@ -16,7 +16,7 @@ object Plugins:
     Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
       "sunsky", "timed_sunsky")
   val textures: Vector[String] = Vector("bitmap", "blackbody", "checkerboard", "d65", "irregular",
-    "regular", "srgb", "uniform")
+    "rawconstant", "regular", "srgb", "uniform", "volume")
   val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
   val integrators: Vector[String] = Vector("aov", "direct", "moment", "path", "prb", "prb_basic",
     "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis")
@@ -39,7 +39,7 @@ object Plugins:
     ),
     "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "volumelight"),
-    "texture" -> Vector("mesh_attribute", "raw", "volume"),
+    "texture" -> Vector("mesh_attribute"),
     "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
     "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
       "prb_projective", "volprim_rf_basic"),

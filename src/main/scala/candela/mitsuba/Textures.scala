@@ -2,7 +2,9 @@ package candela.mitsuba
 
 import candela.base.SourcePos
 import candela.color.Rgb
-import candela.scenefile.{GraphicsState, Param, ParamType, TextureDescription}
+import candela.scenefile.{
+  AnimatedTransform, Declaration, GraphicsState, Param, ParamType, TextureDescription
+}
 
 import scala.collection.mutable
 
@@ -15,6 +17,7 @@ final class Textures(session: Session, colors: Colors):
   private val made = Vector.newBuilder[TextureDescription]
   private val names = mutable.HashMap.empty[(Plugin, String, Float), Option[String]]
   private val taken = mutable.HashSet.empty[String]
+  private val volumes = Volumes(session)
   private var depth = 0
 
   def result(): Vector[TextureDescription] = made.result()
@@ -54,14 +57,17 @@ final class Textures(session: Session, colors: Colors):
 
   private def define(p: Plugin, valueType: String, scale: Float): Option[String] =
     val parameters = p.name match
-      case "bitmap" => session.of(p)(bitmap)
-      case "checkerboard" => session.of(p)(checkerboard(_, valueType))
+      case "bitmap" => session.of(p)(bitmap).map((_, GraphicsState.Identity))
+      case "checkerboard" =>
+        session.of(p)(checkerboard(_, valueType)).map((_, GraphicsState.Identity))
+      case "volume" => session.of(p)(volume(_, valueType))
       case _ =>
         Plugins.unsupported(p, s"using ${Textures.Fallback.r}", session)
         None
-    parameters.map: (name, params) =>
+    parameters.map: (typed, place) =>
+      val (name, params) = typed
       val t = session.declare("Texture", name, p.at, params)
-      val plain = add(p.id.getOrElse("texture"), valueType, t)
+      val plain = add(p.id.getOrElse("texture"), valueType, t, place)
       if scale == 1f then plain
       else
         val scaled = session.declare(
@@ -72,9 +78,14 @@ final class Textures(session: Session, colors: Colors):
         )
         add(plain, valueType, scaled)
 
-  private def add(name: String, valueType: String, t: candela.scenefile.Declaration): String =
+  private def add(
+      name: String,
+      valueType: String,
+      t: Declaration,
+      place: AnimatedTransform = GraphicsState.Identity
+  ): String =
     val unique = (Iterator(name) ++ Iterator.from(2).map(i => s"$name $i")).find(taken.add).get
-    made += TextureDescription(unique, valueType, t, GraphicsState.Identity)
+    made += TextureDescription(unique, valueType, t, place)
     unique
 
   private def bitmap(in: Asked): Option[(String, Seq[Param])] =
@@ -107,6 +118,21 @@ final class Textures(session: Session, colors: Colors):
     val (even, odd) = if valueType == "float" then ("tex2", "tex1") else ("tex1", "tex2")
     Some("checkerboard" ->
       (Seq(square(even, "color0", 0.4f), square(odd, "color1", 0.2f)) ++ mapping))
+
+  /** A grid in the world. */
+  private def volume(
+      in: Asked,
+      valueType: String
+  ): Option[((String, Seq[Param]), AnimatedTransform)] =
+    for
+      v <- in.objectNamed("volume").filter(_.name == "gridvolume").orElse:
+        session.error(in.at, s"${in.plugin.shown} must have a `volume` of type \"gridvolume\"")
+        None
+      grid <- session.of(v)(volumes(_))
+    yield
+      val values = if valueType == "float" then grid.numbers else grid.colors
+      val params = grid.place(v.at) :+ Param.floats(ParamType.Float, "values", v.at, values)
+      (("grid", params), GraphicsState.still(grid.toWorld))
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
   private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =

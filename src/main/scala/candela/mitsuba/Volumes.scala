@@ -1,8 +1,9 @@
 package candela.mitsuba
 
-import candela.base.loop
+import candela.base.{SourcePos, loop}
 import candela.color.Rgb
 import candela.math.*
+import candela.scenefile.{Param, ParamType}
 
 /** Reads `gridvolume`s. */
 private[mitsuba] final class Volumes(session: Session):
@@ -64,6 +65,22 @@ private[mitsuba] final class PlacedGrid(
             to(3 * cell + 1) = Math.max(0f, c.g)
             to(3 * cell + 2) = Math.max(0f, c.b)
     (absorbed, scattered)
+
+  /** Of each cell: its colour, three numbers. */
+  def colors: Array[Float] =
+    if channels == 3 then values else Array.tabulate(3 * values.length)(i => values(i / 3))
+
+  /** Of each cell: its number, or the luminance of its colour. */
+  def numbers: Array[Float] =
+    if channels == 1 then values
+    else Array.tabulate(values.length / 3)(cellColor(_).luminance)
+
+  /** Cells and box, as parameters. */
+  def place(at: SourcePos): Seq[Param] =
+    Seq("nx", "ny", "nz").zip(size).map(Param.int(_, at, _)) ++ Seq(
+      Param.floats(ParamType.Point3, "p0", at, box.take(3)),
+      Param.floats(ParamType.Point3, "p1", at, box.drop(3))
+    )
 
   private def centre(i: Int, j: Int, k: Int): Vec3 =
     def along(axis: Int, n: Int) = lerp((n + 0.5f) / size(axis), box(axis), box(axis + 3))

@@ -43,8 +43,8 @@ final class PbrtParametersSuite extends AnyFunSuite:
         if recipe.dialects(dialect) && field.dialects(dialect)
         if !known((dialect, category.name, recipe.name, field.name))
       yield (dialect, recipe.name, field.name)
-    // Scenes of Mitsuba have materials and a sky of their own
-    val own = Set("principled", "roughplastic", "twosided", "sunsky")
+    // Scenes of Mitsuba have materials, a texture and a sky of their own
+    val own = Set("principled", "roughplastic", "twosided", "grid", "sunsky")
     val ofMitsuba =
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",

@@ -66,10 +66,10 @@ final class AreaLightRecipesSuite extends RecipeLaws[Option[AreaLightPlan]](Area
 final class IntegratorRecipesSuite extends RecipeLaws[IntegratorPlan](Integrators.all)
 
 final class FloatTextureRecipesSuite
-    extends RecipeLaws[FloatTexture](Textures.floats, Set("imagemap"))
+    extends RecipeLaws[FloatTexture](Textures.floats, Set("imagemap", "grid"))
 
 final class RgbTextureRecipesSuite
-    extends RecipeLaws[RgbTexture](Textures.colors, Set("imagemap"))
+    extends RecipeLaws[RgbTexture](Textures.colors, Set("imagemap", "grid"))
 
 final class MediumRecipesSuite
     extends RecipeLaws[Option[Medium]](

@@ -53,6 +53,18 @@ class FromMitsubaSuite extends AnyFunSuite:
       lost == Vector("pbrt has no `phases` of \"homogeneous\"; using g = 0.15 for rayleigh and hg")
     )
 
+  test("grids on surfaces become their mean"):
+    val file = Path.of("scenes/mitsuba/colors.vol").toAbsolutePath
+    val grid = "<texture type=\"volume\" name=\"reflectance\"><volume type=\"gridvolume\" " +
+      s"name=\"volume\"><string name=\"filename\" value=\"$file\"/></volume></texture>"
+    val done = FromMitsuba.converted(read(s"<bsdf type=\"diffuse\">$grid</bsdf>"))
+    val texture = done.scene.textures.head.texture
+    assert(texture.name == "constant")
+    // Red goes from 0.1 to 0.9 in equal steps, green from 0.9 to 0.2, blue is 0.2 or 0.8
+    val mean = texture.param("value").get.floats
+    assert(mean.zip(Seq(0.5f, 0.55f, 0.5f)).forall((a, b) => Math.abs(a - b) < 1e-6f), mean.toSeq)
+    assert(done.warnings.exists(_.message.contains("using the mean of its values")))
+
   test("the image of a spotlight is lost"):
     val chart = Path.of("scenes/textures/chart.png").toAbsolutePath
     val image = "<texture type=\"bitmap\" name=\"texture\">" +

@@ -264,6 +264,28 @@ class MitsubaSceneSuite extends AnyFunSuite:
         Vector("2:1: phase \"blendphase\" must have two phase functions, found 1")
     )
 
+  test("grids texture surfaces, as colours or numbers; constant volumes are constants"):
+    val file = Path.of("scenes/mitsuba/colors.vol").toAbsolutePath
+    def grid(name: String, volume: String) =
+      s"<texture type=\"volume\" name=\"$name\"><volume name=\"volume\" $volume</volume></texture>"
+    val cells = s"type=\"gridvolume\"><string name=\"filename\" value=\"$file\"/>"
+    val even = "type=\"constvolume\"><float name=\"value\" value=\"0.25\"/>"
+    def scene(bsdf: String) = read(s"$Sensor<shape type=\"sphere\">$bsdf</shape>")
+    val made = scene(
+      s"<bsdf type=\"principled\">${grid("base_color", cells)}${grid("roughness", cells)}</bsdf>"
+    ).textures
+    assert(made.map(t => (t.valueType, t.texture.name)).toSet ==
+      Set(("spectrum", "grid"), ("float", "grid")))
+    val sizes = made.map(t => t.valueType -> t.texture.param("values").get.floats.length).toMap
+    assert(sizes == Map("spectrum" -> 72, "float" -> 24))
+    val plain = scene(s"<bsdf type=\"diffuse\">${grid("reflectance", even)}</bsdf>")
+    assert(plain.textures.isEmpty && plain.errors.isEmpty && plain.warnings.isEmpty)
+    val raw = "<texture type=\"rawconstant\" name=\"reflectance\"/>"
+    assert(
+      problems(s"<shape type=\"sphere\"><bsdf type=\"diffuse\">\n$raw</bsdf></shape>") ==
+        Vector("2:1: texture \"rawconstant\" must have a `value`")
+    )
+
   test("a heterogeneous medium of constant extinction fills its volume's cube"):
     def medium(volume: String) =
       val sigmaT = s"<volume type=\"constvolume\" name=\"sigma_t\">$volume" +

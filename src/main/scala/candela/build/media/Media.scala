@@ -3,9 +3,8 @@ package candela.build.media
 import candela.base.Suggest
 import candela.build.recipe.*
 import candela.color.Rgb
-import candela.geometry.Bounds3
 import candela.math.*
-import candela.media.{GridEdge, Medium, Region, SampledGrid}
+import candela.media.{Medium, Region, SampledGrid}
 import candela.sampling.{HenyeyGreenstein, PhaseFunction}
 import candela.scenefile.Dialect
 
@@ -120,38 +119,8 @@ trait HasPreset extends HasCoefficients:
     val basis = site.resources.basis
     found.map(m => MediumCoefficients(basis.unbounded(m.absorption), basis.unbounded(m.scattering)))
 
-/** Bounding box of a medium, in its own space. */
-trait HasBox extends Fields:
-  private val first = point("p0", "corner of the box")(Vec3.Zero)
-  private val second = point("p1", "opposite corner of the box")(Vec3(1f, 1f, 1f))
-
-  /** Two opposite corners; if `sorted`, the minimum and the maximum. */
-  protected def corners(sorted: Boolean)(using Site): (Vec3, Vec3) =
-    val (a, b) = (first(), second())
-    if sorted then
-      val box = Bounds3.of(Seq(a, b))
-      (box.min, box.max)
-    else (a, b)
-
-  /** Transform from world space to the unit cube. Warns and returns None if it is singular. */
-  protected def toUnit()(using site: Site): Option[Transform] =
-    // Swapped corners in pbrt-v3 reflect the grid
-    val (a, b) = corners(sorted = site.dialect == Dialect.V4)
-    val size = b - a
-    val scale = Transform.scale(size.x, size.y, size.z)
-    val map =
-      if site.toWorld.isFlat then None
-      else
-        scale.map: s =>
-          (site.toWorld * Transform.translate(a.x, a.y, a.z) * s).inverse
-    if map.isEmpty then site.warn("this medium has no volume; it is ignored")
-    map
-
 /** Media given by a grid. */
-trait HasGrid extends Fields:
-  private val sizes =
-    Vector("x", "y", "z").map(axis => integer(s"n$axis", s"cells along $axis")(1))
-
+trait HasGrid extends HasCells:
   /** Samples with `channels` values each. Reports a wrong number of values and returns None. */
   protected def samples(name: String, values: Array[Float], channels: Int = 1)(using
       site: Site
@@ -161,17 +130,7 @@ trait HasGrid extends Fields:
   protected def grids(name: String, values: Array[Float], channels: Int)(using
       site: Site
   ): Option[Vector[SampledGrid]] =
-    val Vector(nx, ny, nz) = sizes.map(_()): @unchecked
-    val wanted = sizes.map(_().toLong).product * channels
-    if Seq(nx, ny, nz).exists(_ < 1) || wanted != values.length then
-      val shape = (Seq(nx, ny, nz) ++ Option.when(channels > 1)(channels)).mkString("·")
-      site.error(s"`$name` must have $shape numbers, found ${values.length}")
-      None
-    else
+    cells(name, values, channels).map: (nx, ny, nz) =>
       val isClamped = site.dialect == Dialect.V2 || site.resources.switches.isMitsubas
       val edge = if isClamped then GridEdge.Clamped else GridEdge.Zero
-      Some(Vector.tabulate(channels): c =>
-        val one = Array.tabulate(values.length / channels): i =>
-          val v = values(i * channels + c)
-          if v > 0f && java.lang.Float.isFinite(v) then v else 0f
-        SampledGrid(nx, ny, nz, one, edge))
+      Vector.tabulate(channels)(c => SampledGrid(nx, ny, nz, channel(values, c, channels), edge))

@@ -12,7 +12,8 @@ object Textures:
     Vector(
       FloatConstantRecipe, FloatScaleRecipe, FloatMixRecipe, FloatDirectionMixRecipe,
       FloatBilerpRecipe, FloatCheckerboardRecipe, FloatDotsRecipe, FloatImageMapRecipe,
-      FloatPtexRecipe, FloatFbmRecipe, FloatWrinkledRecipe, FloatWindyRecipe
+      FloatPtexRecipe, FloatFbmRecipe, FloatWrinkledRecipe, FloatWindyRecipe,
+      FloatGridRecipe
     )
   )
 
@@ -21,7 +22,7 @@ object Textures:
     Vector(
       RgbConstantRecipe, RgbScaleRecipe, RgbMixRecipe, RgbDirectionMixRecipe, RgbBilerpRecipe,
       RgbCheckerboardRecipe, RgbDotsRecipe, RgbImageMapRecipe, RgbPtexRecipe, RgbFbmRecipe,
-      RgbWrinkledRecipe, RgbWindyRecipe, RgbMarbleRecipe, RgbUvRecipe
+      RgbWrinkledRecipe, RgbWindyRecipe, RgbMarbleRecipe, RgbUvRecipe, RgbGridRecipe
     )
   )
 
