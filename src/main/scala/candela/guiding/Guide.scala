@@ -78,13 +78,17 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   private def growth(was: Lesson, sample: Int): GuideGrowth =
     val events = was.records.nn.sorted()
     val lit = perPath(was, sample, GuideRecords.firsts(events))
-    val all = was.records.nn.counts.map(_ * was.records.nn.rate)
-    GuideGrowth(was.field, events, settings, Math.min(1.0, lit), all)
+    val records = was.records.nn
+    val all = records.counts.map(_ * records.rate)
+    val share = Math.min(1.0, lit)
+    GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
 
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
     val found = perPath(was, sample, growth.events.length / GuideRecords.Size)
-    if was.field.guides then progress = progress.after(growth.verdict)
+    progress =
+      if was.field.guides then progress.after(growth.verdict)
+      else progress.copy(cost = growth.verdict.cost)
     val following = lesson(growth.result(), sample, found, growth.lit)
     val isLast = following.records == null
     val ends =

@@ -22,9 +22,10 @@ import candela.math.*
   *                (three numbers), one over its distance, the concentration, the weight; then,
   *                leaving light lobes out, the weight times the factor that normalises the lobe,
   *                and the sum of weights up to this lobe. Without light all are zero
-  * @param scattered of each region, the mean light that paths find after an event there, over their
-  *                  throughput before; 0: not known
-  * @param whole     likewise, with what paths whose first event is there have found before it
+  * @param worth   of each region, the number of branches in which a path goes on from an event
+  *                there, in units of its throughput over what such paths find; 0: not known
+  * @param whole   of each region, the mean light of paths whose first event is there, over their
+  *                throughput before
   */
 final class GuideField private[guiding] (
     val axis: Array[Int],
@@ -33,7 +34,7 @@ final class GuideField private[guiding] (
     val shares: Array[Float],
     val centres: Array[Float],
     val lobes: Array[Float],
-    val scattered: Array[Float],
+    val worth: Array[Float],
     val whole: Array[Float]
 ):
   import GuideField.*
@@ -67,7 +68,7 @@ final class GuideField private[guiding] (
     for all <- Vector(axis, below) do
       to.int(all.length)
       loop(all.length)(i => to.int(all(i)))
-    for all <- Vector(split, shares, centres, lobes, scattered, whole) do
+    for all <- Vector(split, shares, centres, lobes, worth, whole) do
       to.int(all.length)
       loop(all.length)(i => to.float(all(i)))
 
@@ -115,5 +116,5 @@ object GuideField:
     def floats() = Array.fill(from.int())(from.float())
     val (axis, below) = (ints(), ints())
     val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
-    val (scattered, whole) = (floats(), floats())
-    GuideField(axis, split, below, shares, centres, lobes, scattered, whole)
+    val (worth, whole) = (floats(), floats())
+    GuideField(axis, split, below, shares, centres, lobes, worth, whole)

@@ -12,13 +12,17 @@ import scala.collection.mutable.ArrayBuffer
   * @param lit    part of all paths that has events
   * @param all    of each region of the old field, events that would have been recorded if all found
   *               light
+  * @param costs  likewise, rays that an event brings about
+  * @param cost   rays of a path
   */
 private[guiding] final class GuideGrowth(
     old: GuideField,
     val events: Array[Float],
     settings: GuideSettings,
     val lit: Double,
-    all: Array[Float]
+    all: Array[Float],
+    costs: Array[Float],
+    cost: Double
 ):
   import GuideField.{Lobes, Sides}
   import GuideGrowth.*
@@ -39,16 +43,17 @@ private[guiding] final class GuideGrowth(
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
-    val centres, lobes, shares, scattered, whole = FloatBuffer()
+    val centres, lobes, shares, worth, whole = FloatBuffer()
+    val unit = Math.sqrt(cost / Math.max(verdict.noise, LeastNoise)).toFloat
     for leaf <- leaves do
       shares += leaf.share
-      scattered += leaf.scattered
+      worth += (if leaf.effort > 0f then leaf.effort * unit else leaf.worth)
       whole += leaf.whole
       loop(3)(a => centres += leaf.centre(a))
       loop(Lobes * GuideField.Size)(i => lobes += leaf.lobes(i))
     GuideField(
       axis.take(), split.take(), below.take(), shares.take(), centres.take(), lobes.take(),
-      scattered.take(), whole.take()
+      worth.take(), whole.take()
     )
 
   /** What the paths of the pass tell of guiding, when all regions have grown. */
@@ -56,7 +61,8 @@ private[guiding] final class GuideGrowth(
     GuideVerdict(
       leaves.map(_.paths).sum,
       leaves.map(_.guidedNoise).sum,
-      leaves.map(_.unguidedNoise).sum
+      leaves.map(_.unguidedNoise).sum,
+      cost
     )
 
   private def divideAll(): Unit =
@@ -113,7 +119,7 @@ private[guiding] final class GuideGrowth(
       val centre =
         if of.length >= Fewest then mean.map(_.toFloat)
         else old.centres.slice(3 * region, 3 * region + 3)
-      leaves += GuideLeaf(old, region, events, of, centre, settings, lit, found)
+      leaves += GuideLeaf(old, region, events, of, centre, settings, lit, found, costs(region))
 
   /** Mean and variance of the points, by axis. */
   private def spread(of: Array[Int]): (Array[Double], Array[Double]) =
@@ -129,3 +135,6 @@ private[guiding] final class GuideGrowth(
 private object GuideGrowth:
   /** Events from which a mixture is fitted, at least. */
   val Fewest = 60
+
+  /** Relative variance of a path that is taken for less. */
+  private val LeastNoise = 1e-6

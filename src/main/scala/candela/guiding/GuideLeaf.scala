@@ -8,6 +8,7 @@ import candela.base.loop
   * @param of     places of its events among all
   * @param lit    part of all paths that has events
   * @param found  part of the region's events that found light
+  * @param cost   rays that an event here brings about
   */
 private[guiding] final class GuideLeaf(
     old: GuideField,
@@ -17,7 +18,8 @@ private[guiding] final class GuideLeaf(
     val centre: Array[Float],
     settings: GuideSettings,
     lit: Double,
-    found: Float
+    found: Float,
+    cost: Float
 ):
   import GuideField.{Lobes, Size}
   import GuideLeaf.*
@@ -30,8 +32,13 @@ private[guiding] final class GuideLeaf(
   var share: Float = old.shares(region)
 
   /** As in [[GuideField]]. */
-  var scattered: Float = old.scattered(region)
+  var worth: Float = old.worth(region)
   var whole: Float = old.whole(region)
+
+  /** The root of the second moment of the light that paths find after an event here, over its cost;
+    * 0: not known.
+    */
+  var effort = 0f
 
   /** Paths whose first event is here. */
   var paths = 0
@@ -53,15 +60,16 @@ private[guiding] final class GuideLeaf(
     * before their first event does not depend on whether they find more.
     */
   private def expect(meanLight: Float): Unit =
-    scattered = meanLight * found
-    var before = 0.0
+    var before, squares = 0.0
     var count = 0
     loop(of.length): j =>
-      val total = events(of(j) + Total)
-      if total > 0f then
-        before += Math.max(0f, total - events(of(j) + Light))
+      val light = Math.min(events(of(j) + Light), BrightestEffort * meanLight)
+      squares += light * light
+      if events(of(j) + Total) > 0f then
+        before += events(of(j) + Before)
         count += 1
-    whole = scattered + (before / Math.max(1, count)).toFloat
+    whole = meanLight * found + (before / Math.max(1, count)).toFloat
+    effort = Math.sqrt(squares / of.length * found / Math.max(1f, cost)).toFloat
 
   /** Compares paths as they are with those that would have sampled BSDFs alone, by the same paths.
     */
@@ -109,6 +117,9 @@ private[guiding] final class GuideLeaf(
 private object GuideLeaf:
   /** More light counts as this much, in units of the region's mean. */
   val Brightest = 100f
+
+  /** Likewise, where it is to be said how much effort it is worth. */
+  private val BrightestEffort = 20f
 
   /** Probability of BSDF sampling in guided regions. */
   val Half = 0.5f

@@ -2,25 +2,70 @@ package candela.guiding
 
 import candela.math.*
 
-/** Scattering events of one path, kept until its light is known. Mutable, one per worker. */
+/** Scattering events of one path and its branches, kept until their light is known. Branches are
+  * followed one after the other. Mutable, one per worker.
+  */
 final class GuidePath:
   import GuidePath.Most
   private val events = Array.fill(Most)(new Array[Float](GuideRecords.Size))
-  private val befores, throughputs, ratios = new Array[Float](Most)
+  private val throughputs, ratios = new Array[Float](Most)
+
+  // Of each event: its region; the one before it on its branch, −1 if none
+  private val regions, parents = new Array[Int](Most)
+
+  // Light found and rays traced before the next recorded ones; addUp adds those. Of rays, one for
+  // each direction taken and one for the light of each event: about as many
+  private val lights = new Array[Float](Most)
+  private val costs = new Array[Int](Most)
+  private val laters = new Array[Float](Most)
   private var size = 0
 
-  def clear(): Unit = size = 0
+  // The same before the first recorded event
+  private var firstLight = 0f
+  private var firstCost = 1
 
-  /** @param side       of the surface ([[GuideField.side]])
+  // The last event of the branch that is followed, and all light when it was
+  private var last = -1
+  private var known = 0f
+
+  def clear(): Unit =
+    size = 0
+    last = -1
+    known = 0f
+    firstLight = 0f
+    firstCost = 1
+
+  /** Where the branch is that is followed: behind this event; −1: none was recorded. */
+  def place: Int = last
+
+  /** From here on another branch is followed.
+    *
+    * @param found light so far, of all branches
+    */
+  def follow(place: Int, found: Float): Unit =
+    count(found)
+    last = place
+
+  /** The branch has come to a scattering event, and traces a ray there. */
+  def step(): Unit = if last < 0 then firstCost += 1 else costs(last) += 1
+
+  private def count(found: Float): Unit =
+    if last < 0 then firstLight += found - known else lights(last) += found - known
+    known = found
+
+  /** @param region     of the field that the path uses
+    * @param side       of the surface ([[GuideField.side]])
     * @param wi         direction taken
-    * @param before     light that the path found so far
+    * @param before     light that the path found so far, with all its branches
     * @param throughput before the event
     * @param pdf        density of the direction
     * @param bsdfPdf    that of BSDF sampling
     * @param guidePdf   that of the field; 0 if nothing was learnt
-    * @param ratio      density of the path so far over that of BSDF sampling
+    * @param ratio      density of the path so far over that of BSDF sampling, times the number of
+    *                   branches that were expected
     */
   def add(
+      region: Int,
       p: Vec3,
       side: Int,
       wi: Vec3,
@@ -44,39 +89,61 @@ final class GuidePath:
       to(Pdf) = pdf
       to(BsdfPdf) = bsdfPdf
       to(GuidePdf) = guidePdf
-      befores(size) = before
+      count(before)
       throughputs(size) = throughput
       ratios(size) = ratio
+      regions(size) = region
+      parents(size) = last
+      lights(size) = 0f
+      laters(size) = 0f
+      costs(size) = 1
+      last = size
       size += 1
 
   /** Records the path, which found `light` in all. */
   def record(light: Float, to: GuideRecords.Part): Unit =
+    count(light)
+    val before = firstLight
+    val unguided = addUp()
+    to.finished(firstCost)
+    var isFirst = true
     var i = 0
     while i < size do
-      val found = (light - befores(i)) / throughputs(i)
+      to.caused(regions(i), costs(i))
+      val found = lights(i) / throughputs(i)
       if found > 0f && found < Float.PositiveInfinity then
         val event = events(i)
+        val isFirstHere = isFirst && parents(i) < 0
+        isFirst &&= !isFirstHere
         event(GuideRecords.Light) = found
-        event(GuideRecords.Total) = if i == 0 then light else 0f
-        event(GuideRecords.Unguided) = if i == 0 then unguided(light) else 0f
+        event(GuideRecords.Total) = if isFirstHere then light else 0f
+        event(GuideRecords.Before) = if isFirstHere then before else 0f
+        event(GuideRecords.Unguided) = if isFirstHere then unguided else 0f
         to.add(event)
       i += 1
 
-  /** The second moment of the light if BSDFs alone were sampled. Light found after the events `j`
-    * and `k`, `j` ≤ `k`, contributes its product times the ratio of densities up to `j`.
+  /** Adds up what was found and met after each event, in all branches from there.
+    *
+    * @return the second moment of the light if BSDFs alone were sampled, and paths had no branches:
+    *   light found after the events `j` and `k`, where `k` is `j` or comes later on the same
+    *   branch, contributes its product times the ratio of densities up to `j`
     */
-  private def unguided(light: Float): Float =
-    var later = light - befores(0)
-    var sum = befores(0) * (befores(0) + 2f * later)
-    var i = 0
-    while i < size do
-      val end = if i + 1 < size then befores(i + 1) else light
-      val found = end - befores(i)
-      later -= found
-      sum += ratios(i) * found * (found + 2f * Math.max(0f, later))
-      i += 1
-    sum
+  private def addUp(): Float =
+    var later, sum = 0f
+    var i = size - 1
+    while i >= 0 do
+      sum += ratios(i) * lights(i) * (lights(i) + 2f * laters(i))
+      lights(i) += laters(i)
+      val parent = parents(i)
+      if parent < 0 then
+        later += lights(i)
+        firstCost += costs(i)
+      else
+        laters(parent) += lights(i)
+        costs(parent) += costs(i)
+      i -= 1
+    sum + firstLight * (firstLight + 2f * later)
 
 object GuidePath:
   /** Events that are recorded; later ones are rare, and find little. */
-  private inline val Most = 64
+  private inline val Most = 256

@@ -23,6 +23,15 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
   /** Of each region, its events: those without light and those that are not kept, too. */
   def counts: Array[Long] = Array.tabulate(regions)(region => parts.map(_.counts(region)).sum)
 
+  /** Of each region, the rays that an event there brings about on average. */
+  def costs: Array[Float] =
+    Array.tabulate(regions): region =>
+      val events = parts.map(_.counts(region)).sum
+      (parts.map(_.costs(region)).sum.toDouble / Math.max(1L, events)).toFloat
+
+  /** Rays of a path on average. */
+  def pathCost: Double = parts.map(_.allCosts).sum.toDouble / Math.max(1L, parts.map(_.paths).sum)
+
   /** All events, [[Size]] numbers each, in an order that depends on these only. */
   def sorted(): Array[Float] =
     val all = joined()
@@ -60,11 +69,17 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
     to.int(all.length)
     loop(all.length)(i => to.float(all(i)))
     counts.foreach(to.long(_))
+    loop(regions)(region => to.long(parts.map(_.costs(region)).sum))
+    to.long(parts.map(_.paths).sum)
+    to.long(parts.map(_.allCosts).sum)
 
   def load(from: CheckedInput): Unit =
     val part = newPart()
     loop(from.int())(_ => part.data += from.float())
     loop(regions)(i => part.counts(i) = from.long())
+    loop(regions)(i => part.costs(i) = from.long())
+    part.paths = from.long()
+    part.allCosts = from.long()
 
 object GuideRecords:
   /** How many of the events are the first ones of their paths? */
@@ -74,10 +89,10 @@ object GuideRecords:
   /** Numbers of an event, and their places: the point, the side of its normal, the direction taken,
     * the light that came from there, as the path received it, over its throughput before; the
     * densities of the direction: that of the path, of BSDF sampling, of the field. For the first
-    * event of a path also all its light and, if that was found, the second moment that it would
-    * contribute if it had sampled BSDFs only; else 0.
+    * event of a path also all its light, the second moment that it would contribute if it had
+    * sampled BSDFs only, and the light found before; else 0.
     */
-  private[guiding] inline val Size = 13
+  private[guiding] inline val Size = 14
   private[guiding] inline val Side = 3
   private[guiding] inline val Wi = 4
   private[guiding] inline val Light = 7
@@ -86,6 +101,7 @@ object GuideRecords:
   private[guiding] inline val GuidePdf = 10
   private[guiding] inline val Total = 11
   private[guiding] inline val Unguided = 12
+  private[guiding] inline val Before = 13
 
   // Of a key: the place of the event among all
   private inline val PlaceMask = 0xffffffL
@@ -93,10 +109,19 @@ object GuideRecords:
   /** What one worker records. */
   final class Part private[guiding] (limit: Long, regions: Int):
     private[guiding] val data = FloatBuffer()
-    private[guiding] val counts = new Array[Long](regions)
+    private[guiding] val counts, costs = new Array[Long](regions)
+    private[guiding] var paths, allCosts = 0L
 
     /** Counts an event. */
     def saw(region: Int): Unit = counts(region) += 1
+
+    /** Counts the rays that an event brings about. */
+    private[guiding] def caused(region: Int, rays: Int): Unit = costs(region) += rays
+
+    /** Counts a path and its rays. */
+    private[guiding] def finished(rays: Int): Unit =
+      paths += 1
+      allCosts += rays
 
     private[guiding] def count: Int = data.length / Size
 

@@ -6,7 +6,16 @@ package candela.guiding
   * @param paths    that were compared
   * @param guided   sum of their relative variances
   * @param unguided likewise, without guiding
+  * @param cost     rays of a path
   */
-private[guiding] final case class GuideVerdict(paths: Long, guided: Double, unguided: Double):
+private[guiding] final case class GuideVerdict(
+    paths: Long,
+    guided: Double,
+    unguided: Double,
+    cost: Double
+):
+  /** Relative variance of a path. */
+  def noise: Double = guided / Math.max(1L, paths)
+
   /** What guiding leaves of the variance. */
   def left: Double = if unguided > 0.0 then guided / unguided else 1.0

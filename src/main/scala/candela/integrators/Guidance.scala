@@ -28,6 +28,11 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     */
   private var ratio = 1f
 
+  /** Product of the numbers of branches that were expected, below one where roulette was played;
+    * and of those above one.
+    */
+  private var chances, splits = 1f
+
   // Of the vertex: is it guided or recorded?
   private var isKept = false
   private var isFitted = false
@@ -43,6 +48,27 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Has the field decided at this vertex whether the path ends? */
   private var isExpected = false
 
+  /** In how many branches does the path leave the vertex, if it goes on? */
+  private var leaving = 1
+
+  def branches: Int = leaving
+
+  /** Keeps what is known of the branch. */
+  def keep(to: Mark): Unit =
+    to.ratio = ratio
+    to.chances = chances
+    to.splits = splits
+    to.whole = whole
+    to.place = path.place
+
+  /** Goes on with another branch, after `found` light in all. */
+  def follow(from: Mark, found: Float): Unit =
+    ratio = from.ratio
+    chances = from.chances
+    splits = from.splits
+    whole = from.whole
+    path.follow(from.place, found)
+
   /** Starts a path. */
   def begin(): Unit =
     if lesson ne guide.lesson then
@@ -50,12 +76,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       part = lesson.newPart()
     path.clear()
     ratio = 1f
+    chances = 1f
+    splits = 1f
     whole = 0f
 
   /** The vertex has its BSDF. */
   def arrive(): Unit =
     val field = lesson.field
     leaveAlone()
+    path.step()
     isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
     if isKept then
       side =
@@ -150,34 +179,53 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val to = part
     if to != null && !crosses(bounce.wi) then
       to.saw(region)
-      path.add(vertex.at.p, side, wi, found, throughput, pdf, byBsdf, byField, ratio)
+      path.add(
+        region,
+        vertex.at.p,
+        side,
+        wi,
+        found,
+        throughput,
+        pdf,
+        byBsdf,
+        byField,
+        ratio * chances
+      )
 
-  /** Russian roulette by what the field expects the path to find: relative to what camera paths
-    * find where this one began, so that all paths that go on contribute about as much.
+  /** Russian roulette and splitting by what the field expects the path to find, relative to what
+    * camera paths find where this one began: as many [[branches]] go on from here as reduce the
+    * variance of the image most for what they cost.
     *
     * Light through the surface is not in the field: there, and where it knows nothing,
-    * [[roulette]] decides.
+    * [[roulette]] decides. In media paths are not divided.
     *
-    * Source: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
-    * Simulation", SIGGRAPH 2016; the image's estimate is that of the first region.
+    * Sources: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
+    * Simulation", SIGGRAPH 2016; Rath et al., "EARS: Efficiency-Aware Russian Roulette and
+    * Splitting", SIGGRAPH 2022, with second moments everywhere; the image's estimate is that of the
+    * first region.
     *
     * @return factor of the throughput
     */
   def survival(throughput: Float, sampler: Sampler): Float =
     isExpected = false
+    leaving = 1
     if region < 0 then 1f
     else
       val field = lesson.field
-      val expected = field.scattered(region)
-      if whole == 0f then
-        whole = field.whole(region) * throughput
-        1f
-      else if expected == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
+      val worth = field.worth(region)
+      if whole == 0f then whole = field.whole(region) * throughput
+      if worth == 0f || whole == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
       else
         isExpected = true
         val u = sampler.next1D()
-        val q = Math.max(LeastSurvival, Expectation * throughput * expected / whole)
-        if q >= 1f then 1f else if u < q then 1f / q else 0f
+        val most = if vertex.isInMedium then 1f else Math.min(MostBranches, MostInAll / splits)
+        val n = Math.max(LeastSurvival, Math.min(throughput * worth / whole, most))
+        chances *= n
+        splits *= Math.max(1f, n)
+        // Up or down, so that n is the mean
+        val rounded = Math.min((n + u).toInt, MostBranches)
+        leaving = Math.max(1, rounded)
+        if rounded == 0 then 0f else 1f / n
 
   /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
     * paths are many because much light comes from there: it must not end them.
@@ -186,14 +234,20 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * @return factor of the throughput
     */
   def roulette(largest: Float, threshold: Float, sampler: Sampler): Float =
-    if isExpected then 1f else LightTransport.roulette(largest * ratio, threshold, sampler)
+    if isExpected then 1f else LightTransport.roulette(largest * ratio * splits, threshold, sampler)
 
 private object Guidance:
-  /** A path goes on if what it is expected to add is at least the average light of such paths over
-    * this; else with a probability in proportion, but with the least one.
-    */
-  inline val Expectation = 3f
-  inline val LeastSurvival = 0.1f
+  /** Branches in which a path leaves a vertex, on average, where it is worth little. */
+  inline val LeastSurvival = 0.5f
+
+  /** Likewise, where it is worth much; and of a whole path. */
+  inline val MostBranches = 8
+  inline val MostInAll = 64f
+
+  /** What is known of a branch that is followed later. Mutable. */
+  final class Mark:
+    var ratio, chances, splits, whole = 0f
+    var place = -1
 
   inline val LargestBelowOne = 0.99999994f
 

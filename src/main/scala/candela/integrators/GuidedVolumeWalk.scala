@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.base.loop
 import candela.bsdf.{Bssrdf, PhaseLobe}
 import candela.film.LightParts
 import candela.geometry.Ray
@@ -18,6 +19,7 @@ final class GuidedVolumeWalk(
     parts: LightParts | Null
 ) extends VolumeWalk(scene, media, options, parts):
   private val guidance = Guidance(guide, vertex)
+  private val branches = Branches(() => VolumeWalk.State())
   private val lobes = media.media.map(medium => PhaseLobe(medium.phase))
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
@@ -55,8 +57,36 @@ final class GuidedVolumeWalk(
 
   private def scatterGuided(sampler: Sampler): Unit =
     weights.scale(guidance.survival(weights.throughput.average, sampler))
+    if guidance.branches == 1 then scatterOnce(sampler) else scatterInBranches(sampler)
+
+  private def scatterOnce(sampler: Sampler): Unit =
     guidance.scatter(weights.throughput.average, total.average, sampler)
     weights.scale(vertex.bounce.weight)
+
+  /** As [[GuidedWalk]]. */
+  private def scatterInBranches(sampler: Sampler): Unit =
+    val origin = branches.origin
+    keep(origin.state)
+    guidance.keep(origin.mark)
+    loop(guidance.branches): _ =>
+      follow(origin)
+      scatterOnce(sampler)
+      leave()
+      if goesOn then
+        val branch = branches.push()
+        keep(branch.state)
+        guidance.keep(branch.mark)
+    weights.scale(0f)
+
+  private def follow(branch: Branches.Branch[VolumeWalk.State]): Unit =
+    goOn(branch.state)
+    guidance.follow(branch.mark, total.average)
+
+  /** Goes on with a branch that waits; false: none. */
+  def followNext(): Boolean =
+    val waits = !branches.isEmpty
+    if waits then follow(branches.pop())
+    waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     weights.scale(guidance.roulette(weights.brightest * etaScale, threshold, sampler))

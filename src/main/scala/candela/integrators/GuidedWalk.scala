@@ -1,6 +1,8 @@
 package candela.integrators
 
+import candela.base.loop
 import candela.bsdf.Bssrdf
+import candela.color.Rgb
 import candela.film.LightParts
 import candela.geometry.Ray
 import candela.guiding.Guide
@@ -16,6 +18,7 @@ final class GuidedWalk(
     parts: LightParts | Null
 ) extends Walk(scene, options = options, sharedParts = parts):
   private val guidance = Guidance(guide, vertex)
+  private val branches = Branches(() => Walk.State())
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
@@ -34,8 +37,36 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     throughput.scale(guidance.survival(throughput.toRgb.average, sampler))
+    if guidance.branches == 1 then scatterOnce(sampler) else scatterInBranches(sampler)
+
+  private def scatterOnce(sampler: Sampler): Unit =
     guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, sampler)
     throughput.scale(vertex.bounce.weight)
+
+  /** Leaves in all branches, which wait, and ends. */
+  private def scatterInBranches(sampler: Sampler): Unit =
+    val origin = branches.origin
+    keep(origin.state)
+    guidance.keep(origin.mark)
+    loop(guidance.branches): _ =>
+      follow(origin)
+      scatterOnce(sampler)
+      leave()
+      if goesOn then
+        val branch = branches.push()
+        keep(branch.state)
+        guidance.keep(branch.mark)
+    throughput.set(Rgb.Black)
+
+  private def follow(branch: Branches.Branch[Walk.State]): Unit =
+    goOn(branch.state)
+    guidance.follow(branch.mark, radiance.toRgb.average)
+
+  /** Goes on with a branch that waits; false: none. */
+  def followNext(): Boolean =
+    val waits = !branches.isEmpty
+    if waits then follow(branches.pop())
+    waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     throughput.scale(guidance.roulette(throughput.largest * etaScale, threshold, sampler))

@@ -69,7 +69,10 @@ final class GuidedPathTracer(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)
-    PathLoop.follow(walk, scene, limits, sampler, hasVolumes = false, light(sampler, _))
+    while
+      PathLoop.follow(walk, scene, limits, sampler, hasVolumes = false, light(sampler, _))
+      walk.followNext()
+    do ()
     walk.finish()
     walk.radiance.toRgb
 

@@ -51,7 +51,10 @@ final class GuidedVolumePathTracer(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     walk.begin(ray, sampler)
-    VolumePathLoop.follow(walk, scene, limits, options, sampler, light(sampler, _))
+    while
+      VolumePathLoop.follow(walk, scene, limits, options, sampler, light(sampler, _))
+      walk.followNext()
+    do ()
     walk.finish()
     walk.total
 

@@ -89,6 +89,25 @@ class VolumeWalk(
 
   def end(): Unit = goesOn = false
 
+  /** As [[Walk.keep]]. */
+  protected final def keep(to: VolumeWalk.State): Unit =
+    to.weights.set(weights)
+    to.depth = depth
+    to.etaScale = etaScale
+    to.medium = medium
+    to.isSpread = isSpread
+    to.from.set(lastP, lastN, ray)
+
+  /** As [[Walk.goOn]]. */
+  protected final def goOn(from: VolumeWalk.State): Unit =
+    weights.set(from.weights)
+    depth = from.depth
+    etaScale = from.etaScale
+    medium = from.medium
+    isSpread = from.isSpread
+    from.from.restore(lastP, lastN, ray)
+    goesOn = true
+
   /** All light found, with what media emitted towards the camera. */
   def total: Rgb = radiance.toRgb + glow
 
@@ -301,3 +320,12 @@ class VolumeWalk(
     val q = weights.brightest * etaScale
     if q < threshold then weights.gamble(sampler.next1D(), q)
     goesOn = !isAbsorbed
+
+object VolumeWalk:
+  /** As [[Walk.State]]. */
+  private[integrators] final class State:
+    val weights: PathWeights = PathWeights()
+    var depth, medium = 0
+    var etaScale = 0f
+    var isSpread = false
+    val from: Departure = Departure()

@@ -111,6 +111,27 @@ class Walk(
 
   def end(): Unit = goesOn = false
 
+  /** Keeps the path as it is, to follow it again from here. */
+  protected final def keep(to: Walk.State): Unit =
+    to.throughput.set(throughput.toRgb)
+    to.depth = depth
+    to.etaScale = etaScale
+    to.directionPdf = directionPdf
+    to.isSpread = isSpread
+    to.isAlone = isAlone
+    to.from.set(lastP, lastN, ray)
+
+  /** Goes on with the path as it was; the light found stays. */
+  protected final def goOn(from: Walk.State): Unit =
+    throughput.set(from.throughput.toRgb)
+    depth = from.depth
+    etaScale = from.etaScale
+    directionPdf = from.directionPdf
+    isSpread = from.isSpread
+    isAlone = from.isAlone
+    from.from.restore(lastP, lastN, ray)
+    goesOn = true
+
   /** Traces the ray to the next vertex; false if it leaves the scene. */
   def intersect(): Boolean =
     rays += 1
@@ -265,3 +286,12 @@ class Walk(
       LightTransport.roulette(throughput.largest * etaScale, threshold, sampler)
     )
     goesOn = !throughput.isBlack
+
+object Walk:
+  /** What a walk keeps of a path that it will follow later. Mutable. */
+  private[integrators] final class State:
+    val throughput: MutableRgb = MutableRgb()
+    var depth = 0
+    var etaScale, directionPdf = 0f
+    var isSpread, isAlone = false
+    val from: Departure = Departure()

@@ -45,6 +45,20 @@ final class PathWeights:
     lg = lightDensity
     lb = lightDensity
 
+  /** Becomes those of another path. */
+  def set(from: PathWeights): Unit =
+    hero = from.hero
+    isAlone = from.isAlone
+    r = from.r
+    g = from.g
+    b = from.b
+    ur = from.ur
+    ug = from.ug
+    ub = from.ub
+    lr = from.lr
+    lg = from.lg
+    lb = from.lb
+
   def ofHero(r: Float, g: Float, b: Float): Float =
     if hero == 0 then r else if hero == 1 then g else b
 

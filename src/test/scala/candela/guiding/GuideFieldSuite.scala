@@ -72,18 +72,26 @@ class GuideFieldSuite extends AnyFunSuite:
     for i <- 0 until 10000 do
       val found = event(i)
       // Each second one is the first of its path, which had found 3 before
-      if i % 2 == 0 then found(GuideRecords.Total) = found(GuideRecords.Light) + 3f
+      if i % 2 == 0 then
+        found(GuideRecords.Total) = found(GuideRecords.Light) + 3f
+        found(GuideRecords.Before) = 3f
       (if i % 3 == 0 then one else other).add(found)
     for i <- 0 until 40000 do (if i % 3 == 0 then one else other).saw(GuideField.side(Up))
     val counts = records.counts
     assert(counts(GuideField.side(Up)) == 40000 && counts.sum == 40000)
-    val field = grown(GuideField.Start, records.sorted(), settings, everything = 40000f).result()
+    val growth = grown(GuideField.Start, records.sorted(), settings, everything = 40000f)
+    val field = growth.result()
     val region = GuideMixture().region(field, Vec3.Zero, GuideField.side(Up))
-    assert(Math.abs(field.scattered(region) - 1.05f / 4) < 0.002f)
     assert(Math.abs(field.whole(region) - (1.05f / 4 + 3f)) < 0.01f)
+    // The second moment of numbers between 1 and 1.1, where one of four is not 0
+    val moment = (1.331 - 1.0) / 0.3 / 4
+    val worth = Math.sqrt(moment / EventCost / (growth.verdict.noise / PathCost))
+    assert(Math.abs(field.worth(region) / worth - 1) < 0.005)
 
 private object GuideFieldSuite:
   val Samples: Int = 1 << 16
+  val EventCost = 3f
+  val PathCost = 7.0
   val Up: Vec3 = Vec3(0f, 0f, 1f)
 
   /** Above the middle of a square floor. */
@@ -120,6 +128,7 @@ private object GuideFieldSuite:
       1f,
       0f,
       0f,
+      0f,
       0f
     )
 
@@ -139,7 +148,9 @@ private object GuideFieldSuite:
       everything: Float = 1f
   ): GuideGrowth =
     val all = Array.fill(old.regions)(everything)
-    val learning = GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all))
+    val costs = Array.fill(old.regions)(EventCost)
+    val learning =
+      GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all, costs, PathCost))
     learning.help()
     learning.growth
 

@@ -18,12 +18,25 @@ class GuidePathSuite extends AnyFunSuite:
     assert(Math.abs(ownMoment(shareOfBright = 0.6) / exact(0.6) - 1) < 0.03)
     assert(exact(0.6) < 0.6 * exact(Bsdf))
 
+  test("paths with branches know the second moment of those without, and what they cost"):
+    val measured = unguidedMoment(shareOfBright = 0.6, branches = 3)
+    assert(Math.abs(measured / exact(Bsdf) - 1) < 0.03)
+    assert(ownMoment(shareOfBright = Bsdf, branches = 3) < 0.9 * exact(Bsdf))
+    val records = recorded(shareOfBright = 0.6, branches = 3)
+    // The camera's ray, two at the first event, and two at the event of each branch
+    assert(records.pathCost == 1 + 2 + 2 * 3)
+    assert(Math.abs(records.costs(FirstRegion) - (1 + 2 * 3)) < 1e-5)
+    assert(Math.abs(records.costs(SecondRegion) - 1) < 1e-5)
+
 private object GuidePathSuite:
   import GuideRecords.{Size, Total, Unguided}
 
   /** Probability of the bright direction by BSDF sampling; both events have it. */
   val Bsdf = 0.1
   val Paths = 400000
+
+  val FirstRegion = 2
+  val SecondRegion = 5
 
   /** Light found before the first event, after it, and after the second. Dim directions find some,
     * so that every path is recorded.
@@ -46,28 +59,45 @@ private object GuidePathSuite:
         p1 * p2 * sum * sum
     all.sum
 
-  private def mean(shareOfBright: Double)(of: (Array[Float], Int) => Double): Double =
+  private def mean(shareOfBright: Double, branches: Int)(
+      of: (Array[Float], Int) => Double
+  ): Double =
+    val all = recorded(shareOfBright, branches).sorted()
+    (0 until all.length / Size).map(i => of(all, i * Size)).sum / Paths
+
+  /** Paths whose first event is followed by several branches. */
+  def recorded(shareOfBright: Double, branches: Int): GuideRecords =
     val sampler = IndependentSampler(Paths, 3)
     val (path, records) = (GuidePath(), GuideRecords(1f, regions = 6))
     val part = records.newPart()
     for i <- 0 until Paths do
       sampler.start(0, 0, i)
       sampler.next2D()
-      val (a, b) = (sampler.x < shareOfBright, sampler.y < shareOfBright)
-      val (p1, p2) = (probability(a, shareOfBright), probability(b, shareOfBright))
-      val (q1, q2) = (probability(a, Bsdf), probability(b, Bsdf))
-      val (before, after, last) = light(a, b)
+      val a = sampler.x < shareOfBright
+      val (p1, q1) = (probability(a, shareOfBright), probability(a, Bsdf))
+      val (before, after, _) = light(a, second = false)
       val first = q1 / p1
-      val both = first * q2 / p2
       path.clear()
-      event(path, before, 1.0, p1, q1, p1 / q1)
-      event(path, before + after * first, first, p2, q2, p1 * p2 / (q1 * q2))
-      path.record((before + after * first + last * both).toFloat, part)
-    val all = records.sorted()
-    (0 until all.length / Size).map(i => of(all, i * Size)).sum / Paths
+      path.step()
+      event(path, FirstRegion, before, 1.0, p1, q1, p1 / q1)
+      part.saw(FirstRegion)
+      val place = path.place
+      var found = before + after * first
+      for _ <- 0 until branches do
+        val b = sampler.next1D() < shareOfBright
+        val (p2, q2) = (probability(b, shareOfBright), probability(b, Bsdf))
+        val share = first / branches
+        path.follow(place, found.toFloat)
+        path.step()
+        event(path, SecondRegion, found, share, p2, q2, p1 * p2 / (q1 * q2) * branches)
+        part.saw(SecondRegion)
+        found += light(a, b)._3 * share * q2 / p2
+      path.record(found.toFloat, part)
+    records
 
   private def event(
       path: GuidePath,
+      region: Int,
       before: Double,
       throughput: Double,
       p: Double,
@@ -76,12 +106,12 @@ private object GuidePathSuite:
   ): Unit =
     val up = Vec3(0f, 0f, 1f)
     path.add(
-      Vec3.Zero, GuideField.side(up), up, before.toFloat, throughput.toFloat, p.toFloat, q.toFloat,
-      0f, ratio.toFloat
+      region, Vec3.Zero, GuideField.side(up), up, before.toFloat, throughput.toFloat, p.toFloat,
+      q.toFloat, 0f, ratio.toFloat
     )
 
-  def unguidedMoment(shareOfBright: Double): Double =
-    mean(shareOfBright)((all, at) => all(at + Unguided))
+  def unguidedMoment(shareOfBright: Double, branches: Int = 1): Double =
+    mean(shareOfBright, branches)((all, at) => all(at + Unguided))
 
-  def ownMoment(shareOfBright: Double): Double =
-    mean(shareOfBright)((all, at) => all(at + Total).toDouble * all(at + Total))
+  def ownMoment(shareOfBright: Double, branches: Int = 1): Double =
+    mean(shareOfBright, branches)((all, at) => all(at + Total).toDouble * all(at + Total))
