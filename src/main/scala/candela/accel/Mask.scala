@@ -37,6 +37,11 @@ final class StochasticMask(alpha: FloatTexture) extends Mask:
     val a = alpha(at)
     a < 1f && (!(a > 0f) || StochasticMask.threshold(ray, primitive) >= a)
 
+/** Also open to rays that meet the surface from behind. */
+final class FrontMask(within: Mask) extends Mask:
+  def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
+    (ray.direction dot at.geometricNormal) > 0f || within.isHole(at, ray, primitive, shadow)
+
 object StochasticMask:
   /** Uniform in [0, 1) over rays and primitives. */
   private def threshold(ray: Ray, primitive: Int): Float =

@@ -39,6 +39,8 @@ object FromMitsuba:
         without(d, "nothing is clipped", "nearclip", "farclip")
       else if d.category == "Integrator" then
         without(d, "lamps and sky are visible", "hideemitters")
+      else if d.category == "Shape" then
+        without(d, "the inside of open tubes is seen", "cullbackfaces")
       else if d.category == "Medium" then
         if d.name.endsWith("grid") then
           warn(d, "pbrt's densities fall to 0 along the border of a grid, Mitsuba's do not")

@@ -23,6 +23,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
     case "polarizer" | "circular" => filter(in, 0.5f)
     case "retarder" => filter(in, 1f)
     case "principled" | "principledthin" => principled(in, in.plugin.name == "principledthin")
+    case "hair" => hair(in)
     case "null" => made(in, "interface", isOneSided = false)()
     case "measured" =>
       val file = in.text("filename").flatMap(session.file(_, in.atOf("filename"), "using grey"))
@@ -37,6 +38,31 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
 
   def grey(in: Asked): Surface =
     made(in, "diffuse", isOneSided = true)(Textures.rgb("reflectance", Textures.Fallback, in.at))
+
+  /** The same model as pbrt's. */
+  private def hair(in: Asked): Surface =
+    val scale = in.number("scale", 1).toFloat
+    val pigments = Seq("eumelanin" -> 1.3, "pheomelanin" -> 0.2)
+    val inside =
+      if !in.has("sigma_a") then
+        pigments.map((name, default) => Param.float(name, in.at, in.number(name, default).toFloat))
+      else
+        for (name, _) <- pigments if in.has(name) do
+          session.error(in.atOf(name), s"hair has `sigma_a` or `$name`, not both")
+        val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Plain)
+        Seq(textures.color("sigma_a", shade, in.atOf("sigma_a"), scale))
+    if scale != 1f && !in.has("sigma_a") then
+      session.warn(in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
+    def number(name: String, property: String, default: Double) =
+      Param.float(name, in.atOf(property), in.number(property, default).toFloat)
+    made(in, "hair", isOneSided = false)(
+      inside ++ Seq(
+        Param.float("eta", in.at, Indices.relative(in, "amber").toFloat),
+        number("beta_m", "longitudinal_roughness", 0.3),
+        number("beta_n", "azimuthal_roughness", 0.3),
+        number("alpha", "scale_tilt", 2)
+      )*
+    )
 
   private def made(in: Asked, name: String, isOneSided: Boolean)(
       params: Param*

@@ -6,12 +6,13 @@ package candela.mitsuba
 object Plugins:
   val bsdfs: Vector[String] = Vector(
     "blendbsdf", "bumpmap", "circular", "conductor", "dielectric", "diffuse",
-    "mask", "measured", "normalmap", "null", "plastic", "polarizer", "pplastic", "principled",
+    "hair", "mask", "measured", "normalmap", "null", "plastic", "polarizer", "pplastic",
+    "principled",
     "principledthin", "retarder", "roughconductor", "roughdielectric", "roughplastic",
     "thindielectric", "twosided"
   )
-  val shapes: Vector[String] = Vector("cube", "cylinder", "disk", "instance", "merge", "obj", "ply",
-    "rectangle", "serialized", "shapegroup", "sphere")
+  val shapes: Vector[String] = Vector("bsplinecurve", "cube", "cylinder", "disk", "instance",
+    "linearcurve", "merge", "obj", "ply", "rectangle", "serialized", "shapegroup", "sphere")
   val emitters: Vector[String] =
     Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
       "sunsky", "timed_sunsky")
@@ -32,12 +33,8 @@ object Plugins:
 
   /** Types that exist in Mitsuba 3, but are not read. */
   val others: Map[String, Vector[String]] = Map(
-    "bsdf" -> Vector(
-      "acousticbsdf",
-      "hair",
-      "measured_polarized"
-    ),
-    "shape" -> Vector("bsplinecurve", "ellipsoids", "ellipsoidsmesh", "linearcurve", "sdfgrid"),
+    "bsdf" -> Vector("acousticbsdf", "measured_polarized"),
+    "shape" -> Vector("ellipsoids", "ellipsoidsmesh", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "volumelight"),
     "texture" -> Vector("mesh_attribute"),
     "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),

@@ -41,7 +41,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         Values.fail(p.at, s"more than ${Session.Deepest} shapes within each other")
       try session.of(p)(_.nested("shape").flatMap(parts))
       finally depth -= 1
-    case _ => session.of(p)(one).toVector
+    case _ => session.of(p)(one)
 
   /** The name of a group of shapes. */
   private def group(p: Plugin): String =
@@ -60,7 +60,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       }
     )._1
 
-  private def one(in: Asked): Option[ShapeDescription] =
+  private def one(in: Asked): Vector[ShapeDescription] =
     in.ignore("silhouette_sampling_weight", "filename_id")
     val emitter = in.nested("emitter").headOption
     val bsdf = in.nested("bsdf")
@@ -72,7 +72,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       case None =>
         val s = bare(in, emitter.isDefined)
         (s, MaterialRef.Inline(s.material))
-    for Form(name, params, toWorld, isReversed) <- form(in) yield
+    val isHair = surface.material.name == "hair"
+    val forms = if isHair && in.plugin.name == "bsplinecurve" then fibres(in) else form(in).toVector
+    for Form(name, params, toWorld, isReversed) <- forms yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
       ShapeDescription(
@@ -145,6 +147,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         val index = in.integer("shape_index", 0)
         in.ignore("flip_tex_coords")
         mesh(in, toWorld, isFlipped)(SerializedFile.read(_, index, in.at))
+      case "bsplinecurve" => curves(in, least = 4, isFlipped)(Tubes.splines)
+      case "linearcurve" => curves(in, least = 2, isFlipped)(Tubes.capsules)
       case _ =>
         Plugins.unsupported(in.plugin, "skipped", session)
         in.ignore(in.plugin.properties.map(_.name)*)
@@ -165,13 +169,32 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       read: java.nio.file.Path => Mesh
   ): Option[Form] =
     in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
-    in.text("filename") match
-      case None =>
-        session.error(in.at, s"${in.plugin.shown} must have a `filename`")
-        None
-      case Some(name) =>
-        session.file(name, in.atOf("filename"), "skipped").map: path =>
-          meshForm(in, read(path), isFlipped, toWorld)
+    fileOf(in).map(path => meshForm(in, read(path), isFlipped, toWorld))
+
+  private def fileOf(in: Asked): Option[java.nio.file.Path] = in.text("filename") match
+    case None =>
+      session.error(in.at, s"${in.plugin.shown} must have a `filename`")
+      None
+    case Some(name) => session.file(name, in.atOf("filename"), "skipped")
+
+  private def read(in: Asked, least: Int): Option[Vector[CurvePoints]] =
+    val toWorld = in.transform("to_world")
+    fileOf(in).map(CurveFile.read(_, least, in.atOf("filename")).map(_.placed(toWorld)))
+
+  private def curves(in: Asked, least: Int, isFlipped: Boolean)(
+      made: Vector[CurvePoints] => Mesh
+  ): Option[Form] =
+    read(in, least).map: found =>
+      // Through an open end, the far side is not seen from within
+      val isOpen = least == 4 && found.exists(_.isOpen)
+      val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.at, true))
+      Form("trianglemesh", params(made(found), in) ++ culls, Transform.Identity, isFlipped)
+
+  /** pbrt's curves: light that is transmitted does not meet the far side. */
+  private def fibres(in: Asked): Vector[Form] =
+    in.ignore("flip_normals")
+    read(in, 4).toVector.flatten.flatMap(Fibres.of(_)).map: fibre =>
+      Form("curve", fibre.params(in.at), Transform.Identity, isReversed = false)
 
   private def meshForm(in: Asked, mesh: Mesh, isFlipped: Boolean, toWorld: Transform): Form =
     val there = mesh.placed(toWorld)

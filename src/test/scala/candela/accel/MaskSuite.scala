@@ -34,6 +34,15 @@ class MaskSuite extends AnyFunSuite:
     Seq("bvh" -> (Bvh(_)), "grid" -> (Grid(_)), "brute force" -> (BruteForce(_)))
 
   for (name, make) <- accelerators do
+    test(s"a surface that is open behind is met from the front only: $name"):
+      val world = make(triangles(FrontMask(SolidMask)))
+      def up = ray.set(Vec3(0.75f, 0.25f, -1f), Vec3(0f, 0f, 1f), Float.PositiveInfinity)
+      assert(world.closest(down(0.75f, 0.25f), hit) && ray.tMax == 1f)
+      up
+      assert(!world.closest(ray, hit))
+      up
+      assert(!world.isOccluded(ray, hit))
+
     test(s"a triangle is met where it has no hole: $name"):
       val world = make(triangles(HoleMask(LeftHalf, whole)))
       // u is x: the corners without uv are (0,0), (1,0), (1,1)

@@ -48,7 +48,8 @@ final class PbrtParametersSuite extends AnyFunSuite:
     val ofMitsuba =
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
-        "hideemitters", "normalmapuv", "phases", "phaseweights", "phasevalues"
+        "hideemitters", "normalmapuv", "phases", "phaseweights", "phasevalues",
+        "cullbackfaces"
       )
     val slides = Set((Dialect.V4, "spot", "mapname"))
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))

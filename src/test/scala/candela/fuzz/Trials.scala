@@ -64,6 +64,7 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val volumes = Mutator(Trials.volumes, random)
   private val grids = Mutator(Trials.grids, random)
   private val documents = Mutator(files(".xml") ++ Trials.documents, random)
+  private val curves = Mutator(Vector(Trials.curves), random)
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
   /** The next broken file; `judge` reads it. */
@@ -79,10 +80,11 @@ final class Trials(from: Path, folder: Path, random: Random):
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
       case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
       case Kind.Mitsuba =>
-        // one in three: a sound scene of broken meshes and of a broken volume
+        // one in three: a sound scene of broken meshes, curves and of a broken volume
         for mesh <- Vector("broken.obj", "broken.serialized") do
           Files.write(folder.resolve(mesh), objects.bytes())
         Files.write(folder.resolve("broken.vol"), grids.bytes())
+        Files.write(folder.resolve("broken.txt"), curves.text())
         val bytes = random.nextInt(3) match
           case 0 => documents.text()
           case 1 => documents.meaning()
@@ -212,8 +214,16 @@ object Trials:
         "<shape type='serialized'><string name='filename' value='../broken.serialized'/>" +
         "</shape><shape type='cube'><medium type='heterogeneous' name='interior'>" +
         "<volume type='gridvolume' name='sigma_t'>" +
-        "<string name='filename' value='../broken.vol'/></volume></medium></shape>")
+        "<string name='filename' value='../broken.vol'/></volume></medium></shape>" +
+        Seq("linearcurve", "bsplinecurve").map(kind =>
+          s"<shape type='$kind'><string name='filename' value='../broken.txt'/></shape>"
+        ).mkString)
     ).map(_.getBytes("UTF-8"))
+
+  /** Two of Mitsuba's curves. */
+  private def curves: Array[Byte] =
+    "0 0 0 .1\n0 1 0 .1\n1 1 0 .2\n1 2 0 .1\n1 2 1 0\n\n0 0 1 .1\n0 1 1 .1\n1 1 1 .2\n1 2 1 .1\n"
+      .getBytes("US-ASCII")
 
   /** Mitsuba's volumes of 2 × 3 × 4 cells, of one channel and of three. */
   private def grids: Vector[Array[Byte]] =

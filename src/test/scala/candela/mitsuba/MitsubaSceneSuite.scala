@@ -286,6 +286,28 @@ class MitsubaSceneSuite extends AnyFunSuite:
         Vector("2:1: texture \"rawconstant\" must have a `value`")
     )
 
+  test("hair on splines becomes pbrt's curves, one by one; other curves are tubes"):
+    def scene(bsdf: String, points: String*) =
+      val file = Files.createTempFile("candela", ".txt")
+      try
+        Files.writeString(file, points.mkString("\n")): Unit
+        read(
+          s"$Sensor<shape type=\"bsplinecurve\"><string name=\"filename\" value=\"$file\"/>" +
+            s"<bsdf type=\"$bsdf\"/></shape>"
+        )
+      finally Files.delete(file)
+    val even = Seq("0 0 0 .4", "1 0 0 .3", "2 0 0 .2", "3 0 0 .1", "4 1 0 0", "")
+    val bulge = Seq("0 0 0 .1", "1 0 0 .1", "2 0 0 .3", "3 0 0 .1", "4 1 0 .1")
+    val fibres = scene("hair", even ++ bulge*).shapes.map(_.shape)
+    assert(fibres.map(_.name) == Vector("curve", "curve", "curve"))
+    assert(fibres.map(_.param("P").get.floats.length / 3) == Vector(5, 4, 4))
+    val widths = fibres.head.params.filter(_.name.startsWith("width")).map(_.floats.head)
+    assert(widths.zip(Seq(0.6f, 0.2f)).forall((a, b) => Math.abs(a - b) < 1e-6f), widths)
+    val tubes = scene("diffuse", even ++ bulge*).shapes.map(_.shape)
+    assert(tubes.map(_.name) == Vector("trianglemesh"))
+    val culls = tubes.head.param("cullbackfaces").exists(_.bools.head)
+    assert(culls)
+
   test("a heterogeneous medium of constant extinction fills its volume's cube"):
     def medium(volume: String) =
       val sigmaT = s"<volume type=\"constvolume\" name=\"sigma_t\">$volume" +

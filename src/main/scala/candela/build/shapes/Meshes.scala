@@ -13,6 +13,8 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
   private val normals = numbers("N", "normal[]", "shading normals, one per vertex")
   private val uv = numbers("uv", "point2[]", "texture coordinates, one pair per vertex")
   private val st = numbers("st", "point2[]", "alias of `uv`", untilV3)
+  private val culls =
+    bool("cullbackfaces", "rays from behind pass, in Mitsuba's scenes", onlyV4)(false)
   unsupported("tangents follow uv; only anisotropic materials show the difference")(
     numbers("S", "vector3[]", "tangents, one per vertex")
   )
@@ -22,6 +24,8 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
   noMeaning("only Ptex textures use them")(
     integers("faceIndices", "face indices, one per triangle", sinceV3)
   )
+
+  override protected def isOpenBehind()(using Site): Boolean = culls()
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val p = points()

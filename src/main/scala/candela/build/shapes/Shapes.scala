@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.accel.{HoleMask, Mask, SolidMask, StochasticMask}
+import candela.accel.{FrontMask, HoleMask, Mask, SolidMask, StochasticMask}
 import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
 import candela.math.Transform
@@ -64,11 +64,15 @@ abstract class ShapeRecipe(
 
   protected def geometry()(using Site): Option[ShapeGeometry]
 
+  /** Do rays from behind pass? */
+  protected def isOpenBehind()(using Site): Boolean = false
+
   protected final def make()(using site: Site): Option[ShapePlan] =
     geometry().map: geometry =>
       val holes = holesOf(alpha)
       if site.dialect == Dialect.V4 then
-        ShapePlan(geometry, holes.fold(SolidMask)(StochasticMask(_)), emitter(holes))
+        val mask = holes.fold(SolidMask)(StochasticMask(_))
+        ShapePlan(geometry, if isOpenBehind() then FrontMask(mask) else mask, emitter(holes))
       else
         val inShadow = holesOf(shadowAlpha)
         val mask =

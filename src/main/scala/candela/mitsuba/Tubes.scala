@@ -1,0 +1,164 @@
+package candela.mitsuba
+
+import candela.base.loop
+import candela.math.*
+
+import scala.collection.mutable.ArrayBuffer
+
+/** Meshes of Mitsuba's curves, which are round tubes. */
+object Tubes:
+  /** Uniform cubic B-splines, open at their ends. v runs over all segments. */
+  def splines(curves: Vector[CurvePoints]): Mesh =
+    val segments = curves.map(_.points.size - 3).sum
+    val builder = TubeBuilder(segments, ringsOfSegment = 16)
+    var first = 0
+    for c <- curves do
+      builder.begin()
+      val own = c.points.size - 3
+      for s <- 0 until own; step <- 0 to builder.steps if step > 0 || s == 0 do
+        val t = step.toDouble / builder.steps
+        val v = (first + s + t) / segments
+        builder.ring(Spline.at(c, s, t), v.toFloat)
+      first += own
+    builder.mesh
+
+  /** Straight segments between balls, each a capsule. */
+  def capsules(curves: Vector[CurvePoints]): Mesh =
+    val segments = curves.map(_.points.size - 1).sum
+    val builder = TubeBuilder(segments, ringsOfSegment = 18)
+    var first = 0
+    for c <- curves do
+      for s <- 0 until c.points.size - 1 do
+        builder.begin()
+        val (p, q) = (c.points(s), c.points(s + 1))
+        val length = (q - p).length
+        val axis = if length > 0f then (q - p) * (1f / length) else Vec3.Z
+        val slope = if length > 0f then (c.radii(s) - c.radii(s + 1)) / length else 0f
+        val border = Math.asin(clamp(slope, -1f, 1f).toDouble)
+        val caps = Math.max(2, builder.steps / 2)
+        for end <- 0 to 1; step <- 0 to caps do
+          val part = step.toDouble / caps
+          val tilt =
+            if end == 0 then lerp(part, -Math.PI / 2, border) else lerp(part, border, Math.PI / 2)
+          val (up, out) = (Math.sin(tilt).toFloat, Math.max(0.0, Math.cos(tilt)).toFloat)
+          val r = c.radii(s + end)
+          val middle = c.points(s + end) + axis * (r * up)
+          builder.ring(
+            Ring(middle, axis, r * out, out, axis * up),
+            (first + end).toFloat / segments
+          )
+        first += 1
+    builder.mesh
+
+  private def lerp(t: Double, a: Double, b: Double): Double = (1 - t) * a + t * b
+
+/** A circle of a tube.
+  *
+  * @param across,along of the normal: `across` times the direction from the middle, plus `along`
+  */
+private[mitsuba] final case class Ring(
+    middle: Vec3,
+    tangent: Vec3,
+    radius: Float,
+    across: Float,
+    along: Vec3,
+    bend: Vec3 = Vec3.Zero
+)
+
+/** Segments of uniform cubic B-splines. */
+private[mitsuba] object Spline:
+  /** The circle at `t`, 0 to 1, of the segment that begins with the control point `first`. */
+  def at(c: CurvePoints, first: Int, t: Double): Ring =
+    val s = 1 - t
+    def of(w: Seq[Double]) = w.zip(c.points.slice(first, first + 4))
+      .map((w, p) => p * w.toFloat).reduce(_ + _)
+    def radius(w: Seq[Double]) = w.zip(c.radii.slice(first, first + 4)).map(_ * _).sum.toFloat
+    val value = Seq(
+      s * s * s,
+      3 * t * t * t - 6 * t * t + 4,
+      -3 * t * t * t + 3 * t * t + 3 * t + 1,
+      t * t * t
+    ).map(_ / 6)
+    val slope = Seq(-s * s, 3 * t * t - 4 * t, -3 * t * t + 2 * t + 1, t * t).map(_ / 2)
+    val bend = Seq(s, 3 * t - 2, 1 - 3 * t, t)
+    val (d, r) = (of(slope), radius(value))
+    val length2 = d.lengthSquared
+    // Where the tube widens, its normal leans back (the derivative of the radius)
+    if length2 > 0f then
+      Ring(
+        of(value),
+        d.normalized,
+        r,
+        1f,
+        d * (-radius(slope) / length2),
+        of(bend) * (1f / length2)
+      )
+    else Ring(of(value), Vec3.Z, r, 1f, Vec3.Zero)
+
+/** Joins rings by triangles.
+  *
+  * @param segments       of all curves: they share a budget of triangles
+  * @param ringsOfSegment at most
+  */
+private[mitsuba] final class TubeBuilder(segments: Int, ringsOfSegment: Int):
+  /** Rings of each segment. */
+  val steps: Int =
+    val fits = Math.sqrt(TubeBuilder.Budget / (4.0 * Math.max(1, segments))).toInt
+    clamp(fits, 2, ringsOfSegment)
+  private val sides = clamp(2 * steps, 6, 32)
+
+  // Seen from the side, the polygon is as wide as the circle, on average
+  private val swell = (Math.PI / sides / Math.sin(Math.PI / sides)).toFloat
+
+  private val positions, normals, uvs = ArrayBuffer.empty[Float]
+  private val indices = ArrayBuffer.empty[Int]
+  private var side, tangent = Vec3.Zero
+  private var turn = 0.0
+  private var rings = 0
+  private var isFirst = true
+
+  /** The next ring begins a tube. */
+  def begin(): Unit = isFirst = true
+
+  def ring(r: Ring, v: Float): Unit =
+    val (x, y) = TubeBuilder.axes(r.tangent)
+    if isFirst then
+      side = x
+      turn = 0.0
+    else
+      // The side that turns least from the last ring
+      val flat = side - r.tangent * (side dot r.tangent)
+      side = if flat.lengthSquared > 1e-12f then flat.normalized else x
+      val angle = Math.atan2((side dot y).toDouble, (side dot x).toDouble) / (2 * Math.PI)
+      turn = angle + Math.rint(turn - angle)
+    tangent = r.tangent
+    val up = tangent cross side
+    loop(sides + 1): k =>
+      val phi = 2 * Math.PI * (k % sides) / sides
+      val out = side * Math.cos(phi).toFloat + up * Math.sin(phi).toFloat
+      push(positions, r.middle + out * (r.radius * swell))
+      // The normal of a bent tube leans by the radius
+      val lean = 1f - r.radius * (out dot r.bend)
+      push(normals, (out * (r.across * lean) + r.along).normalized)
+      uvs ++= Seq((turn + k.toDouble / sides).toFloat, v)
+    if !isFirst then
+      loop(sides): k =>
+        val (a, b) = ((rings - 1) * (sides + 1) + k, rings * (sides + 1) + k)
+        indices ++= Seq(a, a + 1, b, b, a + 1, b + 1)
+    rings += 1
+    isFirst = false
+
+  private def push(to: ArrayBuffer[Float], v: Vec3): Unit =
+    to ++= Seq(v.x, v.y, v.z)
+
+  def mesh: Mesh = Mesh(positions.toArray, normals.toArray, uvs.toArray, indices.toArray)
+
+private[mitsuba] object TubeBuilder:
+  /** Triangles, about. */
+  private val Budget = 2e6
+
+  /** The directions of u = 0 and u = 1/4 on Mitsuba's curves. */
+  def axes(tangent: Vec3): (Vec3, Vec3) =
+    val flat = Vec3.Z - tangent * tangent.z
+    val y = if Math.abs(tangent.z) < 1f && flat.lengthSquared > 0f then flat.normalized else Vec3.Y
+    (y cross tangent, y)
