@@ -20,8 +20,8 @@ final case class CurvePoints(points: Vector[Vec3], radii: Vector[Float]):
   /** In world space; Mitsuba's radii are not scaled. */
   def placed(toWorld: Transform): CurvePoints = copy(points = points.map(toWorld.point(_)))
 
-/** Reads Mitsuba's files of curves: a control point and its radius in each line, empty lines between
-  * curves.
+/** Reads Mitsuba's files of curves: a control point and its radius in each line, empty lines
+  * between curves.
   */
 object CurveFile:
   /** Coordinates beyond this overflow when they are squared. */
