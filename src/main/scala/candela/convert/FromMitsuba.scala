@@ -134,7 +134,7 @@ object FromMitsuba:
       val mean = Array.tabulate(channels): c =>
         val own = values.indices.by(channels).map(i => values(i + c).toDouble)
         (own.sum / own.size).toFloat
-      warn(d, "pbrt has no textures that are grids in space; using the mean of its values")
+      warn(d, "pbrt has no textures that are grids or numbers of a mesh; using their mean")
       val kind = if channels == 3 then ParamType.Rgb else ParamType.Float
       d.copy(name = "constant", params = Vector(Param.floats(kind, "value", d.at, mean)))
 

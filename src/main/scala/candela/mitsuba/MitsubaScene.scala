@@ -53,7 +53,9 @@ private final class Translation(session: Session, file: Path):
   def result(): SceneDescription =
     of("shape").foreach(shapes.add)
     // Errors of BSDFs that no shape uses are errors, too
-    of("bsdf").foreach(p => session.attempt(surfaces(p)))
+    // Those that need a mesh are translated with it
+    of("bsdf").filterNot(surfaces.textureTypes(_)("mesh_attribute"))
+      .foreach(p => session.attempt(surfaces(p)))
     val lights = of("emitter").flatMap(emitters(_))
     val start = SourcePos(file.toString, 1, 1)
     val scene = SceneDescription(Dialect.V4, isMitsubas = true)

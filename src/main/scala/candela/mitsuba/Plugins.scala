@@ -17,7 +17,7 @@ object Plugins:
     Vector("area", "constant", "directional", "envmap", "point", "projector", "spot",
       "sunsky", "timed_sunsky")
   val textures: Vector[String] = Vector("bitmap", "blackbody", "checkerboard", "d65", "irregular",
-    "rawconstant", "regular", "srgb", "uniform", "volume")
+    "mesh_attribute", "rawconstant", "regular", "srgb", "uniform", "volume")
   val sensors: Vector[String] = Vector("orthographic", "perspective", "thinlens")
   val integrators: Vector[String] = Vector("aov", "direct", "moment", "path", "prb", "prb_basic",
     "prbvolpath", "ptracer", "stokes", "volpath", "volpathmis")
@@ -36,7 +36,6 @@ object Plugins:
     "bsdf" -> Vector("acousticbsdf", "measured_polarized"),
     "shape" -> Vector("ellipsoids", "ellipsoidsmesh", "sdfgrid"),
     "emitter" -> Vector("directionalarea", "volumelight"),
-    "texture" -> Vector("mesh_attribute"),
     "sensor" -> Vector("batch", "distant", "irradiancemeter", "radiancemeter"),
     "integrator" -> Vector("acousticpath", "depth", "direct_projective", "emission",
       "prb_projective", "volprim_rf_basic"),

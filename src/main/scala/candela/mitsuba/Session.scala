@@ -50,8 +50,12 @@ final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
   /** Files read so far, other than XML. */
   def read: Vector[Path] = files.toVector
 
+  /** The object with this id, if there is one. */
+  def known(id: String): Option[Plugin] =
+    byId.get(id).orElse(expanded.aliases.get(id).flatMap(byId.get))
+
   def plugin(id: String, at: SourcePos): Option[Plugin] =
-    val there = byId.get(id).orElse(expanded.aliases.get(id).flatMap(byId.get))
+    val there = known(id)
     if there.isEmpty then
       error(
         at,

@@ -65,15 +65,17 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val emitter = in.nested("emitter").headOption
     val bsdf = in.nested("bsdf")
     bsdf.drop(1).foreach(b => session.warn(b.at, "a shape has one bsdf; this one is ignored"))
+    val attributes = bsdf.headOption.flatMap(attributesFor(in, _))
     val (surface, material) = bsdf.headOption match
       case Some(p) =>
-        val s = surfaces(p)
+        val s = attributes.fold(surfaces(p))(surfaces.on(_, p))
         (s, surfaces.ref(p, s))
       case None =>
         val s = bare(in, emitter.isDefined)
         (s, MaterialRef.Inline(s.material))
     val isHair = surface.material.name == "hair"
-    val forms = if isHair && in.plugin.name == "bsplinecurve" then fibres(in) else form(in).toVector
+    val forms = if isHair && in.plugin.name == "bsplinecurve" then fibres(in)
+    else form(in, attributes).toVector
     for Form(name, params, toWorld, isReversed) <- forms yield
       val alpha = surface.alpha.toVector
       def medium(side: String) = in.nested("medium", side).headOption.fold("")(media(_))
@@ -102,7 +104,21 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       isReversed: Boolean
   )
 
-  private def form(in: Asked): Option[Form] =
+  /** Of the mesh, if its surface uses them. */
+  private def attributesFor(in: Asked, bsdf: Plugin): Option[MeshAttributes] =
+    val types = surfaces.textureTypes(bsdf)
+    if !types("mesh_attribute") || in.plugin.name != "ply" then None
+    else
+      if types("bitmap") || types("checkerboard") then
+        session.warn(
+          in.at,
+          "textures by u and v are not supported beside a mesh_attribute; they lie elsewhere"
+        )
+      fileOf(in).map(path =>
+        MeshAttributes(PlyFile.read(path, Some(in.at), keepsAll = true))
+      )
+
+  private def form(in: Asked, attributes: Option[MeshAttributes]): Option[Form] =
     val toWorld = in.transform("to_world")
     val isFlipped = in.flag("flip_normals", false)
     def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
@@ -139,7 +155,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.at))
       case "ply" =>
         val isUp = in.flag("flip_tex_coords", false)
-        mesh(in, toWorld, isFlipped): path =>
+        mesh(in, toWorld, isFlipped, attributes): path =>
           val ply = PlyFile.read(path, Some(in.at))
           if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
           Mesh(ply.positions, ply.normals, ply.uvs, ply.indices)
@@ -165,11 +181,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       val frame = Shapes.frame(dx / length, dy / length, dz / length)
       (toWorld * Transform.translate(x0, y0, z0) * frame, length)
 
-  private def mesh(in: Asked, toWorld: Transform, isFlipped: Boolean)(
+  private def mesh(
+      in: Asked,
+      toWorld: Transform,
+      isFlipped: Boolean,
+      attributes: Option[MeshAttributes] = None
+  )(
       read: java.nio.file.Path => Mesh
   ): Option[Form] =
     in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
-    fileOf(in).map(path => meshForm(in, read(path), isFlipped, toWorld))
+    fileOf(in).map(path => meshForm(in, read(path), isFlipped, toWorld, attributes))
 
   private def fileOf(in: Asked): Option[java.nio.file.Path] = in.text("filename") match
     case None =>
@@ -196,9 +217,16 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     read(in, 4).toVector.flatten.flatMap(Fibres.of(_)).map: fibre =>
       Form("curve", fibre.params(in.at), Transform.Identity, isReversed = false)
 
-  private def meshForm(in: Asked, mesh: Mesh, isFlipped: Boolean, toWorld: Transform): Form =
+  private def meshForm(
+      in: Asked,
+      mesh: Mesh,
+      isFlipped: Boolean,
+      toWorld: Transform,
+      attributes: Option[MeshAttributes] = None
+  ): Form =
     val there = mesh.placed(toWorld)
-    val shaded = if in.flag("face_normals", false) then there.faceted else there.smooth
+    val whole = if in.flag("face_normals", false) then there.faceted else there.smooth
+    val shaded = attributes.fold(whole)(_.laidOut(whole))
     Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
 
   private def params(m: Mesh, in: Asked): Seq[Param] =

@@ -23,7 +23,7 @@ private[mitsuba] enum Relief:
 
 /** Translates BSDFs, each once. */
 final class Surfaces(session: Session, colors: Colors, textures: Textures):
-  private val made = mutable.HashMap.empty[(Plugin, Relief), Surface]
+  private val made = mutable.HashMap.empty[(Plugin, Relief, Option[MeshAttributes]), Surface]
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val names = mutable.HashMap.empty[Declaration, String]
   private val basic = BasicSurfaces(session, colors, textures)
@@ -33,6 +33,24 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   def result(): Vector[(String, Declaration)] = named.toVector
 
   def apply(p: Plugin): Surface = of(p, Relief.Flat)
+
+  /** On a mesh with attributes. */
+  def on(mesh: MeshAttributes, p: Plugin): Surface =
+    textures.mesh = Some(mesh)
+    try apply(p)
+    finally textures.mesh = None
+
+  /** Types of textures that a BSDF uses. */
+  def textureTypes(p: Plugin): Set[String] =
+    val seen = mutable.HashSet.empty[Plugin]
+    def visit(p: Plugin): Unit =
+      if seen.add(p) then
+        p.properties.map(_.value).foreach:
+          case Value.Nested(inner) => visit(inner)
+          case Value.Reference(id) => session.known(id).foreach(visit)
+          case _ => ()
+    visit(p)
+    seen.iterator.filter(_.kind == "texture").map(_.name).toSet
 
   /** The material of a shape: by name if the BSDF has an id. */
   def ref(p: Plugin, s: Surface): MaterialRef =
@@ -53,14 +71,14 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
 
   private def of(p: Plugin, relief: Relief): Surface =
     made.getOrElse(
-      (p, relief), {
+      (p, relief, textures.mesh), {
         depth += 1
         if depth > Session.Deepest then
           Values.fail(p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
         val surface =
           try session.of(p)(translated(_, relief))
           finally depth -= 1
-        made((p, relief)) = surface
+        made((p, relief, textures.mesh)) = surface
         surface
       }
     )

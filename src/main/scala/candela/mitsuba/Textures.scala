@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{SourcePos, Suggest}
 import candela.color.Rgb
 import candela.scenefile.{
   AnimatedTransform, Declaration, GraphicsState, Param, ParamType, TextureDescription
@@ -15,12 +15,16 @@ import scala.collection.mutable
   */
 final class Textures(session: Session, colors: Colors):
   private val made = Vector.newBuilder[TextureDescription]
-  private val names = mutable.HashMap.empty[(Plugin, String, Float), Option[String]]
+  private val names =
+    mutable.HashMap.empty[(Plugin, String, Float, Option[MeshAttributes]), Option[String]]
   private val taken = mutable.HashSet.empty[String]
   private val volumes = Volumes(session)
   private var depth = 0
 
   def result(): Vector[TextureDescription] = made.result()
+
+  /** The attributes of the mesh whose surface is being translated, if it uses any. */
+  var mesh: Option[MeshAttributes] = None
 
   /** A colour parameter. */
   def color(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
@@ -46,7 +50,7 @@ final class Textures(session: Session, colors: Colors):
   /** Name of the texture; None if it is not supported. */
   private def apply(p: Plugin, valueType: String, scale: Float): Option[String] =
     names.getOrElseUpdate(
-      (p, valueType, scale), {
+      (p, valueType, scale, mesh), {
         depth += 1
         if depth > Session.Deepest then
           Values.fail(p.at, s"more than ${Session.Deepest} textures refer to each other")
@@ -61,6 +65,8 @@ final class Textures(session: Session, colors: Colors):
       case "checkerboard" =>
         session.of(p)(checkerboard(_, valueType)).map((_, GraphicsState.Identity))
       case "volume" => session.of(p)(volume(_, valueType))
+      case "mesh_attribute" =>
+        session.of(p)(attribute(_, valueType)).map((_, GraphicsState.Identity))
       case _ =>
         Plugins.unsupported(p, s"using ${Textures.Fallback.r}", session)
         None
@@ -133,6 +139,39 @@ final class Textures(session: Session, colors: Colors):
       val values = if valueType == "float" then grid.numbers else grid.colors
       val params = grid.place(v.at) :+ Param.floats(ParamType.Float, "values", v.at, values)
       (("grid", params), GraphicsState.still(grid.toWorld))
+
+  /** A number or a colour at each point of the mesh. */
+  private def attribute(in: Asked, valueType: String): Option[(String, Seq[Param])] =
+    val name = in.text("name", "")
+    val scale = in.number("scale", 1).toFloat
+    val found = mesh.flatMap(_.grid(name))
+    if found.isEmpty then
+      session.warn(
+        in.atOf("name"),
+        s"the mesh has no attribute `$name`; using ${Textures.Fallback.r}",
+        mesh.flatMap(m => Suggest.help(name, m.names.toVector))
+      )
+    for m <- mesh; (channels, values) <- found yield
+      val wanted = if valueType == "float" then 1 else 3
+      val cells = m.width * m.height
+      def value(cell: Int, c: Int) =
+        if channels == wanted then values(cell * channels + c)
+        else if channels < 3 then values(cell * channels)
+        else if wanted == 3 then values(cell * channels + c)
+        else
+          Rgb(values(cell * channels), values(cell * channels + 1), values(cell * channels + 2))
+            .luminance
+      val all = Array.tabulate(cells * wanted)(i => value(i / wanted, i % wanted) * scale)
+      val at = in.at
+      (
+        "grid",
+        Seq(
+          Param.int("nx", at, m.width),
+          Param.int("ny", at, m.height),
+          Param.string("mapping", at, "uv"),
+          Param.floats(ParamType.Float, "values", at, all)
+        )
+      )
 
   /** @param flipped whether the texture's own v has its origin at the top, as images have */
   private def coordinates(in: Asked, flipped: Boolean, factor: Float = 1f): Seq[Param] =

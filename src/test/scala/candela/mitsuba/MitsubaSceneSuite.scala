@@ -286,6 +286,21 @@ class MitsubaSceneSuite extends AnyFunSuite:
         Vector("2:1: texture \"rawconstant\" must have a `value`")
     )
 
+  test("each mesh has its own attributes, and a missing one is reported"):
+    val quilt = Path.of("scenes/mitsuba/quilt.ply").toAbsolutePath
+    def texture(name: String) = "<texture type=\"mesh_attribute\" name=\"reflectance\">" +
+      s"<string name=\"name\" value=\"$name\"/></texture>"
+    def body(name: String, types: String*) =
+      s"<bsdf type=\"diffuse\" id=\"b\">\n${texture(name)}</bsdf>" + types.map(t =>
+        s"<shape type=\"$t\"><string name=\"filename\" value=\"$quilt\"/><ref id=\"b\"/></shape>"
+      ).mkString
+    val scene = read(Sensor + body("vertex_color", "ply", "ply"))
+    assert(scene.textures.map(_.texture.name) == Vector("grid", "grid"))
+    assert(scene.shapes.map(_.material).distinct.size == 2 && scene.warnings.isEmpty)
+    val missing = "2:51: the mesh has no attribute `vertex_colors`; using 0.5"
+    assert(problems(body("vertex_colors", "ply")) ==
+      Vector(s"$missing (did you mean `vertex_color`?)"))
+
   test("hair on splines becomes pbrt's curves, one by one; other curves are tubes"):
     def scene(bsdf: String, points: String*) =
       val file = Files.createTempFile("candela", ".txt")

@@ -3,7 +3,7 @@ package candela.build.shapes
 import java.io.IOException
 import java.nio.file.Path
 
-import candela.base.{IntBuffer, loop, Problem, SceneError, Severity, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, loop, Problem, SceneError, Severity, SourcePos}
 import candela.scenefile.Source
 
 /** Mesh of a PLY file.
@@ -14,13 +14,17 @@ import candela.scenefile.Source
   * @param uvs       u, v of each vertex; empty if the file has none
   * @param indices   three vertex indices per triangle, all in range
   * @param quads     four vertex indices per quad that was kept, in the order 0 1 3 2 of its corners
+  * @param ofVertices other numbers of each vertex, by property, in their order; if asked for
+  * @param ofTriangles likewise, of the faces that triangles are parts of
   */
 final class PlyMesh(
     val positions: Array[Float],
     val normals: Array[Float],
     val uvs: Array[Float],
     val indices: Array[Int],
-    val quads: Array[Int]
+    val quads: Array[Int],
+    val ofVertices: Vector[(String, Array[Float])] = Vector.empty,
+    val ofTriangles: Vector[(String, Array[Float])] = Vector.empty
 )
 
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
@@ -32,10 +36,16 @@ object PlyFile:
 
   /** @param at        position of the reference in the scene, for error messages
     * @param keepQuads whether to keep quads as they are
+    * @param keepsAll  whether to keep all numbers of vertices and faces
     */
-  def read(path: Path, at: Option[SourcePos] = None, keepQuads: Boolean = false): PlyMesh =
+  def read(
+      path: Path,
+      at: Option[SourcePos] = None,
+      keepQuads: Boolean = false,
+      keepsAll: Boolean = false
+  ): PlyMesh =
     Source.read(path) match
-      case Right(source) => mesh(source, at, keepQuads)
+      case Right(source) => mesh(source, at, keepQuads, keepsAll)
       case Left(why) => throw problem(at, s"can't read the mesh `$path`: $why")
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
@@ -44,7 +54,8 @@ object PlyFile:
   private[build] def mesh(
       source: Source,
       at: Option[SourcePos],
-      keepQuads: Boolean = false
+      keepQuads: Boolean = false,
+      keepsAll: Boolean = false
   ): PlyMesh =
     var isAscii = true
     def fail(offset: Long, message: String): Nothing =
@@ -53,7 +64,7 @@ object PlyFile:
     try
       val header = PlyHeader.read(source, fail)
       isAscii = header.format == PlyFormat.Ascii
-      PlyReader(header, PlyNumbers.of(source, header, fail), keepQuads, fail).read()
+      PlyReader(header, PlyNumbers.of(source, header, fail), keepQuads, keepsAll, fail).read()
     catch
       case e: IOException =>
         val why = Option(e.getMessage).getOrElse(e.toString)
@@ -80,12 +91,14 @@ object PlyFile:
 /** Reads the elements of a PLY file.
   *
   * @param keepQuads whether to keep quads as they are
+  * @param keepsAll  whether to keep all numbers of vertices and faces
   * @param fail      reports a problem at a byte offset
   */
 private[build] final class PlyReader(
     header: PlyHeader,
     in: PlyNumbers,
     keepQuads: Boolean,
+    keepsAll: Boolean,
     fail: (Long, String) => Nothing
 ):
   private var positions = Array.emptyFloatArray
@@ -93,6 +106,8 @@ private[build] final class PlyReader(
   private var uvs = Array.emptyFloatArray
   private val indices = IntBuffer()
   private val quads = IntBuffer()
+  private var ofVertices = Vector.empty[(String, Array[Float])]
+  private var ofTriangles = Vector.empty[(String, FloatBuffer)]
 
   def read(): PlyMesh =
     val vertexCount = needed("vertex").count
@@ -107,7 +122,8 @@ private[build] final class PlyReader(
     val triangles = indices.take()
     val patches = quads.take()
     if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
-    PlyMesh(positions, normals, uvs, triangles, patches)
+    val others = ofTriangles.map((name, values) => name -> values.take())
+    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, others)
 
   private def needed(name: String): PlyElement =
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
@@ -135,7 +151,11 @@ private[build] final class PlyReader(
         .zip(arrays)
         .filter((g, array) => g.contains(p.name) && array.nonEmpty)
       val group = groups.headOption.filter(_ => p.countType.isEmpty)
-      group.map((g, array) => (array, g.size, g.indexOf(p.name)))
+      group.map((g, array) => (array, g.size, g.indexOf(p.name))).orElse:
+        Option.when(keepsAll && p.countType.isEmpty):
+          val own = new Array[Float](element.count)
+          ofVertices :+= p.name -> own
+          (own, 1, 0)
     val targets = roles.map(_.fold(null)(_._1)).toArray
     val strides = roles.map(_.fold(0)(_._2)).toArray
     val places = roles.map(_.fold(0)(_._3)).toArray
@@ -175,12 +195,24 @@ private[build] final class PlyReader(
       fail(in.offset, s"faces must have a list `vertex_indices`, found $found")
     val properties = element.properties.toArray
     val isPlain = properties.length == 1 && PlyReader.isUsualList(properties(0))
+    val kept = properties.map(p => keepsAll && p.countType.isEmpty)
+    ofTriangles =
+      properties.toVector.zip(kept).collect { case (p, true) => p.name -> FloatBuffer() }
+    val own = new Array[Float](ofTriangles.size)
     val three = new Array[Int](3)
     loop(element.count): _ =>
       if isPlain && in.triangle(three, vertexCount) then triangle(three(0), three(1), three(2))
       else
+        val before = indices.length
+        var i = 0
         loop(properties.length): k =>
-          if k == corners then readCorners(properties(k), vertexCount) else skip(properties(k))
+          if k == corners then readCorners(properties(k), vertexCount)
+          else if kept(k) then
+            val value = in.next(properties(k).valueType).toFloat
+            own(i) = if java.lang.Float.isFinite(value) then value else 0f
+            i += 1
+          else skip(properties(k))
+        loop((indices.length - before) / 3)(_ => loop(own.length)(i => ofTriangles(i)._2 += own(i)))
 
   private def readCorners(p: PlyProperty, vertexCount: Int): Unit =
     val length = in.length(p.countType.get)

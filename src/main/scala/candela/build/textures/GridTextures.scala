@@ -10,16 +10,21 @@ abstract class GridRecipe[A](meaning: String, channels: Int)
     with HasCells
     with HasBox:
   private val values = numbers("values", "float[]", s"$channels for each cell, x fastest")
+  private val space = oneOf("mapping", "space of the box", Seq("world", "uv"))("world")
 
   /** The mapping to the unit cube, and the channels; None if the parameters are wrong. */
-  protected def grids()(using Site): Option[(Mapping3D, Vector[TrilinearGrid])] =
+  protected def grids()(using Site): Option[(GridPlace, Vector[TrilinearGrid])] =
     for
       (nx, ny, nz) <- cells("values", values(), channels)
-      toGrid <- toUnit()
+      place <-
+        if space() == "uv" then Some(GridPlace.OfUv)
+        else toUnit().map(m => GridPlace.InSpace(Mapping3D(m)))
     yield
-      def grid(c: Int) =
-        TrilinearGrid(nx, ny, nz, channel(values(), c, channels), GridEdge.Clamped)
-      (Mapping3D(toGrid), Vector.tabulate(channels)(grid))
+      // Beside the corners of triangles, values may be below 0
+      def own(c: Int) = Array.tabulate(values().length / channels): i =>
+        val v = values()(i * channels + c)
+        if java.lang.Float.isFinite(v) then v else 0f
+      (place, Vector.tabulate(channels)(c => TrilinearGrid(nx, ny, nz, own(c), GridEdge.Clamped)))
 
 object FloatGridRecipe extends GridRecipe[FloatTexture]("numbers in a box; Mitsuba's", 1):
   protected def make()(using Site): FloatTexture =

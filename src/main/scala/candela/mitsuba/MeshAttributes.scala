@@ -1,0 +1,77 @@
+package candela.mitsuba
+
+import candela.base.loop
+import candela.build.shapes.PlyMesh
+
+/** Numbers of a mesh, at its vertices or of its faces, by Mitsuba's names. Each triangle has 2 × 2
+  * cells of a grid over u and v, in which they are interpolated: bilinearly between three corners
+  * and a fourth that continues the plane is linearly.
+  */
+final class MeshAttributes(ply: PlyMesh):
+  private val triangles = ply.indices.length / 3
+  private val across = Math.max(1, Math.ceil(Math.sqrt(triangles.toDouble)).toInt)
+
+  /** Cells of the grid. */
+  val width: Int = 2 * across
+  val height: Int = 2 * ((triangles + across - 1) / across)
+
+  private val groups: Map[String, Vector[Array[Float]]] =
+    (MeshAttributes.grouped("vertex", ply.ofVertices) ++
+      MeshAttributes.grouped("face", ply.ofTriangles)).toMap
+
+  def names: Iterable[String] = groups.keys
+
+  /** The grid of an attribute, channels of a cell adjacent, with their number; None: unknown. */
+  def grid(name: String): Option[(Int, Array[Float])] =
+    groups.get(name).map: channels =>
+      val count = channels.size
+      val made = new Array[Float](width * height * count)
+      loop(triangles): t =>
+        loop(count): c =>
+          val values = channels(c)
+          def corner(k: Int) =
+            if name.startsWith("face") then values(t) else values(ply.indices(3 * t + k))
+          val (p, q, r) = (corner(0), corner(1), corner(2))
+          val first = cell(t)
+          made(first * count + c) = p
+          made((first + 1) * count + c) = q
+          made((first + width) * count + c) = r
+          made((first + width + 1) * count + c) = q + r - p
+      (count, made)
+
+  private def cell(triangle: Int): Int =
+    triangle / across * 2 * width + triangle % across * 2
+
+  /** The mesh with u and v of the grid. */
+  def laidOut(mesh: Mesh): Mesh =
+    val corners = mesh.indices.length
+    def spread(values: Array[Float], count: Int) =
+      if values.isEmpty then values
+      else Array.tabulate(count * corners)(i => values(count * mesh.indices(i / count) + i % count))
+    val uvs = new Array[Float](2 * corners)
+    loop(corners): i =>
+      val first = cell(i / 3)
+      val (x, y) = (first % width + (if i % 3 == 1 then 1 else 0), first / width + i % 3 / 2)
+      uvs(2 * i) = (x + 0.5f) / width
+      uvs(2 * i + 1) = (y + 0.5f) / height
+    Mesh(spread(mesh.positions, 3), spread(mesh.normals, 3), uvs, Array.range(0, corners))
+
+object MeshAttributes:
+  private val Colors = Vector(Vector("r", "g", "b", "a"), Vector("red", "green", "blue", "alpha"))
+  private val Numbered =
+    Vector("x y z w", "r g b a", "0 1 2 3", "1 2 3 4").map(_.split(" ").toVector)
+
+  /** Properties with a common prefix are one attribute; those of a colour need none. */
+  private[mitsuba] def grouped(
+      kind: String,
+      properties: Vector[(String, Array[Float])]
+  ): Vector[(String, Vector[Array[Float]])] =
+    val byName = properties.toMap
+    val colors = Colors.find(c => byName.contains(c.head)).toVector.map: c =>
+      s"${kind}_color" -> c.takeWhile(byName.contains).map(byName)
+    val prefixes = properties.map(_._1).filter(_.contains("_"))
+      .map(name => name.take(name.lastIndexOf('_'))).distinct
+    val others = prefixes.flatMap: prefix =>
+      Numbered.map(_.map(s => s"${prefix}_$s").takeWhile(byName.contains)).find(_.nonEmpty)
+        .map(found => s"${kind}_$prefix" -> found.map(byName))
+    colors ++ others
