@@ -64,6 +64,7 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val volumes = Mutator(Trials.volumes, random)
   private val grids = Mutator(Trials.grids, random)
   private val documents = Mutator(files(".xml") ++ Trials.documents, random)
+  private val quilts = Mutator(Vector(Trials.quilt), random)
   private val curves = Mutator(Vector(Trials.curves), random)
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
@@ -85,6 +86,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           Files.write(folder.resolve(mesh), objects.bytes())
         Files.write(folder.resolve("broken.vol"), grids.bytes())
         Files.write(folder.resolve("broken.txt"), curves.text())
+        Files.write(folder.resolve("quilt.ply"), quilts.text())
         val bytes = random.nextInt(3) match
           case 0 => documents.text()
           case 1 => documents.meaning()
@@ -215,10 +217,21 @@ object Trials:
         "</shape><shape type='cube'><medium type='heterogeneous' name='interior'>" +
         "<volume type='gridvolume' name='sigma_t'>" +
         "<string name='filename' value='../broken.vol'/></volume></medium></shape>" +
+        "<shape type='ply'><string name='filename' value='../quilt.ply'/><bsdf type='diffuse'>" +
+        "<texture type='mesh_attribute' name='reflectance'>" +
+        "<string name='name' value='vertex_color'/></texture></bsdf></shape>" +
         Seq("linearcurve", "bsplinecurve").map(kind =>
           s"<shape type='$kind'><string name='filename' value='../broken.txt'/></shape>"
         ).mkString)
     ).map(_.getBytes("UTF-8"))
+
+  /** A mesh with numbers of vertices and faces. */
+  private def quilt: Array[Byte] =
+    ("ply\nformat ascii 1.0\nelement vertex 4\n" +
+      "x y z r g b".split(" ").map(k => s"property float $k\n").mkString +
+      "element face 2\nproperty float dirt_0\nproperty list uchar int vertex_indices\n" +
+      "property uchar age_0\nend_header\n0 0 0 .1 .2 .3\n1 0 0 .4 .5 .6\n1 1 0 .7 .8 .9\n" +
+      "0 1 0 1 0 1\n.5 4 0 1 2 3 7\n.6 3 0 1 2 8\n").getBytes("US-ASCII")
 
   /** Two of Mitsuba's curves. */
   private def curves: Array[Byte] =
