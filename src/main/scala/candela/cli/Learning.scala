@@ -21,7 +21,8 @@ object Learning:
       count("regions", "guided regions", o.regions),
       count("allRegions", "of all regions", o.allRegions),
       count("lobes", "lobes", o.lobes),
-      LearnedFigure("share", "guided bounces", o.share, s"${Figures.fixed(100 * o.share, 1)} %")
+      LearnedFigure("share", "guided bounces", o.share, s"${Figures.fixed(100 * o.share, 1)} %"),
+      LearnedFigure("weight", "weight of the last samples", o.weight, Figures.fixed(o.weight, 0))
     ) ++ o.left.map: left =>
       val what = "variance of the paths that were compared, relative to unguided ones"
       LearnedFigure("varianceLeft", what, left, Figures.fixed(left, 3))

@@ -245,17 +245,21 @@ private[film] object Tally:
   object Empty extends Tally(0):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) = ()
 
-  /** Number of samples, sums of the light, then sums of its squares. */
-  object Moments extends Tally(7):
+  /** Number of samples, sum of their weights, sums of the light, then sums of its squares. The
+    * weights are those of [[VisibleSurface]]: powers of two, which lose nothing.
+    */
+  object Moments extends Tally(8):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+      val counts = seen.weight.toDouble
       sums.add(at, 1)
-      power(sums, at, 0, light.r)
-      power(sums, at, 1, light.g)
-      power(sums, at, 2, light.b)
+      sums.add(at + 1, counts)
+      power(sums, at, 0, counts, light.r)
+      power(sums, at, 1, counts, light.g)
+      power(sums, at, 2, counts, light.b)
 
-    private def power(sums: ExactSums, at: Int, c: Int, value: Float): Unit =
-      sums.add(at + 1 + c, value)
-      sums.add(at + 4 + c, value.toDouble * value)
+    private def power(sums: ExactSums, at: Int, c: Int, counts: Double, value: Float): Unit =
+      sums.add(at + 2 + c, counts * value)
+      sums.add(at + 5 + c, counts * (value.toDouble * value))
 
 /** Accumulators of one pixel, for evaluation.
   *
@@ -275,7 +279,7 @@ private[film] final class PixelTally(
 ):
   def apply(i: Int): Double = sums(at + i)
 
-  /** n Σx² − (Σx)², from the sums of x and x². A difference of nearly equal numbers: it needs the
+  /** n Σx² − (Σx)², from n and the sums of x and x². A difference of nearly equal numbers: it needs the
     * digits that rounding would lose.
     */
   def spread(n: Double, x: Int, squares: Int): Double =
@@ -330,9 +334,11 @@ private[film] object Statistic:
 
   object VarianceOverMean extends Statistic(Tally.Moments):
     def apply(pixel: PixelTally): Array[Double] = Array.tabulate(3): c =>
-      val mean = if pixel(0) > 0 then pixel(1 + c) / pixel(0) else 0.0
+      val mean = if pixel(1) > 0 then pixel(2 + c) / pixel(1) else 0.0
       if mean == 0 then 0.0 else variance(pixel, c) / mean * pixel.scale
 
+  /** Of samples whose variance is inverse to their weight; over their number, that of the mean. */
   private def variance(pixel: PixelTally, c: Int): Double =
     val n = pixel(0)
-    if n > 1 then pixel.spread(n, 1 + c, 4 + c) / (n * (n - 1)) else 0.0
+    val weight = pixel(1)
+    if n > 1 then pixel.spread(weight, 2 + c, 5 + c) / (weight * weight) * (n / (n - 1)) else 0.0

@@ -117,10 +117,13 @@ private final class SharedBlock(
   */
 final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: LevelPass | Null):
   private var block = blocks.head
+  private var sampleWeight = 1f
   private val sums = new Array[Double](blocks.map(_.sums.size).max)
 
-  /** Selects the tile. */
-  def begin(tile: Int): Unit = block = blocks(tile)
+  /** Selects the tile, and what its samples count. */
+  def begin(tile: Int, sampleWeight: Float = 1f): Unit =
+    block = blocks(tile)
+    this.sampleWeight = sampleWeight
 
   /** Whether a sample at (`x`, `y`) contributes to any pixel. */
   def reaches(x: Float, y: Float): Boolean =
@@ -134,7 +137,7 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
     val end = block.bottom(y)
     var py = block.top(y)
     while py <= end do
-      val inRow = reach.y(y - 0.5f - py)
+      val inRow = sampleWeight * reach.y(y - 0.5f - py)
       var px = first
       var at = 4 * ((py - block.y0) * block.width + first - block.x0)
       while px <= last do

@@ -37,6 +37,9 @@ final class VisibleSurface(
   /** The light of the camera ray, if the integrator divides it. */
   var parts: LightParts | Null = null
 
+  /** What the sample counts, before its filter weight. */
+  var weight: Float = 1f
+
   /** The intersection, in world space. */
   val hit: Hit = Hit()
   val at: ShadingPoint = scene.newPoint()

@@ -10,6 +10,7 @@ package candela.guiding
   * @param guided     of these, those that were guided
   * @param left       what guiding left of the variance, by the paths of the last pass that learnt,
   *   if they were enough
+  * @param weight     of the last samples, relative to the first
   * @param gaveUp     was guiding given up because it did not pay?
   */
 final case class GuideOutcome(
@@ -20,6 +21,7 @@ final case class GuideOutcome(
     bounces: Long,
     guided: Long,
     left: Option[Double],
+    weight: Float,
     gaveUp: Boolean
 ):
   /** Part of the bounces that were guided. */

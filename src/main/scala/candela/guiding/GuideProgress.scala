@@ -9,13 +9,18 @@ import candela.base.{CheckedInput, CheckedOutput}
   * @param gaveUp is nothing guided any more?
   * @param cost   rays of a path that isn't guided
   * @param effort of a guided one in the last pass of enough paths, in units of it, at least 1
+  * @param plain  relative variance of a path that isn't guided, as estimated by the first pass that
+  *   paid
+  * @param noise  relative variance of a path in the last pass of enough paths
   */
 private[guiding] final case class GuideProgress(
     left: Option[Double] = None,
     doubts: Int = 0,
     gaveUp: Boolean = false,
     cost: Double = 1.0,
-    effort: Double = 1.0
+    effort: Double = 1.0,
+    plain: Option[Double] = None,
+    noise: Double = 1.0
 ):
   import GuideProgress.*
 
@@ -26,8 +31,25 @@ private[guiding] final case class GuideProgress(
   def after(verdict: GuideVerdict): GuideProgress =
     if verdict.paths < Enough then this
     else
-      val next = copy(left = Some(verdict.left), effort = Math.max(1.0, verdict.cost / cost))
-      next.copy(doubts = if next.pays then 0 else doubts + 1)
+      val next = copy(
+        left = Some(verdict.left),
+        effort = Math.max(1.0, verdict.cost / cost),
+        noise = verdict.noise
+      )
+      if next.pays then next.copy(doubts = 0, plain = plain.orElse(Some(verdict.unguidedNoise)))
+      else next.copy(doubts = doubts + 1)
+
+  /** What a guided path counts beside those of the first passes: the inverse of its variance, a
+    * power of two. So products with it are exact, and one path more or less seldom changes it: it
+    * should depend little on the paths that are averaged.
+    *
+    * Source: Müller, "Practical Path Guiding in Production", 2019 (course notes), §3.
+    */
+  def weight: Float = plain match
+    case None => 1f
+    case Some(before) =>
+      val ratio = (before / Math.max(noise, before / MostWeight)).toFloat
+      Math.scalb(1f, Math.max(0, Math.getExponent(ratio * Sqrt2)))
 
   def save(to: CheckedOutput): Unit =
     to.double(left.getOrElse(Unknown))
@@ -35,6 +57,8 @@ private[guiding] final case class GuideProgress(
     to.int(if gaveUp then 1 else 0)
     to.double(cost)
     to.double(effort)
+    to.double(plain.getOrElse(Unknown))
+    to.double(noise)
 
 private[guiding] object GuideProgress:
   /** Paths by which a pass is judged. */
@@ -48,6 +72,11 @@ private[guiding] object GuideProgress:
   /** Passes in which it does not pay, until it is given up: the next fields are finer. */
   val MostDoubts = 2
 
+  /** So that a variance that was estimated too low does not discard all other passes. */
+  private val MostWeight = 32.0
+
+  private val Sqrt2 = Math.sqrt(2.0).toFloat
+
   private val Unknown = -1.0
 
   def load(from: CheckedInput): GuideProgress =
@@ -56,5 +85,7 @@ private[guiding] object GuideProgress:
       doubts = from.int(),
       gaveUp = from.int() == 1,
       cost = from.double(),
-      effort = from.double()
+      effort = from.double(),
+      plain = Some(from.double()).filter(_ != Unknown),
+      noise = from.double()
     )

@@ -17,5 +17,8 @@ private[guiding] final case class GuideVerdict(
   /** Relative variance of a path. */
   def noise: Double = guided / Math.max(1L, paths)
 
+  /** The same, without guiding. */
+  def unguidedNoise: Double = unguided / Math.max(1L, paths)
+
   /** What guiding leaves of the variance. */
   def left: Double = if unguided > 0.0 then guided / unguided else 1.0

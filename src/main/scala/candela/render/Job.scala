@@ -2,7 +2,7 @@ package candela.render
 
 import candela.film.*
 import candela.guiding.Guide
-import candela.integrators.{Integrator, SharedChains, SharedPasses}
+import candela.integrators.{Integrator, PassIntegrator, SharedChains, SharedPasses}
 import candela.scene.PathReport
 
 /** Film, schedule and workers of a plan's method, each created once. */
@@ -27,7 +27,7 @@ private[render] object Job:
         val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
         val guide = make(samples, plan.sampled.pixels)
         val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
-        tiles.job(tiles.worker(integrator(guide).copy(), _, guide.begin))
+        tiles.job(tiles.worker(integrator(guide).copy(), _, tiles.begin(guide)))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
         val integrator = make(plan.view(splats))
@@ -46,7 +46,7 @@ private[render] object Job:
         val tiles = TileJobs(plan, schedule, plan.crop, takes)
         tiles.job: queue =>
           val integrator = passes.integrator(None)
-          tiles.worker(integrator, queue, integrator.begin)
+          tiles.worker(integrator, queue, begin(integrator))
       case RenderMethod.Chains(paths, make, _) =>
         val splats = splatFilm(plan)
         val view = plan.view(splats)
@@ -71,8 +71,13 @@ private[render] object Job:
       case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), queue)
       case RenderMethod.Passes(make) =>
         val integrator = make(view).integrator(Some(report))
-        tiles.worker(integrator, queue, integrator.begin)
+        tiles.worker(integrator, queue, begin(integrator))
     (tiles.film, worker)
+
+  /** Begins waves of a pass; all samples count the same. */
+  private def begin(integrator: PassIntegrator): Int => Float = pass =>
+    integrator.begin(pass)
+    1f
 
   private def filmOf(
       b: PixelBounds,
@@ -116,13 +121,20 @@ private[render] object Job:
     private val filterSampler =
       new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
 
+    /** Begins waves of samples, with their weights. Fireflies are told from other samples by how
+      * many there are of each brightness: then all count the same.
+      */
+    def begin(guide: Guide): Int => Float = sample =>
+      guide.begin(sample)
+      if film.levels.isDefined then 1f else guide.lesson.weight
+
     def job(worker: TaskQueue => Worker): Job =
       new Job(schedule, film, layers, chains = None, guide, worker)
 
     def worker(
         integrator: Integrator,
         queue: TaskQueue,
-        beginWave: Int => Unit = _ => ()
+        beginWave: Int => Float = _ => 1f
     ): TileWorker =
       TileWorker(
         plan, schedule, queue, film, layers, filterSampler.copy(), integrator, takes, beginWave

@@ -8,7 +8,8 @@ import candela.integrators.Integrator
 /** Renders tiles, pixel by pixel.
   *
   * @param takes     whether to take this sample of this tile
-  * @param beginWave receives the first sample number of each wave of a tile
+  * @param beginWave receives the first sample number of each wave of a tile, returns the weight of
+  *   its samples
   */
 private[render] final class TileWorker(
     plan: RenderPlan,
@@ -19,7 +20,7 @@ private[render] final class TileWorker(
     filterSampler: FilterSampler,
     integrator: Integrator,
     takes: (Int, Int) => Boolean,
-    beginWave: Int => Unit = _ => ()
+    beginWave: Int => Float = _ => 1f
 ) extends Worker(schedule, queue):
   private val camera = plan.camera
   private val sampler = plan.sampler.copy()
@@ -41,6 +42,7 @@ private[render] final class TileWorker(
   private val levels: LevelPass | Null = film.levels.map(_.pass()).orNull
   private val shares: SharedPass | Null = film.shares.map(_.pass(Option(levels))).orNull
   private var filmX, filmY = 0f
+  private var waveWeight = 1f
 
   // Current position, for error messages.
   private var x, y, sample = 0
@@ -60,7 +62,7 @@ private[render] final class TileWorker(
     this.x = x
     this.y = y
     this.sample = sample
-    beginWave(sample)
+    waveWeight = beginWave(sample)
     beginTile(0)
     takeSample()
     if shares != null then shares.end()
@@ -74,7 +76,7 @@ private[render] final class TileWorker(
     sample = Math.max(first, queue.progress.get(tile).toInt)
     while sample < end && queue.goesOn() do
       if takes(tile, sample) then
-        if !begun then beginWave(first)
+        if !begun then waveWeight = beginWave(first)
         begun = true
         renderSample(tile)
       sample += 1
@@ -96,8 +98,9 @@ private[render] final class TileWorker(
 
   private def beginTile(number: Int): Unit =
     tile = schedule.tiles(number)
-    if shares != null then shares.begin(number)
+    if shares != null then shares.begin(number, waveWeight)
     if levels != null then levels.begin(number)
+    if visible != null then visible.weight = waveWeight
 
   private def takeSample(): Unit =
     val shared = shares
@@ -132,7 +135,7 @@ private[render] final class TileWorker(
     val weight = rays.next(filmX, filmY, sampler)
     if weight == 0f then
       add(Rgb.Black)
-      if layerFilm != null then layerFilm.miss(x, y, filterSampler.weight)
+      if layerFilm != null then layerFilm.miss(x, y, ownWeight)
     else
       if visible != null then visible.look(ray, sample)
       val whole = plan.basis.toSrgb(integrator.radiance(ray, sampler))
@@ -146,7 +149,7 @@ private[render] final class TileWorker(
         if bands != null then addTo(bands, weight)
         if layerFilm != null && visible != null then
           if parts != null then develop(parts, radiance, light)
-          layerFilm.add(x, y, light, filterSampler.weight, visible)
+          layerFilm.add(x, y, light, ownWeight, visible)
       else refuse()
 
   /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
@@ -158,16 +161,18 @@ private[render] final class TileWorker(
     val basis = integrator.lastWavelengths
     if basis != null then
       val light = integrator.lastComponents
-      bands.add(x, y, basis, if weighs then light * weight else light, filterSampler.weight)
+      bands.add(x, y, basis, if weighs then light * weight else light, ownWeight)
 
   private def add(light: Rgb): Unit =
     val shared = shares
     if levels != null then levels.sample(light.r, light.g, light.b)
     if shared == null then
-      film.add(x, y, light.r, light.g, light.b, filterSampler.weight)
-      if levels != null then
-        levels.add((y - tile.y0) * tile.width + x - tile.x0, filterSampler.weight)
+      film.add(x, y, light.r, light.g, light.b, ownWeight)
+      if levels != null then levels.add((y - tile.y0) * tile.width + x - tile.x0, ownWeight)
     else shared.add(filmX, filmY, light.r, light.g, light.b)
+
+  /** Of the sample in its own pixel. */
+  private def ownWeight: Float = waveWeight * filterSampler.weight
 
   private def weighed(radiance: Rgb, weight: Float): Rgb =
     if limit != null && weighsLast then radiance * (limit.scale(radiance) * weight)

@@ -85,6 +85,19 @@ final class LayerFilmSuite extends AnyFunSuite:
     val relative = filled(Vector(Layer.RelativeVariance), scale = 10f)
     assert(Math.abs(value(relative, "RelativeVariance.B") - 10 * 8f / 5) < 1e-4f)
 
+  test("the variance is that of samples that vary as the inverse of their weights"):
+    val film = LayerFilm(3, 5, 5, 6, Vector(Layer.Variance, Layer.RelativeVariance))
+    // Weighted, 1, 5 and 2 are 1, 5, 2, 2, 2, 2; the mean is 14 / 6, the mean of squares 42 / 6
+    for (light, weight) <- Vector((1f, 1f), (5f, 1f), (2f, 4f)) do
+      val seen = surface(Vec3(1, 0, 0), Vec3(1, 0, 0), 0.5f)
+      seen.weight = weight
+      film.add(3, 5, Rgb(light, 2f, 0f), weight, seen)
+    val image = film.behind(Image.rgb(2, 1), Development())
+    val expected = (42.0 / 6 - (14.0 / 6) * (14.0 / 6)) * 3 / 2
+    assert(Math.abs(value(image, "Variance.R") - expected) < 1e-6)
+    assert(Math.abs(value(image, "RelativeVariance.R") - expected / (14.0 / 6)) < 1e-6)
+    assert(value(image, "Variance.G") == 0f)
+
   test("a pixel without samples is 0 in every layer"):
     val image = filled(Layer.values.toVector)
     assert(image.channelNames.forall(value(image, _, x = 1) == 0f))

@@ -53,6 +53,17 @@ class SampleSharesSuite extends AnyFunSuite:
       fill(s, 3)((_, _) => 0.25f)
       assert(image(s).data.grouped(3).forall(_.sameElements(Array(0.25f, 0.5f, 0.5f))), filter)
 
+  test("samples count as much as their pass"):
+    val s = shares(filters.head)
+    for (weight, light) <- Vector((1f, 3f), (2f, 0f), (1f, 9f)); i <- tiles.indices do
+      val pass = s.pass()
+      pass.begin(i, weight)
+      for y <- 16 until 29; x <- tiles(i).x0 until tiles(i).x1 do
+        val (px, py) = (x + 0.5f, y + 0.5f)
+        if pass.reaches(px, py) then pass.add(px, py, light, 1f, 0f)
+      pass.end()
+    assert(image(s).data.grouped(3).forall(_.sameElements(Array(3f, 1f, 0f))))
+
   test("a pixel is the convolution of the light with the filter"):
     // ∫ of f(d) · (light at the centre + d), by the midpoint rule; light is an edge aslant
     def light(x: Float, y: Float): Float = if x + 0.3f * y > 19.6f then 1f else 0f

@@ -82,11 +82,12 @@ final class GuidedWalkSuite extends AnyFunSuite:
     assert(!rooms.gaveUp && rooms.samples == 64)
     assert(rooms.left.exists(_ < 0.8), rooms)
     assert(rooms.share > 0.2 && rooms.share < 1.0, rooms)
+    assert(rooms.weight > 1f, rooms)
     assert(rooms.regions > 4 && rooms.lobes > rooms.regions)
     // In the sphere all directions are equal
     val oven = learned(Oven, 2048)
     assert(oven.gaveUp && oven.regions == 0, oven)
-    assert(oven.share < 0.3, oven)
+    assert(oven.share < 0.3 && oven.weight == 1f, oven)
 
   test("a guided rendering that is interrupted is continued to the same bytes"):
     val folder = Files.createTempDirectory("candela-guided")
