@@ -111,7 +111,7 @@ final class GuidePath:
     while i < size do
       to.caused(regions(i), costs(i))
       val found = lights(i) / throughputs(i)
-      if found > 0f && found < Float.PositiveInfinity then
+      if found > 0f && found < Float.PositiveInfinity && light < Float.PositiveInfinity then
         val event = events(i)
         val isFirstHere = isFirst && parents(i) < 0
         isFirst &&= !isFirstHere
@@ -132,7 +132,9 @@ final class GuidePath:
     var later, sum = 0f
     var i = size - 1
     while i >= 0 do
-      sum += ratios(i) * lights(i) * (lights(i) + 2f * laters(i))
+      // Where the BSDF would hardly sample what was guided, ratios overflow
+      val found = lights(i) * (lights(i) + 2f * laters(i))
+      if found > 0f then sum += ratios(i) * found
       lights(i) += laters(i)
       val parent = parents(i)
       if parent < 0 then
@@ -142,7 +144,7 @@ final class GuidePath:
         laters(parent) += lights(i)
         costs(parent) += costs(i)
       i -= 1
-    sum + firstLight * (firstLight + 2f * later)
+    Math.min(sum + firstLight * (firstLight + 2f * later), Float.MaxValue)
 
 object GuidePath:
   /** Events that are recorded; later ones are rare, and find little. */

@@ -43,7 +43,8 @@ private[guiding] final case class GuideProgress(
     * power of two. So products with it are exact, and one path more or less seldom changes it: it
     * should depend little on the paths that are averaged.
     *
-    * Source: Müller, "Practical Path Guiding in Production", 2019 (course notes), §3.
+    * Source: Müller, "Practical Path Guiding in Production", in Vorba et al., "Path Guiding in
+    * Production", SIGGRAPH 2019 Courses.
     */
   def weight: Float = plain match
     case None => 1f
