@@ -28,6 +28,19 @@ class GuidePathSuite extends AnyFunSuite:
     assert(Math.abs(records.costs(FirstRegion) - (1 + 2 * 3)) < 1e-5)
     assert(Math.abs(records.costs(SecondRegion) - 1) < 1e-5)
 
+  test("directions that the BSDF would hardly sample have finite moments"):
+    for later <- Vector(0f, 2f) do
+      val (path, records) = (GuidePath(), GuideRecords(1f, regions = 6))
+      val part = records.newPart()
+      path.clear()
+      def event(before: Float, ratio: Float) =
+        path.add(FirstRegion, Vec3.Zero, 0, Vec3(0f, 0f, 1f), before, 1f, 1f, 1e-30f, 1f, ratio)
+      event(before = 1f, ratio = 1f)
+      event(before = 3f, ratio = Float.PositiveInfinity)
+      path.record(3f + later, part)
+      val unguided = records.sorted()(GuideRecords.Unguided)
+      assert(if later == 0f then unguided == 9f else unguided == Float.MaxValue, unguided)
+
 private object GuidePathSuite:
   import GuideRecords.{Size, Total, Unguided}
 

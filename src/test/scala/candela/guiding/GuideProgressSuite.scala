@@ -7,8 +7,12 @@ import java.nio.file.Files
 import org.scalatest.funsuite.AnyFunSuite
 
 class GuideProgressSuite extends AnyFunSuite:
-  private def verdict(guided: Double, unguided: Double, paths: Long = 20000L) =
-    GuideVerdict(paths, guided * paths, unguided * paths, cost = 3.0)
+  private def verdict(
+      guided: Double,
+      unguided: Double,
+      paths: Long = 20000L,
+      cost: Double = 3.0
+  ) = GuideVerdict(paths, guided * paths, unguided * paths, cost)
 
   private val start = GuideProgress(cost = 3.0)
 
@@ -25,6 +29,15 @@ class GuideProgressSuite extends AnyFunSuite:
     // What the first pass that paid says of unguided paths holds: it is of the same light
     assert(weight(0.9 -> 7.0, 0.5 -> 1.0) == 16f)
     assert(weight(0.9 -> 1.0, 0.5 -> 1.0, 0.3 -> 5.0) == 4f)
+
+  test("guiding pays by the variance that it leaves, and by what branches cost"):
+    def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
+    assert(!start.pays)
+    assert(pays(0.7, 1.0) && !pays(0.8, 1.0) && !pays(0.8, 0.5))
+    assert(pays(0.5, 1.8) && !pays(0.5, 2.0))
+    // Doubts are forgotten when it pays
+    val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))
+    assert(doubtful.doubts == 2 && doubtful.after(verdict(0.3, 1.0)).doubts == 0)
 
   test("no sample counts without bounds, nor less than the first"):
     assert(start.after(verdict(0.0, 1.0)).weight == 32f)
