@@ -12,8 +12,8 @@ class LearningSuite extends AnyFunSuite:
     assert(
       Learning.summary(outcome) ==
         "guiding: learnt until sample 64; guided regions 120, of all regions 300, lobes 1400, " +
-        "guided bounces 37.5 %, weight of the last samples 4, variance of the paths that were compared, relative to unguided " +
-        "ones 0.416"
+        "guided bounces 37.5 %, weight of the last samples 4, variance of the paths that were " +
+        "compared, relative to unguided ones 0.416"
     )
     assert(
       Learning.summary(outcome.copy(left = Some(1.02), gaveUp = true)) ==
