@@ -279,8 +279,8 @@ private[film] final class PixelTally(
 ):
   def apply(i: Int): Double = sums(at + i)
 
-  /** n Σx² − (Σx)², from n and the sums of x and x². A difference of nearly equal numbers: it
-    * needs the digits that rounding would lose.
+  /** n Σx² − (Σx)², where n is the number of samples, or the sum of their weights. A difference of
+    * nearly equal numbers: it needs the digits that rounding would lose.
     */
   def spread(n: Double, x: Int, squares: Int): Double =
     val s = sums(at + x)

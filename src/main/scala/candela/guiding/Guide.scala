@@ -26,6 +26,11 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   /** The field to use, and where to record, until the pass ends. */
   def lesson: Lesson = current
 
+  /** Of the samples until the pass ends, relative to the first; one where few paths are guided. */
+  def weight: Float =
+    val now = current
+    if now.field.guides && now.part == 1f then progress.weight else 1f
+
   /** For a worker. */
   def newTally(): GuideTally = synchronized:
     val tally = GuideTally()
@@ -50,7 +55,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
       bounces = tallies.map(_.bounces).sum,
       guided = tallies.map(_.guided).sum,
       left = progress.left,
-      weight = current.weight,
+      weight = weight,
       gaveUp = progress.gaveUp
     )
 
@@ -95,8 +100,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     val ends =
       settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
     if ends then progress = progress.copy(gaveUp = true)
-    current =
-      if ends then Lesson(GuideField.Start, sample, part = 0f, weight = 1f, null) else following
+    current = if ends then Lesson(GuideField.Start, sample, part = 0f, null) else following
     learning = null
 
   /** The sample before which the last pass ends. */
@@ -117,8 +121,7 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
       else if !learns || !settings.adapts || progress.pays then 1f
       else Math.min(1.0, TrialPaths / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
-    val weight = if field.guides && part == 1f then progress.weight else 1f
-    Lesson(field, begun, part, weight, if learns then GuideRecords(rate, field.regions) else null)
+    Lesson(field, begun, part, if learns then GuideRecords(rate, field.regions) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -130,7 +133,6 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     to.long(tallies.map(_.bounces).sum)
     to.long(tallies.map(_.guided).sum)
     to.float(now.part)
-    to.float(now.weight)
     to.float(if records == null then 0f else records.rate)
     if records != null then records.save(to)
 
@@ -143,23 +145,20 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
     tally.bounces = from.long()
     tally.guided = from.long()
     val part = from.float()
-    val weight = from.float()
     val rate = from.float()
     val records = if rate == 0f then null else GuideRecords(rate, field.regions)
     if records != null then records.load(from)
-    current = Lesson(field, begun, part, weight, records)
+    current = Lesson(field, begun, part, records)
 
 object Guide:
   /** @param begun   the first sample that uses it
     * @param part    of the paths that use it, and record
-    * @param weight  of a sample, relative to the first
     * @param records null: nothing more is learnt
     */
   final class Lesson private[guiding] (
       val field: GuideField,
       val begun: Int,
       private[guiding] val part: Float,
-      val weight: Float,
       private[guiding] val records: GuideRecords | Null
   ):
     /** Does the path that begins in this direction use it? Chosen at random. */

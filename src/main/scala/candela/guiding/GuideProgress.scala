@@ -65,11 +65,12 @@ private[guiding] object GuideProgress:
   /** Paths by which a pass is judged. */
   val Enough = 10000
 
-  /** Guiding pays if it leaves less of the variance, as a guided ray takes 1.3 times as long… */
+  /** Guiding pays if it leaves less of the variance: guided rays take 1.3 times as long. */
   val WorthIt = 0.77
 
-  /** … and less of it times what paths with branches cost more. That was measured to be too careful
-    * by up to a quarter: branches share what their path did before, and later fields are finer.
+  /** It must also leave less than this of the variance times the effort. The product overstates
+    * what branches cost, by up to a quarter: they share the path before them, and later fields are
+    * finer.
     */
   val WorthRays = 0.95
 

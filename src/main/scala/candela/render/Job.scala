@@ -126,7 +126,7 @@ private[render] object Job:
       */
     def begin(guide: Guide): Int => Float = sample =>
       guide.begin(sample)
-      if film.levels.isDefined then 1f else guide.lesson.weight
+      if film.levels.isDefined then 1f else guide.weight
 
     def job(worker: TaskQueue => Worker): Job =
       new Job(schedule, film, layers, chains = None, guide, worker)
