@@ -139,7 +139,9 @@ private[guiding] final class GuideFit(events: Array[Float]):
 
   private def length(k: Int, g: Int): Double =
     val at = (k * Nears + g) * 3
-    val (x, y, z) = (sums(at).toDouble, sums(at + 1).toDouble, sums(at + 2).toDouble)
+    val x = sums(at).toDouble
+    val y = sums(at + 1).toDouble
+    val z = sums(at + 2).toDouble
     Math.sqrt(x * x + y * y + z * z)
 
   /** Sets a lobe from its events. */

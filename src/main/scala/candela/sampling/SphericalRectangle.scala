@@ -70,12 +70,19 @@ object SphericalRectangle:
       inline use: (Double, Double) => Unit
   ): Double =
     def height(x: Double, y: Double) = Math.abs(z) * Math.sqrt(x * x + y * y + z * z)
-    val (r0, i0) = (x1 * y0, height(x1, y0))
-    val (r1, i1) = (-x1 * y1, height(x1, y1))
-    val (r2, i2) = (x0 * y1, height(x0, y1))
-    val (r3, i3) = (-x0 * y0, height(x0, y0))
-    val (nearR, nearI) = (r0 * r1 - i0 * i1, r0 * i1 + i0 * r1)
-    val (farR, farI) = (r2 * r3 - i2 * i3, r2 * i3 + i2 * r3)
+    // No tuples, whose numbers the JVM boxed where it did not inline all of this
+    val r0 = x1 * y0
+    val i0 = height(x1, y0)
+    val r1 = -x1 * y1
+    val i1 = height(x1, y1)
+    val r2 = x0 * y1
+    val i2 = height(x0, y1)
+    val r3 = -x0 * y0
+    val i3 = height(x0, y0)
+    val nearR = r0 * r1 - i0 * i1
+    val nearI = r0 * i1 + i0 * r1
+    val farR = r2 * r3 - i2 * i3
+    val farI = r2 * i3 + i2 * r3
     use(farR, farI)
     val angle = Math.atan2(nearR * farI + nearI * farR, nearR * farR - nearI * farI)
     if angle < 0 then angle + 2 * Math.PI else angle
