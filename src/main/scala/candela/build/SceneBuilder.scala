@@ -10,7 +10,7 @@ import candela.film.{
   Development, FilterReach, Fireflies, Layer, PixelBounds, ScreenMotion, SpectralBands,
   VisibleSurface
 }
-import candela.guiding.GuidingMode
+import candela.guiding.{Guide, GuidingMode}
 import candela.math.{Motion, Still, Transform}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
@@ -212,8 +212,8 @@ object SceneBuilder:
     val mode = context.resources.switches.guiding
     Option.when(mode != GuidingMode.Off):
       "guiding" -> (method match
-        case RenderMethod.Guided(_, guide, _) =>
-          guide(sampling.sampler.samplesPerPixel, pixels).describe
+        case RenderMethod.Guided(_, settings, _) =>
+          Guide(settings, sampling.sampler.samplesPerPixel, pixels).describe
         case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(

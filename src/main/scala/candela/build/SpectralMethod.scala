@@ -22,12 +22,12 @@ private[build] object SpectralMethod:
       case RenderMethod.Tiles(_) =>
         val made = methods.collect { case RenderMethod.Tiles(i) => i }
         RenderMethod.Tiles(SpectralIntegrator(made.toArray, bases))
-      case RenderMethod.Guided(_, guide, _) =>
+      case RenderMethod.Guided(_, settings, _) =>
         val made = methods.collect { case g: RenderMethod.Guided => g }
         def all(integrators: Vector[Integrator]) = SpectralIntegrator(integrators.toArray, bases)
         RenderMethod.Guided(
           all(made.map(_.unguided)),
-          guide,
+          settings,
           shared => all(made.map(_.integrator(shared)))
         )
       case RenderMethod.SplattedTiles(_) =>

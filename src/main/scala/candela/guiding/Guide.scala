@@ -26,10 +26,12 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   /** The field to use, and where to record, until the pass ends. */
   def lesson: Lesson = current
 
-  /** Of the samples until the pass ends, relative to the first; one where few paths are guided. */
+  /** Of the samples until the pass ends, relative to the first; one where few paths are guided, or
+    * all count the same.
+    */
   def weight: Float =
     val now = current
-    if now.field.guides && now.part == 1f then progress.weight else 1f
+    if settings.weighs && now.field.guides && now.part == 1f then progress.weight else 1f
 
   /** For a worker. */
   def newTally(): GuideTally = synchronized:

@@ -23,11 +23,13 @@ private[render] object Job:
       case RenderMethod.Tiles(integrator) =>
         val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
         tiles.job(tiles.worker(integrator.copy(), _))
-      case RenderMethod.Guided(_, make, integrator) =>
+      case RenderMethod.Guided(_, asked, integrator) =>
         val schedule = TileSchedule(plan.sampled, samples, openWaves = 1)
-        val guide = make(samples, plan.sampled.pixels)
+        // Fireflies are told from other samples by how many there are of each brightness
+        val settings = asked.copy(weighs = plan.fireflies != Fireflies.Reweighted)
+        val guide = Guide(settings, samples, plan.sampled.pixels)
         val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
-        tiles.job(tiles.worker(integrator(guide).copy(), _, tiles.begin(guide)))
+        tiles.job(tiles.worker(integrator(guide).copy(), _, begin(guide)))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
         val integrator = make(plan.view(splats))
@@ -73,6 +75,11 @@ private[render] object Job:
         val integrator = make(view).integrator(Some(report))
         tiles.worker(integrator, queue, begin(integrator))
     (tiles.film, worker)
+
+  /** Begins waves of samples, with their weights. */
+  private def begin(guide: Guide): Int => Float = sample =>
+    guide.begin(sample)
+    guide.weight
 
   /** Begins waves of a pass; all samples count the same. */
   private def begin(integrator: PassIntegrator): Int => Float = pass =>
@@ -120,13 +127,6 @@ private[render] object Job:
       plan.layers.map(asked => LayerFilm(x0, y0, x1, y1, asked.layers, asked.groups))
     private val filterSampler =
       new FilterSampler(if plan.isCentered then BoxFilter(0.5f, 0.5f) else plan.filter)
-
-    /** Begins waves of samples, with their weights. Fireflies are told from other samples by how
-      * many there are of each brightness: then all count the same.
-      */
-    def begin(guide: Guide): Int => Float = sample =>
-      guide.begin(sample)
-      if film.levels.isDefined then 1f else guide.weight
 
     def job(worker: TaskQueue => Worker): Job =
       new Job(schedule, film, layers, chains = None, guide, worker)

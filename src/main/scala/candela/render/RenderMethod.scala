@@ -2,7 +2,7 @@ package candela.render
 
 import candela.bidirectional.ChainPaths
 import candela.film.{Splats, View}
-import candela.guiding.Guide
+import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.{Integrator, SharedChains, SharedPasses}
 
 /** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
@@ -16,10 +16,10 @@ enum RenderMethod:
   /** Camera samples, tile by tile, whose paths learn from those of earlier passes.
     *
     * @param unguided   their integrator, if nothing is learnt
-    * @param guide      what is learnt, given the planned samples per pixel and the pixels
+    * @param settings   of what is learnt
     * @param integrator learns, and is guided
     */
-  case Guided(unguided: Integrator, guide: (Int, Long) => Guide, integrator: Guide => Integrator)
+  case Guided(unguided: Integrator, settings: GuideSettings, integrator: Guide => Integrator)
 
   /** Camera samples, tile by tile; their light paths splat to the whole film. */
   case SplattedTiles(integrator: View => Integrator)

@@ -3,6 +3,7 @@ package candela.integrators
 import candela.base.CheckedFile
 import candela.build.BuildOptions
 import candela.build.recipe.Switches
+import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
 import candela.render.{Cancellation, Checkpointer, Renderer, RenderPlan, RenderState}
@@ -21,10 +22,12 @@ final class GuidedWalkSuite extends AnyFunSuite:
       dialect: Dialect,
       mode: GuidingMode,
       spp: Int,
-      seed: Int = 0
+      seed: Int = 0,
+      fireflies: Fireflies = Fireflies.Kept
   ): RenderPlan =
-    val switches = Switches(guiding = mode)
-    SceneTexts.plan(text, dialect, BuildOptions(Some(spp), seed, switches = switches))
+    val options =
+      BuildOptions(Some(spp), seed, switches = Switches(guiding = mode), fireflies = fireflies)
+    SceneTexts.plan(text, dialect, options)
 
   private def image(plan: RenderPlan, threads: Int = 1): Image =
     Renderer.render(plan, threads).image(plan.development)
@@ -76,14 +79,18 @@ final class GuidedWalkSuite extends AnyFunSuite:
       assert(pixels(3) == one)
 
   test("guiding that pays goes on, and that which does not is given up"):
-    def learned(text: String, spp: Int) =
-      Renderer.render(plan(text, Dialect.V4, GuidingMode.Auto, spp), threads = 2).learned.get
+    def learned(text: String, spp: Int, fireflies: Fireflies = Fireflies.Kept) =
+      val made = plan(text, Dialect.V4, GuidingMode.Auto, spp, fireflies = fireflies)
+      Renderer.render(made, threads = 2).learned.get
     val rooms = learned(GuidedWalkSuite.rooms(Dialect.V4), 256)
     assert(!rooms.gaveUp && rooms.samples == 64)
     assert(rooms.left.exists(_ < 0.8), rooms)
     assert(rooms.share > 0.2 && rooms.share < 1.0, rooms)
     assert(rooms.weight > 1f, rooms)
     assert(rooms.regions > 4 && rooms.lobes > rooms.regions)
+    // Which counts samples: all must count the same
+    val counted = learned(GuidedWalkSuite.rooms(Dialect.V4), 256, Fireflies.Reweighted)
+    assert(!counted.gaveUp && counted.weight == 1f, counted)
     // In the sphere all directions are equal
     val oven = learned(Oven, 2048)
     assert(oven.gaveUp && oven.regions == 0, oven)

@@ -71,8 +71,7 @@ private object GuidedMethod:
     val mode = site.resources.switches.guiding
     if mode == GuidingMode.Off then RenderMethod.Tiles(unguided)
     else
-      val settings = GuideSettings(adapts = mode == GuidingMode.Auto)
-      RenderMethod.Guided(unguided, Guide(settings, _, _), guided)
+      RenderMethod.Guided(unguided, GuideSettings(adapts = mode == GuidingMode.Auto), guided)
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
   private val samplesLights =
