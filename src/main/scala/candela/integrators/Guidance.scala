@@ -53,6 +53,9 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
 
   def branches: Int = leaving
 
+  // Branches of the path so far that wait or waited
+  private var numbered = 0
+
   /** Keeps what is known of the branch. */
   def keep(to: Mark): Unit =
     to.ratio = ratio
@@ -60,6 +63,11 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     to.splits = splits
     to.whole = whole
     to.place = path.place
+
+  /** Numbers the branch among those of its path, whose dimensions it then has in all samples. */
+  def number(to: Mark): Unit =
+    numbered += 1
+    to.requests = numbered * RequestsOfBranch
 
   /** Goes on with another branch, after `found` light in all. */
   def follow(from: Mark, found: Float): Unit =
@@ -79,6 +87,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     chances = 1f
     splits = 1f
     whole = 0f
+    numbered = 0
 
   /** The vertex has its BSDF. */
   def arrive(): Unit =
@@ -120,12 +129,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val to = part
     if to != null then path.record(light, to)
 
-  /** Samples a direction: the vertex' bounce.
+  /** Samples a direction: the vertex' bounce. The first coordinate of one point also chooses between
+    * BSDF and field, so that evenly spread points give evenly spread directions of both. Branches
+    * divide that coordinate among them.
     *
     * @param throughput before it
     * @param found      light so far
+    * @param branch     number of the branch
     */
-  def scatter(throughput: Float, found: Float, sampler: Sampler): Unit =
+  def scatter(throughput: Float, found: Float, branch: Int, sampler: Sampler): Unit =
     if throughput == 0f then vertex.bounce.absorb()
     else if !isKept then
       if !vertex.bsdf.isSpecular then tally.bounces += 1
@@ -135,15 +147,16 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       val choice = sampler.next1D()
       sampler.next2D()
       if share < 1f then tally.guided += 1
+      val x = if leaving == 1 then sampler.x else (branch + sampler.x) / leaving
       val byBsdf =
-        if choice < share then drawBsdf(Math.min(choice / share, LargestBelowOne), sampler)
-        else drawField(sampler)
+        if x < share then drawBsdf(choice, belowOne(x / share), sampler.y)
+        else drawField(belowOne((x - share) / (1f - share)), sampler.y)
       if byBsdf > 0f then take(byBsdf, throughput, found)
 
   /** @return the BSDF's density of the direction; 0: the bounce is as it shall be */
-  private def drawBsdf(choice: Float, sampler: Sampler): Float =
+  private def drawBsdf(choice: Float, x: Float, y: Float): Float =
     val bounce = vertex.bounce
-    vertex.bsdf.draw(vertex.localWo, choice, sampler.x, sampler.y, bounce)
+    vertex.bsdf.draw(vertex.localWo, choice, x, y, bounce)
     // The density of the draw may be that of its random walk only
     val byBsdf =
       if bounce.isSpecular || bounce.pdf == 0f then 0f else vertex.localPdf(bounce.wi)
@@ -156,8 +169,8 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     byBsdf
 
   /** Likewise. */
-  private def drawField(sampler: Sampler): Float =
-    mixture.sample(sampler.x, sampler.y, wi)
+  private def drawField(x: Float, y: Float): Float =
+    mixture.sample(x, y, wi)
     vertex.at.frame.toLocal(wi, localWi)
     val byBsdf = if crosses(localWi) then 0f else vertex.localPdf(localWi)
     if byBsdf == 0f then vertex.bounce.absorb()
@@ -209,6 +222,8 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   def survival(throughput: Float, sampler: Sampler): Float =
     isExpected = false
     leaving = 1
+    // In all samples, so that what follows has the same dimensions
+    val u = sampler.next1D()
     if region < 0 then 1f
     else
       val field = lesson.field
@@ -217,7 +232,6 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       if worth == 0f || whole == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
       else
         isExpected = true
-        val u = sampler.next1D()
         val most = if vertex.isInMedium then 1f else Math.min(MostBranches, MostInAll / splits)
         val n = Math.max(LeastSurvival, Math.min(throughput * worth / whole, most))
         chances *= n
@@ -249,7 +263,13 @@ private object Guidance:
     var ratio, chances, splits, whole = 0f
     var place = -1
 
-  inline val LargestBelowOne = 0.99999994f
+    /** Where its random numbers begin ([[Sampler.skipTo]]). */
+    var requests = 0
+
+  /** Random numbers from the beginning of a branch to that of the next: more than it needs. */
+  inline val RequestsOfBranch = 65536
+
+  def belowOne(x: Float): Float = Math.min(x, 0.99999994f)
 
   /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much
     * their light counts.

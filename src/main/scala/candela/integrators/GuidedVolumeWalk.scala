@@ -57,10 +57,10 @@ final class GuidedVolumeWalk(
 
   private def scatterGuided(sampler: Sampler): Unit =
     weights.scale(guidance.survival(weights.throughput.average, sampler))
-    if guidance.branches == 1 then scatterOnce(sampler) else scatterInBranches(sampler)
+    if guidance.branches == 1 then scatterOnce(0, sampler) else scatterInBranches(sampler)
 
-  private def scatterOnce(sampler: Sampler): Unit =
-    guidance.scatter(weights.throughput.average, total.average, sampler)
+  private def scatterOnce(branch: Int, sampler: Sampler): Unit =
+    guidance.scatter(weights.throughput.average, total.average, branch, sampler)
     weights.scale(vertex.bounce.weight)
 
   /** As [[GuidedWalk]]. */
@@ -68,14 +68,15 @@ final class GuidedVolumeWalk(
     val origin = branches.origin
     keep(origin.state)
     guidance.keep(origin.mark)
-    loop(guidance.branches): _ =>
+    loop(guidance.branches): i =>
       follow(origin)
-      scatterOnce(sampler)
+      scatterOnce(i, sampler)
       leave()
       if goesOn then
         val branch = branches.push()
         keep(branch.state)
         guidance.keep(branch.mark)
+        guidance.number(branch.mark)
     weights.scale(0f)
 
   private def follow(branch: Branches.Branch[VolumeWalk.State]): Unit =
@@ -83,9 +84,12 @@ final class GuidedVolumeWalk(
     guidance.follow(branch.mark, total.average)
 
   /** Goes on with a branch that waits; false: none. */
-  def followNext(): Boolean =
+  def followNext(sampler: Sampler): Boolean =
     val waits = !branches.isEmpty
-    if waits then follow(branches.pop())
+    if waits then
+      val branch = branches.pop()
+      follow(branch)
+      sampler.skipTo(branch.mark.requests)
     waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =

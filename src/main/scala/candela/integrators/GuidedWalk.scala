@@ -37,10 +37,10 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     throughput.scale(guidance.survival(throughput.toRgb.average, sampler))
-    if guidance.branches == 1 then scatterOnce(sampler) else scatterInBranches(sampler)
+    if guidance.branches == 1 then scatterOnce(0, sampler) else scatterInBranches(sampler)
 
-  private def scatterOnce(sampler: Sampler): Unit =
-    guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, sampler)
+  private def scatterOnce(branch: Int, sampler: Sampler): Unit =
+    guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, branch, sampler)
     throughput.scale(vertex.bounce.weight)
 
   /** Leaves in all branches, which wait, and ends. */
@@ -48,14 +48,15 @@ final class GuidedWalk(
     val origin = branches.origin
     keep(origin.state)
     guidance.keep(origin.mark)
-    loop(guidance.branches): _ =>
+    loop(guidance.branches): i =>
       follow(origin)
-      scatterOnce(sampler)
+      scatterOnce(i, sampler)
       leave()
       if goesOn then
         val branch = branches.push()
         keep(branch.state)
         guidance.keep(branch.mark)
+        guidance.number(branch.mark)
     throughput.set(Rgb.Black)
 
   private def follow(branch: Branches.Branch[Walk.State]): Unit =
@@ -63,9 +64,12 @@ final class GuidedWalk(
     guidance.follow(branch.mark, radiance.toRgb.average)
 
   /** Goes on with a branch that waits; false: none. */
-  def followNext(): Boolean =
+  def followNext(sampler: Sampler): Boolean =
     val waits = !branches.isEmpty
-    if waits then follow(branches.pop())
+    if waits then
+      val branch = branches.pop()
+      follow(branch)
+      sampler.skipTo(branch.mark.requests)
     waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =

@@ -71,7 +71,7 @@ final class GuidedPathTracer(
     walk.begin(ray, sampler)
     while
       PathLoop.follow(walk, scene, limits, sampler, hasVolumes = false, light(sampler, _))
-      walk.followNext()
+      walk.followNext(sampler)
     do ()
     walk.finish()
     walk.radiance.toRgb

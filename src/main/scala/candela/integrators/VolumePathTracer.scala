@@ -53,7 +53,7 @@ final class GuidedVolumePathTracer(
     walk.begin(ray, sampler)
     while
       VolumePathLoop.follow(walk, scene, limits, options, sampler, light(sampler, _))
-      walk.followNext()
+      walk.followNext(sampler)
     do ()
     walk.finish()
     walk.total
