@@ -122,7 +122,10 @@ lazy val cluster: Project = (project in file("cluster"))
     libraryDependencies ++= Seq(
       ("org.apache.spark" %% "spark-core" % spark % Provided).cross(CrossVersion.for3Use2_13)
     ),
-    excludeDependencies += ExclusionRule("org.scala-lang.modules", "scala-xml_3"), // Spark's is 2.13's
+    excludeDependencies += ExclusionRule(
+      "org.scala-lang.modules",
+      "scala-xml_3"
+    ), // Spark's is 2.13's
     sparkJar := {
       val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
       val jar = (root / target).value / "universal" / "stage" / "lib" / "candela-spark.jar"
