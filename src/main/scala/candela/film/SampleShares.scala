@@ -120,6 +120,9 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
   private var sampleWeight = 1f
   private val sums = new Array[Double](blocks.map(_.sums.size).max)
 
+  // Weights of the columns that a sample contributes to
+  private val columns = new Array[Float](2 * blocks.map(_.reach.beyondX).max + 2)
+
   /** Selects the tile, and what its samples count. */
   def begin(tile: Int, sampleWeight: Float = 1f): Unit =
     block = blocks(tile)
@@ -135,13 +138,17 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
     val first = block.left(x)
     val last = block.right(x)
     val end = block.bottom(y)
+    var column = first
+    while column <= last do
+      columns(column - first) = reach.x(x - 0.5f - column)
+      column += 1
     var py = block.top(y)
     while py <= end do
       val inRow = sampleWeight * reach.y(y - 0.5f - py)
       var px = first
       var at = 4 * ((py - block.y0) * block.width + first - block.x0)
       while px <= last do
-        val weight = (inRow * reach.x(x - 0.5f - px)).toDouble
+        val weight = (inRow * columns(px - first)).toDouble
         sums(at) += weight * r
         sums(at + 1) += weight * g
         sums(at + 2) += weight * b

@@ -22,8 +22,8 @@ final class Ray:
   var kx, ky, kz = 0
   var shearX, shearY, shearZ = 0f
 
-  /** The origin along kx, ky and kz. */
-  var oAlongX, oAlongY, oAlongZ = 0f
+  /** The origin along kx, ky and kz, and the direction along kz. */
+  var oAlongX, oAlongY, oAlongZ, dAlongZ = 0f
 
   /** Traversal stack. Deep enough for any BVH that the builder makes, binary or with branching
     * factor sixteen.
@@ -81,22 +81,42 @@ final class Ray:
     val ax = Math.abs(dx)
     val ay = Math.abs(dy)
     val az = Math.abs(dz)
-    kz = if ax > ay then (if ax > az then 0 else 2) else if ay > az then 1 else 2
-    kx = if kz == 2 then 0 else kz + 1
-    ky = if kx == 2 then 0 else kx + 1
-    val along = component(kz)
-    oAlongZ = this.along(kz)
-    if along < 0f then
-      val swap = kx
-      kx = ky
-      ky = swap
-    oAlongX = this.along(kx)
-    oAlongY = this.along(ky)
-    shearX = -component(kx) / along
-    shearY = -component(ky) / along
-    shearZ = 1f / along
+    // One branch of three, and one of two: neither can be predicted
+    if ax > ay && ax > az then align(0, 1, 2, ox, oy, oz, dx, dy, dz, invX)
+    else if ax <= ay && ay > az then align(1, 2, 0, oy, oz, ox, dy, dz, dx, invY)
+    else align(2, 0, 1, oz, ox, oy, dz, dx, dy, invZ)
 
-  private def component(axis: Int): Float = if axis == 0 then dx else if axis == 1 then dy else dz
+  /** Makes z the axis of the largest direction component, x and y the two that follow. */
+  private inline def align(
+      z: Int,
+      x: Int,
+      y: Int,
+      oz: Float,
+      ox: Float,
+      oy: Float,
+      dz: Float,
+      dx: Float,
+      dy: Float,
+      inverse: Float
+  ): Unit =
+    kz = z
+    oAlongZ = oz
+    dAlongZ = dz
+    shearZ = inverse
+    if dz < 0f then
+      kx = y
+      ky = x
+      oAlongX = oy
+      oAlongY = ox
+      shearX = -dy / dz
+      shearY = -dx / dz
+    else
+      kx = x
+      ky = y
+      oAlongX = ox
+      oAlongY = oy
+      shearX = -dx / dz
+      shearY = -dy / dz
 
 object Ray:
   /** At most 91 levels, each with 15 pending children. */

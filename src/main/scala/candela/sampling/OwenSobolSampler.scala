@@ -31,8 +31,13 @@ final class OwenSobolSampler(val samplesPerPixel: Int, seed: Int) extends Hashed
     val index = shuffled(bits.toInt)
     val seedX = (bits >>> 32).toInt
     val seedY = SampleHash.mix(seedX ^ bits.toInt)
-    x = fraction(Sobol.scramble(index, seedX))
-    y = fraction(Sobol.scramble(Sobol.second(index), seedY))
+    // Reversed as one number, which takes as long as one of them
+    val both = java.lang.Long.reverse(
+      (Sobol.scramble(index, seedX).toLong << 32) |
+        (Sobol.scramble(Sobol.second(index), seedY) & 0xffffffffL)
+    )
+    x = SampleHash.toUnit(both.toInt)
+    y = SampleHash.toUnit((both >>> 32).toInt)
 
   def copy(): OwenSobolSampler = OwenSobolSampler(samplesPerPixel, seed)
 

@@ -51,8 +51,9 @@ final class SphericalRectangle:
     val h = h0 + u2 * (h1 - h0)
     y = clamp(h * Math.sqrt(d2 / Math.max(1e-30, 1 - h * h)), y0, y1)
 
-  private def clamp(v: Double, least: Double, most: Double): Double =
-    Math.max(least, Math.min(most, v))
+  // With branches, which are predicted: the JVM's minimum takes as long as a division
+  private inline def clamp(v: Double, least: Double, most: Double): Double =
+    if v < least then least else if v > most then most else v
 
 object SphericalRectangle:
   /** The solid angle in sr that `set` returns, without preparing to sample the rectangle. */

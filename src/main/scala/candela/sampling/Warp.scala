@@ -18,15 +18,21 @@ object Warp:
   def concentricDisk(u1: Float, u2: Float): Vec3 =
     val a = 2f * u1 - 1f
     val b = 2f * u2 - 1f
-    // A single Vec3 for both branches: the compiler keeps only that off the heap
-    val isWide = abs(a) > abs(b)
-    val r = if isWide then a else b
-    val other = if isWide then b else a
+    // Selected by bits, as a branch could not be predicted: all ones if |a| > |b|
+    val wide = (magnitudeBits(b) - magnitudeBits(a)) >> 31
+    val r = select(wide, a, b)
+    val other = select(wide, b, a)
     // The angle to the nearer axis
     val phi = if r == 0f then 0.0 else 0.25 * Math.PI * (other / r)
     val along = r * cosOfEighth(phi).toFloat
     val across = r * sinOfEighth(phi).toFloat
-    Vec3(if isWide then along else across, if isWide then across else along, 0f)
+    Vec3(select(wide, along, across), select(wide, across, along), 0f)
+
+  /** `a` if all bits of `mask` are ones, `b` if none is. */
+  private inline def select(mask: Int, a: Float, b: Float): Float =
+    java.lang.Float.intBitsToFloat(
+      (java.lang.Float.floatToRawIntBits(a) & mask) | (java.lang.Float.floatToRawIntBits(b) & ~mask)
+    )
 
   /** Cosine-weighted directions with z ≥ 0.
     *

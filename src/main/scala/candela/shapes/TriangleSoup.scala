@@ -209,5 +209,6 @@ object TriangleSoup:
   )
 
   private def error(x: Float, a: Float, b: Float, c: Float): Float =
-    val largest = Math.max(Math.abs(a), Math.max(Math.abs(b), Math.abs(c)))
-    Math.abs(x) * gamma(2) + largest * DoubleError
+    // By the bits: the JVM's maximum of Floats takes several times as long
+    val largest = Math.max(magnitudeBits(a), Math.max(magnitudeBits(b), magnitudeBits(c)))
+    Math.abs(x) * gamma(2) + java.lang.Float.intBitsToFloat(largest) * DoubleError
