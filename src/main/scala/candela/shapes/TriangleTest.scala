@@ -40,6 +40,31 @@ object TriangleTest:
   def isHit(v: Array[Float], at: Int, stride: Int, ray: Ray, hit: Hit): Boolean =
     test(v, at, stride, Int.MaxValue, ray, hit, write = false)
 
+  /** As `intersect`, for a triangle whose edge functions in Float are known to be all positive or
+    * all negative, none of them zero.
+    */
+  inline def intersectInside(
+      v: Array[Float],
+      at: Int,
+      inline stride: Int,
+      primitive: Int,
+      ray: Ray,
+      hit: Hit
+  ): Boolean =
+    decide(v, at, stride, primitive, ray, hit, write = true): (_, _, _, _) =>
+      intersect(v, at, stride, primitive, ray, hit)
+
+  /** As `intersectInside`, leaving ray and hit unchanged. */
+  inline def isHitInside(
+      v: Array[Float],
+      at: Int,
+      inline stride: Int,
+      ray: Ray,
+      hit: Hit
+  ): Boolean =
+    decide(v, at, stride, Int.MaxValue, ray, hit, write = false): (_, _, _, _) =>
+      isHit(v, at, stride, ray, hit)
+
   /** Tolerance of a hit outside the triangle's box, relative to its extent along each axis. */
   final val Within = 2e-6f
 
@@ -81,70 +106,71 @@ object TriangleTest:
       e2 = (x0.toDouble * y1.toDouble - y0.toDouble * x1.toDouble).toFloat
     if areMixed(e0, e1, e2) || e0 + e1 + e2 == 0f then false
     else
-      // The hit is recomputed in Double from the corners (Möller and Trumbore, "Fast, Minimum
-      // Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats are off by 1e-7 of the distance
-      // to the farthest corner, too much close to a large triangle and for a small distant one
-      val px = v(at).toDouble
-      val py = v(at + s).toDouble
-      val pz = v(at + 2 * s).toDouble
-      val ax = v(at + 3 * s) - px
-      val ay = v(at + 4 * s) - py
-      val az = v(at + 5 * s) - pz
-      val bx = v(at + 6 * s) - px
-      val by = v(at + 7 * s) - py
-      val bz = v(at + 8 * s) - pz
-      val dx = ray.dx.toDouble
-      val dy = ray.dy.toDouble
-      val dz = ray.dz.toDouble
-      val qx = dy * bz - dz * by
-      val qy = dz * bx - dx * bz
-      val qz = dx * by - dy * bx
-      val volume = ax * qx + ay * qy + az * qz
-      val inverse = 1.0 / volume
-      val sx = ray.ox - px
-      val sy = ray.oy - py
-      val sz = ray.oz - pz
-      val rx = sy * az - sz * ay
-      val ry = sz * ax - sx * az
-      val rz = sx * ay - sy * ax
-      val b1 = (sx * qx + sy * qy + sz * qz) * inverse
-      val b2 = (dx * rx + dy * ry + dz * rz) * inverse
-      val t = (bx * rx + by * ry + bz * rz) * inverse
-      val sides = (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz) *
-        (dx * dx + dy * dy + dz * dz)
-      val isClear = areSigns(
-        DoubtfulHit.Slim * sides - volume * volume,
-        b1 + DoubtfulHit.Rounded,
-        b2 + DoubtfulHit.Rounded,
-        1.0 + DoubtfulHit.Rounded - (b1 + b2)
-      )
-      if !isClear then
-        DoubtfulHit.test(
-          v,
-          at,
-          s,
-          primitive,
-          ray,
-          hit,
-          e0,
-          e1,
-          e2,
-          b1,
-          b2,
-          t,
-          volume * volume <= DoubtfulHit.Thin * sides,
-          write
-        )
+      decide(v, at, s, primitive, ray, hit, write): (b1, b2, t, thin) =>
+        DoubtfulHit.test(v, at, s, primitive, ray, hit, e0, e1, e2, b1, b2, t, thin, write)
+
+  /** Decides in Double about a hit that the edge functions allow.
+    *
+    * @param doubtful decides instead where Double cannot: receives weights, distance, and whether
+    *                 these are undefined
+    */
+  private inline def decide(
+      v: Array[Float],
+      at: Int,
+      inline s: Int,
+      primitive: Int,
+      ray: Ray,
+      hit: Hit,
+      inline write: Boolean
+  )(inline doubtful: (Double, Double, Double, Boolean) => Boolean): Boolean =
+    // The hit is recomputed in Double from the corners (Möller and Trumbore, "Fast, Minimum
+    // Storage Ray/Triangle Intersection", JGT 2(1), 1997): Floats are off by 1e-7 of the distance
+    // to the farthest corner, too much close to a large triangle and for a small distant one
+    val px = v(at).toDouble
+    val py = v(at + s).toDouble
+    val pz = v(at + 2 * s).toDouble
+    val ax = v(at + 3 * s) - px
+    val ay = v(at + 4 * s) - py
+    val az = v(at + 5 * s) - pz
+    val bx = v(at + 6 * s) - px
+    val by = v(at + 7 * s) - py
+    val bz = v(at + 8 * s) - pz
+    val dx = ray.dx.toDouble
+    val dy = ray.dy.toDouble
+    val dz = ray.dz.toDouble
+    val qx = dy * bz - dz * by
+    val qy = dz * bx - dx * bz
+    val qz = dx * by - dy * bx
+    val volume = ax * qx + ay * qy + az * qz
+    val inverse = 1.0 / volume
+    val sx = ray.ox - px
+    val sy = ray.oy - py
+    val sz = ray.oz - pz
+    val rx = sy * az - sz * ay
+    val ry = sz * ax - sx * az
+    val rz = sx * ay - sy * ax
+    val b1 = (sx * qx + sy * qy + sz * qz) * inverse
+    val b2 = (dx * rx + dy * ry + dz * rz) * inverse
+    val t = (bx * rx + by * ry + bz * rz) * inverse
+    val sides = (ax * ax + ay * ay + az * az) * (bx * bx + by * by + bz * bz) *
+      (dx * dx + dy * dy + dz * dz)
+    val isClear = areSigns(
+      DoubtfulHit.Slim * sides - volume * volume,
+      b1 + DoubtfulHit.Rounded,
+      b2 + DoubtfulHit.Rounded,
+      1.0 + DoubtfulHit.Rounded - (b1 + b2)
+    )
+    if !isClear then doubtful(b1, b2, t, volume * volume <= DoubtfulHit.Thin * sides)
+    else
+      val end = t.toFloat
+      if !(end > 0f && isCloser(end, primitive, ray, hit)) then false
       else
-        val end = t.toFloat
-        if !(end > 0f && isCloser(end, primitive, ray, hit)) then false
-        else
-          if write then
-            ray.tMax = end
-            // Clamped to the edge, a point on a plane 1e6 wide would move by hundredths
-            hit.u = b1
-            hit.v = b2
-          true
+        if write then
+          ray.tMax = end
+          // Clamped to the edge, a point on a plane 1e6 wide would move by hundredths
+          hit.u = b1
+          hit.v = b2
+        true
 
   private[shapes] inline def isAnyZero(a: Float, b: Float, c: Float): Boolean =
     ((magnitudeBits(a) - 1) | (magnitudeBits(b) - 1) | (magnitudeBits(c) - 1)) < 0

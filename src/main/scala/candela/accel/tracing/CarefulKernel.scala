@@ -20,7 +20,10 @@ private[tracing] object CarefulKernel extends WideKernel:
       hit,
       anyHit,
       (node, limit) => boxes(tree, node, java.lang.Float.intBitsToFloat(limit), ray),
-      _ => AnyLane
+      _ => AnyLane,
+      tells = false,
+      (_, _) => 0,
+      (_, _) => false
     )
 
   private inline val AnyLane = 0xffff

@@ -39,7 +39,10 @@ private[tracing] object ScalarKernel extends WideKernel:
       hit,
       anyHit,
       (node, limit) => childrenHit(tree.nodes, node, width, ray, limit - WideWalk.Slack, anyHit),
-      corners => trianglesHit(tree.blocks, corners, lanes, ray)
+      corners => trianglesHit(tree.blocks, corners, lanes, ray),
+      tells = false,
+      (_, _) => 0,
+      (_, _) => false
     )
 
   /** Bit mask of the children that the ray hits. Of a slab's two distances the lesser one, as an

@@ -4,6 +4,7 @@ import jdk.incubator.vector.{FloatVector, IntVector, VectorMask, VectorOperators
 
 import candela.accel.WideTree
 import candela.geometry.{Hit, Ray}
+import candela.shapes.TriangleTest
 
 /** Traverses a [[WideTree]] with the JDK's Vector API: SIMD tests of a node or a triangle block at
   * once. The tree's blocks have as many triangles as a vector has lanes.
@@ -51,8 +52,19 @@ private[tracing] object VectorKernel extends WideKernel:
         val low = childrenHit(b, node, limit, ray, 0, anyHit)
         if N == W then low else low | (childrenHit(b, node + W, limit, ray, W, anyHit) << W)
       ,
-      corners => trianglesHit(t, corners, ray)
+      corners => trianglesHit(t, corners, ray),
+      tells = true,
+      (corners, tMax) => trianglesWithin(t, corners, ray, tMax),
+      (at, owner) =>
+        inline if anyHit then isHit(t, at, ray, hit) else intersect(t, at, owner, ray, hit)
     )
+
+  // Not part of the kernel, whose compilation would take longer than the calls
+  private def intersect(t: Array[Float], at: Int, owner: Int, ray: Ray, hit: Hit): Boolean =
+    TriangleTest.intersectInside(t, at, W, owner, ray, hit)
+
+  private def isHit(t: Array[Float], at: Int, ray: Ray, hit: Hit): Boolean =
+    TriangleTest.isHitInside(t, at, W, ray, hit)
 
   /** One bit for each set lane. */
   private inline def bits(m: VectorMask[Integer]): Int =
@@ -115,4 +127,27 @@ private[tracing] object VectorKernel extends WideKernel:
     val all = e0.mul(e1).mul(e2).reinterpretAsInts().and(Int.MaxValue)
     val zero = all.sub(1).or(Infinities.sub(all))
     // No sign bit, all sign bits, or a zero, for which the product is also zero or NaN
-    bits(s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).or(zero).compare(VectorOperators.LT, 0))
+    val same = s0.or(s1).or(s2).not().or(s0.and(s1).and(s2)).and(zero.not())
+    bits(same.compare(VectorOperators.LT, 0)) |
+      (bits(zero.compare(VectorOperators.LT, 0)) << WideWalk.Unsure)
+
+  /** Bits of the lanes whose triangles are neither behind the ray nor past its end, along the axis
+    * of its largest component: no hit is farther outside the triangle's box than the padding.
+    */
+  private inline def trianglesWithin(t: Array[Float], corners: Int, ray: Ray, tMax: Float): Int =
+    val z = corners + ray.kz * W
+    val z0 = FloatVector.fromArray(F, t, z).sub(ray.oAlongZ)
+    val z1 = FloatVector.fromArray(F, t, z + 3 * W).sub(ray.oAlongZ)
+    val z2 = FloatVector.fromArray(F, t, z + 6 * W).sub(ray.oAlongZ)
+    val pad = z1.sub(z0).abs().add(z2.sub(z0).abs()).mul(WideWalk.Pad)
+    val end = tMax * ray.dAlongZ * WideWalk.Beyond
+    val low = FloatVector.broadcast(F, Math.min(0f, end)).sub(pad)
+    val high = FloatVector.broadcast(F, Math.max(0f, end)).add(pad)
+    val below = z0.sub(low).reinterpretAsInts()
+      .and(z1.sub(low).reinterpretAsInts())
+      .and(z2.sub(low).reinterpretAsInts())
+    val above = high.sub(z0).reinterpretAsInts()
+      .and(high.sub(z1).reinterpretAsInts())
+      .and(high.sub(z2).reinterpretAsInts())
+    val within = bits(below.or(above).compare(VectorOperators.GE, 0))
+    within | (within << WideWalk.Unsure)

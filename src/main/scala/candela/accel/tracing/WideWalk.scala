@@ -26,16 +26,26 @@ private[tracing] object WideWalk:
       hit: Hit,
       inline anyHit: Boolean,
       inline boxes: (Int, Int) => Int,
-      inline triangles: Int => Int
+      inline triangles: Int => Int,
+      inline tells: Boolean,
+      inline within: (Int, Float) => Int,
+      inline inside: (Int, Int) => Boolean
   ): Boolean =
-    inline if anyHit then occluded(tree, width, lanes, ray, hit, boxes, triangles)
-    else closest(tree, width, lanes, ray, hit, boxes, triangles)
+    inline if anyHit then
+      occluded(tree, width, lanes, ray, hit, boxes, triangles, tells, within, inside)
+    else closest(tree, width, lanes, ray, hit, boxes, triangles, tells, within, inside)
 
   /** @param width, lanes those of the tree, as constants if the kernel has any
     * @param boxes     (node, limit): bit mask of the children that begin before `limit`, the bits
     *   of a distance; writes their entry distances to `ray.lanes`, also as bits
     * @param triangles (block's first Float): bit mask of the lanes whose triangles may be hit;
     *   includes every triangle that [[TriangleTest]] accepts
+    * @param tells     do they have their bits from [[Unsure]] on if the ray's line may pass at an
+    *   edge, rather than inside?
+    * @param within    (block's first Float, end of the ray): the same bits, of the lanes whose
+    *   triangles are near enough; used if `triangles` tells
+    * @param inside    (triangle's first Float, its number): decides about one that the line passes
+    *   inside; the same
     */
   private inline def closest(
       tree: WideTree,
@@ -44,7 +54,10 @@ private[tracing] object WideWalk:
       ray: Ray,
       hit: Hit,
       inline boxes: (Int, Int) => Int,
-      inline triangles: Int => Int
+      inline triangles: Int => Int,
+      inline tells: Boolean,
+      inline within: (Int, Float) => Int,
+      inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
     val stack = ray.stack
@@ -94,12 +107,16 @@ private[tracing] object WideWalk:
         if WideTree.isBlock(node) then
           val block = WideTree.first(node)
           val corners = block * WideTree.blockFloats(lanes)
-          var may = triangles(corners) & ((1 << WideTree.size(node)) - 1)
+          var may = candidates(node, corners, ray, triangles, tells, within)
           while may != 0 do
-            val k = Integer.numberOfTrailingZeros(may)
+            val bit = Integer.numberOfTrailingZeros(may)
             may &= may - 1
+            val k = bit & (Unsure - 1)
             val owner = java.lang.Float.floatToRawIntBits(tree.blocks(corners + 9 * lanes + k))
-            if TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit) then
+            val isHit =
+              if tells && bit < Unsure then inside(corners + k, owner)
+              else TriangleTest.intersect(tree.blocks, corners + k, lanes, owner, ray, hit)
+            if isHit then
               hit.primitive = owner
               found = true
         else
@@ -128,7 +145,10 @@ private[tracing] object WideWalk:
       ray: Ray,
       hit: Hit,
       inline boxes: (Int, Int) => Int,
-      inline triangles: Int => Int
+      inline triangles: Int => Int,
+      inline tells: Boolean,
+      inline within: (Int, Float) => Int,
+      inline inside: (Int, Int) => Boolean
   ): Boolean =
     val nodes = tree.nodes
     val stack = ray.stack
@@ -142,13 +162,15 @@ private[tracing] object WideWalk:
       if node >= 0 then hits = boxes(node, limit)
       else if WideTree.isBlock(node) then
         val corners = WideTree.first(node) * WideTree.blockFloats(lanes)
-        var may = triangles(corners) & ((1 << WideTree.size(node)) - 1)
+        var may = candidates(node, corners, ray, triangles, tells, within)
         while may != 0 do
-          val k = Integer.numberOfTrailingZeros(may)
+          val bit = Integer.numberOfTrailingZeros(may)
           may &= may - 1
-          if TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit) then
-            found = true
-            may = 0
+          val k = bit & (Unsure - 1)
+          found =
+            if tells && bit < Unsure then inside(corners + k, 0)
+            else TriangleTest.isHit(tree.blocks, corners + k, lanes, ray, hit)
+          if found then may = 0
       else
         val first = WideTree.first(node)
         found = tree.others.isHit(first, first + WideTree.size(node), ray, hit)
@@ -168,6 +190,21 @@ private[tracing] object WideWalk:
         node = java.lang.Float.floatToRawIntBits(nodes(from + 6 * width + k))
     found
 
+  /** The bits of the triangles of a block that are worth a test. */
+  private inline def candidates(
+      leaf: Int,
+      corners: Int,
+      ray: Ray,
+      inline triangles: Int => Int,
+      inline tells: Boolean,
+      inline within: (Int, Float) => Int
+  ): Int =
+    val used = (1 << WideTree.size(leaf)) - 1
+    inline if tells then
+      val may = triangles(corners) & (used | (used << Unsure))
+      if may == 0 then 0 else may & within(corners, ray.tMax)
+    else triangles(corners) & used
+
   private inline def entry(high: Int, node: Int): Long =
     (high.toLong << 32) | (node & 0xffffffffL)
 
@@ -183,6 +220,15 @@ private[tracing] object WideWalk:
     Math.min(java.lang.Float.floatToRawIntBits(tMax) + Slack, Largest)
 
   private final val Largest = 0x7f7fffff
+
+  /** The first bit of triangles that the ray's line may pass at an edge. */
+  final val Unsure = 16
+
+  /** Tolerance of hits outside a triangle's box, relative to its extent, with some rounding. */
+  final val Pad = 2.5e-6f
+
+  /** Exceeds one by the rounding of distances. */
+  final val Beyond = 1.000001f
 
   /** The bits of infinity; larger ones are NaN. */
   final val Infinity = 0x7f800000
