@@ -129,9 +129,9 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     val to = part
     if to != null then path.record(light, to)
 
-  /** Samples a direction: the vertex' bounce. The first coordinate of one point also chooses between
-    * BSDF and field, so that evenly spread points give evenly spread directions of both. Branches
-    * divide that coordinate among them.
+  /** Samples a direction: the vertex' bounce. One coordinate of the point also chooses between BSDF
+    * and field, so that evenly spread points give evenly spread directions of both. Branches divide
+    * it among them.
     *
     * @param throughput before it
     * @param found      light so far

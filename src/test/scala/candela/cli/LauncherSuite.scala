@@ -154,6 +154,18 @@ class LauncherSuite extends AnyFunSuite:
       assert(p.run(env = Map("CANDELA_JAVA" -> older.toString)).code == 0)
       assert(p.starts.last.exists(_.startsWith("-XX:SharedArchiveFile=")))
 
+  test("commands that end soon use the archive's profiles, renderings do not"):
+    staged: p =>
+      val (old, newest) = (p.jdk("17.0.1", in = "17"), p.jdk("99", in = "99"))
+      def replays(jdk: Path, words: String*): Boolean =
+        val env = Map("CANDELA_JAVA" -> jdk.toString)
+        assert(p.run(env = env ++ Make).code == 0 && p.run(words, env).code == 0)
+        !p.starts.last.contains("-XX:-AOTReplayTraining")
+      assert(!replays(newest, "x.pbrt") && !replays(newest, "render", "x.pbrt"))
+      assert(!replays(newest, "--spp", "4", "x.pbrt") && !replays(newest, "resume", "x.film"))
+      assert(replays(newest, "preview", "x.pbrt") && replays(newest, "check", "x.pbrt"))
+      assert(replays(old, "x.pbrt"))
+
   test("where the program's folder is read-only, the archive is in the user's cache"):
     staged: p =>
       val _ = p.jdk("99")
