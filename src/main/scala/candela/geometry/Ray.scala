@@ -103,20 +103,23 @@ final class Ray:
     oAlongZ = oz
     dAlongZ = dz
     shearZ = inverse
-    if dz < 0f then
-      kx = y
-      ky = x
-      oAlongX = oy
-      oAlongY = ox
-      shearX = -dy / dz
-      shearY = -dx / dz
-    else
-      kx = x
-      ky = y
-      oAlongX = ox
-      oAlongY = oy
-      shearX = -dx / dz
-      shearY = -dy / dz
+    if dz < 0f then alignAcross(y, x, oy, ox, dy, dx, dz) else alignAcross(x, y, ox, oy, dx, dy, dz)
+
+  private inline def alignAcross(
+      x: Int,
+      y: Int,
+      ox: Float,
+      oy: Float,
+      dx: Float,
+      dy: Float,
+      dz: Float
+  ): Unit =
+    kx = x
+    ky = y
+    oAlongX = ox
+    oAlongY = oy
+    shearX = -dx / dz
+    shearY = -dy / dz
 
 object Ray:
   /** At most 91 levels, each with 15 pending children. */
