@@ -6,7 +6,7 @@ import candela.math.*
   * followed one after the other. Mutable, one per worker.
   */
 final class GuidePath:
-  import GuidePath.Most
+  import GuidePath.*
   private val events = Array.fill(Most)(new Array[Float](GuideRecords.Size))
   private val throughputs, ratios = new Array[Float](Most)
 
@@ -126,7 +126,9 @@ final class GuidePath:
     *
     * @return the second moment of the light if BSDFs alone were sampled, and paths had no branches:
     *   light found after the events `j` and `k`, where `k` is `j` or comes later on the same
-    *   branch, contributes its product times the ratio of densities up to `j`
+    *   branch, contributes its product times the ratio of densities up to `j`. Where the first
+    *   direction leads to a lamp or the sky, and no further, it counts less: evenly spread points
+    *   are worth more there the fewer decisions a path has made
     */
   private def addUp(): Float =
     var later, sum = 0f
@@ -134,7 +136,9 @@ final class GuidePath:
     while i >= 0 do
       // Where the BSDF would hardly sample what was guided, ratios overflow
       val found = lights(i) * (lights(i) + 2f * laters(i))
-      if found > 0f then sum += ratios(i) * found
+      if found > 0f then
+        val isDirect = parents(i) < 0 && costs(i) == 1
+        sum += ratios(i) * found * (if isDirect then DirectNoise else 1f)
       lights(i) += laters(i)
       val parent = parents(i)
       if parent < 0 then
@@ -149,3 +153,8 @@ final class GuidePath:
 object GuidePath:
   /** Events that are recorded; later ones are rare, and find little. */
   private inline val Most = 256
+
+  /** What evenly spread points leave of the noise of light that the first direction of an unguided
+    * path finds, about, relative to what they leave of a guided one's.
+    */
+  private inline val DirectNoise = 0.25f

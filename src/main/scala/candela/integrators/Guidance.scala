@@ -48,13 +48,10 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Has the field decided at this vertex whether the path ends? */
   private var isExpected = false
 
+  private val points = BranchPoints()
+
   /** In how many branches does the path leave the vertex, if it goes on? */
-  private var leaving = 1
-
-  def branches: Int = leaving
-
-  // Branches of the path so far that wait or waited
-  private var numbered = 0
+  def branches: Int = Math.max(1, points.count)
 
   /** Keeps what is known of the branch. */
   def keep(to: Mark): Unit =
@@ -64,10 +61,8 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     to.whole = whole
     to.place = path.place
 
-  /** Numbers the branch among those of its path, whose dimensions it then has in all samples. */
-  def number(to: Mark): Unit =
-    numbered += 1
-    to.requests = numbered * RequestsOfBranch
+  /** Keeps where the random numbers of a branch go on. */
+  def keepPosition(branch: Int, to: Mark): Unit = to.position = points.position(branch)
 
   /** Goes on with another branch, after `found` light in all. */
   def follow(from: Mark, found: Float): Unit =
@@ -87,7 +82,6 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     chances = 1f
     splits = 1f
     whole = 0f
-    numbered = 0
 
   /** The vertex has its BSDF. */
   def arrive(): Unit =
@@ -130,27 +124,25 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     if to != null then path.record(light, to)
 
   /** Samples a direction: the vertex' bounce. One coordinate of the point also chooses between BSDF
-    * and field, so that evenly spread points give evenly spread directions of both. Branches divide
-    * it among them.
+    * and field, so that evenly spread points give evenly spread directions of both.
     *
     * @param throughput before it
     * @param found      light so far
-    * @param branch     number of the branch
+    * @param branch     whose point is taken
     */
-  def scatter(throughput: Float, found: Float, branch: Int, sampler: Sampler): Unit =
+  def scatter(throughput: Float, found: Float, branch: Int): Unit =
     if throughput == 0f then vertex.bounce.absorb()
     else if !isKept then
       if !vertex.bsdf.isSpecular then tally.bounces += 1
-      vertex.draw(sampler)
+      vertex.draw(points.choice(branch), points.x(branch), points.y(branch))
     else
       tally.bounces += 1
-      val choice = sampler.next1D()
-      sampler.next2D()
       if share < 1f then tally.guided += 1
-      val x = if leaving == 1 then sampler.x else (branch + sampler.x) / leaving
+      val x = points.x(branch)
+      val y = points.y(branch)
       val byBsdf =
-        if x < share then drawBsdf(choice, belowOne(x / share), sampler.y)
-        else drawField(belowOne((x - share) / (1f - share)), sampler.y)
+        if x < share then drawBsdf(points.choice(branch), belowOne(x / share), y)
+        else drawField(belowOne((x - share) / (1f - share)), y)
       if byBsdf > 0f then take(byBsdf, throughput, found)
 
   /** @return the BSDF's density of the direction; 0: the bounce is as it shall be */
@@ -207,7 +199,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
 
   /** Russian roulette and splitting by what the field expects the path to find, relative to what
     * camera paths find where this one began: as many [[branches]] go on from here as reduce the
-    * variance of the image most for what they cost.
+    * variance of the image most for what they cost. Draws their points.
     *
     * Light through the surface is not in the field: there, and where it knows nothing,
     * [[roulette]] decides. In media paths are not divided.
@@ -220,10 +212,13 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * @return factor of the throughput
     */
   def survival(throughput: Float, sampler: Sampler): Float =
+    val n = expected(throughput)
+    points.draw(n, sampler)
+    if points.count == 0 then 0f else 1f / n
+
+  /** Branches in which the path leaves on average; one where the field does not know. */
+  private def expected(throughput: Float): Float =
     isExpected = false
-    leaving = 1
-    // In all samples, so that what follows has the same dimensions
-    val u = sampler.next1D()
     if region < 0 then 1f
     else
       val field = lesson.field
@@ -232,14 +227,12 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       if worth == 0f || whole == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
       else
         isExpected = true
-        val most = if vertex.isInMedium then 1f else Math.min(MostBranches, MostInAll / splits)
+        val most =
+          if vertex.isInMedium then 1f else Math.min(BranchPoints.Most.toFloat, MostInAll / splits)
         val n = Math.max(LeastSurvival, Math.min(throughput * worth / whole, most))
         chances *= n
         splits *= Math.max(1f, n)
-        // Up or down, so that n is the mean
-        val rounded = Math.min((n + u).toInt, MostBranches)
-        leaving = Math.max(1, rounded)
-        if rounded == 0 then 0f else 1f / n
+        n
 
   /** Russian roulette by the throughput of BSDF sampling. That of a guided path is small where
     * paths are many because much light comes from there: it must not end them.
@@ -254,8 +247,7 @@ private object Guidance:
   /** Branches in which a path leaves a vertex, on average, where it is worth little. */
   inline val LeastSurvival = 0.5f
 
-  /** Likewise, where it is worth much; and of a whole path. */
-  inline val MostBranches = 8
+  /** Branches of a whole path. */
   inline val MostInAll = 64f
 
   /** What is known of a branch that is followed later. Mutable. */
@@ -263,11 +255,8 @@ private object Guidance:
     var ratio, chances, splits, whole = 0f
     var place = -1
 
-    /** Where its random numbers begin ([[Sampler.skipTo]]). */
-    var requests = 0
-
-  /** Random numbers from the beginning of a branch to that of the next: more than it needs. */
-  inline val RequestsOfBranch = 65536
+    /** Where its random numbers go on ([[Sampler.goTo]]). */
+    var position = 0L
 
   def belowOne(x: Float): Float = Math.min(x, 0.99999994f)
 

@@ -57,26 +57,26 @@ final class GuidedVolumeWalk(
 
   private def scatterGuided(sampler: Sampler): Unit =
     weights.scale(guidance.survival(weights.throughput.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0, sampler) else scatterInBranches(sampler)
+    if guidance.branches == 1 then scatterOnce(0) else scatterInBranches()
 
-  private def scatterOnce(branch: Int, sampler: Sampler): Unit =
-    guidance.scatter(weights.throughput.average, total.average, branch, sampler)
+  private def scatterOnce(branch: Int): Unit =
+    guidance.scatter(weights.throughput.average, total.average, branch)
     weights.scale(vertex.bounce.weight)
 
   /** As [[GuidedWalk]]. */
-  private def scatterInBranches(sampler: Sampler): Unit =
+  private def scatterInBranches(): Unit =
     val origin = branches.origin
     keep(origin.state)
     guidance.keep(origin.mark)
     loop(guidance.branches): i =>
       follow(origin)
-      scatterOnce(i, sampler)
+      scatterOnce(i)
       leave()
       if goesOn then
         val branch = branches.push()
         keep(branch.state)
         guidance.keep(branch.mark)
-        guidance.number(branch.mark)
+        guidance.keepPosition(i, branch.mark)
     weights.scale(0f)
 
   private def follow(branch: Branches.Branch[VolumeWalk.State]): Unit =
@@ -89,7 +89,7 @@ final class GuidedVolumeWalk(
     if waits then
       val branch = branches.pop()
       follow(branch)
-      sampler.skipTo(branch.mark.requests)
+      sampler.goTo(branch.mark.position)
     waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =

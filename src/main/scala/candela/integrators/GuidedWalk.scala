@@ -37,26 +37,26 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     throughput.scale(guidance.survival(throughput.toRgb.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0, sampler) else scatterInBranches(sampler)
+    if guidance.branches == 1 then scatterOnce(0) else scatterInBranches()
 
-  private def scatterOnce(branch: Int, sampler: Sampler): Unit =
-    guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, branch, sampler)
+  private def scatterOnce(branch: Int): Unit =
+    guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, branch)
     throughput.scale(vertex.bounce.weight)
 
   /** Leaves in all branches, which wait, and ends. */
-  private def scatterInBranches(sampler: Sampler): Unit =
+  private def scatterInBranches(): Unit =
     val origin = branches.origin
     keep(origin.state)
     guidance.keep(origin.mark)
     loop(guidance.branches): i =>
       follow(origin)
-      scatterOnce(i, sampler)
+      scatterOnce(i)
       leave()
       if goesOn then
         val branch = branches.push()
         keep(branch.state)
         guidance.keep(branch.mark)
-        guidance.number(branch.mark)
+        guidance.keepPosition(i, branch.mark)
     throughput.set(Rgb.Black)
 
   private def follow(branch: Branches.Branch[Walk.State]): Unit =
@@ -69,7 +69,7 @@ final class GuidedWalk(
     if waits then
       val branch = branches.pop()
       follow(branch)
-      sampler.skipTo(branch.mark.requests)
+      sampler.goTo(branch.mark.position)
     waits
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =

@@ -123,7 +123,11 @@ class SurfaceVertex(scene: Scene):
   final def draw(sampler: Sampler): Unit =
     val choice = sampler.next1D()
     sampler.next2D()
-    scattering.draw(localWo, choice, sampler.x, sampler.y, bounce)
+    draw(choice, sampler.x, sampler.y)
+
+  /** Likewise, by these random numbers. */
+  final def draw(choice: Float, x: Float, y: Float): Unit =
+    scattering.draw(localWo, choice, x, y, bounce)
 
   /** Samples a direction into `bounce` with equal density, of both sides of the surface or of that
     * of `wo`.

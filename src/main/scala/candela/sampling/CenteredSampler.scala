@@ -19,6 +19,9 @@ final class CenteredSampler(inner: Sampler, moves: Boolean) extends Sampler:
     places = 0
     times = 0
 
+  override def position: Long = inner.position
+  override def goTo(position: Long): Unit = inner.goTo(position)
+
   def next1D(): Float =
     val u = inner.next1D()
     if times > 0 then

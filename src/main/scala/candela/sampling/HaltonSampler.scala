@@ -33,6 +33,9 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSam
     super.skipTo(requests)
     dimension = requests
 
+  override def position: Long = dimension
+  override def goTo(position: Long): Unit = skipTo(position.toInt)
+
   def next1D(): Float =
     val bits = nextBits()
     val d = dimension

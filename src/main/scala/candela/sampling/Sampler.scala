@@ -23,6 +23,12 @@ abstract class Sampler:
     */
   def skipTo(requests: Int): Unit = ()
 
+  /** Where it is in the sample's dimensions. */
+  def position: Long = 0L
+
+  /** Goes on from a [[position]] of the sample. */
+  def goTo(position: Long): Unit = ()
+
   /** The next dimension, in [0, 1). */
   def next1D(): Float
 
@@ -44,6 +50,8 @@ abstract class HashedSampler extends Sampler:
     counter = at
 
   override def skipTo(requests: Int): Unit = counter = first + requests * SampleHash.Step
+  override def position: Long = counter - first
+  override def goTo(position: Long): Unit = counter = first + position
 
   /** Of the next request. */
   protected final def nextBits(): Long =

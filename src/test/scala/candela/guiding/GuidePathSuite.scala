@@ -28,6 +28,19 @@ class GuidePathSuite extends AnyFunSuite:
     assert(Math.abs(records.costs(FirstRegion) - (1 + 2 * 3)) < 1e-5)
     assert(Math.abs(records.costs(SecondRegion) - 1) < 1e-5)
 
+  test("sky found by the first direction counts a quarter of it in unguided paths"):
+    def unguided(arrives: Boolean): Float =
+      val (path, records) = (GuidePath(), GuideRecords(1f, regions = 6))
+      val part = records.newPart()
+      path.clear()
+      path.add(FirstRegion, Vec3.Zero, 0, Vec3(0f, 0f, 1f), 1f, 1f, 1f, 1f, 1f, 1f)
+      if arrives then path.step()
+      path.record(3f, part)
+      records.sorted()(GuideRecords.Unguided)
+    // The light before it, squared, and its product with the other count in full
+    assert(unguided(arrives = true) == 1f + 2f * 2f + 4f)
+    assert(unguided(arrives = false) == 1f + 2f * 2f + 4f / 4)
+
   test("directions that the BSDF would hardly sample have finite moments"):
     for later <- Vector(0f, 2f) do
       val (path, records) = (GuidePath(), GuideRecords(1f, regions = 6))

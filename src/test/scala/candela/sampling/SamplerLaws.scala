@@ -68,6 +68,17 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
       b.next2D()
       assert(a.x == b.x && a.y == b.y && a.next1D() == b.next1D(), s"after $skip")
 
+  test("after goTo come the numbers that followed there"):
+    val sampler = make(16, 5)
+    for skip <- Seq(0, 1, 8, 21) do
+      sampler.start(1, 2, 3)
+      for _ <- 0 until skip do sampler.next1D(): Unit
+      val position = sampler.position
+      val next = sampler.next1D()
+      for _ <- 0 until 30 do sampler.next2D()
+      sampler.goTo(position)
+      assert(sampler.next1D() == next, s"after $skip")
+
   test("another seed gives other numbers"):
     assert(points(make(16, 1), 0, 0, 16, 0) != points(make(16, 2), 0, 0, 16, 0))
 
