@@ -236,7 +236,7 @@ final class BidirectionalPathTracer(
 
   /** Connects the camera vertex to a sampled light. */
   private def direct(sampler: Sampler): Rgb =
-    val choice = sampler.next1D()
+    val choice = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
     val p = at.p
     if !connection.choose(

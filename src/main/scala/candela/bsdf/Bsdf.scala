@@ -22,6 +22,9 @@ abstract class Bsdf:
     */
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
 
+  /** Whether directions depend on the `choice`. */
+  def choosesLobes: Boolean = true
+
   /** As [[sample]], written to `out`. */
   def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     out.take(sample(wo, choice, u1, u2))

@@ -20,5 +20,6 @@ abstract class CosineSampled extends LeanBsdf:
     if !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
 
+  override def choosesLobes: Boolean = false
   final def isSpecular: Boolean = false
   final def isTransmissive: Boolean = false

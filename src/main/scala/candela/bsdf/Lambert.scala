@@ -23,6 +23,7 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
     if absorbs || !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
+  override def choosesLobes: Boolean = false
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
 

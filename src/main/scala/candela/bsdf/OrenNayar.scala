@@ -38,6 +38,7 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
     if !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
 
+  override def choosesLobes: Boolean = false
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
 

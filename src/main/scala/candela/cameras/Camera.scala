@@ -38,6 +38,9 @@ abstract class Camera:
     */
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit
 
+  /** Whether rays depend on the point of the aperture. */
+  def hasLens: Boolean = true
+
   /** Whether rays have different weights. If so, `generate` sets `ray.weight`; 0 means that no
     * light reaches the film there, and leaves the ray unchanged. Otherwise the weight is neither
     * set nor read.

@@ -11,6 +11,7 @@ import candela.sampling.Sampler
   */
 final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialScale: Float):
   private val weighs = camera.weighs
+  private val hasLens = camera.hasLens
   private val moves = shutter.isDefined
   private val open = shutter.getOrElse(Shutter(0f, 0f))
   private val scratch = Ray()
@@ -24,7 +25,7 @@ final class CameraRays(camera: Camera, shutter: Option[Shutter], differentialSca
     * @return the ray's weight; 0 if the lens system blocks it, and there is no ray
     */
   def next(x: Float, y: Float, sampler: Sampler): Float =
-    sampler.next2D()
+    sampler.next2D(matters = hasLens)
     if moves then
       ray.time = open.at(sampler.next1D()) // leaves x and y unchanged
       scratch.time = ray.time

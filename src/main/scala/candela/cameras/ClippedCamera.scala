@@ -12,6 +12,7 @@ final class ClippedCamera(camera: Camera, cameraToWorld: Transform, near: Float,
   private val toCamera = cameraToWorld.inverse
 
   override def weighs: Boolean = camera.weighs
+  override def hasLens: Boolean = camera.hasLens
   override def isTraceable: Boolean = camera.isTraceable
   override protected[cameras] def step: Float = camera.step
 

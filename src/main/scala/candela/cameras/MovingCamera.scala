@@ -17,6 +17,7 @@ final case class Shutter(open: Float, close: Float):
   */
 final class MovingCamera(val camera: Camera, val toWorld: Motion) extends Camera:
   override def weighs: Boolean = camera.weighs
+  override def hasLens: Boolean = camera.hasLens
   override protected[cameras] def step: Float = camera.step
 
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =

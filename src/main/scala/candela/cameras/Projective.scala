@@ -28,7 +28,7 @@ abstract class ProjectiveCamera(setup: ProjectiveSetup) extends Camera:
   protected val axisX: Vec3 = setup.cameraToWorld.vector(Vec3.X)
   protected val axisY: Vec3 = setup.cameraToWorld.vector(Vec3.Y)
   protected val axisZ: Vec3 = setup.cameraToWorld.vector(Vec3.Z)
-  protected val hasLens: Boolean = setup.lensRadius > 0f
+  final override val hasLens: Boolean = setup.lensRadius > 0f
 
   private val toCamera = setup.cameraToWorld.inverse
 

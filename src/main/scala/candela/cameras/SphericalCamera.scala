@@ -23,6 +23,8 @@ final class SphericalCamera(
 ) extends Camera:
   private val eye = cameraToWorld.point(Vec3.Zero)
 
+  override def hasLens: Boolean = false
+
   def generate(x: Float, y: Float, lensU: Float, lensV: Float, ray: Ray): Unit =
     val u = x / frame.width
     val v = y / frame.height

@@ -65,8 +65,8 @@ private[guiding] object GuideProgress:
   /** Paths by which a pass is judged. */
   val Enough = 10000
 
-  /** Guiding pays if it leaves less of the variance: guided rays take 1.3 times as long. */
-  val WorthIt = 0.77
+  /** Guiding pays if it leaves less of the variance: guided rays take 1.4 times as long. */
+  val WorthIt = 0.7
 
   /** It must also leave less than this of the variance times the effort. The product overstates
     * what branches cost, by up to a quarter: they share the path before them, and later fields are

@@ -3,9 +3,9 @@ package candela.integrators
 import candela.sampling.{SampleHash, Sampler}
 
 /** The random numbers with which a guided path leaves a vertex. Each branch is a strip of the unit
-  * square, as wide as all others: evenly spread points give evenly spread directions of all branches
-  * together. The last strip may be narrower, so that there can be 0.7 or 2.3 branches on average.
-  * Mutable, one per worker.
+  * square, as wide as all others: evenly spread points give evenly spread directions of all
+  * branches together. The last strip may be narrower, so that there can be 0.7 or 2.3 branches on
+  * average. Mutable, one per worker.
   */
 private[integrators] final class BranchPoints:
   import BranchPoints.*
@@ -19,23 +19,24 @@ private[integrators] final class BranchPoints:
   /** Draws the points. The sampler goes on behind the first, however many there are.
     *
     * @param average number of branches, above 0, at most [[BranchPoints.Most]]
+    * @param chooses does what is sampled discretely matter?
     */
-  def draw(average: Float, sampler: Sampler): Unit =
+  def draw(average: Float, chooses: Boolean, sampler: Sampler): Unit =
     strips = average
     count = Math.ceil(average).toInt
-    take(0, sampler)
+    take(0, chooses, sampler)
     if count > 1 then
       var branch = 1
       while branch < count do
         sampler.skipTo(beginning(branch))
-        take(branch, sampler)
+        take(branch, chooses, sampler)
         branch += 1
       sampler.goTo(positions(0))
     // Beyond the end of the last strip
     if count - 1 + xs(count - 1) >= average then count -= 1
 
-  private def take(branch: Int, sampler: Sampler): Unit =
-    choices(branch) = sampler.next1D()
+  private def take(branch: Int, chooses: Boolean, sampler: Sampler): Unit =
+    choices(branch) = sampler.next1D(matters = chooses)
     sampler.next2D()
     xs(branch) = sampler.x
     ys(branch) = sampler.y

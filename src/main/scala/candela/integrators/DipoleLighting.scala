@@ -43,7 +43,7 @@ final class DipoleLighting(
   /** Light that enters elsewhere and leaves at `exit`. */
   private def beneath(exit: SurfaceVertex, dipole: DipoleBssrdf, sampler: Sampler): Rgb =
     val weight = probe.enter(exit.at, dipole, time, sampler, entry.at)
-    val choice = sampler.next1D()
+    val choice = sampler.next1D(matters = light.isRandom)
     sampler.next2D()
     if weight.isBlack then Rgb.Black
     else

@@ -37,7 +37,8 @@ class DirectLighting(
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
-      if light.choose(vertex.at.p, vertex.lightNormal, sampler.next1D()) then
+      val choice = sampler.next1D(matters = light.isRandom)
+      if light.choose(vertex.at.p, vertex.lightNormal, choice) then
         sum = estimate(vertex, sampler)
     else
       var i = 0

@@ -213,7 +213,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     */
   def survival(throughput: Float, sampler: Sampler): Float =
     val n = expected(throughput)
-    points.draw(n, sampler)
+    points.draw(n, vertex.bsdf.choosesLobes, sampler)
     if points.count == 0 then 0f else 1f / n
 
   /** Branches in which the path leaves on average; one where the field does not know. */

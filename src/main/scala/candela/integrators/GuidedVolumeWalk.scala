@@ -1,6 +1,5 @@
 package candela.integrators
 
-import candela.base.loop
 import candela.bsdf.{Bssrdf, PhaseLobe}
 import candela.film.LightParts
 import candela.geometry.Ray
@@ -19,7 +18,7 @@ final class GuidedVolumeWalk(
     parts: LightParts | Null
 ) extends VolumeWalk(scene, media, options, parts):
   private val guidance = Guidance(guide, vertex)
-  private val branches = Branches(() => VolumeWalk.State())
+  private val branches = Branches(guidance, () => VolumeWalk.State())
   private val lobes = media.media.map(medium => PhaseLobe(medium.phase))
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
@@ -65,18 +64,14 @@ final class GuidedVolumeWalk(
 
   /** As [[GuidedWalk]]. */
   private def scatterInBranches(): Unit =
-    val origin = branches.origin
-    keep(origin.state)
-    guidance.keep(origin.mark)
-    loop(guidance.branches): i =>
-      follow(origin)
-      scatterOnce(i)
-      leave()
-      if goesOn then
-        val branch = branches.push()
-        keep(branch.state)
-        guidance.keep(branch.mark)
-        guidance.keepPosition(i, branch.mark)
+    branches.divide(
+      keep(_),
+      follow(_),
+      branch =>
+        scatterOnce(branch)
+        leave()
+        goesOn
+    )
     weights.scale(0f)
 
   private def follow(branch: Branches.Branch[VolumeWalk.State]): Unit =
@@ -84,13 +79,7 @@ final class GuidedVolumeWalk(
     guidance.follow(branch.mark, total.average)
 
   /** Goes on with a branch that waits; false: none. */
-  def followNext(sampler: Sampler): Boolean =
-    val waits = !branches.isEmpty
-    if waits then
-      val branch = branches.pop()
-      follow(branch)
-      sampler.goTo(branch.mark.position)
-    waits
+  def followNext(sampler: Sampler): Boolean = branches.followNext(sampler, follow(_))
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     weights.scale(guidance.roulette(weights.brightest * etaScale, threshold, sampler))

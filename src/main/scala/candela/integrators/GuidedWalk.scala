@@ -1,6 +1,5 @@
 package candela.integrators
 
-import candela.base.loop
 import candela.bsdf.Bssrdf
 import candela.color.Rgb
 import candela.film.LightParts
@@ -18,7 +17,7 @@ final class GuidedWalk(
     parts: LightParts | Null
 ) extends Walk(scene, options = options, sharedParts = parts):
   private val guidance = Guidance(guide, vertex)
-  private val branches = Branches(() => Walk.State())
+  private val branches = Branches(guidance, () => Walk.State())
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
@@ -45,18 +44,14 @@ final class GuidedWalk(
 
   /** Leaves in all branches, which wait, and ends. */
   private def scatterInBranches(): Unit =
-    val origin = branches.origin
-    keep(origin.state)
-    guidance.keep(origin.mark)
-    loop(guidance.branches): i =>
-      follow(origin)
-      scatterOnce(i)
-      leave()
-      if goesOn then
-        val branch = branches.push()
-        keep(branch.state)
-        guidance.keep(branch.mark)
-        guidance.keepPosition(i, branch.mark)
+    branches.divide(
+      keep(_),
+      follow(_),
+      branch =>
+        scatterOnce(branch)
+        leave()
+        goesOn
+    )
     throughput.set(Rgb.Black)
 
   private def follow(branch: Branches.Branch[Walk.State]): Unit =
@@ -64,13 +59,7 @@ final class GuidedWalk(
     guidance.follow(branch.mark, radiance.toRgb.average)
 
   /** Goes on with a branch that waits; false: none. */
-  def followNext(sampler: Sampler): Boolean =
-    val waits = !branches.isEmpty
-    if waits then
-      val branch = branches.pop()
-      follow(branch)
-      sampler.goTo(branch.mark.position)
-    waits
+  def followNext(sampler: Sampler): Boolean = branches.followNext(sampler, follow(_))
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     throughput.scale(guidance.roulette(throughput.largest * etaScale, threshold, sampler))

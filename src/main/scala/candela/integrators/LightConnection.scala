@@ -23,6 +23,9 @@ final class LightConnection(
   private val border = ShadingPoint()
   private var rays = 0L
 
+  /** Does the choice of a light depend on the random number? */
+  val isRandom: Boolean = scene.selection.isRandom
+
   /** The point on the light. */
   val sample: LightSample = LightSample()
 

@@ -121,7 +121,7 @@ class SurfaceVertex(scene: Scene):
 
   /** Samples the BSDF into `bounce`. */
   final def draw(sampler: Sampler): Unit =
-    val choice = sampler.next1D()
+    val choice = sampler.next1D(matters = scattering.choosesLobes)
     sampler.next2D()
     draw(choice, sampler.x, sampler.y)
 

@@ -202,7 +202,7 @@ class VolumeWalk(
     val phase = media.media(medium).phase
     arrive(p, wo)
     if samplesLights then
-      val choice = sampler.next1D()
+      val choice = sampler.next1D(matters = light.isRandom)
       sampler.next2D()
       if light.choose(p, Vec3.Zero, choice) && light.samplePoint(p, sampler.x, sampler.y) then
         val value = phase.value(wo, light.wi)
@@ -239,7 +239,7 @@ class VolumeWalk(
 
   /** Chooses one light and samples a point on it; false if it contributes nothing. */
   def sampleOneLight(sampler: Sampler): Boolean =
-    val choice = sampler.next1D()
+    val choice = sampler.next1D(matters = light.isRandom)
     sampler.next2D()
     val p = vertex.at.p
     !vertex.bsdf.isSpecular && samplesLights &&

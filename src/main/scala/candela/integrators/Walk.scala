@@ -212,7 +212,7 @@ class Walk(
   def sampleOneLight(sampler: Sampler): Boolean =
     if !samplesLights || vertex.bsdf.isSpecular || scene.lights.length == 0 then false
     else
-      val choice = sampler.next1D()
+      val choice = sampler.next1D(matters = light.isRandom)
       sampler.next2D()
       val p = vertex.at.p
       light.choose(p, vertex.lightNormal, choice) && light.samplePoint(p, sampler.x, sampler.y)

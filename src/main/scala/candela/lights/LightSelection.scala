@@ -22,6 +22,9 @@ abstract class LightSelection:
   /** Samples a light and computes its probability. */
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit
 
+  /** Does the choice depend on the random number? */
+  def isRandom: Boolean = true
+
   def describe: String
 
 /** A sampled light with its probability; mutable, one per worker. */
@@ -44,6 +47,7 @@ final class SingleLight extends LightSelection:
   def choose(p: Vec3, n: Vec3, u: Float, out: LightChoice): Unit =
     out.light = 0
     out.probability = 1f
+  override def isRandom: Boolean = false
   def describe: String = "one light"
 
 /** Importance sampling over a light BVH of [[LightBounds]]: descends by the importance of the two

@@ -36,6 +36,14 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSam
   override def position: Long = dimension
   override def goTo(position: Long): Unit = skipTo(position.toInt)
 
+  override protected def leaveOut(): Unit =
+    super.leaveOut()
+    dimension += 1
+
+  override protected def leaveOut2D(): Unit =
+    leaveOut()
+    leaveOut()
+
   def next1D(): Float =
     val bits = nextBits()
     val d = dimension

@@ -32,8 +32,24 @@ abstract class Sampler:
   /** The next dimension, in [0, 1). */
   def next1D(): Float
 
+  /** The next dimension; 0 in its place, without computing it, where no one looks at it. */
+  final def next1D(matters: Boolean): Float =
+    if matters then next1D()
+    else
+      leaveOut()
+      0f
+
+  /** Advances to the dimension behind that of `next1D`. */
+  protected def leaveOut(): Unit = next1D(): Unit
+
   /** Advances to the next two dimensions, jointly well distributed; read them from `x` and `y`. */
   def next2D(): Unit
+
+  /** The next two dimensions; `x` and `y` are not computed where no one looks at them. */
+  final def next2D(matters: Boolean): Unit = if matters then next2D() else leaveOut2D()
+
+  /** Advances to the dimension behind those of `next2D`. */
+  protected def leaveOut2D(): Unit = next2D()
 
   /** The last point of `next2D`, each in [0, 1). */
   final var x, y: Float = 0f
@@ -52,6 +68,9 @@ abstract class HashedSampler extends Sampler:
   override def skipTo(requests: Int): Unit = counter = first + requests * SampleHash.Step
   override def position: Long = counter - first
   override def goTo(position: Long): Unit = counter = first + position
+
+  override protected def leaveOut(): Unit = counter += SampleHash.Step
+  override protected def leaveOut2D(): Unit = leaveOut()
 
   /** Of the next request. */
   protected final def nextBits(): Long =

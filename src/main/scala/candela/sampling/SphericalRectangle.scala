@@ -1,6 +1,6 @@
 package candela.sampling
 
-import candela.math.sinCos
+import candela.math.{angleOf, sinCos}
 
 /** Spherical rectangle: samples directions uniformly over the solid angle of a rectangle.
   *
@@ -15,6 +15,7 @@ final class SphericalRectangle:
   private var x0, x1, y0, y1, z = 0.0
   private var area = 0.0
   private var lower, upper = 0.0 // z components of the normals of the planes through y0 and y1
+  private var level = 0.0 // squared y component of that through y0
   private var cosRest, sinRest = 0.0 // of 2π less the angles at the corners of x0
 
   /** The sampled point of the rectangle. */
@@ -27,7 +28,9 @@ final class SphericalRectangle:
     this.y0 = y0
     this.y1 = y1
     this.z = z
-    lower = -y0 / Math.sqrt(z * z + y0 * y0)
+    val toLower = 1 / (z * z + y0 * y0)
+    lower = -y0 * Math.sqrt(toLower)
+    level = z * z * toLower
     upper = y1 / Math.sqrt(z * z + y1 * y1)
     area = SphericalRectangle.measure(x0, x1, y0, y1, z): (cosine, sine) =>
       val scale = 1 / Math.sqrt(cosine * cosine + sine * sine)
@@ -37,13 +40,15 @@ final class SphericalRectangle:
 
   /** Samples a point; requires a positive solid angle. */
   def sample(u1: Float, u2: Float): Unit =
-    // The part of the rectangle from x0 to x has the fraction u1 of the solid angle
-    val slope = sinCos(u1 * area): (sine, cosine) =>
-      ((cosine * cosRest - sine * sinRest) * lower - upper) /
-        (sine * cosRest + cosine * sinRest)
-    val c = clamp(Math.signum(slope) / Math.sqrt(slope * slope + lower * lower), -1, 1)
-    val depth = Math.abs(z)
-    x = clamp(c * depth / Math.sqrt(Math.max(1e-30, 1 - c * c)), x0, x1)
+    // The part of the rectangle from x0 to x has the fraction u1 of the solid angle. The source
+    // computes rise / run, the x component of a normal, and x from that: this needs fewer divisions
+    // and roots
+    x = sinCos(u1 * area): (sine, cosine) =>
+      val rise = (cosine * cosRest - sine * sinRest) * lower - upper
+      val run = sine * cosRest + cosine * sinRest
+      val squared = rise * rise - level * run * run
+      val across = Math.sqrt(if squared > 1e-300 then squared else 1e-300)
+      clamp((if rise < 0 then -run else run) * Math.abs(z) / across, x0, x1)
     // Along the line, uniform in the sine of the elevation
     val d2 = x * x + z * z
     val h0 = y0 / Math.sqrt(d2 + y0 * y0)
@@ -85,5 +90,4 @@ object SphericalRectangle:
     val farR = r2 * r3 - i2 * i3
     val farI = r2 * i3 + i2 * r3
     use(farR, farI)
-    val angle = Math.atan2(nearR * farI + nearI * farR, nearR * farR - nearI * farI)
-    if angle < 0 then angle + 2 * Math.PI else angle
+    angleOf(nearR * farR - nearI * farI, nearR * farI + nearI * farR)

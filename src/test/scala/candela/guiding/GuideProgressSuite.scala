@@ -23,7 +23,7 @@ class GuideProgressSuite extends AnyFunSuite:
     // It does not pay
     assert(weight(0.9 -> 1.0) == 1f)
     assert(weight(0.72 -> 1.0) == 1f)
-    assert(weight(0.7 -> 1.0) == 2f)
+    assert(weight(0.68 -> 1.0) == 2f)
     assert(weight(0.5 -> 1.0) == 2f)
     assert(weight(3.0 -> 12.0) == 4f)
     // What the first pass that paid says of unguided paths holds: it is of the same light
@@ -33,7 +33,7 @@ class GuideProgressSuite extends AnyFunSuite:
   test("guiding pays by the variance that it leaves, and by what branches cost"):
     def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
     assert(!start.pays)
-    assert(pays(0.7, 1.0) && !pays(0.8, 1.0) && !pays(0.8, 0.5))
+    assert(pays(0.68, 1.0) && !pays(0.72, 1.0) && !pays(0.72, 0.5))
     assert(pays(0.5, 1.8) && !pays(0.5, 2.0))
     // Doubts are forgotten when it pays
     val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))

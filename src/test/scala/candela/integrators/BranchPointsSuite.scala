@@ -26,7 +26,7 @@ final class BranchPointsSuite extends AnyFunSuite:
     for sampler <- Vector(independent, OwenSobolSampler(16, 5), HaltonSampler(16, 5)) do
       def after(average: Float) =
         sampler.start(3, 4, 7)
-        BranchPoints().draw(average, sampler)
+        BranchPoints().draw(average, chooses = true, sampler)
         sampler.next1D()
       assert(Vector(0.5f, 1.5f, 7.5f).map(after).distinct == Vector(after(1f)))
 
@@ -34,7 +34,7 @@ final class BranchPointsSuite extends AnyFunSuite:
     def numbers(sample: Int, average: Float): Vector[Long] =
       val points = BranchPoints()
       independent.start(3, 4, sample)
-      points.draw(average, independent)
+      points.draw(average, chooses = true, independent)
       Vector.tabulate(points.count)(points.position)
     val all = numbers(sample = 1, average = 8f)
     assert(all.size == 8 && all.distinct == all)
@@ -54,7 +54,7 @@ private object BranchPointsSuite:
       sample <- Vector.range(0, Samples)
       branch <- {
         sampler.start(3, 4, sample)
-        points.draw(average, sampler)
+        points.draw(average, chooses = true, sampler)
         Vector.range(0, points.count)
       }
     yield (points.x(branch), points.y(branch))

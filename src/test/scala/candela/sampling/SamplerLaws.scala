@@ -79,6 +79,20 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
       sampler.goTo(position)
       assert(sampler.next1D() == next, s"after $skip")
 
+  test("a number that no one looks at takes its dimension"):
+    val (a, b) = (make(16, 5), make(16, 5))
+    for before <- Seq(0, 1, 8, 21) do
+      for s <- Seq(a, b) do
+        s.start(1, 2, 3)
+        for _ <- 0 until before do s.next1D(): Unit
+      assert(a.next1D(matters = true) != 0f)
+      assert(b.next1D(matters = false) == 0f)
+      a.next2D(matters = true)
+      b.next2D(matters = false)
+      a.next2D()
+      b.next2D()
+      assert(a.x == b.x && a.y == b.y && a.next1D() == b.next1D(), s"after $before")
+
   test("another seed gives other numbers"):
     assert(points(make(16, 1), 0, 0, 16, 0) != points(make(16, 2), 0, 0, 16, 0))
 

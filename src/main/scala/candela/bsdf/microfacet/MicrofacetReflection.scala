@@ -52,6 +52,7 @@ final class MicrofacetReflection(
 
   private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM
 
+  override def choosesLobes: Boolean = false
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
   override def regularized: Bsdf = MicrofacetReflection(distribution.regularized, curve, scale)
