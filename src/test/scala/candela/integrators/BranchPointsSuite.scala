@@ -52,9 +52,8 @@ private object BranchPointsSuite:
     val points = BranchPoints()
     for
       sample <- Vector.range(0, Samples)
-      branch <- {
+      branch <-
         sampler.start(3, 4, sample)
         points.draw(average, chooses = true, sampler)
         Vector.range(0, points.count)
-      }
     yield (points.x(branch), points.y(branch))
