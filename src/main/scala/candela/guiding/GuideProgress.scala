@@ -72,7 +72,7 @@ private[guiding] object GuideProgress:
     * what branches cost, by up to a quarter: they share the path before them, and later fields are
     * finer.
     */
-  val WorthRays = 0.95
+  val WorthRays = 1.1
 
   /** Passes in which it does not pay, until it is given up: the next fields are finer. */
   val MostDoubts = 2

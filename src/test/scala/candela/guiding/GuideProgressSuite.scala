@@ -34,7 +34,7 @@ class GuideProgressSuite extends AnyFunSuite:
     def pays(left: Double, effort: Double) = start.after(verdict(left, 1.0, cost = 3 * effort)).pays
     assert(!start.pays)
     assert(pays(0.68, 1.0) && !pays(0.72, 1.0) && !pays(0.72, 0.5))
-    assert(pays(0.5, 1.8) && !pays(0.5, 2.0))
+    assert(pays(0.5, 2.1) && !pays(0.5, 2.3))
     // Doubts are forgotten when it pays
     val doubtful = start.after(verdict(0.9, 1.0)).after(verdict(0.9, 1.0))
     assert(doubtful.doubts == 2 && doubtful.after(verdict(0.3, 1.0)).doubts == 0)
