@@ -32,7 +32,7 @@ abstract class Sampler:
   /** The next dimension, in [0, 1). */
   def next1D(): Float
 
-  /** The next dimension; 0 in its place, without computing it, where no one looks at it. */
+  /** The next dimension. If its value does not matter, it is skipped without being computed: 0. */
   final def next1D(matters: Boolean): Float =
     if matters then next1D()
     else
@@ -45,7 +45,7 @@ abstract class Sampler:
   /** Advances to the next two dimensions, jointly well distributed; read them from `x` and `y`. */
   def next2D(): Unit
 
-  /** The next two dimensions; `x` and `y` are not computed where no one looks at them. */
+  /** As `next2D`. If the values do not matter, `x` and `y` are left as they are. */
   final def next2D(matters: Boolean): Unit = if matters then next2D() else leaveOut2D()
 
   /** Advances to the dimension behind those of `next2D`. */

@@ -1,6 +1,6 @@
 package candela.sampling
 
-import candela.math.{angleOf, sinCos}
+import candela.math.sinCos
 
 /** Spherical rectangle: samples directions uniformly over the solid angle of a rectangle.
   *
@@ -90,4 +90,5 @@ object SphericalRectangle:
     val farR = r2 * r3 - i2 * i3
     val farI = r2 * i3 + i2 * r3
     use(farR, farI)
-    angleOf(nearR * farR - nearI * farI, nearR * farI + nearI * farR)
+    val angle = Math.atan2(nearR * farI + nearI * farR, nearR * farR - nearI * farI)
+    if angle < 0 then angle + 2 * Math.PI else angle

@@ -56,9 +56,9 @@ final class SphericalTriangle:
     val triple = Math.abs(abX * cx + abY * cy + abZ * cz)
     sinAlpha = triple * scale
     cosAlpha = (abX * acX + abY * acY + abZ * acZ) * scale
-    area = 2 * angleOf(
-      1 + cosAB + (bx * cx + by * cy + bz * cz) + (cx * ax + cy * ay + cz * az),
-      triple
+    area = 2 * Math.atan2(
+      triple,
+      1 + cosAB + (bx * cx + by * cy + bz * cz) + (cx * ax + cy * ay + cz * az)
     )
     area
 
@@ -120,4 +120,4 @@ object SphericalTriangle:
     val ab = ax * bx + ay * by + az * bz
     val bc = bx * cx + by * cy + bz * cz
     val ca = cx * ax + cy * ay + cz * az
-    2 * angleOf(a * b * c + ab * c + bc * a + ca * b, Math.abs(triple))
+    2 * Math.atan2(Math.abs(triple), a * b * c + ab * c + bc * a + ca * b)

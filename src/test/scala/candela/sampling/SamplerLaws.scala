@@ -79,7 +79,7 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
       sampler.goTo(position)
       assert(sampler.next1D() == next, s"after $skip")
 
-  test("a number that no one looks at takes its dimension"):
+  test("a number that does not matter takes up its dimension"):
     val (a, b) = (make(16, 5), make(16, 5))
     for before <- Seq(0, 1, 8, 21) do
       for s <- Seq(a, b) do

@@ -24,7 +24,7 @@ class SphericalRectangleSuite extends AnyFunSuite:
     SphericalRectangle.solidAngle(r._1, r._2, r._3, r._4, r._5)
 
   test("a face of a cube is a sixth of the sphere"):
-    assert(Math.abs(solidAngle(rectangles.head) - 4 * Math.PI / 6) < 1e-11)
+    assert(Math.abs(solidAngle(rectangles.head) - 4 * Math.PI / 6) < 1e-14)
 
   test("the solid angle is that of its two triangles, with and without the means to sample it"):
     for r <- rectangles do
