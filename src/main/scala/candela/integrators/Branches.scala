@@ -5,48 +5,68 @@ import candela.sampling.Sampler
 
 import scala.collection.mutable.ArrayBuffer
 
+/** A walk whose paths leave vertices in several branches, as [[Guidance]] asks for. Branches are
+  * followed one after the other.
+  *
+  * @tparam S what the walk keeps of itself
+  */
+private[integrators] trait BranchingWalk[S]:
+  protected def guidance: Guidance
+  protected def branches: Branches[S]
+
+  /** Light found so far, in all branches: the average of the colours. */
+  protected def found: Float
+
+  protected def keep(to: S): Unit
+  protected def goOn(from: S): Unit
+  protected def scatterOnce(branch: Int): Unit
+  def leave(): Unit
+  def goesOn: Boolean
+
+  /** Leaves the vertex in all branches, which wait then. */
+  protected final def leaveInBranches(): Unit =
+    keepIn(branches.origin)
+    loop(guidance.branches): i =>
+      follow(branches.origin)
+      scatterOnce(i)
+      leave()
+      if goesOn then
+        val branch = branches.push()
+        keepIn(branch)
+        guidance.keepPosition(i, branch.mark)
+
+  private def keepIn(branch: Branches.Branch[S]): Unit =
+    keep(branch.state)
+    guidance.keep(branch.mark)
+
+  private def follow(branch: Branches.Branch[S]): Unit =
+    goOn(branch.state)
+    guidance.follow(branch.mark, found)
+
+  /** Goes on with a branch that waits; false: none. */
+  final def followNext(sampler: Sampler): Boolean =
+    val waits = !branches.isEmpty
+    if waits then
+      val branch = branches.pop()
+      follow(branch)
+      sampler.goTo(branch.mark.position)
+    waits
+
+  /** All light of the path is found. */
+  final def finish(): Unit = guidance.finish(found)
+
 /** Branches of a guided path that wait to be followed. Their memory is used again. Mutable, one per
   * worker.
   *
   * @tparam S what the walk keeps of itself
   */
-private[integrators] final class Branches[S](guidance: Guidance, newState: () => S):
+private[integrators] final class Branches[S](newState: () => S):
   import Branches.Branch
   private val all = ArrayBuffer.empty[Branch[S]]
   private var count = 0
 
   /** The path as it came to the vertex from which branches leave. */
   val origin: Branch[S] = Branch(newState())
-
-  /** Leaves the vertex in all branches, which wait then.
-    *
-    * @param keep   keeps what the walk has of itself
-    * @param follow goes on where a branch began
-    * @param leave  leaves in the branch of this number; false if it ends there
-    */
-  inline def divide(
-      inline keep: S => Unit,
-      inline follow: Branch[S] => Unit,
-      inline leave: Int => Boolean
-  ): Unit =
-    keep(origin.state)
-    guidance.keep(origin.mark)
-    loop(guidance.branches): i =>
-      follow(origin)
-      if leave(i) then
-        val branch = push()
-        keep(branch.state)
-        guidance.keep(branch.mark)
-        guidance.keepPosition(i, branch.mark)
-
-  /** Goes on with a branch that waits; false: none. */
-  inline def followNext(sampler: Sampler, inline follow: Branch[S] => Unit): Boolean =
-    val waits = !isEmpty
-    if waits then
-      val branch = pop()
-      follow(branch)
-      sampler.goTo(branch.mark.position)
-    waits
 
   /** A place for another. */
   def push(): Branch[S] =

@@ -16,9 +16,10 @@ final class GuidedVolumeWalk(
     options: WalkOptions,
     guide: Guide,
     parts: LightParts | Null
-) extends VolumeWalk(scene, media, options, parts):
-  private val guidance = Guidance(guide, vertex)
-  private val branches = Branches(guidance, () => VolumeWalk.State())
+) extends VolumeWalk(scene, media, options, parts),
+      BranchingWalk[VolumeWalk.State]:
+  protected val guidance: Guidance = Guidance(guide, vertex)
+  protected val branches: Branches[VolumeWalk.State] = Branches(() => VolumeWalk.State())
   private val lobes = media.media.map(medium => PhaseLobe(medium.phase))
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
@@ -56,34 +57,16 @@ final class GuidedVolumeWalk(
 
   private def scatterGuided(sampler: Sampler): Unit =
     weights.scale(guidance.survival(weights.throughput.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0) else scatterInBranches()
+    if guidance.branches == 1 then scatterOnce(0) else
+      leaveInBranches()
+      weights.scale(0f)
 
-  private def scatterOnce(branch: Int): Unit =
-    guidance.scatter(weights.throughput.average, total.average, branch)
+  protected def found: Float = total.average
+
+  protected def scatterOnce(branch: Int): Unit =
+    guidance.scatter(weights.throughput.average, found, branch)
     weights.scale(vertex.bounce.weight)
-
-  /** As [[GuidedWalk]]. */
-  private def scatterInBranches(): Unit =
-    branches.divide(
-      keep(_),
-      follow(_),
-      branch =>
-        scatterOnce(branch)
-        leave()
-        goesOn
-    )
-    weights.scale(0f)
-
-  private def follow(branch: Branches.Branch[VolumeWalk.State]): Unit =
-    goOn(branch.state)
-    guidance.follow(branch.mark, total.average)
-
-  /** Goes on with a branch that waits; false: none. */
-  def followNext(sampler: Sampler): Boolean = branches.followNext(sampler, follow(_))
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     weights.scale(guidance.roulette(weights.brightest * etaScale, threshold, sampler))
     goesOn = !isAbsorbed
-
-  /** All light of the path is found. */
-  def finish(): Unit = guidance.finish(total.average)

@@ -15,9 +15,10 @@ final class GuidedWalk(
     options: WalkOptions,
     guide: Guide,
     parts: LightParts | Null
-) extends Walk(scene, options = options, sharedParts = parts):
-  private val guidance = Guidance(guide, vertex)
-  private val branches = Branches(guidance, () => Walk.State())
+) extends Walk(scene, options = options, sharedParts = parts),
+      BranchingWalk[Walk.State]:
+  protected val guidance: Guidance = Guidance(guide, vertex)
+  protected val branches: Branches[Walk.State] = Branches(() => Walk.State())
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
@@ -36,34 +37,16 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     throughput.scale(guidance.survival(throughput.toRgb.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0) else scatterInBranches()
+    if guidance.branches == 1 then scatterOnce(0) else
+      leaveInBranches()
+      throughput.set(Rgb.Black)
 
-  private def scatterOnce(branch: Int): Unit =
-    guidance.scatter(throughput.toRgb.average, radiance.toRgb.average, branch)
+  protected def found: Float = radiance.toRgb.average
+
+  protected def scatterOnce(branch: Int): Unit =
+    guidance.scatter(throughput.toRgb.average, found, branch)
     throughput.scale(vertex.bounce.weight)
-
-  /** Leaves in all branches, which wait, and ends. */
-  private def scatterInBranches(): Unit =
-    branches.divide(
-      keep(_),
-      follow(_),
-      branch =>
-        scatterOnce(branch)
-        leave()
-        goesOn
-    )
-    throughput.set(Rgb.Black)
-
-  private def follow(branch: Branches.Branch[Walk.State]): Unit =
-    goOn(branch.state)
-    guidance.follow(branch.mark, radiance.toRgb.average)
-
-  /** Goes on with a branch that waits; false: none. */
-  def followNext(sampler: Sampler): Boolean = branches.followNext(sampler, follow(_))
 
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     throughput.scale(guidance.roulette(throughput.largest * etaScale, threshold, sampler))
     goesOn = !throughput.isBlack
-
-  /** All light of the path is found. */
-  def finish(): Unit = guidance.finish(radiance.toRgb.average)
