@@ -57,7 +57,8 @@ final class GuidedVolumeWalk(
 
   private def scatterGuided(sampler: Sampler): Unit =
     weights.scale(guidance.survival(weights.throughput.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0) else
+    if guidance.branches == 1 then scatterOnce(0)
+    else
       leaveInBranches()
       weights.scale(0f)
 

@@ -37,7 +37,8 @@ final class GuidedWalk(
 
   override def scatter(sampler: Sampler): Unit =
     throughput.scale(guidance.survival(throughput.toRgb.average, sampler))
-    if guidance.branches == 1 then scatterOnce(0) else
+    if guidance.branches == 1 then scatterOnce(0)
+    else
       leaveInBranches()
       throughput.set(Rgb.Black)
 
