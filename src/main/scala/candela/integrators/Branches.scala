@@ -20,7 +20,9 @@ private[integrators] trait BranchingWalk[S]:
   protected def keep(to: S): Unit
   protected def goOn(from: S): Unit
   protected def scatterOnce(branch: Int): Unit
-  def leave(): Unit
+
+  /** Leaves in the direction that [[scatterOnce]] has sampled, or ends. */
+  protected def leaveInBranch(): Unit
   def goesOn: Boolean
 
   /** Leaves the vertex in all branches, which wait then. */
@@ -29,7 +31,7 @@ private[integrators] trait BranchingWalk[S]:
     loop(guidance.branches): i =>
       follow(branches.origin)
       scatterOnce(i)
-      leave()
+      leaveInBranch()
       if goesOn then
         val branch = branches.push()
         keepIn(branch)

@@ -202,7 +202,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     * variance of the image most for what they cost. Draws their points.
     *
     * Light through the surface is not in the field: there, and where it knows nothing,
-    * [[roulette]] decides. In media paths are not divided.
+    * [[roulette]] decides.
     *
     * Sources: Vorba, Křivánek, "Adjoint-Driven Russian Roulette and Splitting in Light Transport
     * Simulation", SIGGRAPH 2016; Rath et al., "EARS: Efficiency-Aware Russian Roulette and
@@ -227,8 +227,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       if worth == 0f || whole == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
       else
         isExpected = true
-        val most =
-          if vertex.isInMedium then 1f else Math.min(BranchPoints.Most.toFloat, MostInAll / splits)
+        val most = Math.min(BranchPoints.Most.toFloat, MostInAll / splits)
         val n = Math.max(LeastSurvival, Math.min(throughput * worth / whole, most))
         chances *= n
         splits *= Math.max(1f, n)

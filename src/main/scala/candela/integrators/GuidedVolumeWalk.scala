@@ -33,10 +33,19 @@ final class GuidedVolumeWalk(
   override protected def phasePdf(value: Float): Float =
     guidance.pdf(Vec3.Z, light.wi, value)
 
-  override protected def turn(phase: PhaseFunction, wo: Vec3, sampler: Sampler): Vec3 =
+  override protected def turn(phase: PhaseFunction, p: Vec3, wo: Vec3, sampler: Sampler): Unit =
     scatterGuided(sampler)
-    weights.turn(if options.samplesLights then vertex.bounce.pdf else 0f)
-    vertex.at.frame.toWorld(vertex.bounce.wi)
+    if !isAbsorbed then leaveInMedium()
+
+  private def leaveInMedium(): Unit =
+    val bounce = vertex.bounce
+    leaveInMedium(vertex.at.p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
+
+  protected def leaveInBranch(): Unit =
+    if vertex.isInMedium then
+      leaveInMedium()
+      goesOn = !isAbsorbed
+    else leave()
 
   override def evaluate(): Unit =
     super.evaluate()

@@ -48,6 +48,8 @@ final class GuidedWalk(
     guidance.scatter(throughput.toRgb.average, found, branch)
     throughput.scale(vertex.bounce.weight)
 
+  protected def leaveInBranch(): Unit = leave()
+
   override def roulette(threshold: Float, sampler: Sampler): Unit =
     throughput.scale(guidance.roulette(throughput.largest * etaScale, threshold, sampler))
     goesOn = !throughput.isBlack

@@ -208,12 +208,7 @@ class VolumeWalk(
         val value = phase.value(wo, light.wi)
         if visibility.reaches(p, light.sample, medium) then
           add(arriving(phasePdf(value)) * value)
-    val wi = turn(phase, wo, sampler)
-    lastP.set(p)
-    lastN.set(Vec3.Zero)
-    ray.set(p, wi, Float.PositiveInfinity)
-    ray.differential.isKnown = false
-    isSpread = options.regularizes
+    turn(phase, p, wo, sampler)
     goesOn = !isAbsorbed
 
   /** The path is scattered at `p` in the medium. */
@@ -224,12 +219,20 @@ class VolumeWalk(
     */
   protected def phasePdf(value: Float): Float = value
 
-  /** Samples the phase function. */
-  protected def turn(phase: PhaseFunction, wo: Vec3, sampler: Sampler): Vec3 =
+  /** Samples the phase function at `p`, and leaves in that direction. */
+  protected def turn(phase: PhaseFunction, p: Vec3, wo: Vec3, sampler: Sampler): Unit =
     sampler.next2D()
     val wi = phase.sample(wo, sampler.x, sampler.y)
-    weights.turn(if options.samplesLights then phase.value(wo, wi) else 0f)
-    wi
+    leaveInMedium(p, wi, phase.value(wo, wi))
+
+  /** Leaves a place in the medium, with the density of the direction. */
+  protected final def leaveInMedium(p: Vec3, wi: Vec3, pdf: Float): Unit =
+    weights.turn(if options.samplesLights then pdf else 0f)
+    lastP.set(p)
+    lastN.set(Vec3.Zero)
+    ray.set(p, wi, Float.PositiveInfinity)
+    ray.differential.isKnown = false
+    isSpread = options.regularizes
 
   /** Evaluates the BSDF of the vertex: a scattering event. */
   def evaluate(): Unit =
