@@ -49,6 +49,16 @@ final class GuidedWalkSuite extends AnyFunSuite:
       assert(scores.forall(_.abs < 4.5), scores)
       assert(Math.sqrt(scores.map(z => z * z).sum / scores.size) < 1.4, scores)
 
+  test("paths that divide in fog find as much light as unguided ones"):
+    // More samples than above: with few, the field knows too little of the fog for paths to divide
+    def mean(mode: GuidingMode): Double =
+      val means = Vector.tabulate(4): seed =>
+        val data = image(plan(rooms(Dialect.V4, Fog), Dialect.V4, mode, 128, seed), 2).data
+        data.map(_.toDouble).sum / data.length
+      means.sum / means.size
+    val ratio = mean(GuidingMode.On) / mean(GuidingMode.Off)
+    assert(Math.abs(ratio - 1.0) < 0.02, ratio)
+
   test("inside a glowing sphere guided paths see the light of all bounces"):
     val made = plan(Oven, Dialect.V4, GuidingMode.On, 256)
     val data = image(made).data
