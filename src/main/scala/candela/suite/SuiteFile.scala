@@ -18,7 +18,9 @@ object SuiteFile:
   def read(path: Path): Suite =
     try
       val options = ConfigParseOptions.defaults.setAllowMissing(false)
-      suite(ConfigFactory.parseFile(path.toFile, options).resolve(), path.toAbsolutePath.getParent)
+      // Includes are found beside a file whose folder is known, and are ignored where they are not
+      val file = path.toAbsolutePath
+      suite(ConfigFactory.parseFile(file.toFile, options).resolve(), file.getParent)
     catch
       case e: ConfigException => throw wrong(s"$path: ${e.getMessage.linesIterator.next()}")
       case e: PatternSyntaxException =>
