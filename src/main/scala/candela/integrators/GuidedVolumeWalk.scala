@@ -35,17 +35,14 @@ final class GuidedVolumeWalk(
 
   override protected def turn(phase: PhaseFunction, p: Vec3, wo: Vec3, sampler: Sampler): Unit =
     scatterGuided(sampler)
-    if !isAbsorbed then leaveInMedium()
+    leaveInMedium()
 
   private def leaveInMedium(): Unit =
     val bounce = vertex.bounce
     leaveInMedium(vertex.at.p, vertex.at.frame.toWorld(bounce.wi), bounce.pdf)
 
   protected def leaveInBranch(): Unit =
-    if vertex.isInMedium then
-      leaveInMedium()
-      goesOn = !isAbsorbed
-    else leave()
+    if vertex.isInMedium then leaveInMedium() else leave()
 
   override def evaluate(): Unit =
     super.evaluate()

@@ -209,7 +209,6 @@ class VolumeWalk(
         if visibility.reaches(p, light.sample, medium) then
           add(arriving(phasePdf(value)) * value)
     turn(phase, p, wo, sampler)
-    goesOn = !isAbsorbed
 
   /** The path is scattered at `p` in the medium. */
   protected def arrive(p: Vec3, wo: Vec3): Unit = ()
@@ -225,7 +224,10 @@ class VolumeWalk(
     val wi = phase.sample(wo, sampler.x, sampler.y)
     leaveInMedium(p, wi, phase.value(wo, wi))
 
-  /** Leaves a place in the medium, with the density of the direction. */
+  /** Leaves a place in the medium, or ends.
+    *
+    * @param pdf solid-angle density of the direction
+    */
   protected final def leaveInMedium(p: Vec3, wi: Vec3, pdf: Float): Unit =
     weights.turn(if options.samplesLights then pdf else 0f)
     lastP.set(p)
@@ -233,6 +235,7 @@ class VolumeWalk(
     ray.set(p, wi, Float.PositiveInfinity)
     ray.differential.isKnown = false
     isSpread = options.regularizes
+    goesOn = !isAbsorbed
 
   /** Evaluates the BSDF of the vertex: a scattering event. */
   def evaluate(): Unit =
