@@ -25,7 +25,7 @@ private[cli] object SwitchTable extends OptionRows:
   private given Read[GuidingMode] = Read.reads: text =>
     GuidingMode.values
       .find(_.toString.equalsIgnoreCase(text))
-      .getOrElse(throw IllegalArgumentException("expected auto, on or off"))
+      .getOrElse(throw IllegalArgumentException("expected auto, on, off, directions or splitting"))
 
   private def change(o: Options)(f: Switches => Switches): Options =
     o.copy(switches = f(o.switches))
@@ -54,9 +54,10 @@ private[cli] object SwitchTable extends OptionRows:
       "disable-wavelength-jitter",
       "take the same wavelengths for all samples, if rendering is spectral; colours are off"
     )(_.copy(oneColorSet = true)),
-    opt[GuidingMode]("guiding").valueName("auto|on|off")
+    opt[GuidingMode]("guiding").valueName("auto|on|off|directions|splitting")
       .text(
-        "let paths learn where light comes from: where it pays, everywhere, or not at all (default)"
+        "let paths learn where light comes from: where it pays, everywhere, or not at all " +
+          "(default); or everywhere by one technique alone"
       )
       .action((mode, o) => change(o)(_.copy(guiding = mode))),
     flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),

@@ -15,6 +15,12 @@ import candela.sampling.SampleHash
 final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   import Guide.*
 
+  /** Are directions taken from the field? */
+  val directs: Boolean = settings.directs
+
+  /** Does the field decide in how many branches paths go on, if in any? */
+  val divides: Boolean = settings.divides
+
   private val isLongEnough =
     !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths
 
@@ -42,7 +48,11 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   /** What will be learnt. */
   def describe: String =
     val until = s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
-    if !settings.adapts then s"everywhere, $until"
+    val what =
+      if !divides then "directions alone, "
+      else if !directs then "roulette and splitting alone, "
+      else ""
+    if !settings.adapts then s"${what}everywhere, $until"
     else if isLongEnough then s"where it pays, $until; ends sooner if it does not"
     else "none: the rendering is too short to learn"
 

@@ -2,7 +2,7 @@ package candela.build.integrators
 
 import candela.build.recipe.*
 import candela.film.LightParts
-import candela.guiding.{Guide, GuideSettings, GuidingMode}
+import candela.guiding.{Guide, GuideSettings}
 import candela.integrators.*
 import candela.render.RenderMethod
 import candela.scene.Scene
@@ -68,10 +68,9 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
 /** Methods of integrators that can be guided. */
 private object GuidedMethod:
   def apply(unguided: Integrator, guided: Guide => Integrator)(using site: Site): RenderMethod =
-    val mode = site.resources.switches.guiding
-    if mode == GuidingMode.Off then RenderMethod.Tiles(unguided)
-    else
-      RenderMethod.Guided(unguided, GuideSettings(adapts = mode == GuidingMode.Auto), guided)
+    GuideSettings.of(site.resources.switches.guiding) match
+      case None => RenderMethod.Tiles(unguided)
+      case Some(settings) => RenderMethod.Guided(unguided, settings, guided)
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
   private val samplesLights =
