@@ -12,14 +12,8 @@ import candela.sampling.SampleHash
   * @param samples planned per pixel
   * @param pixels  of the image
   */
-final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
+final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
   import Guide.*
-
-  /** Are directions taken from the field? */
-  val directs: Boolean = settings.directs
-
-  /** Does the field decide in how many branches paths go on, if in any? */
-  val divides: Boolean = settings.divides
 
   private val isLongEnough =
     !settings.adapts || samples >= FewestSamples && pixels * samples >= FewestPaths
@@ -49,8 +43,8 @@ final class Guide(settings: GuideSettings, samples: Int, pixels: Long):
   def describe: String =
     val until = s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
     val what =
-      if !divides then "directions alone, "
-      else if !directs then "roulette and splitting alone, "
+      if !settings.divides then "directions alone, "
+      else if !settings.directs then "roulette and splitting alone, "
       else ""
     if !settings.adapts then s"${what}everywhere, $until"
     else if isLongEnough then s"where it pays, $until; ends sooner if it does not"

@@ -22,7 +22,7 @@ enum Outcome:
   * @param scratch working folder of the programs, for images and logs
   * @param isCancelled polled while they run
   */
-final class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boolean = () => false):
+open class Commands(self: Vector[String], scratch: Path, isCancelled: () => Boolean = () => false):
 
   /** Why a program can't be started; None if it can. */
   def missing(program: Program): Option[String] =

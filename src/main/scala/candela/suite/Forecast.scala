@@ -19,6 +19,11 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
     left.updateWith(run)(_.map(_ - 1).filter(_ > 0)): Unit
     for s <- seconds do times(run) = times.getOrElse(run, Vector.empty) :+ s
 
+  /** A run will be repeated. */
+  def again(job: Job): Unit =
+    val run = Run(job.entry.program.name, job.entry.scene.name, job.step)
+    left.updateWith(run)(n => Some(n.getOrElse(0) + 1)): Unit
+
   /** Drops the runs of `entry` from `step` on, and those of first images, if it has none. */
   def dropFrom(entry: Entry, step: Int, hasFirstImage: Boolean): Unit =
     def isOf(run: Run) = run.program == entry.program.name && run.scene == entry.scene.name

@@ -8,7 +8,8 @@ import java.nio.file.Path
 /** Finds the errors of a scene's images. */
 private[suite] abstract class Judge:
 
-  /** Takes an image; returns its error in words, if it is known already.
+  /** Takes an image; returns its error in words, if it is known already. An image of the same
+    * program, step and seed is replaced.
     *
     * @throws candela.image.ImageError if it cannot be compared
     */
@@ -29,14 +30,15 @@ private[suite] abstract class Judge:
 
 /** Compares with a reference. */
 private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
-  private val all = Vector.newBuilder[Result]
+  private var all = Vector.empty[Result]
 
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
     val errors = Errors.against(reference)(image)
-    if job.step != Job.WarmUp then all += result(job, seconds, memory, errors)
+    if job.step != Job.WarmUp then
+      all = all.filterNot(_.job.isInPlaceOf(job)) :+ result(job, seconds, memory, errors)
     f"relative MSE ${errors.relativeMse}%.3g"
 
-  def results: Vector[Result] = all.result()
+  def results: Vector[Result] = all
 
 /** Compares the images of several seeds with each other. Each waits in a file for the last seed. */
 private[suite] final class SeedJudge(scratch: Path) extends Judge:
@@ -44,17 +46,20 @@ private[suite] final class SeedJudge(scratch: Path) extends Judge:
     def image: Image = ImageFiles.read(file).toRgb
 
   private var kept = Vector.empty[Kept]
+  private var files = 0
 
   /** All images must have its size. */
   private var first: Option[Image] = None
-  private var pooled: Option[(Int, Image)] = None
+  private var pooled: Option[Image] = None
 
   def take(job: Job, seconds: Double, memory: Option[Long], image: Image): String =
     first = Some(ImagePair(image, first.getOrElse(image)).reference)
     if job.step != Job.WarmUp then
-      val file = scratch.resolve(s"${job.entry.scene.name}-${kept.size}.exr")
+      val file = scratch.resolve(s"${job.entry.scene.name}-$files.exr")
+      files += 1
       ImageFiles.write(file, image)
-      kept :+= Kept(job, seconds, memory, file)
+      kept = kept.filterNot(_.job.isInPlaceOf(job)) :+ Kept(job, seconds, memory, file)
+      pooled = None
     "error known after all seeds"
 
   /** Of the sample counts that have been rendered with enough seeds. */
@@ -73,12 +78,10 @@ private[suite] final class SeedJudge(scratch: Path) extends Judge:
       kept.flatMap(k => byJob.get(k.job).map(result(k.job, k.seconds, k.memory, _)))
 
   /** The mean of the longest renderings, of all programs alike. */
-  def reference: Image = pooled match
-    case Some((count, image)) if count == kept.size => image
-    case _ =>
-      val image = pool
-      pooled = Some((kept.size, image))
-      image
+  def reference: Image = pooled.getOrElse:
+    val image = pool
+    pooled = Some(image)
+    image
 
   private def pool: Image =
     val points = sets.filter(_.head.job.isPoint)

@@ -13,6 +13,9 @@ private[suite] final case class Job(entry: Entry, step: Int, samples: Int, seed:
   /** Is it a point of the program's curve? */
   def isPoint: Boolean = step >= 0
 
+  /** Is it the same point, whatever its sample count? */
+  def isInPlaceOf(job: Job): Boolean = entry == job.entry && step == job.step && seed == job.seed
+
 private[suite] object Job:
   val WarmUp = -1
 
@@ -21,6 +24,22 @@ private[suite] object Job:
 
 /** A program and the scene file that it renders. */
 private[suite] final case class Entry(program: Program, scene: SuiteScene, file: Path)
+
+/** A sample count to render, and the seconds that it is for, if times were asked for. */
+private[suite] final case class Step(samples: Int, budget: Option[Double])
+
+/** What to render of an entry.
+  *
+  * @param curve foretells the times of the steps, if times were asked for
+  */
+private[suite] final case class Plan(entry: Entry, steps: Vector[Step], curve: Option[TimeCurve]):
+  /** The sample count of a step, if it is one of this entry's. */
+  def samples(step: Int): Option[Int] =
+    // A count of its own for the first image, if one sample is none of the others
+    if step == Job.FirstImage then Option.when(hasFirstImage)(1)
+    else steps.lift(step).map(_.samples)
+
+  def hasFirstImage: Boolean = !steps.exists(_.samples == 1)
 
 /** Measurement of a job. */
 private[suite] final case class Result(job: Job, measurement: Measurement)
@@ -81,23 +100,49 @@ final class SuiteRunner(
     val judge = scene.reference.fold[Judge](SeedJudge(scratch)): file =>
       ReferenceJudge(ImageFiles.read(file).toRgb)
     judges(scene) = judge
-    val plans = entries.flatMap(entry => planned(entry, judge).map(entry -> _))
-    for
-      seed <- (1 to suite.seeds).toVector
-      step <- Job.FirstImage +: plans.flatMap(_._2.indices).distinct.sorted
-      // Rotates the order, so that disturbances of the machine affect all programs alike.
-      (entry, counts) <- rotated(plans, seed + Math.max(0, step))
-      samples <- if step == Job.FirstImage then firstImage(counts) else counts.lift(step)
-    do measured(Job(entry, step, samples, seed), judge): Unit
+    val plans = entries.flatMap(planned(_, judge))
+    val times = turn(1, plans, judge)
+    val settledPlans = plans.map(settled(_, times, judge))
+    for seed <- 2 to suite.seeds do turn(seed, settledPlans, judge): Unit
     try judge.results
     catch
       case e: ImageError =>
         leaveOut(scene.title, e.getMessage)
         Vector.empty
 
-  /** A count of its own, if one sample is none of the others. */
-  private def firstImage(counts: Vector[Int]): Option[Int] =
-    Option.when(!counts.contains(1))(1)
+  /** Renders all steps of all plans with one seed; returns their seconds. */
+  private def turn(seed: Int, plans: Vector[Plan], judge: Judge): Vector[(Job, Double)] =
+    for
+      step <- Job.FirstImage +: plans.flatMap(_.steps.indices).distinct.sorted
+      // Rotates the order, so that disturbances of the machine affect all programs alike.
+      plan <- rotated(plans, seed + Math.max(0, step))
+      samples <- plan.samples(step)
+      job = Job(plan.entry, step, samples, seed)
+      seconds <- measured(job, judge)
+    yield job -> seconds
+
+  /** Repeats renderings that took much more or less than their budget, once, with a sample count
+    * from all times so far. Trials are too short for programs that begin to learn later.
+    */
+  private def settled(plan: Plan, times: Vector[(Job, Double)], judge: Judge): Plan =
+    val own = times.filter((job, _) => job.isPoint && job.entry == plan.entry)
+    plan.curve.fold(plan): trials =>
+      val curve = own.foldLeft(trials)((all, run) => all.and(run._1.samples, run._2))
+      val better =
+        for
+          (job, seconds) <- own
+          budget <- plan.steps(job.step).budget if TimeCurve.isFar(seconds, budget)
+          again = job.copy(samples = curve.samplesIn(budget)) if again.samples != job.samples
+          _ = sayAgain(again, seconds, budget)
+          _ <- measured(again, judge)
+        yield again
+      better.foldLeft(plan): (p, job) =>
+        p.copy(steps = p.steps.updated(job.step, p.steps(job.step).copy(samples = job.samples)))
+
+  private def sayAgain(job: Job, seconds: Double, budget: Double): Unit =
+    val name = s"${job.entry.scene.title}, ${job.entry.program.title}"
+    say(f"$name: $seconds%.2f s instead of $budget%.2f s; again with ${job.samples} spp")
+    forecast.again(job)
 
   private def leaveOut(what: String, why: String): Unit =
     val publicly = names.of(why)
@@ -133,16 +178,19 @@ final class SuiteRunner(
       if useless.isEmpty && !isFixed
     yield Entry(program, scene, f)
 
-  /** The sample counts to render, from a warm-up run. */
-  private def planned(entry: Entry, judge: Judge): Option[Vector[Int]] =
+  /** The sample counts to render, from warm-up runs. */
+  private def planned(entry: Entry, judge: Judge): Option[Plan] =
     def seconds(samples: Int): Option[Double] =
       measured(Job(entry, Job.WarmUp, samples, 1), judge)
-    val counts = entry.scene.work.getOrElse(suite.work) match
-      case Work.Samples(counts) => seconds(counts.head).map(_ => counts)
+    val plan = entry.scene.work.getOrElse(suite.work) match
+      case Work.Samples(counts) =>
+        seconds(counts.head).map(_ => Plan(entry, counts.map(Step(_, None)), None))
       case Work.Seconds(budgets) =>
-        TimeCurve.measured(budgets.max)(seconds).map(curve => budgets.map(curve.samplesIn).distinct)
-    forecast.dropFrom(entry, counts.fold(0)(_.size), counts.exists(firstImage(_).isDefined))
-    counts
+        TimeCurve.measured(budgets.max)(seconds).map: curve =>
+          val steps = budgets.map(budget => Step(curve.samplesIn(budget), Some(budget)))
+          Plan(entry, steps.distinctBy(_.samples), Some(curve))
+    forecast.dropFrom(entry, plan.fold(0)(_.steps.size), plan.exists(_.hasFirstImage))
+    plan
 
   private def rotated[A](items: Vector[A], by: Int): Vector[A] =
     if items.isEmpty then items
@@ -184,8 +232,9 @@ final class SuiteRunner(
         throw ImageError(s"the image has no layer `$layer`")
 
   private def keep(job: Job, image: Image): Unit =
-    val longer = pictures.get(job.entry).forall((kept, _) => job.samples > kept.samples)
-    if job.isPoint && longer then pictures(job.entry) = (job, image)
+    val isBetter = pictures.get(job.entry).forall: (kept, _) =>
+      job.samples > kept.samples || job.isInPlaceOf(kept)
+    if job.isPoint && isBetter then pictures(job.entry) = (job, image)
 
   private[suite] def words(job: Job, out: Path): Vector[String] =
     val program = job.entry.program

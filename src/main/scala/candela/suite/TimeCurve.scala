@@ -7,7 +7,9 @@ package candela.suite
 private[suite] final case class TimeCurve(points: Vector[(Int, Double)]):
   import TimeCurve.*
 
-  def and(samples: Int, seconds: Double): TimeCurve = TimeCurve(points :+ (samples -> seconds))
+  /** With another trial, or with the latest of as many samples. */
+  def and(samples: Int, seconds: Double): TimeCurve =
+    TimeCurve((points.filterNot(_._1 == samples) :+ (samples -> seconds)).sortBy(_._1))
 
   /** Number of samples that take `seconds`, one at least: linear between trials and beyond the
     * last. Programs that compile while they render are faster per sample the longer they take.
@@ -45,9 +47,15 @@ private[suite] final case class TimeCurve(points: Vector[(Int, Double)]):
 private[suite] object TimeCurve:
   /** Seconds per sample: no program renders ten thousand samples in a second. */
   private val Fastest = 1e-4
+
+  /** Of a time budget: times beyond count as unequal. */
+  private val Tolerance = 0.1
   private val MostSamples = 1e7
   private val FirstStep = 8
   private val LargestStep = 16
+
+  def isFar(seconds: Double, budget: Double): Boolean =
+    Math.abs(seconds / budget - 1) > Tolerance
 
   /** Runs trials until runs of up to `budget` seconds are foreseeable; None if one fails.
     *

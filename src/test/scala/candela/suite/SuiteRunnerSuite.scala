@@ -206,6 +206,41 @@ class SuiteRunnerSuite extends AnyFunSuite:
       assert(reasons("edited on Flat") == "edit matches nothing: `no such words`")
       for (what, why) <- reasons do assert(said.contains(s"skipped: $what: $why"))
 
+  /** Renders for 0.01 s per sample, from 100 samples on for four times as long each. */
+  private final class Slowing(folder: Path) extends Commands(Vector.empty, folder):
+    override def run(words: Vector[String], out: Path, timeout: Double): Outcome =
+      val samples = words.last.toInt
+      flat(out, if samples < 100 then 0.5f else 0.75f)
+      Outcome.Done(0.01 * (samples + 3 * Math.max(0, samples - 100)), None)
+
+  test("a rendering that took much longer than its budget is repeated with fewer samples, once"):
+    inFolder: folder =>
+      val said = Vector.newBuilder[String]
+      val scene = sceneIn(folder).copy(work = Some(Work.Seconds(Vector(0.5, 2))))
+      val suite =
+        Suite(
+          "T",
+          Vector(program("slow", "cp {spp}")),
+          Vector(scene),
+          Work.Samples(Vector(1)),
+          3,
+          30
+        )
+      val names = PublicNames(Map.empty, Vector.empty)
+      val runner = SuiteRunner(suite, Slowing(folder), folder, names, said += _, () => false)
+      val points = runner.run(_ => ()).filter(_.job.isPoint)
+      val (short, long) = points.partition(_.job.step == 0)
+      assert(short.map(_.measurement.samples) == Vector(50, 50, 50))
+      // 200 take 5 s; between 100, which take 1 s, and these, the time is linear
+      assert(long.map(_.measurement.samples).distinct.size == 1)
+      assert(long.map(_.measurement.seed) == Vector(1, 2, 3))
+      assert(long.forall(r => Math.abs(r.measurement.seconds / 2 - 1) < 0.2))
+      assert(runner.picture(long.head.job.entry)(0, 0, 0) == 0.75f)
+      val repeated = said.result().filter(_.contains("again with"))
+      assert(repeated.size == 1 && repeated.head.startsWith("Flat, slow: 5.00 s instead of 2.00 s"))
+      // Nothing is forgotten, and nothing counted twice
+      assert(said.result().last.contains(" about 0 s left"))
+
   private def twoScenes(folder: Path, command: String): Suite =
     val first = sceneIn(folder)
     val scenes = Vector(first, first.copy(name = "second", title = "Second"))

@@ -42,5 +42,18 @@ class TimeCurveSuite extends AnyFunSuite:
     assert(curve.samplesIn(2.5) == 20)
     assert(curve.samplesIn(1.5) == 4)
 
+  test("longer renderings than the trials count as well, the latest of as many samples instead"):
+    // After 20 samples each takes four times as long
+    val trials = TimeCurve(Vector(1 -> 0.1, 8 -> 0.8, 16 -> 1.6))
+    assert(trials.samplesIn(4.0) == 40)
+    val later = trials.and(40, 10.0)
+    assert(later.samplesIn(4.0) == 22)
+    assert(later.and(40, 8.0).samplesIn(4.0) == 25)
+    assert(later.and(12, 1.3).points.map(_._1) == Vector(1, 8, 12, 16, 40))
+
+  test("a tenth of a budget is as good as equal"):
+    assert(!TimeCurve.isFar(9.1, 10) && !TimeCurve.isFar(10.9, 10))
+    assert(TimeCurve.isFar(8.9, 10) && TimeCurve.isFar(11.1, 10))
+
   test("a trial that fails leaves no curve"):
     assert(TimeCurve.measured(10)(n => Option.when(n < 8)(0.1)).isEmpty)
