@@ -38,4 +38,8 @@ object Figures:
     else rounded.toString.replace('E', 'e')
 
   /** `1 error`, `2 errors`. */
+  /** `1.23 %`: three digits, or fewer. */
+  def percentage(part: Double): String =
+    general(BigDecimal(100 * part).round(java.math.MathContext(3)).toDouble) + " %"
+
   def count(n: Long, noun: String): String = if n == 1 then s"1 $noun" else s"$n ${noun}s"

@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.film.Film
-import candela.render.{Pass, Progress, PassObserver}
+import candela.render.{Pass, Progress, PassObserver, Rendering}
 
 /** Ends a rendering at a time, or at an error, with a whole number of samples in every pixel.
   *
@@ -42,7 +42,24 @@ final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) e
     val left = (bySamples ++ byTime).minOption
     Outlook(left, recorder.errorAt(samples))
 
+  /** What is missing, if the rendering ended before its goal because all samples were taken. */
+  def missed(rendering: Rendering): Option[String] =
+    val isEarly = options.time.forall(rendering.seconds < Goal.Nearly * _)
+    Option.when(!isReached && isEarly && rendering.samplesDone >= planned):
+      val time = options.time.map: asked =>
+        s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
+          s"not ${Figures.duration(asked)}"
+      val error = options.error.map: asked =>
+        val found = recorder.errorAt(rendering.samplesDone)
+        val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
+        s"the error is $known, not ${Figures.percentage(asked)}"
+      s"warning: ${(error ++ time).mkString(", and ")}: all ${Figures.count(planned, "sample")} " +
+        "per pixel are taken; a larger --spp allows more"
+
 object Goal:
+  /** Of a time; what ends later was asked for. */
+  private val Nearly = 0.9
+
   /** Fewer samples per pixel say little about an error. */
   val Fewest = 4
 

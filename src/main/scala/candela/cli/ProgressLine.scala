@@ -76,14 +76,10 @@ object ProgressLine:
   private def percent(p: Progress, outlook: Option[Outlook]): String =
     "%3d%%".formatLocal(Locale.ROOT, (fraction(p, outlook) * 100).toInt)
 
-  /** Three digits, or fewer. */
-  private def percentage(error: Double): String =
-    Figures.general(BigDecimal(100 * error).round(java.math.MathContext(3)).toDouble)
-
   private def speed(p: Progress, outlook: Option[Outlook]): String =
     if p.done == 0 then "starting"
     else
       val rate = p.done / Math.max(p.seconds, 1e-9)
       val left = outlook.flatMap(_.secondsLeft).getOrElse((p.total - p.done) / rate)
-      val error = outlook.flatMap(_.error).fold("")(e => s"error ${percentage(e)} %, ")
+      val error = outlook.flatMap(_.error).fold("")(e => s"error ${Figures.percentage(e)}, ")
       s"${Figures.metric(rate)} samples/s, $error${Figures.clock(left)} left"

@@ -169,6 +169,7 @@ final class RenderCommand(
         val films =
           keeping.map(_.path).filter(_ => paths.isEmpty && checkpointer.forall(_.failure.isEmpty))
         summarise(written ++ films, loaded, rendering, writeSeconds)
+        goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
         for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
         do
           if !options.quiet then terminal.out.println(s"wrote $path")

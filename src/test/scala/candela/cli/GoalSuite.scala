@@ -39,6 +39,21 @@ class GoalSuite extends AnyFunSuite:
     assert(timed.outlook(Progress(1200, 1000 * 1200, 3.0)).secondsLeft.contains(2.0))
     assert(timed.outlook(Progress(0, 1000 * 1200, 0.0)) == Outlook(Some(5.0), None))
 
+  test("what ends before its goal because all samples are taken says so, and what to do"):
+    def missed(options: FilmOptions) =
+      val ended = goal(options)
+      ended.missed(rendered(ended))
+    val why = "all 1000 samples per pixel are taken; a larger --spp allows more"
+    // The root of 0.0833 / 1000
+    val noisy = missed(FilmOptions(error = Some(1e-4))).get
+    assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
+    val early = missed(FilmOptions(time = Some(3600))).get
+    assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
+    val both = missed(FilmOptions(error = Some(1e-4), time = Some(3600))).get
+    assert(both.contains("not 0.01 %, and the rendering ended after "))
+    assert(missed(FilmOptions(error = Some(0.5))).isEmpty)
+    assert(missed(FilmOptions(time = Some(1e-6))).isEmpty)
+
   test("a time ends a rendering with whole passes"):
     val rendering = rendered(goal(FilmOptions(time = Some(1e-6))))
     assert(rendering.samplesDone == 1 && rendering.samplesTaken == 1200)
