@@ -91,7 +91,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
     val events = was.records.nn.sorted()
     val lit = perPath(was, sample, GuideRecords.firsts(events))
     val records = was.records.nn
-    val all = records.counts.map(_ * records.rate)
+    val all = records.counts.map(_.toFloat)
     val share = Math.min(1.0, lit)
     GuideGrowth(was.field, events, settings, share, all, records.costs, records.pathCost)
 
@@ -167,18 +167,26 @@ object Guide:
       private[guiding] val part: Float,
       private[guiding] val records: GuideRecords | Null
   ):
-    /** Does the path that begins in this direction use it? Chosen at random. */
-    def takes(direction: Vec3): Boolean =
-      part == 1f || part > 0f && {
-        def bits(x: Float) = java.lang.Float.floatToRawIntBits(x)
-        val places = SampleHash.mix(bits(direction.x) ^ SampleHash.mix(bits(direction.y)))
-        SampleHash.toUnit(places) < part
-      }
+    /** Does the path use it whose camera ray this is? Chosen at random. */
+    def takes(origin: Vec3, direction: Vec3): Boolean =
+      part == 1f || part > 0f && chance(origin, direction) < part
+
+    /** Does the path record, if it uses it? */
+    def learnsFrom(origin: Vec3, direction: Vec3): Boolean =
+      val to = records
+      to != null && (to.rate == 1f || chance(origin, direction) < part * to.rate)
 
     /** Where a worker records; null: nothing more is learnt. */
     def newPart(): GuideRecords.Part | Null =
       val to = records
       if to == null then null else to.newPart()
+
+  /** Of a path: uniform from 0 to 1. Rays of orthographic cameras differ in their origins only. */
+  private def chance(origin: Vec3, direction: Vec3): Float =
+    def mixed(hash: Int, v: Vec3) =
+      def bits(x: Float) = java.lang.Float.floatToRawIntBits(x)
+      SampleHash.mix(bits(v.x) ^ SampleHash.mix(bits(v.y) ^ SampleHash.mix(bits(v.z) ^ hash)))
+    SampleHash.toUnit(mixed(mixed(0, origin), direction))
 
   /** Samples per pixel, and paths, of a rendering in which learning may pay. */
   private val FewestSamples = 16

@@ -3,24 +3,23 @@ package candela.guiding
 import candela.base.{CheckedInput, CheckedOutput, FloatBuffer, loop}
 import candela.sampling.SampleHash
 
-/** The scattering events of one pass that found light. Each worker adds to a part of its own. What
-  * is kept, and its order, depends on the events' own numbers, not on workers.
+/** The scattering events of one pass that found light. Each worker adds to a part of its own. Their
+  * order depends on their own numbers, not on workers.
   *
-  * @param rate    part of the events that is kept
+  * @param rate    part of the guided paths that record
   * @param regions of the field that the paths use
   */
 private[guiding] final class GuideRecords(val rate: Float, regions: Int):
   import GuideRecords.*
   private var parts = Vector.empty[Part]
-  private val limit = if rate >= 1f then Long.MaxValue else (rate * Long.MaxValue.toDouble).toLong
 
   /** For a worker. */
   def newPart(): Part = synchronized:
-    val part = Part(limit, regions)
+    val part = Part(regions)
     parts :+= part
     part
 
-  /** Of each region, its events: those without light and those that are not kept, too. */
+  /** Of each region, its events: those without light, too. */
   def counts: Array[Long] = Array.tabulate(regions)(region => parts.map(_.counts(region)).sum)
 
   /** Of each region, the rays that an event there brings about on average. */
@@ -107,7 +106,7 @@ object GuideRecords:
   private inline val PlaceMask = 0xffffffL
 
   /** What one worker records. */
-  final class Part private[guiding] (limit: Long, regions: Int):
+  final class Part private[guiding] (regions: Int):
     private[guiding] val data = FloatBuffer()
     private[guiding] val counts, costs = new Array[Long](regions)
     private[guiding] var paths, allCosts = 0L
@@ -125,9 +124,8 @@ object GuideRecords:
 
     private[guiding] def count: Int = data.length / Size
 
-    /** Adds an event or leaves it. */
     private[guiding] def add(event: Array[Float]): Unit =
-      if (hash(event, 0) >>> 1) <= limit && count < PlaceMask then loop(Size)(i => data += event(i))
+      if count < PlaceMask then loop(Size)(i => data += event(i))
 
   private def hash(of: Array[Float], at: Int): Long =
     var h = 0L

@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.geometry.Ray
 import candela.guiding.*
 import candela.math.*
 import candela.sampling.Sampler
@@ -19,7 +20,10 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   import Guidance.*
   private val path = GuidePath()
   private var lesson = guide.lesson
-  private var part: GuideRecords.Part | Null = lesson.newPart()
+  private var ownPart: GuideRecords.Part | Null = lesson.newPart()
+
+  /** Where the path records; null: nowhere. */
+  private var part = ownPart
   private val mixture = GuideMixture()
   private val tally = guide.newTally()
 
@@ -72,11 +76,12 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     whole = from.whole
     path.follow(from.place, found)
 
-  /** Starts a path. */
-  def begin(): Unit =
+  /** Starts a path with a camera ray. */
+  def begin(ray: Ray): Unit =
     if lesson ne guide.lesson then
       lesson = guide.lesson
-      part = lesson.newPart()
+      ownPart = lesson.newPart()
+    part = if lesson.learnsFrom(ray.origin, ray.direction) then ownPart else null
     path.clear()
     ratio = 1f
     chances = 1f

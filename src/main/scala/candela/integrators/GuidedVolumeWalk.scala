@@ -24,7 +24,7 @@ final class GuidedVolumeWalk(
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
-    guidance.begin()
+    guidance.begin(cameraRay)
 
   override protected def arrive(p: Vec3, wo: Vec3): Unit =
     vertex.scatterAt(p, wo, lobes(medium))

@@ -22,7 +22,7 @@ final class GuidedWalk(
 
   override def begin(cameraRay: Ray, sampler: Sampler): Unit =
     super.begin(cameraRay, sampler)
-    guidance.begin()
+    guidance.begin(cameraRay)
 
   override def evaluate(): Unit =
     super.evaluate()

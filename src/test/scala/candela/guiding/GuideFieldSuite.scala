@@ -2,7 +2,7 @@ package candela.guiding
 
 import candela.lights.EqualAreaMap
 import candela.math.*
-import candela.sampling.IndependentSampler
+import candela.sampling.{IndependentSampler, SampleHash}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -56,14 +56,28 @@ class GuideFieldSuite extends AnyFunSuite:
 
   test("what is recorded is the same in any order, by any number of workers"):
     def sorted(order: Seq[Int], workers: Int) =
-      val records = GuideRecords(rate = 0.5f, regions = GuideField.Start.regions)
+      val records = GuideRecords(rate = 1f, regions = GuideField.Start.regions)
       val parts = Vector.fill(workers)(records.newPart())
       for (i, j) <- order.zipWithIndex do parts(j % workers).add(event(i))
       records.sorted().toVector
     val one = sorted(0 until 10000, 1)
-    // Half of them, with a deviation of 50
-    assert(Math.abs(one.length / GuideRecords.Size - 5000) < 300)
+    assert(one.length / GuideRecords.Size == 10000)
     assert(sorted((0 until 10000).reverse, 3) == one)
+
+  test("a part of the paths is guided, and a part of these records, with any camera"):
+    def chosen(origin: Int => Vec3, direction: Int => Vec3) =
+      val records = GuideRecords(rate = 0.25f, regions = GuideField.Start.regions)
+      val lesson = Guide.Lesson(GuideField.Start, begun = 1, part = 0.4f, records)
+      val (guided, learning) =
+        (0 until 10000).partition(i => lesson.takes(origin(i), direction(i)))._1
+          .partition(i => !lesson.learnsFrom(origin(i), direction(i)))
+      // Deviations of 49 and 30
+      assert(Math.abs(guided.length + learning.length - 4000) < 250)
+      assert(Math.abs(learning.length - 1000) < 150)
+    def number(i: Int) = SampleHash.toUnit(SampleHash.mix(i))
+    def vector(i: Int) = Vec3(number(3 * i), number(3 * i + 1), number(3 * i + 2))
+    chosen(_ => Vec3.Zero, vector)
+    chosen(vector, _ => Vec3.Z)
 
   test("a region knows the mean light of all its events, and of the paths that begin there"):
     val settings = GuideSettings(adapts = false, perRegion = 1e6)
