@@ -93,7 +93,7 @@ object Placement:
     val across = normal(m, at, s.frame.n)
     val n = across.normalized.facing(s.geometricNormal)
     s.frame.set(Frame.along(n, vector(m, at, s.frame.s)))
-    if s.wantsPartials then partials(m, at, across, n, s)
+    if s.hasPartials then partials(m, at, across, n, s)
 
   /** @param across transformed shading normal, not normalised; `n` is the final one */
   private def partials(m: Array[Double], at: Int, across: Vec3, n: Vec3, s: ShadingPoint): Unit =

@@ -133,8 +133,17 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         val flipNormals = !context.isV2
         val corners = lamp.filter(isUniform).fold(Vector.empty)(_ => Rectangles.of(mesh, toWorld))
         val isPaired = corners.nonEmpty
+        val readsPartials = lamp.isDefined || !materials.materials(dressed.material).isConstant
         val first = soup.add(
-          mesh, toWorld, isReversed, flipNormals, dressed.material, light, bumps, isPaired
+          mesh,
+          toWorld,
+          isReversed,
+          flipNormals,
+          dressed.material,
+          light,
+          bumps,
+          isPaired,
+          readsPartials
         )
         meshMasks += plan.mask
         meshStatements += dressed.declared

@@ -42,7 +42,7 @@ final class VisibleSurface(
 
   /** The intersection, in world space. */
   val hit: Hit = Hit()
-  val at: ShadingPoint = scene.newPoint()
+  val at: ShadingPoint = scene.newPoint(always = true)
 
   def copy(): VisibleSurface = VisibleSurface(scene, output, basis, names, motionOnFilm)
 

@@ -10,8 +10,9 @@ import candela.math.*
   *
   * @param wantsPartials whether shapes compute the partial derivatives, by `setPartials`; the same
   *   for the whole scene
+  * @param always whether they do so even where no material reads them
   */
-final class ShadingPoint(val wantsPartials: Boolean = false):
+final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = false):
   private val ownP, ownPError = MutableVec3()
   private val ownGeometricNormal = MutableVec3(0f, 0f, 1f)
   private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
@@ -72,6 +73,21 @@ final class ShadingPoint(val wantsPartials: Boolean = false):
   def dpdy: MutableVec3 = ownDpdy
   def dpdy_=(v: Vec3): Unit = ownDpdy.set(v)
   var dudx, dvdx, dudy, dvdy: Float = 0f
+
+  /** Does the present hit have partial derivatives, and a footprint? If not, nothing may read them.
+    */
+  var hasPartials: Boolean = wantsPartials
+
+  /** Are they computed for the present hit even if its material reads neither? */
+  var keepsPartials: Boolean = always
+
+  /** Begins a hit.
+    *
+    * @param followed may what is behind the surface need its footprint?
+    */
+  def begin(followed: Boolean): Unit =
+    hasPartials = wantsPartials
+    keepsPartials = always || followed
 
   def setPartials(dpdu: Vec3, dpdv: Vec3, dndu: Vec3, dndv: Vec3): Unit =
     this.dpdu = dpdu

@@ -40,13 +40,18 @@ private[sampling] object Cdf:
     // never selected
     between(cdf, at, 0, count, u)
 
-  /** As [[find]], for a bin from `first` until `end`. */
+  /** As [[find]], for a bin from `first` until `end`. By the bits, which have the order of Floats
+    * that are not negative: which half comes next can't be predicted.
+    */
   private def between(cdf: Array[Float], at: Int, first: Int, end: Int, u: Float): Int =
+    val goal = java.lang.Float.floatToRawIntBits(u)
     var low = first
-    var high = end
-    while high - low > 1 do
-      val middle = (low + high) >>> 1
-      if cdf(at + middle) <= u then low = middle else high = middle
+    var left = end - first
+    while left > 1 do
+      val half = left >>> 1
+      val beyond = (goal - java.lang.Float.floatToRawIntBits(cdf(at + low + half))) >> 31
+      low += half & ~beyond
+      left -= half
     low
 
   /** Number of cutpoints of a CDF of `count` bins, for a search of few steps: a power of two, so

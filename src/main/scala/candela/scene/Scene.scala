@@ -65,8 +65,12 @@ final class Scene(
 
   def isOccluded(ray: Ray, hit: Hit): Boolean = accelerator.isOccluded(ray, hit)
 
-  /** Returns an empty point for `surface` to fill, with all that the materials need. */
-  def newPoint(): ShadingPoint = ShadingPoint(wantsPartials = hasFootprints)
+  /** Returns an empty point for `surface` to fill, with all that the materials need.
+    *
+    * @param always whether footprints are needed even where no material reads them
+    */
+  def newPoint(always: Boolean = false): ShadingPoint =
+    ShadingPoint(wantsPartials = hasFootprints, always)
 
   /** Updates the differential of a ray just spawned at `at`. */
   def scattered(
@@ -90,14 +94,16 @@ final class Scene(
   /** Computes the geometry of the hit that `closest` found. */
   def surface(ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     val primitive = hit.primitive
+    val rule = footprintRule
+    at.begin(followed = rule != null && ray.differential.isKnown)
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
     else instanced.fill(primitive - firstInstance, ray, hit, at)
-    val rule = footprintRule
-    if rule != null && at.wantsPartials then rule.find(ray, at)
+    if rule != null && at.hasPartials then rule.find(ray, at)
 
   /** Computes the place of a hit at the ray's time, as it is at `time`. */
   def surfaceAt(ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =
     val primitive = hit.primitive
+    at.begin(followed = false)
     if primitive < firstInstance then surfaces.fill(primitive, ray, hit, at)
     else instanced.fillAt(primitive - firstInstance, ray, hit, time, at)
 

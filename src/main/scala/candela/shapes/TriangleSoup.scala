@@ -13,6 +13,7 @@ import candela.math.*
   * @param material      index into the scene's materials
   * @param firstLight    light of its first triangle, the others follow; −1 if it does not emit
   * @param paired        does a light consist of two triangles each?
+  * @param readsPartials may its material or light read partial derivatives or footprints?
   * @param bumps         tangents for displacements, if it has normals
   */
 final class Mesh(
@@ -25,7 +26,8 @@ final class Mesh(
     val material: Int,
     val firstLight: Int,
     val bumps: BumpTangents = BumpTangents.Along,
-    val paired: Boolean = false
+    val paired: Boolean = false,
+    val readsPartials: Boolean = true
 )
 
 /** All triangles of a scene in world space.
@@ -73,7 +75,8 @@ final class TriangleSoup(
       shadingNormal(mesh, i0, i1, i2, b1, b2, n)
       if (at.geometricNormal dot n) < 0f then at.geometricNormal = -at.geometricNormal
     uv(mesh, i0, i1, i2, b1, b2, at)
-    if !tangents && !at.wantsPartials then at.frame.alignToNormal()
+    at.hasPartials = at.wantsPartials && (mesh.readsPartials || at.keepsPartials)
+    if !tangents && !at.hasPartials then at.frame.alignToNormal()
     else
       val p0 = vertex(triangle, 0)
       val e1 = at.firstEdge
@@ -82,7 +85,7 @@ final class TriangleSoup(
       e2.set(vertex(triangle, 2) - p0)
       if tangents then at.frame.set(Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)))
       else at.frame.alignToNormal()
-      if at.wantsPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
+      if at.hasPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1

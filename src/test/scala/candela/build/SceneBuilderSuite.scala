@@ -95,6 +95,22 @@ final class SceneBuilderSuite extends AnyFunSuite:
     for choice <- Seq(PointChoice.Best, PointChoice.Progressive) do
       assert(sampler("\"random\"", choice)._1 == classOf[IndependentSampler])
 
+  test("independent points are taken where somebody has chosen them: not in Mitsuba's scenes"):
+    val text = s"Sampler \"independent\" \"integer pixelsamples\" 9\n$nothing"
+    def sampler(isMitsubas: Boolean, choice: PointChoice) =
+      val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
+      val plan = SceneBuilder.build(scene, BuildOptions(points = choice))._1
+      (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
+    val own = (classOf[IndependentSampler], 9, "independent random numbers, for \"independent\"")
+    assert(sampler(isMitsubas = false, PointChoice.Best) == own)
+    assert(sampler(isMitsubas = true, PointChoice.Scene) == own)
+    assert(sampler(isMitsubas = true, PointChoice.Best) == (
+      classOf[OwenSobolSampler],
+      9,
+      "scrambled Sobol' points, which have less noise than \"independent\" (--sampler scene " +
+        "takes independent random numbers)"
+    ))
+
   test("points whose number is fixed are replaced where any number must be evenly spread"):
     def sampler(choice: PointChoice) =
       SceneTexts.plan(nothing, Dialect.V4, BuildOptions(points = choice)).sampler

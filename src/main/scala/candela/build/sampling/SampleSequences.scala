@@ -3,11 +3,13 @@ package candela.build.sampling
 import candela.build.recipe.*
 import candela.scenefile.Dialect
 
-/** Independent random samples. */
+/** Independent random samples. In pbrt's scenes somebody has chosen them; in Mitsuba's they are what
+  * scenes have that name no other, and the best points serve as well.
+  */
 final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
-  protected def make()(using Site): SamplerRequest => SamplerPlan =
-    asked(PointSet.Independent, isEven = false)
+  protected def make()(using site: Site): SamplerRequest => SamplerPlan =
+    asked(PointSet.Independent, isEven = site.resources.switches.isMitsubas)
 
 /** Scrambled (0,2)-sequences, for all samplers of this kind. */
 class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect])

@@ -23,6 +23,7 @@ final class SoupBuilder:
     *                    ReverseOrientation)
     * @param firstLight  index of its first triangle's light; −1: it does not emit
     * @param paired      does a light consist of two triangles each?
+    * @param readsPartials may its material or light read partial derivatives or footprints?
     */
   def add(
       mesh: ShapeGeometry.Triangles,
@@ -32,7 +33,8 @@ final class SoupBuilder:
       material: Int,
       firstLight: Int,
       bumps: BumpTangents,
-      paired: Boolean = false
+      paired: Boolean = false,
+      readsPartials: Boolean = true
   ): Int =
     val first = triangles
     val base = vertices
@@ -48,7 +50,8 @@ final class SoupBuilder:
       material = material,
       firstLight = firstLight,
       bumps = bumps,
-      paired = paired
+      paired = paired,
+      readsPartials = readsPartials
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3

@@ -1,0 +1,73 @@
+package candela.build
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.build.integrators.Integrators
+import candela.cameras.Shutter
+import candela.geometry.{Hit, Ray, ShadingPoint}
+import candela.math.Vec3
+import candela.scene.{Footprints, Scene}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
+
+/** Meshes have partial derivatives and footprints only where something reads them. */
+class PartialsReadSuite extends AnyFunSuite:
+
+  /** Squares in a row, two units apart, each with these statements. */
+  private def scene(squares: String*): Scene =
+    val shapes = squares.zipWithIndex.map: (statements, i) =>
+      s"""AttributeBegin
+      Translate ${2 * i} 0 0
+      $statements
+      Shape "trianglemesh" "point3 P" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0]
+        "point2 uv" [0 0 1 0 1 1 0 1] "integer indices" [0 1 2 0 2 3]
+      AttributeEnd"""
+    val text =
+      s"""WorldBegin
+      ${if squares.contains(textured) then checkerboard else ""}
+      LightSource "point"
+      ${shapes.mkString("\n")}"""
+    val context = BuildContext(SceneTexts.parse(text, Dialect.V4), BuildOptions())
+    def integrator(in: BuildContext) = in.made(None, Integrators.all, "path")
+    WorldBuilder(
+      context,
+      integrator(context),
+      integrator,
+      Shutter(0f, 1f),
+      samples = 1,
+      ColorMode.Rgb,
+      sensor = None,
+      grouping = None
+    ).build(Footprints(followsSpecular = true, otherwise = None)).scene
+
+  private def look(scene: Scene, square: Int, at: ShadingPoint, isKnown: Boolean = false) =
+    val (ray, hit) = (Ray(), Hit())
+    ray.set(Vec3(2f * square + 0.1f, 0.2f, 3f), Vec3(0f, 0f, -1f), Float.PositiveInfinity)
+    ray.differential.isKnown = isKnown
+    assert(scene.closest(ray, hit))
+    scene.surface(ray, hit, at)
+    at.hasPartials
+
+  private val checkerboard = "Texture \"squares\" \"spectrum\" \"checkerboard\""
+  private val plain = "Material \"diffuse\""
+  private val textured = "Material \"diffuse\" \"texture reflectance\" \"squares\""
+  private val lamp = s"AreaLightSource \"diffuse\" $plain"
+
+  test("textured materials and lamps have them, constant materials don't"):
+    val mixed = scene(plain, textured, lamp)
+    val at = mixed.newPoint()
+    // Back and forth: a hit must not depend on the one before
+    for _ <- 0 until 2 do
+      assert(!look(mixed, 0, at))
+      assert(look(mixed, 1, at) && at.dpdu == Vec3(1f, 0f, 0f))
+      assert(look(mixed, 2, at))
+
+  test("so do all where differentials go on, or somebody asks for them"):
+    val mixed = scene(plain, textured)
+    val at = mixed.newPoint()
+    assert(look(mixed, 0, at, isKnown = true) && !look(mixed, 0, at))
+    assert(look(mixed, 0, mixed.newPoint(always = true)))
+
+  test("none have them where nothing in the scene reads them"):
+    val bare = scene(plain)
+    assert(!look(bare, 0, bare.newPoint(always = true)))
