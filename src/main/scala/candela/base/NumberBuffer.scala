@@ -28,6 +28,9 @@ abstract class NumberBuffer[A](newArray: Int => A):
       val count = Math.min(size - start, NumberBuffer.Piece)
       if count > 0 then System.arraycopy(pieces(k), 0, to, at + start, count)
 
+  /** Empties the buffer, but keeps its memory. */
+  def clear(): Unit = size = 0
+
   /** Returns the numbers and empties the buffer. */
   def take(): A =
     val all = newArray(size)

@@ -20,6 +20,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
 
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
+  private val memory = GuideMemory()
   @volatile private var current = lesson(GuideField.Start, 0, UsualEvents, lit = 1.0)
   private var tallies = Vector.empty[GuideTally]
 
@@ -89,7 +90,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
 
   private def growth(was: Lesson, sample: Int): GuideGrowth =
     val events = was.records.nn.sorted()
-    val lit = perPath(was, sample, GuideRecords.firsts(events))
+    val lit = perPath(was, sample, events.firsts)
     val records = was.records.nn
     val all = records.counts.map(_.toFloat)
     val share = Math.min(1.0, lit)
@@ -97,7 +98,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
 
   private def take(growth: GuideGrowth, sample: Int): Unit =
     val was = current
-    val found = perPath(was, sample, growth.events.length / GuideRecords.Size)
+    val found = perPath(was, sample, growth.events.count)
     progress =
       if was.field.guides then progress.after(growth.verdict)
       else progress.copy(cost = growth.verdict.cost)
@@ -108,6 +109,8 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
     if ends then progress = progress.copy(gaveUp = true)
     current = if ends then Lesson(GuideField.Start, sample, part = 0f, null) else following
     learning = null
+    was.records.nn.release()
+    if current.records == null then memory.forget()
 
   /** The sample before which the last pass ends. */
   private def lastPass: Int = Iterator.iterate(1)(next).takeWhile(goesOn).foldLeft(1)((_, n) => n)
@@ -127,7 +130,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
       else if !learns || !settings.adapts || progress.pays then 1f
       else Math.min(1.0, TrialPaths / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
-    Lesson(field, begun, part, if learns then GuideRecords(rate, field.regions) else null)
+    Lesson(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -152,7 +155,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
     tally.guided = from.long()
     val part = from.float()
     val rate = from.float()
-    val records = if rate == 0f then null else GuideRecords(rate, field.regions)
+    val records = if rate == 0f then null else GuideRecords(rate, field.regions, memory)
     if records != null then records.load(from)
     current = Lesson(field, begun, part, records)
 

@@ -8,7 +8,7 @@ import candela.sampling.SampleHash
   * of some, at which its rays come closest to each other. It need not be where they hit something:
   * light through a gap meets in the gap.
   *
-  * @param events sorted ([[GuideRecords]])
+  * @param events their numbers, sorted ([[GuideEvents]])
   */
 private[guiding] final class GuideFit(events: Array[Float]):
   import GuideField.{End, Factor, Kappa, Lobes, Nearness, Size, Weight}

@@ -8,7 +8,7 @@ import scala.collection.mutable.ArrayBuffer
   * their mixtures are fitted to what was found. Each region of the new field is fitted by itself,
   * by any thread.
   *
-  * @param events sorted ([[GuideRecords]])
+  * @param events of the pass
   * @param lit    part of all paths that has events
   * @param all    of each region of the old field, events that would have been recorded if all found
   *               light
@@ -17,7 +17,7 @@ import scala.collection.mutable.ArrayBuffer
   */
 private[guiding] final class GuideGrowth(
     old: GuideField,
-    val events: Array[Float],
+    val events: GuideEvents,
     settings: GuideSettings,
     val lit: Double,
     all: Array[Float],
@@ -27,9 +27,10 @@ private[guiding] final class GuideGrowth(
   import GuideField.{Lobes, Sides}
   import GuideGrowth.*
   import GuideRecords.Size
+  private val numbers = events.numbers
   private val axis, below = IntBuffer()
   private val split = FloatBuffer()
-  private val largest = Math.max(Fewest, settings.perRegion * Math.sqrt(events.length / Size))
+  private val largest = Math.max(Fewest, settings.perRegion * Math.sqrt(events.count))
   private val leaves = ArrayBuffer.empty[GuideLeaf]
   divideAll()
 
@@ -39,7 +40,7 @@ private[guiding] final class GuideGrowth(
   /** Fits one of them, with memory for it. */
   def grow(region: Int, fit: GuideFit): Unit = leaves(region).grow(fit)
 
-  def newFit(): GuideFit = GuideFit(events)
+  def newFit(): GuideFit = GuideFit(numbers)
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
@@ -68,10 +69,10 @@ private[guiding] final class GuideGrowth(
   private def divideAll(): Unit =
     loop(Sides)(_ => newNode())
     val of = Array.fill(old.regions)(IntBuffer())
-    loop(events.length / Size): i =>
+    loop(events.count): i =>
       val at = i * Size
-      val side = events(at + GuideRecords.Side).toInt
-      of(old.region(side, events, at)) += at
+      val side = numbers(at + GuideRecords.Side).toInt
+      of(old.region(side, numbers, at)) += at
     loop(Sides)(side => copy(side, side, of))
 
   private def newNode(): Unit =
@@ -108,7 +109,7 @@ private[guiding] final class GuideGrowth(
     val a = (0 until 3).maxBy(variance(_))
     val middle = mean(a).toFloat
     val (low, high) =
-      if of.length > largest then of.partition(i => events(i + a) < middle)
+      if of.length > largest then of.partition(i => numbers(i + a) < middle)
       else (of, Array.emptyIntArray)
     if low.length > 0 && high.length > 0 then
       val child = newChildren(to, a, middle)
@@ -119,16 +120,16 @@ private[guiding] final class GuideGrowth(
       val centre =
         if of.length >= Fewest then mean.map(_.toFloat)
         else old.centres.slice(3 * region, 3 * region + 3)
-      leaves += GuideLeaf(old, region, events, of, centre, settings, lit, found, costs(region))
+      leaves += GuideLeaf(old, region, numbers, of, centre, settings, lit, found, costs(region))
 
   /** Mean and variance of the points, by axis. */
   private def spread(of: Array[Int]): (Array[Double], Array[Double]) =
     val mean, variance = new Array[Double](3)
     for a <- 0 until 3 do
-      loop(of.length)(j => mean(a) += events(of(j) + a))
+      loop(of.length)(j => mean(a) += numbers(of(j) + a))
       mean(a) /= Math.max(1, of.length)
       loop(of.length): j =>
-        val d = events(of(j) + a) - mean(a)
+        val d = numbers(of(j) + a) - mean(a)
         variance(a) += d * d
     (mean, variance)
 

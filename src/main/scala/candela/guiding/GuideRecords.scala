@@ -8,14 +8,19 @@ import candela.sampling.SampleHash
   *
   * @param rate    part of the guided paths that record
   * @param regions of the field that the paths use
+  * @param memory  which passes share
   */
-private[guiding] final class GuideRecords(val rate: Float, regions: Int):
+private[guiding] final class GuideRecords(
+    val rate: Float,
+    regions: Int,
+    memory: GuideMemory = GuideMemory()
+):
   import GuideRecords.*
   private var parts = Vector.empty[Part]
 
   /** For a worker. */
   def newPart(): Part = synchronized:
-    val part = Part(regions)
+    val part = Part(regions, memory.take())
     parts :+= part
     part
 
@@ -31,14 +36,23 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
   /** Rays of a path on average. */
   def pathCost: Double = parts.map(_.allCosts).sum.toDouble / Math.max(1L, parts.map(_.paths).sum)
 
-  /** All events, [[Size]] numbers each, in an order that depends on these only. */
-  def sorted(): Array[Float] =
-    val all = joined()
-    val count = all.length / Size
+  /** Gives the memory back; no path may be on its way. */
+  def release(): Unit =
+    for part <- parts do
+      memory.giveBack(part.data)
+      part.data = FloatBuffer()
+    parts = Vector.empty
+
+  /** All events, in an order that depends on their numbers only. They are overwritten by the next
+    * that the memory is asked for.
+    */
+  def sorted(): GuideEvents =
+    val count = parts.map(_.count).sum
+    val all = joined(count)
     // The upper bits of the hash, then the place
-    val keys = new Array[Long](count)
+    val keys = memory.keys(count)
     loop(count)(i => keys(i) = (hash(all, i * Size) & ~PlaceMask) | i)
-    java.util.Arrays.sort(keys)
+    java.util.Arrays.sort(keys, 0, count)
     loop(count): i =>
       var j = i
       while j > 0 && (keys(j - 1) | PlaceMask) == (keys(j) | PlaceMask) &&
@@ -48,14 +62,31 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
         keys(j) = keys(j - 1)
         keys(j - 1) = key
         j -= 1
-    val result = new Array[Float](all.length)
-    loop(count)(i => System.arraycopy(all, place(keys(i)) * Size, result, i * Size, Size))
-    result
+    putInOrder(all, keys, count)
+    GuideEvents(all, count)
 
   private def place(key: Long): Int = (key & PlaceMask).toInt
 
-  private def joined(): Array[Float] =
-    val all = new Array[Float](Math.multiplyExact(Size, parts.map(_.count).sum))
+  /** Puts each event where its key is: along the cycles of the permutation. */
+  private def putInOrder(all: Array[Float], keys: Array[Long], count: Int): Unit =
+    val first = memory.event
+    def copy(from: Int, to: Int): Unit =
+      System.arraycopy(all, from * Size, all, to * Size, Size)
+    loop(count): i =>
+      if place(keys(i)) != i then
+        System.arraycopy(all, i * Size, first, 0, Size)
+        var to = i
+        var from = place(keys(to))
+        while from != i do
+          copy(from, to)
+          keys(to) = to
+          to = from
+          from = place(keys(to))
+        System.arraycopy(first, 0, all, to * Size, Size)
+        keys(to) = to
+
+  private def joined(count: Int): Array[Float] =
+    val all = memory.numbers(Math.multiplyExact(Size, count))
     var at = 0
     for part <- parts do
       part.data.copyTo(all, at)
@@ -65,8 +96,8 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
   /** Writes what is recorded; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
     val all = sorted()
-    to.int(all.length)
-    loop(all.length)(i => to.float(all(i)))
+    to.int(all.count * Size)
+    loop(all.count * Size)(i => to.float(all.numbers(i)))
     counts.foreach(to.long(_))
     loop(regions)(region => to.long(parts.map(_.costs(region)).sum))
     to.long(parts.map(_.paths).sum)
@@ -80,11 +111,18 @@ private[guiding] final class GuideRecords(val rate: Float, regions: Int):
     part.paths = from.long()
     part.allCosts = from.long()
 
-object GuideRecords:
-  /** How many of the events are the first ones of their paths? */
-  private[guiding] def firsts(events: Array[Float]): Int =
-    (0 until events.length / Size).count(i => events(i * Size + Total) > 0f)
+/** Recorded events, sorted.
+  *
+  * @param numbers [[GuideRecords.Size]] of each event; there may be more
+  */
+private[guiding] final class GuideEvents(val numbers: Array[Float], val count: Int):
 
+  /** How many are the first ones of their paths? */
+  def firsts: Int =
+    import GuideRecords.*
+    (0 until count).count(i => numbers(i * Size + Total) > 0f)
+
+object GuideRecords:
   /** Numbers of an event, and their places: the point, the side of its normal, the direction taken,
     * the light that came from there, as the path received it, over its throughput before; the
     * densities of the direction: that of the path, of BSDF sampling, of the field. For the first
@@ -106,8 +144,7 @@ object GuideRecords:
   private inline val PlaceMask = 0xffffffL
 
   /** What one worker records. */
-  final class Part private[guiding] (regions: Int):
-    private[guiding] val data = FloatBuffer()
+  final class Part private[guiding] (regions: Int, private[guiding] var data: FloatBuffer):
     private[guiding] val counts, costs = new Array[Long](regions)
     private[guiding] var paths, allCosts = 0L
 

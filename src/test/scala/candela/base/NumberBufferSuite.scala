@@ -14,6 +14,15 @@ class NumberBufferSuite extends AnyFunSuite:
       assert(floats.take().sameElements(Array.tabulate(count)(_ * 0.5f)))
       assert(ints.take().sameElements(Array.tabulate(count)(-_)))
 
+  test("a buffer that was cleared begins anew"):
+    val ints = IntBuffer()
+    for count <- Seq(4096, 10000, 5000) do
+      for i <- 0 until count do ints += i + count
+      ints.clear()
+      assert(ints.length == 0)
+    for i <- 0 until 7000 do ints += -i
+    assert(ints.take().sameElements(Array.tabulate(7000)(-_)))
+
   test("numbers can be replaced, and copied to a place of a larger array"):
     val floats = FloatBuffer()
     for _ <- 0 until 10000 do floats += 1f

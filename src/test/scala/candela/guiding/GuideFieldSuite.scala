@@ -59,10 +59,42 @@ class GuideFieldSuite extends AnyFunSuite:
       val records = GuideRecords(rate = 1f, regions = GuideField.Start.regions)
       val parts = Vector.fill(workers)(records.newPart())
       for (i, j) <- order.zipWithIndex do parts(j % workers).add(event(i))
-      records.sorted().toVector
+      val events = records.sorted()
+      events.numbers.toVector.take(events.count * GuideRecords.Size)
     val one = sorted(0 until 10000, 1)
     assert(one.length / GuideRecords.Size == 10000)
+    assert(one.grouped(GuideRecords.Size).toSet == (0 until 10000).map(event(_).toVector).toSet)
     assert(sorted((0 until 10000).reverse, 3) == one)
+
+  test("no event is lost or doubled, however often events are sorted"):
+    val memory = GuideMemory()
+    val expected = (0 until 3000).map(event(_).toVector).toSet
+    for round <- 0 until 400 do
+      val records = GuideRecords(1f, GuideField.Start.regions, memory)
+      val parts = Vector.fill(2)(records.newPart())
+      for i <- 0 until 3000 do parts((i * (round + 1) >> 4) % 2).add(event(i))
+      val events = records.sorted()
+      records.release()
+      // The first ones end the longest cycle
+      val found = events.numbers.iterator.take(3000 * GuideRecords.Size).grouped(GuideRecords.Size)
+      assert(found.map(_.toVector).toSet == expected, s"in round $round")
+
+  test("passes use the same memory one after the other"):
+    val memory = GuideMemory()
+    def pass(count: Int, memory: GuideMemory, workers: Int) =
+      val records = GuideRecords(1f, GuideField.Start.regions, memory)
+      val parts = Vector.fill(workers)(records.newPart())
+      for i <- 0 until count do parts(i % workers).add(event(i))
+      val events = records.sorted()
+      records.release()
+      events
+    def numbers(events: GuideEvents) =
+      events.numbers.toVector.take(events.count * GuideRecords.Size)
+    val first = pass(5000, memory, workers = 3)
+    val second = pass(2000, memory, workers = 2)
+    assert(second.numbers eq first.numbers)
+    assert(numbers(second) == numbers(pass(2000, GuideMemory(), workers = 1)))
+    assert(pass(8000, memory, workers = 3).count == 8000)
 
   test("a part of the paths is guided, and a part of these records, with any camera"):
     def chosen(origin: Int => Vec3, direction: Int => Vec3) =
@@ -156,7 +188,7 @@ private object GuideFieldSuite:
   /** @param everything events of each region, also those without light; at least those with it */
   def grown(
       old: GuideField,
-      events: Array[Float],
+      events: GuideEvents,
       settings: GuideSettings,
       everything: Float = 1f
   ): GuideGrowth =

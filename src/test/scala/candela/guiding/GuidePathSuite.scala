@@ -36,7 +36,7 @@ class GuidePathSuite extends AnyFunSuite:
       path.add(FirstRegion, Vec3.Zero, 0, Vec3(0f, 0f, 1f), 1f, 1f, 1f, 1f, 1f, 1f)
       if arrives then path.step()
       path.record(3f, part)
-      records.sorted()(GuideRecords.Unguided)
+      records.sorted().numbers(GuideRecords.Unguided)
     // The light before it, squared, and its product with the other count in full
     assert(unguided(arrives = true) == 1f + 2f * 2f + 4f)
     assert(unguided(arrives = false) == 1f + 2f * 2f + 4f / 4)
@@ -51,7 +51,7 @@ class GuidePathSuite extends AnyFunSuite:
       event(before = 1f, ratio = 1f)
       event(before = 3f, ratio = Float.PositiveInfinity)
       path.record(3f + later, part)
-      val unguided = records.sorted()(GuideRecords.Unguided)
+      val unguided = records.sorted().numbers(GuideRecords.Unguided)
       assert(if later == 0f then unguided == 9f else unguided == Float.MaxValue, unguided)
 
 private object GuidePathSuite:
@@ -89,7 +89,7 @@ private object GuidePathSuite:
       of: (Array[Float], Int) => Double
   ): Double =
     val all = recorded(shareOfBright, branches).sorted()
-    (0 until all.length / Size).map(i => of(all, i * Size)).sum / Paths
+    (0 until all.count).map(i => of(all.numbers, i * Size)).sum / Paths
 
   /** Paths whose first event is followed by several branches. */
   def recorded(shareOfBright: Double, branches: Int): GuideRecords =

@@ -3,8 +3,8 @@ package candela.build.sampling
 import candela.build.recipe.*
 import candela.scenefile.Dialect
 
-/** Independent random samples. In pbrt's scenes somebody has chosen them; in Mitsuba's they are what
-  * scenes have that name no other, and the best points serve as well.
+/** Independent random samples. In pbrt's scenes somebody has chosen them; Mitsuba's have them where
+  * they name no other sampler, and the best points serve as well.
   */
 final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
