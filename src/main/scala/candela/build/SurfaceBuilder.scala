@@ -70,7 +70,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
     context.isV2 && (materials.materials(material) eq InterfaceMaterial)
 
   def result(): LitSurfaces =
-    val triangles = soup.result(materials.needsTangents)
+    val triangles = soup.result(materials.needsTangents, context.resources.hasRelief)
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
     LitSurfaces(
       Surfaces(triangles, solids.toArray, masks),

@@ -13,8 +13,8 @@ private[guiding] final class GuideMemory:
   private var ofNumbers = Array.emptyFloatArray
   private var ofKeys = Array.emptyLongArray
 
-  /** For one event. Not an array of the method that uses it: where C2 of JDK 25 removes that, it takes
-    * its numbers from where they were copied from, although others are there by then.
+  /** For one event. Not an array of the method that uses it: C2 of JDK 25 removes such an array and
+    * takes its numbers from where they were copied from, although others are there by then.
     */
   val event = new Array[Float](GuideRecords.Size)
 

@@ -12,6 +12,7 @@ private[shapes] object TrianglePartials:
     * tangents for displacements follow them.
     *
     * @param e1, e2 edges from the first corner to the second and to the third
+    * @param relief whether these tangents are needed
     */
   def fill(
       mesh: Mesh,
@@ -20,6 +21,7 @@ private[shapes] object TrianglePartials:
       i2: Int,
       e1: Vec3,
       e2: Vec3,
+      relief: Boolean,
       at: ShadingPoint
   ): Unit =
     val k0 = i0 - mesh.firstVertex
@@ -53,7 +55,7 @@ private[shapes] object TrianglePartials:
         at.dndu = (d1 * v2 - d2 * v1) * inverse
         at.dndv = (d2 * u1 - d1 * u2) * inverse
       at.takeTangents()
-    if n.length > 0 then tangents(at, mesh.bumps)
+    if relief && n.length > 0 then tangents(at, mesh.bumps)
 
   private def tangents(at: ShadingPoint, bumps: BumpTangents): Unit =
     val ns = at.frame.n

@@ -36,13 +36,15 @@ final class Mesh(
   * @param indices   three vertices per triangle, numbered over all meshes
   * @param owners    mesh of each triangle; may be empty if there is only one
   * @param tangents  whether any material needs the direction of u; it is not computed otherwise
+  * @param relief    the same of the tangents to which displacements are added
   */
 final class TriangleSoup(
     val positions: Array[Float],
     val indices: Array[Int],
     owners: Array[Int],
     val meshes: Array[Mesh],
-    tangents: Boolean
+    tangents: Boolean,
+    relief: Boolean = true
 ):
   def count: Int = indices.length / 3
 
@@ -85,7 +87,7 @@ final class TriangleSoup(
       e2.set(vertex(triangle, 2) - p0)
       if tangents then at.frame.set(Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)))
       else at.frame.alignToNormal()
-      if at.hasPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, at)
+      if at.hasPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, relief, at)
     at.material = mesh.material
     at.areaLight =
       if mesh.firstLight < 0 then -1

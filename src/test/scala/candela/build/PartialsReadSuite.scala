@@ -13,7 +13,7 @@ import candela.testing.SceneTexts
 /** Meshes have partial derivatives and footprints only where something reads them. */
 class PartialsReadSuite extends AnyFunSuite:
 
-  /** Squares in a row, two units apart, each with these statements. */
+  /** Squares in a row, two units apart, each with these statements. Their normals lean. */
   private def scene(squares: String*): Scene =
     val shapes = squares.zipWithIndex.map: (statements, i) =>
       s"""AttributeBegin
@@ -21,10 +21,12 @@ class PartialsReadSuite extends AnyFunSuite:
       $statements
       Shape "trianglemesh" "point3 P" [-.5 -.5 0 .5 -.5 0 .5 .5 0 -.5 .5 0]
         "point2 uv" [0 0 1 0 1 1 0 1] "integer indices" [0 1 2 0 2 3]
+        "normal N" [.6 0 .8 .6 0 .8 .6 0 .8 .6 0 .8]
       AttributeEnd"""
     val text =
       s"""WorldBegin
       ${if squares.contains(textured) then checkerboard else ""}
+      ${if squares.contains(bumpy) then wrinkles else ""}
       LightSource "point"
       ${shapes.mkString("\n")}"""
     val context = BuildContext(SceneTexts.parse(text, Dialect.V4), BuildOptions())
@@ -49,6 +51,8 @@ class PartialsReadSuite extends AnyFunSuite:
     at.hasPartials
 
   private val checkerboard = "Texture \"squares\" \"spectrum\" \"checkerboard\""
+  private val wrinkles = "Texture \"wrinkles\" \"float\" \"wrinkled\""
+  private val bumpy = "Material \"diffuse\" \"texture displacement\" \"wrinkles\""
   private val plain = "Material \"diffuse\""
   private val textured = "Material \"diffuse\" \"texture reflectance\" \"squares\""
   private val lamp = s"AreaLightSource \"diffuse\" $plain"
@@ -67,6 +71,15 @@ class PartialsReadSuite extends AnyFunSuite:
     val at = mixed.newPoint()
     assert(look(mixed, 0, at, isKnown = true) && !look(mixed, 0, at))
     assert(look(mixed, 0, mixed.newPoint(always = true)))
+
+  test("tangents to which displacements are added follow the normals if there are displacements"):
+    def tangent(material: String): Vec3 =
+      val one = scene(material)
+      val at = one.newPoint()
+      assert(look(one, 0, at))
+      at.tangentU.toVec3
+    assert(tangent(textured) == Vec3(1f, 0f, 0f))
+    assert((tangent(bumpy) - Vec3(0.64f, 0f, -0.48f)).length < 1e-6f)
 
   test("none have them where nothing in the scene reads them"):
     val bare = scene(plain)

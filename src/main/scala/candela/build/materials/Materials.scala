@@ -90,7 +90,7 @@ abstract class MaterialRecipe(
     val smooth = make().folded
     normalMap() match
       case Some(picture) =>
-        site.resources.askForFootprints("normal maps")
+        site.resources.askForRelief("normal maps")
         raised(smooth, NormalMapMaterial(_, picture, place()))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
@@ -100,7 +100,7 @@ abstract class MaterialRecipe(
   private def bumped(smooth: Material, height: FloatTexture)(using site: Site): Material =
     if height.constant.isDefined then smooth
     else
-      site.resources.askForFootprints("bumps")
+      site.resources.askForRelief("bumps")
       // pbrt's finite differences
       val smallest = if site.dialect == Dialect.V2 then 0.01f else 0.0005f
       if site.resources.switches.isMitsubas then

@@ -47,6 +47,16 @@ final class SharedResources(
   def askForFootprints(what: String): Unit = synchronized:
     if !footprints.contains(what) then footprints :+= what
 
+  @volatile private var relief = false
+
+  /** Does any surface so far have bumps or the like, which lean along its tangents? */
+  def hasRelief: Boolean = relief
+
+  /** Requests tangents for a feature, and footprints. */
+  def askForRelief(what: String): Unit =
+    relief = true
+    askForFootprints(what)
+
   // Each of a hundred colour bases asks again
   private val files = ConcurrentHashMap[(Path, String), Path]()
   private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()

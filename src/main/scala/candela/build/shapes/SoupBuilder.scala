@@ -57,8 +57,11 @@ final class SoupBuilder:
     triangles += mesh.indices.length / 3
     first
 
-  /** Returns the meshes and releases the builder's arrays, to save memory. */
-  def result(tangents: Boolean): TriangleSoup =
+  /** Returns the meshes and releases the builder's arrays, to save memory.
+    *
+    * @param tangents, relief as in [[TriangleSoup]]
+    */
+  def result(tangents: Boolean, relief: Boolean): TriangleSoup =
     val owners = new Array[Int](if meshes.length == 1 then 0 else triangles)
     if meshes.length > 1 then
       for (mesh, i) <- meshes.zipWithIndex do
@@ -68,7 +71,7 @@ final class SoupBuilder:
       pieces.clear()
       all
     val points = joined(positions)
-    TriangleSoup(points, joined(indices), owners, meshes.toArray, tangents)
+    TriangleSoup(points, joined(indices), owners, meshes.toArray, tangents, relief)
 
 object SoupBuilder:
   private def shifted(indices: Array[Int], by: Int): Array[Int] =
