@@ -12,9 +12,9 @@ import candela.math.*
   * @param flipped       whether the geometric normal is −(p1−p0)×(p2−p0)
   * @param material      index into the scene's materials
   * @param firstLight    light of its first triangle, the others follow; −1 if it does not emit
+  * @param bumps         tangents for displacements, if it has normals
   * @param paired        does a light consist of two triangles each?
   * @param readsPartials may its material or light read partial derivatives or footprints?
-  * @param bumps         tangents for displacements, if it has normals
   */
 final class Mesh(
     val firstVertex: Int,

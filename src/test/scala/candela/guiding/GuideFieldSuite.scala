@@ -75,7 +75,6 @@ class GuideFieldSuite extends AnyFunSuite:
       for i <- 0 until 3000 do parts((i * (round + 1) >> 4) % 2).add(event(i))
       val events = records.sorted()
       records.release()
-      // The first ones end the longest cycle
       val found = events.numbers.iterator.take(3000 * GuideRecords.Size).grouped(GuideRecords.Size)
       assert(found.map(_.toVector).toSet == expected, s"in round $round")
 
