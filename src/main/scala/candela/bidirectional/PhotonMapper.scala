@@ -6,13 +6,14 @@ import candela.integrators.{LightTransport, PassIntegrator, SceneIntegrator, Wal
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Stochastic progressive photon mapping: camera subpaths end at surfaces that scatter widely, and
-  * gather the photons of their pass, numbered as their sample.
+/** Stochastic progressive photon mapping: camera subpaths end at diffuse surfaces, or after
+  * `maxDepth` events, and gather the photons of their pass, numbered as their sample.
   *
   * It finds caustics from point lights, also those seen via specular surfaces. Direct light is
-  * sampled as by a path tracer. For indirect light, directions sampled by narrow lobes (with a pdf
-  * above a limit) are followed, and photons account for all others: together they cover all light
-  * exactly once.
+  * sampled as by a path tracer. Surfaces without a diffuse lobe are followed, as in pbrt-v3 and
+  * pbrt-v4. At the others directions sampled by narrow lobes (with a pdf above a limit) are
+  * followed, and photons account for all others: together they cover all indirect light exactly
+  * once.
   *
   * @param maxDepth maximum number of scattering events of the camera subpath
   *
@@ -53,21 +54,30 @@ private[bidirectional] final class PhotonMapper(
         else if walk.depth == maxDepth then walk.end()
         else
           walk.evaluate()
-          addOneLight(sampler)
-          if !vertex.bsdf.isSpecular then walk.add(photons.gather(vertex, Sharp))
+          val isLast = walk.depth == maxDepth - 1
+          val follows =
+            if settings.gathersGloss || vertex.bsdf.isDiffuse then Sharp
+            else 0f
+          addOneLight(follows, sampler)
+          // Beyond the last event paths find emission only
+          val limit = if isLast && !settings.gathersGloss then Float.PositiveInfinity else follows
+          if !vertex.bsdf.isSpecular && limit > 0f then walk.add(photons.gather(vertex, limit))
           walk.scatter(sampler)
           walk.leave()
-          if !(vertex.bounce.isSpecular || vertex.bounce.pdf > Sharp) then walk.end()
+          if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then walk.end()
     walk.radiance.toRgb
 
-  /** Next-event estimation, without MIS for directions in which paths end. */
-  private def addOneLight(sampler: Sampler): Unit =
+  /** Next-event estimation, without MIS for directions in which paths end.
+    *
+    * @param follows pdf above which directions are followed
+    */
+  private def addOneLight(follows: Float, sampler: Sampler): Unit =
     if walk.sampleOneLight(sampler) then
       val light = walk.light
       walk.addLight(weight =
         wi =>
           val pdf = walk.vertex.localPdf(wi)
-          if pdf > Sharp then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
+          if pdf > follows then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
       )
 
 object PhotonMapper:

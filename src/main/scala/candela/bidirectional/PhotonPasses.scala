@@ -17,6 +17,7 @@ import java.util.concurrent.locks.LockSupport
   * @param seed     random seed
   * @param caustics whether to store photons that arrive via specular surfaces only
   * @param indirect whether to store all others
+  * @param gathersGloss whether to gather on surfaces without a diffuse lobe, too, as in pbrt-v2
   */
 final case class PhotonSettings(
     radius: Float,
@@ -25,7 +26,8 @@ final case class PhotonSettings(
     compresses: Boolean,
     seed: Int = 0,
     caustics: Boolean = true,
-    indirect: Boolean = true
+    indirect: Boolean = true,
+    gathersGloss: Boolean = false
 )
 
 /** Traces the photons of a pass. Mutable, one per worker. */

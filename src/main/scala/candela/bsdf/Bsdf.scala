@@ -39,6 +39,9 @@ abstract class Bsdf:
   /** Whether light is scattered to the other side of the surface. */
   def isTransmissive: Boolean
 
+  /** Whether a part of the light is scattered evenly, by a diffuse lobe. */
+  def isDiffuse: Boolean = false
+
   /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
     * them. Used at vertices after a non-specular bounce of a regularised path.
     *
@@ -68,6 +71,7 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
     inner.sample(wo, choice, u1, u2)
   def isSpecular: Boolean = inner.isSpecular
   def isTransmissive: Boolean = inner.isTransmissive
+  override def isDiffuse: Boolean = inner.isDiffuse
   override def regularized: Bsdf
   override def isDispersive: Boolean = inner.isDispersive
 

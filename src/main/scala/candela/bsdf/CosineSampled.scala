@@ -23,3 +23,4 @@ abstract class CosineSampled extends LeanBsdf:
   override def choosesLobes: Boolean = false
   final def isSpecular: Boolean = false
   final def isTransmissive: Boolean = false
+  final override def isDiffuse: Boolean = true

@@ -47,4 +47,5 @@ object DiffuseEquivalent:
 
     def isSpecular: Boolean = false
     def isTransmissive: Boolean = false
+    override def isDiffuse: Boolean = true
     override def isDispersive: Boolean = inner.isDispersive

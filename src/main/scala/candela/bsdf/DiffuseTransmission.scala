@@ -41,6 +41,7 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Le
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = !transmittance.isBlack
+  override def isDiffuse: Boolean = true
 
 /** [[DiffuseTransmission]]; textures times `scale` are clamped to [0, 1]. */
 final class DiffuseTransmissionMaterial(

@@ -26,6 +26,7 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
   override def choosesLobes: Boolean = false
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def isDiffuse: Boolean = true
 
 object Lambert:
   /** Scatters nothing. */

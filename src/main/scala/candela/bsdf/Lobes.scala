@@ -73,6 +73,7 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
 
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
+  override def isDiffuse: Boolean = lobes.exists(_.isDiffuse)
 
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
   override def isDispersive: Boolean = lobes.exists(_.isDispersive)

@@ -41,6 +41,7 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
   override def choosesLobes: Boolean = false
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def isDiffuse: Boolean = true
 
 /** Diffuse reflection; [[OrenNayar]] where `sigma` (degrees, clamped to [0, 90]) is not 0. */
 final class MatteMaterial(kd: RgbTexture, sigma: FloatTexture)

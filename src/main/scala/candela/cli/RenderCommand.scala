@@ -338,7 +338,7 @@ object Summary:
     * @param standIns number of missing items replaced by placeholders
     */
   def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
-    val missing = if standIns > 0 then s", ${Figures.count(standIns, "placeholder")}" else ""
+    val missing = placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
       s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
@@ -349,6 +349,21 @@ object Summary:
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
       s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel$missing"
+
+  private def placeholders(count: Int): String =
+    if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
+
+  /** A discarded sample counts as black. */
+  private def darkness(r: Rendering): String =
+    val lost = r.refused.fold(0L)(_.count)
+    val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
+    if lost * LeastLoss <= done then ""
+    else
+      val share = Figures.percentage(lost.toDouble / done)
+      s"; the image is too dark: $share of its samples were discarded"
+
+  /** One discarded sample among so many is not worth a word in the last line. */
+  private val LeastLoss = 1000
 
   /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =

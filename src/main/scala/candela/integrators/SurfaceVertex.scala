@@ -45,10 +45,13 @@ class SurfaceVertex(scene: Scene):
     isInMedium = true
     at.p = p
     at.pError = Vec3.Zero
-    at.geometricNormal = wo
+    // The direction goes into the frame, into the sample and out again: its length would be cubed
+    // at each event, and a rounding error grow to infinity within some twenty
+    val unit = wo.normalized
+    at.geometricNormal = unit
     at.areaLight = -1
-    at.frame.set(Frame.around(wo))
-    scatterBy(phase, wo)
+    at.frame.set(Frame.around(unit))
+    scatterBy(phase, unit)
 
   /** Computes the surface geometry where `ray` hit it. */
   final def hit(ray: Ray, hit: Hit): Unit =

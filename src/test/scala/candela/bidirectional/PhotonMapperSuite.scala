@@ -39,6 +39,8 @@ final class PhotonMapperSuite extends AnyFunSuite:
       """Material "glass"""",
       """Material "metal" "float roughness" .02""",
       """Material "glass" "float uroughness" .3 "float vroughness" .3""",
+      // As in pbrt, followed until the last event: photons would light hair from behind
+      """Material "hair" "float beta_m" 1 "float beta_n" 1 "float eumelanin" 8""",
       """Material "uber" "rgb Kr" [.3 .3 .3] "float roughness" .1"""
     )
   do

@@ -290,6 +290,17 @@ class RenderCommandSuite extends AnyFunSuite:
           "the first at pixel (3, 0), sample 2; " +
           "trace it with --pixel 3,0 --sample 2 --debug"
       ))
+      // 27 of the image's samples are more than one in a thousand
+      assert(captured.out.trim.linesIterator.toVector.last.contains("the image is too dark: "))
+
+  test("the last line leaves out a few discarded samples"):
+    TempFolder.use: folder =>
+      val sick = TinyPlan(filename = folder.resolve("a.exr").toString): (where, _) =>
+        if where.x == 3 && where.y == 0 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else gray
+      val captured = Captured()
+      assert(run(captured, Known("s.pbrt" -> sick), "s.pbrt") == 0)
+      assert(captured.err.contains("warning: 1 sample discarded"))
+      assert(!captured.out.contains("too dark"))
 
   test("--debug tells the path of one sample and writes nothing"):
     TempFolder.use: folder =>

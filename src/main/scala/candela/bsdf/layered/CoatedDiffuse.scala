@@ -92,6 +92,7 @@ final class CoatedDiffuse(
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def isDiffuse: Boolean = true
 
   // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf =

@@ -228,6 +228,7 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def isDiffuse: Boolean = layers.base.isDiffuse || !layers.albedo.isBlack
   override def regularized: Bsdf = Layered(layers.regularized, seed)
 
 private object Layered:

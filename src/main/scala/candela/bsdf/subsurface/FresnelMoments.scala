@@ -75,3 +75,4 @@ final class NormalizedFresnel(eta: Float) extends LeanBsdf:
 
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
+  override def isDiffuse: Boolean = true

@@ -42,7 +42,8 @@ final class PhotonMapRecipe(name: String)
       maxEdges = Math.max(0, bounces()),
       compresses = false,
       caustics = caustics() > 0,
-      indirect = indirect() > 0
+      indirect = indirect() > 0,
+      gathersGloss = true
     )
     PhotonPlans.plan(name, depth, settings, passes = None)
 
