@@ -168,6 +168,17 @@ object Architecture:
       (_, line) =>
         thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
 
+  private val write = (raw"\bFiles\.(?:write\w*|newOutputStream|newBufferedWriter|newByteChannel|" +
+    raw"move|copy|createFile)\b|\bFileOutputStream\((?!FileDescriptor\b)|\b(?:FileWriter|" +
+    raw"PrintWriter|RandomAccessFile|FileImageOutputStream)\b|\bImageIO\.write\b|" +
+    raw"\bStandardOpenOption\.(?!READ\b)").r
+
+  /** Files are written whole or not at all, by one class; a lock has no content. */
+  def writes(sources: Vector[SourceText]): Vector[String] =
+    val writers = Set("base/WholeFile.scala", "render/storage/FilmLock.scala")
+    code(sources.filterNot(s => writers(s.path))): (_, line) =>
+      write.findFirstIn(line).map(what => s"only WholeFile may write files, but here is `$what`")
+
   private val definition =
     (raw"^(?:(?:private|protected)(?:\[\w+\])? |final |abstract |sealed |case |" +
       raw"opaque )*(?:class|object|trait|enum|type) (\w+)").r

@@ -32,6 +32,9 @@ class ArchitectureSuite extends AnyFunSuite:
   test("only render makes threads"):
     holds(Architecture.threads(main))
 
+  test("only WholeFile writes files"):
+    holds(Architecture.writes(main))
+
   test("no class of build has the name of one of the runtime"):
     holds(Architecture.names(main))
 
@@ -209,6 +212,32 @@ class ArchitectureSuite extends AnyFunSuite:
       assert(found.size == 1 && found.head.startsWith("accel/Bvh.scala:1: only render may"), line)
       assert(Architecture.threads(planted("render/Workers.scala", line)).isEmpty, line)
     assert(Architecture.threads(planted("accel/Bvh.scala", "val parallel = d.x == 0f")).isEmpty)
+
+  test("files written outside WholeFile are found, but not those read"):
+    val bad = Vector(
+      "Files.write(path, bytes)",
+      "val _ = Files.writeString(path, text, UTF_8)",
+      "Using.resource(Files.newOutputStream(path))(_.write(1))",
+      "Files.move(a, b)",
+      "Files.copy(a, b)",
+      "new FileOutputStream(file)",
+      "java.io.PrintWriter(name)",
+      "RandomAccessFile(file, \"rw\")",
+      "FileChannel.open(path, StandardOpenOption.WRITE)",
+      "import java.nio.file.StandardOpenOption.{CREATE, WRITE}",
+      "ImageIO.write(picture, name, file)"
+    )
+    for line <- bad do
+      val found = Architecture.writes(planted("cli/Reporting.scala", line))
+      val rule = "cli/Reporting.scala:1: only WholeFile may write files, but here is"
+      assert(found.size == 1 && found.head.startsWith(rule), line)
+      assert(Architecture.writes(planted("base/WholeFile.scala", line)).isEmpty, line)
+    for line <- Vector(
+        "Files.readAllBytes(path)",
+        "FileChannel.open(path, StandardOpenOption.READ)",
+        "FileOutputStream(FileDescriptor.out)"
+      )
+    do assert(Architecture.writes(planted("cli/Reporting.scala", line)).isEmpty, line)
 
   test("long files and long lines are found, counting characters and not bytes"):
     val exact = Vector.fill(Architecture.MaxLines)("π" * Architecture.MaxColumns)

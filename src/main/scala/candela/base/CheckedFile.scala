@@ -15,22 +15,15 @@ import scala.util.Using
   */
 object CheckedFile:
 
-  /** Writes the file; [[force]] waits until the device has it. */
   def write(path: Path, mark: String)(body: CheckedOutput => Unit): Unit =
-    import StandardOpenOption.{CREATE, TRUNCATE_EXISTING, WRITE}
-    Using.resource(FileChannel.open(path, CREATE, TRUNCATE_EXISTING, WRITE)): channel =>
-      val out = CheckedOutput(channel)
-      out.text(mark)
-      body(out)
-      out.end()
+    WholeFile.write(path)(writeTo(_, mark)(body))
 
-  /** Waits until the device has the file. */
-  def force(path: Path): Unit =
-    Using.resource(FileChannel.open(path, StandardOpenOption.WRITE))(_.force(true))
-
-  /** Waits until the device has the folder's entries, where the system can do so. */
-  def forceFolder(path: Path): Unit =
-    val _ = Using(FileChannel.open(path, StandardOpenOption.READ))(_.force(true))
+  /** Writes the whole file to an empty one. */
+  def writeTo(channel: FileChannel, mark: String)(body: CheckedOutput => Unit): Unit =
+    val out = CheckedOutput(channel)
+    out.text(mark)
+    body(out)
+    out.end()
 
   /** Verifies the file, then reads it from its start.
     *

@@ -1,32 +1,198 @@
 package candela.base
 
 import java.io.IOException
-import java.nio.file.{AtomicMoveNotSupportedException, Files, Path}
-import java.nio.file.{StandardCopyOption, StandardOpenOption}
+import java.nio.ByteBuffer
+import java.nio.channels.{FileChannel, OverlappingFileLockException}
+import java.nio.file.*
+import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
+import java.nio.file.StandardOpenOption.{APPEND, CREATE_NEW, WRITE}
+import java.nio.file.attribute.BasicFileAttributes
 
-/** Atomic file writes: a file is complete or absent, even if writing is interrupted. */
+import scala.annotation.tailrec
+import scala.util.Try
+
+/** A file that can't be written; the message names it. */
+final class WriteError(path: Path, val why: String)
+    extends IOException(s"can't write `$path`: $why")
+
+/** Writes every file that the program makes: a file is complete or as it was before, even if the
+  * program is killed or the disk is full.
+  *
+  * The target of a symbolic link is replaced, not the link; pipes and devices are written to.
+  */
 object WholeFile:
 
   def write(path: Path, bytes: Array[Byte]): Unit =
-    write(path): file =>
-      val _ = Files.write(file, bytes)
+    write(path): channel =>
+      val buffer = ByteBuffer.wrap(bytes)
+      while buffer.hasRemaining do channel.write(buffer): Unit
 
-  /** Lets `body` write a temporary file beside `path`, then renames it to `path`.
+  /** Lets `body` write the file.
     *
-    * @throws IOException if it can't be written, or is a folder
+    * @throws WriteError if that fails with an IOException
     */
-  def write(path: Path)(body: Path => Unit): Unit =
-    if Files.isDirectory(path) then throw IOException("it is a folder")
-    // Files.createTempFile would make the file readable by its owner only.
-    val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
-    val temporary = path.resolveSibling(s".${path.getFileName}.$unique.tmp")
+  def write(path: Path)(body: FileChannel => Unit): Unit =
+    val next = NextFile.of(path)
     try
-      val _ = Files.write(temporary, Array.emptyByteArray, StandardOpenOption.CREATE_NEW)
-      body(temporary)
+      next.write(body)
+      next.commit()
+    finally next.close()
+
+  /** Why the file can't be written, as far as it can be told without writing. */
+  def obstacle(path: Path): Option[String] =
+    try
+      target(path) match
+        case None => Option.unless(Files.isWritable(path))("no write permission")
+        case Some(file) => obstacleOf(file)
+    catch case e: IOException => Some(reason(e))
+
+  private def obstacleOf(file: Path): Option[String] =
+    val folder = Option(file.toAbsolutePath.getParent)
+    if Files.isDirectory(file) then Some("it is a folder")
+    else if !folder.exists(Files.isDirectory(_)) then
+      Some(s"no such folder: `${folder.getOrElse(file)}`")
+    else if !folder.exists(Files.isWritable) then Some("no write permission in its folder")
+    else
+      // Of names that the file system can't hold, such as long ones, it knows no attributes.
       try
-        val _ = Files.move(temporary, path, StandardCopyOption.ATOMIC_MOVE)
-      catch
-        case _: AtomicMoveNotSupportedException =>
-          val _ = Files.move(temporary, path, StandardCopyOption.REPLACE_EXISTING)
-    finally
-      val _ = Files.deleteIfExists(temporary)
+        val _ = Files.readAttributes(file, classOf[BasicFileAttributes])
+        Option.unless(Files.isWritable(file))("it is write-protected")
+      catch case _: NoSuchFileException => None
+
+  /** Where the file is, or will be, after all links; None if it is a pipe or a device.
+    *
+    * @throws IOException if the links are a circle
+    */
+  def target(path: Path): Option[Path] = followed(path, MostLinks)
+    .filterNot(file => Files.exists(file) && !Files.isRegularFile(file) && !Files.isDirectory(file))
+
+  @tailrec
+  private def followed(path: Path, left: Int): Option[Path] =
+    if !Files.isSymbolicLink(path) then Some(path)
+    // What the shell has opened, such as /dev/stdout, may be a file; but it must not be replaced.
+    else if Opened.exists(path.toAbsolutePath.startsWith) then None
+    else if left == 0 then throw IOException("too many levels of symbolic links")
+    else followed(path.resolveSibling(Files.readSymbolicLink(path)), left - 1)
+
+  private val Opened = Vector("/proc", "/dev/fd").map(Path.of(_))
+
+  /** As Linux. */
+  private val MostLinks = 40
+
+  /** What went wrong, without the name of a file. */
+  def reason(e: IOException): String = e match
+    case w: WriteError => w.why
+    case _: AccessDeniedException => "no write permission"
+    case _: NoSuchFileException => "no such folder"
+    case f: FileSystemException if f.getReason != null => f.getReason
+    case other => Option(other.getMessage).getOrElse(other.getClass.getSimpleName)
+
+/** The next version of a file, which is not yet in its place.
+  *
+  * @param target    the file to replace; None: `channel` writes to it directly
+  * @param temporary beside the target, and locked, which tells others that it is in use
+  */
+final class NextFile private (
+    path: Path,
+    target: Option[Path],
+    temporary: Path,
+    channel: FileChannel
+) extends AutoCloseable:
+
+  def write(body: FileChannel => Unit): Unit = named(body(channel))
+
+  /** Replaces the file, once the device has the next version.
+    *
+    * @param before done between these two
+    */
+  def commit(before: => Unit = ()): Unit = named:
+    if target.nonEmpty then channel.force(true)
+    before
+    for file <- target do
+      // Still locked: no other run takes it for a left one
+      NextFile.move(temporary, file)
+      // The folder's entry, where the system can force it to the device
+      val _ = Try:
+        val folder = FileChannel.open(file.toAbsolutePath.getParent, StandardOpenOption.READ)
+        try folder.force(true)
+        finally folder.close()
+
+  /** Gives up what has not been committed. */
+  def close(): Unit =
+    val _ = Try(channel.close())
+    if target.nonEmpty then
+      val _ = Try(Files.deleteIfExists(temporary))
+
+  private def named(body: => Unit): Unit =
+    try body
+    catch
+      case e: WriteError => throw e
+      case e: IOException => throw WriteError(path, WholeFile.reason(e))
+
+object NextFile:
+
+  /** Opens the next version of a file.
+    *
+    * @throws WriteError if it can't be opened
+    */
+  def of(path: Path): NextFile =
+    try
+      for why <- WholeFile.obstacle(path) do throw WriteError(path, why)
+      val target = WholeFile.target(path)
+      target match
+        case None => NextFile(path, None, path, FileChannel.open(path, WRITE, APPEND))
+        case Some(file) =>
+          removeLeft(file)
+          val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
+          val temporary = file.resolveSibling(s"${beginning(file)}$unique.tmp")
+          val channel = FileChannel.open(temporary, CREATE_NEW, WRITE)
+          val _ = Try(channel.tryLock())
+          val _ = Try(Files.setPosixFilePermissions(temporary, Files.getPosixFilePermissions(file)))
+          NextFile(path, target, temporary, channel)
+    catch
+      case e: WriteError => throw e
+      case e: IOException => throw WriteError(path, WholeFile.reason(e))
+
+  /** Moves a file in place of another one. */
+  def move(from: Path, to: Path): Unit =
+    try
+      val _ = Files.move(from, to, ATOMIC_MOVE)
+    catch
+      case _: AtomicMoveNotSupportedException =>
+        val _ = Files.move(from, to, REPLACE_EXISTING)
+
+  /** Short, because the file's own name may be as long as the file system allows. */
+  private def beginning(file: Path): String = f".candela-${file.getFileName.toString.hashCode}%08x-"
+
+  /** Deletes what killed runs have left of this file: nobody has locked it. */
+  private def removeLeft(file: Path): Unit =
+    val _ = Try:
+      val files = Files.newDirectoryStream(
+        file.toAbsolutePath.getParent,
+        path => isLeft(path.getFileName.toString, path, beginning(file))
+      )
+      try files.forEach(removeUnlocked)
+      finally files.close()
+
+  private def isLeft(name: String, path: Path, beginning: String): Boolean =
+    name.startsWith(beginning) && name.endsWith(".tmp") && {
+      val owner = name.drop(beginning.length).takeWhile(_.isDigit).toLongOption
+      owner.flatMap(pid => Option(ProcessHandle.of(pid).orElse(null))).forall: process =>
+        // Another process may have had the number, even ours
+        val start = process.info.startInstant
+        start.isPresent && Files.getLastModifiedTime(path).toInstant.isBefore(start.get)
+    }
+
+  private def removeUnlocked(path: Path): Unit =
+    val _ = Try:
+      val channel = FileChannel.open(path, WRITE)
+      try
+        if isFree(channel) then
+          val _ = Files.deleteIfExists(path)
+      finally channel.close()
+
+  private def isFree(channel: FileChannel): Boolean =
+    try channel.tryLock() != null
+    catch
+      case _: OverlappingFileLockException => false // another thread of this process
+      case _: IOException => true // no locks here, but the process has ended

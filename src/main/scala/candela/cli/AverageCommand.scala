@@ -7,7 +7,7 @@ final class AverageCommand(options: Options, terminal: Terminal, report: Report)
 
   def run(): ExitCode = report.guarded:
     val outputs = OutputFiles.asked(options.outfiles)
-    outputs.check()
+    outputs.check(options.files, "mean")
     val images = options.files.iterator.map: name =>
       name -> ImageFiles.read(OutputFiles.path(name)).linear
     val mean = ImageEdits.mean(images)

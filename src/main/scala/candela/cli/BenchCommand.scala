@@ -23,7 +23,11 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     val source = OutputFiles.path(options.files.head)
     val paths = reports(source)
     paths.foreach(checkFolder)
-    val suite = read(source).only(asked.programs, asked.scenes)
+    val whole = read(source)
+    val register = FileRegister()
+    register.read(source +: whole.scenes.flatMap(s => s.files.values ++ s.reference))
+    register.write(Output(paths, "report", options.files.head, "report"))
+    val suite = whole.only(asked.programs, asked.scenes)
     val told = if asked.denoise then suite.withDenoised else suite
     val shown = asked.work.fold(told)(work => told.copy(work = work))
     terminal.interrupts.during(cancellation):
@@ -77,9 +81,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     if !known.contains(FileName.suffix(path)) then
       val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
       throw SceneError(Problem.general(s"can't write `$path`", help))
-    val folder = path.toAbsolutePath.getParent
-    if !Files.isDirectory(folder) then
-      throw SceneError(Problem.general(s"can't write `$path`: no such folder: `$folder`"))
+    for problem <- FileRegister.obstacle(path) do throw SceneError(problem)
 
   private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match
     case "html" => SuitePage.html(results, asked.pictures)

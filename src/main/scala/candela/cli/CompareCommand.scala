@@ -19,12 +19,20 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
 
   def run(): ExitCode = report.guarded:
     val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
-    for name <- asked.difference ++ asked.heatMap do
-      OutputFiles.asked(Vector(name)).check()
+    val register = FileRegister()
+    register.read(Vector(image, reference))
+    for (kind, name, option) <- pictures do
+      val file = OutputFiles.asked(Vector(name))
+      file.check()
+      register.write(Output(file.paths, kind, options.files.head, option))
     val code = if Files.isDirectory(image) then compareSet(image, reference)
     else compareTwo(image, reference)
     terminal.out.flush()
     code
+
+  private def pictures: Vector[(String, String, String)] =
+    asked.difference.map(("difference", _, "difference")).toVector ++
+      asked.heatMap.map(("heat map", _, "heatmap"))
 
   private def compareTwo(image: Path, reference: Path): ExitCode =
     val comparison = Comparison(pairOf(image, reference))

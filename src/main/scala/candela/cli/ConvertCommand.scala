@@ -1,24 +1,30 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, WholeFile}
+import candela.base.{Problem, WholeFile}
 import candela.build.TextureValues
-import candela.convert.{Baking, Converter, Declarations, SceneText, SideFiles}
+import candela.convert.{Baking, Converter, SceneText, SideFiles}
 import candela.mitsuba.MitsubaScene
-import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription}
+import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}
 
-import java.io.{BufferedWriter, OutputStreamWriter, Writer}
+import java.io.{BufferedWriter, OutputStream, OutputStreamWriter}
+import java.nio.channels.Channels
 import java.nio.charset.StandardCharsets
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 
 /** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
     val out = options.outfiles.headOption.map(OutputFiles.path)
-    out.foreach(check)
+    val output = Output(out.toVector, "scene", options.files.head)
+    val register = FileRegister()
+    register.read(options.files.map(OutputFiles.path))
+    register.check(output)
     val scene =
       Parser.whole(SceneLoader.readable(SceneLoader.existing(options.files.head), options))
-    out.foreach(keepSource(_, scene))
+    // The output keeps neither comments nor includes.
+    register.read(SceneFiles.of(scene))
+    register.write(output)
     val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
     val to = options.to.getOrElse(scene.dialect)
     val files = SideFiles(folder)
@@ -29,12 +35,10 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
       report.warnings(scene.warnings ++ warnings, all = options.verbose)
       out match
         case Some(path) =>
-          WholeFile.write(path): file =>
-            val writer = Files.newBufferedWriter(file, StandardCharsets.UTF_8)
-            try SceneText.write(converted.scene, writer)
-            finally writer.close()
+          WholeFile.write(path): channel =>
+            write(converted.scene, Channels.newOutputStream(channel))
           if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
-        case None => print(converted.scene)
+        case None => write(converted.scene, terminal.out)
       terminal.out.flush()
     ExitCode.Done
 
@@ -47,31 +51,11 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     if warnings.isEmpty then dialect
     else s"$dialect, ${Figures.count(warnings.size, "warning")}"
 
-  private def print(scene: SceneDescription): Unit =
-    val encoder = OutputStreamWriter(terminal.out, StandardCharsets.UTF_8)
-    val writer: Writer = BufferedWriter(encoder, 1 << 16)
+  private def write(scene: SceneDescription, to: OutputStream): Unit =
+    val encoder = OutputStreamWriter(to, StandardCharsets.UTF_8)
+    val writer = BufferedWriter(encoder, 1 << 16)
     SceneText.write(scene, writer)
     writer.flush()
-
-  private def check(path: Path): Unit =
-    val folder = Option(path.toAbsolutePath.getParent)
-    def fail(why: String) = throw SceneError(Problem.general(s"can't write `$path`: $why"))
-    if Files.isDirectory(path) then fail("it is a folder")
-    else if !folder.exists(Files.isDirectory(_)) then
-      fail(s"no such folder: `${folder.getOrElse(path)}`")
-    else if !folder.exists(Files.isWritable) then fail("no write permission in its folder")
-
-  /** Refuses to overwrite an input: the output keeps neither its comments nor its includes. */
-  private def keepSource(path: Path, scene: SceneDescription): Unit =
-    var sources = Set(options.files.head)
-    val _ = Declarations.map(scene): d =>
-      sources += d.at.file
-      d
-    val isSource = Files.exists(path) &&
-      sources.exists(s => Files.exists(Path.of(s)) && Files.isSameFile(Path.of(s), path))
-    if isSource then
-      val help = Some("choose another name with --outfile FILE")
-      throw SceneError(Problem.general(s"`$path` is an input file; refusing to overwrite it", help))
 
 object ConvertCommand:
   /** Triangles from which on a mesh of a Mitsuba scene becomes a PLY file. */

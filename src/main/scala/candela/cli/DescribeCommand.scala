@@ -1,9 +1,8 @@
 package candela.cli
 
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Files, Path}
 
-import candela.base.{Problem, SceneError, Suggest}
+import candela.base.{Problem, SceneError, Suggest, WholeFile}
 import candela.build.{Category, Language}
 import candela.build.recipe.{Dialects, Field, Recipe, Support}
 import candela.scenefile.Dialect
@@ -14,16 +13,19 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
   private val text = ReferenceText(described, terminal.columns)
 
   def run(): ExitCode = report.guarded:
+    val outputs = options.outfiles.map(OutputFiles.path)
+    FileRegister().write(Output(outputs, "reference", "Candela"))
     val lines =
       if options.pbrtOptions then PbrtOptions.page.linesIterator.toVector
       else if options.markdown then ReferenceMarkdown(described).page
       else answer(options.files)
-    options.outfiles match
+    outputs match
       case Vector() =>
         lines.foreach(terminal.out.println)
         terminal.out.flush()
       case files =>
-        for f <- files do Files.writeString(Path.of(f), lines.map(_ + "\n").mkString, UTF_8)
+        for f <- files do
+          WholeFile.write(f, lines.map(_ + "\n").mkString.getBytes(UTF_8))
     ExitCode.Done
 
   private def answer(words: Vector[String]): Vector[String] = words match

@@ -42,6 +42,23 @@ private[cli] final class FilmKeeping(
 
 private[cli] object FilmKeeping:
 
+  /** The film file named on the command line. */
+  def named(options: Options, outfiles: Vector[String]): Option[String] =
+    outfiles.find(FilmOptions.isFilm).orElse(options.film.checkpoint.filter(_.nonEmpty))
+
+  /** The film file to write, if one was asked for. */
+  def path(
+      options: Options,
+      outfiles: Vector[String],
+      images: Vector[Path],
+      resumed: Option[FilmFile]
+  ): Option[Path] =
+    def beside = options.film.checkpoint.flatMap: _ =>
+      images.headOption.map(FileName.withSuffix(_, FilmFile.Suffix))
+    resumed.map(_.path)
+      .orElse(named(options, outfiles).map(OutputFiles.path))
+      .orElse(beside)
+
   /** The film file of a rendering, if one was asked for. An existing one is continued.
     *
     * @param outfiles as asked for
@@ -58,10 +75,7 @@ private[cli] object FilmKeeping:
       images: Vector[Path],
       resumed: Option[FilmFile]
   ): Option[FilmKeeping] =
-    def named = outfiles.find(FilmOptions.isFilm).orElse(options.film.checkpoint.filter(_.nonEmpty))
-    def beside = options.film.checkpoint.flatMap: _ =>
-      images.headOption.map(FileName.withSuffix(_, FilmFile.Suffix))
-    for path <- resumed.map(_.path).orElse(named.map(OutputFiles.path)).orElse(beside) yield
+    for path <- path(options, outfiles, images, resumed) yield
       val now = FilmHeaders.of(options, scene, loaded, path, images)
       resumed match
         case Some(film) =>
@@ -81,9 +95,8 @@ private[cli] object FilmKeeping:
 
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =
-    val folder = path.toAbsolutePath.getParent
-    if !Files.isDirectory(folder) then
-      FilmInput.fail(s"can't write `$path`: no such folder: `$folder`")
+    for file <- Vector(path, FilmFile.previous(path)); problem <- FileRegister.obstacle(file) do
+      throw SceneError(problem)
     FilmLock.take(path).getOrElse:
       FilmInput.fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
 
@@ -103,7 +116,7 @@ private[cli] object FilmKeeping:
 
   /** The saved rendering at `path`, if there is one. */
   private def existing(path: Path, now: FilmHeader, report: Report): Option[FilmFile] =
-    Option.when(Files.exists(path) || Files.exists(FilmFile.previous(path))):
+    Option.when(Files.isRegularFile(path) || Files.exists(FilmFile.previous(path))):
       val film =
         try FilmInput.open(path.toString, report)
         catch case e: SceneError => FilmInput.fail(e.problems.head.message, Remove)

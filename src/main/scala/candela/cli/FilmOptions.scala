@@ -1,10 +1,9 @@
 package candela.cli
 
-import candela.base.FileName
 import candela.render.Shard
 import candela.render.storage.FilmFile
 
-import java.nio.file.{InvalidPathException, Path}
+import java.util.Locale
 
 import scopt.{OParser, Read}
 
@@ -34,8 +33,7 @@ final case class FilmOptions(
 
 object FilmOptions:
   def isFilm(name: String): Boolean =
-    try FileName.suffix(Path.of(name)) == FilmFile.Suffix
-    catch case _: InvalidPathException => false
+    name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
 
   /** Gives `--checkpoint` an empty value if no film file follows it. */
   def withValues(args: Seq[String]): Seq[String] =
@@ -102,7 +100,7 @@ private[cli] object FilmTable:
       .text("render a sequence: the scene's name has %d, or %04d, for the number")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
-      .text("skip scenes whose images exist and are of this scene and these options")
+      .text("skip scenes whose images are whole, and of this scene and these options")
       .action((_, o) => change(o)(_.copy(skipDone = true)))
   ) ++ goals
 

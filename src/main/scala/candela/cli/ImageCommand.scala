@@ -13,7 +13,7 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
     val outputs = OutputFiles.asked(options.outfiles)
-    outputs.check()
+    outputs.check(options.files, "image")
     val path = OutputFiles.path(options.files.head)
     val whole = ImageFiles.read(path).linear
     val made =

@@ -1,13 +1,14 @@
 package candela.cli
 
-import java.io.PrintStream
+import candela.base.Problem
+
+import java.io.{IOException, PrintStream}
 
 /** Entry point; the only place that exits. */
 object Main:
 
   def main(args: Array[String]): Unit =
     val code = run(args.toVector, Terminal.ofProcess)
-    System.out.flush()
     System.err.flush()
     System.exit(code)
 
@@ -47,7 +48,14 @@ object Main:
           case Command.Average => AverageCommand(options, terminal, report).run()
           case Command.Info => InfoCommand(options, terminal, report).run()
           case Command.Convert => ConvertCommand(options, terminal, report).run()
-    code.number
+    terminal.failure.fold(code)(lost(_, terminal).worseOf(code)).number
+
+  /** Nobody wants to hear of output that its reader did not want, such as `head`. */
+  private def lost(failure: IOException, terminal: Terminal): ExitCode =
+    if failure.getMessage != "Broken pipe" then
+      val message = s"can't write to standard output: ${failure.getMessage}"
+      terminal.err.println(ProblemText.format(Problem.general(message), terminal.hasColor))
+    ExitCode.BadInput
 
 /** Result of a run, from best to worst; `number` is the process's exit code. */
 enum ExitCode(val number: Int):

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.render.{RenderState, Renderer}
 import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}
+import candela.scenefile.SceneFiles
 
 import scala.util.Using
 
@@ -21,11 +22,19 @@ final class MergeCommand(
       checkShards(films)
       val outfiles = OutputFiles.asked(options.outfiles)
       outfiles.check()
+      val register = FileRegister()
+      register.read(films.flatMap(f => Vector(f.path, FilmFile.previous(f.path))))
+      val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path).toVector
+      val outputs = Output(outfiles.paths, "image", first.path.toString) +:
+        merged.map(f => Output(Vector(f, FilmFile.previous(f)), "film", first.path.toString))
+      outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
       val loaded = loader.load(saved.files.head, saved)
       val header = first.header
       val images = header.outfiles.map(OutputFiles.path)
       val now = FilmHeaders.of(saved, header.scene, loaded, first.path, images)
+      register.read(SceneFiles.of(loaded.description))
+      outputs.foreach(register.write)
       FilmInput.verify(first, now.copy(count = header.count))
       val shards = films.flatMap(_.header.shards).toSet
       val all = films.map(_.header.done).min

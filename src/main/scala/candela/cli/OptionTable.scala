@@ -367,18 +367,18 @@ private[cli] object OptionTable extends OptionRows:
     ),
     note(""),
     command(Command.Info, "print size, channels, metadata and statistics of images")(
-      Vector(
-        file("image...", "images in any readable format").unbounded()
-      )
+      Vector(file("image...", "images in any readable format").unbounded())
     ),
     note("""
-      |Without --outfile the scene's Film names the image, and a preview is written next to it.
+      |Without --outfile the scene's Film names the image, and a preview is written next to it:
+      |what --outfile x.exr,x.png does.
       |Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits immediately.
       |Film files (.film) save renderings: --checkpoint, resume, --shard, merge.
       |Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted.
       |""".stripMargin.stripTrailing),
     checkConfig: o =>
-      if o.command == Command.Render && o.outfiles.nonEmpty && o.files.size > 1 then
+      if Set(Command.Render, Command.Preview)(o.command) && o.outfiles.nonEmpty && o.files.size > 1
+      then
         failure("--outfile needs a single scene, found several")
       else if SwitchTable.problem(o).isDefined then failure(SwitchTable.problem(o).mkString)
       else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then

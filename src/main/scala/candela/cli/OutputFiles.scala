@@ -1,10 +1,11 @@
 package candela.cli
 
 import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.build.film.FilmRecipe
 import candela.image.{Contents, OutputFormat}
 import candela.render.RenderPlan
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.{InvalidPathException, Path}
 
 /** Output files of an image, one per format, and the warnings about them. */
 final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
@@ -16,6 +17,24 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
   def check(): Unit =
     val problems = paths.flatMap(OutputFiles.problem)
     if problems.nonEmpty then throw SceneError(problems)
+
+  /** Verifies that they can be written, and are no inputs.
+    *
+    * @throws SceneError if one can't
+    */
+  def check(inputs: Vector[String], kind: String): Unit =
+    check()
+    val register = FileRegister()
+    register.read(inputs.map(OutputFiles.path))
+    register.write(Output(paths, kind, inputs.headOption.mkString))
+
+  /** Leaves out a preview that would overwrite a file that was read: nobody asked for it. */
+  def without(isRead: Path => Boolean): OutputFiles =
+    val (lost, kept) = paths.drop(1).partition(isRead)
+    val told = lost.map: path =>
+      val message = s"no preview is written: `$path` is an input file"
+      Problem(Severity.Warning, None, message)
+    OutputFiles(paths.take(1) ++ kept, warnings ++ told)
 
   /** @throws SceneError if no file can store AOVs */
   def checkLayers(): Unit =
@@ -34,7 +53,22 @@ object OutputFiles:
 
   /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =
-    OutputFiles(names.filterNot(FilmOptions.isFilm).map(path).distinct, Vector.empty)
+    val paths = names.filterNot(FilmOptions.isFilm).map(path)
+    OutputFiles(paths.distinctBy(_.toAbsolutePath.normalize), Vector.empty)
+
+  /** The file named by the scene's Film, or else after the scene: all scenes without a name would
+    * write pbrt's `pbrt.exr`.
+    */
+  def ofScene(scene: String, loaded: LoadedScene): OutputFiles =
+    val film = loaded.description.film
+    val isNamed = film.exists(_.params.exists(_.name == "filename"))
+    if isNamed || loaded.plan.filename != FilmRecipe.DefaultFile then ofFilm(loaded.plan.filename)
+    else
+      val file = path(scene).getFileName
+      val stem = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
+      val files = ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}")
+      val message = s"`$scene` names no image file; writing `${files.paths.head}`"
+      files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
 
   /** The file named by the scene's Film, relative to the current folder, plus a preview if its
     * format can't be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by
@@ -63,16 +97,7 @@ object OutputFiles:
         throw SceneError(Problem.general(s"`$name` is not a valid file name: ${e.getReason}"))
 
   private def problem(path: Path): Option[Problem] =
-    val folder = Option(path.toAbsolutePath.getParent)
-    val elsewhere = Some("choose another file with --outfile FILE")
     if OutputFormat.of(path).isEmpty then
       val help = s"supported formats: ${OutputFormat.listed()}"
       Some(Problem.general(s"can't write `$path`", Some(help)))
-    else if Files.isDirectory(path) then
-      Some(Problem.general(s"can't write the image `$path`: it is a folder", elsewhere))
-    else if !folder.exists(Files.isDirectory(_)) then
-      val missing = folder.getOrElse(path)
-      Some(Problem.general(s"can't write `$path`: no such folder: `$missing`", elsewhere))
-    else if !folder.exists(Files.isWritable) then
-      Some(Problem.general(s"can't write `$path`: no write permission in its folder", elsewhere))
-    else None
+    else FileRegister.obstacle(path)

@@ -15,8 +15,11 @@ final class PreviewCommand(
   import PreviewCommand.*
 
   def run(): ExitCode =
+    val register = FileRegister()
     val codes = options.files.map: scene =>
-      report.guarded(RenderCommand(asked(scene), terminal, report, loader).run())
+      report.guarded(RenderCommand(
+        asked(scene), terminal, report, loader, register = register
+      ).run())
     codes.foldLeft(ExitCode.Done)(_ worseOf _)
 
   private def asked(scene: String): Options =

@@ -1,7 +1,7 @@
 package candela.cli
 
 import java.io.PrintStream
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
 import scala.util.{Failure, Success, Try}
 
@@ -14,17 +14,19 @@ import candela.scene.PathReport
 
 /** `candela render`: renders scenes to image files.
   *
-  * @param resumed the saved rendering to continue, if any
+  * @param resumed  the saved rendering to continue, if any
+  * @param register of files, shared by the renderings of a run
   */
 final class RenderCommand(
     options: Options,
     terminal: Terminal,
     report: Report,
     loader: SceneLoader,
-    resumed: Option[FilmFile] = None
+    resumed: Option[FilmFile] = None,
+    register: FileRegister = FileRegister()
 ):
   private val cancellation = Cancellation()
-  private var taken = Map.empty[Path, String]
+  private val files = RenderOutputs(options, report, register, resumed)
   private val threads = options.threadCount
   private val goals = options.film
   private lazy val denoising =
@@ -48,7 +50,7 @@ final class RenderCommand(
 
   private[cli] def load(scene: String, outfiles: Vector[String]): LoadedScene =
     // Warns before parsing, which may take long.
-    OutputFiles.asked(outfiles).check()
+    files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
     val loaded = loader.load(scene, options)
@@ -64,23 +66,7 @@ final class RenderCommand(
       scene: String,
       loaded: LoadedScene,
       outfiles: Vector[String]
-  ): Vector[Path] =
-    val files =
-      if outfiles.nonEmpty then OutputFiles.asked(outfiles)
-      else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
-      else OutputFiles.ofFilm(loaded.plan.filename)
-    report.warnings(files.warnings, all = true)
-    files.check()
-    if OutputFiles.needLayers(loaded.plan, options.denoise) && files.paths.nonEmpty then
-      files.checkLayers()
-    for path <- files.paths.map(_.toAbsolutePath.normalize) do
-      taken.get(path).foreach(other => throw overwrite(path, scene, other))
-      taken += path -> scene
-    files.paths
-
-  private def overwrite(path: Path, scene: String, other: String): SceneError =
-    val message = s"the image of `$scene` would overwrite that of `$other`: $path"
-    SceneError(Problem.general(message, Some("render them separately, with --outfile")))
+  ): Vector[Path] = files.images(scene, loaded, outfiles)
 
   private def render(
       scene: String,
@@ -164,10 +150,13 @@ final class RenderCommand(
         val finishedAt = System.nanoTime
         val denoised = Option.when(options.denoise):
           Denoised(image, rendering.seconds, (finishedAt - started) * 1e-9)
-        val written = write(paths, loaded, rendering, image, facts)
+        val wanted = writable(paths, rendering)
+        val written = write(wanted, loaded, rendering, image, facts)
         val writeSeconds = (System.nanoTime - finishedAt) * 1e-9
         val films =
           keeping.map(_.path).filter(_ => paths.isEmpty && checkpointer.forall(_.failure.isEmpty))
+        if wanted.size < paths.size && !options.quiet then
+          terminal.err.println(Summary.kept(paths.diff(wanted)))
         summarise(written ++ films, loaded, rendering, writeSeconds)
         goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
         for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
@@ -180,7 +169,7 @@ final class RenderCommand(
           terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await())
-        if written.size < paths.size || checkpointer.exists(_.failure.nonEmpty) then
+        if written.size < wanted.size || checkpointer.exists(_.failure.nonEmpty) then
           ExitCode.BadInput
         else if !rendering.isComplete then ExitCode.Interrupted
         else ExitCode.Done
@@ -194,7 +183,8 @@ final class RenderCommand(
   ): Watching =
     val reference = options.reference.map(RenderRecorder.fitting(loaded.plan, _))
     def save(rendering: Rendering) =
-      write(paths, loaded, rendering, finished(loaded, rendering), about).mkString(", ")
+      write(writable(paths, rendering), loaded, rendering, finished(loaded, rendering), about)
+        .mkString(", ")
     Watching(options, scene, loaded.plan, reference, cancellation, terminal, save)
 
   /** Writes the image of a rendering that was put together from film files. */
@@ -215,6 +205,11 @@ final class RenderCommand(
   private def finished(loaded: LoadedScene, rendering: Rendering): Image =
     val noisy = rendering.image(loaded.plan.development)
     denoising.fold(noisy)(_(noisy))
+
+  /** An image without samples must not replace another one. */
+  private def writable(paths: Vector[Path], rendering: Rendering): Vector[Path] =
+    if rendering.samplesDone > 0 || rendering.isComplete then paths
+    else paths.filterNot(Files.isRegularFile(_))
 
   /** Writes every file that can be written; returns those written. Viewers may ask for it, too. */
   private def write(
@@ -242,7 +237,9 @@ final class RenderCommand(
       else
         val legends = loaded.plan.layers.fold(Vector.empty)(_.metadata(image))
         ImageFiles.write(path, image, about ++ legends, how)
-    val attempts = paths.map(path => path -> write(path))
+    // Those that can't hold the digest first: what is done is told by the others
+    val order = paths.sortBy(Sequence.keepsDigest)
+    val attempts = order.map(path => path -> write(path)).sortBy((path, _) => paths.indexOf(path))
     val failures = attempts.collect:
       case (_, Failure(e: ImageError)) => Problem.general(e.getMessage)
       case (_, Failure(e)) => throw e
@@ -364,6 +361,10 @@ object Summary:
 
   /** One discarded sample among so many is not worth a word in the last line. */
   private val LeastLoss = 1000
+
+  /** Of images that an interrupted rendering did not replace. */
+  def kept(images: Vector[Path]): String =
+    s"interrupted: kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
 
   /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =

@@ -1,12 +1,13 @@
 package candela.cli
 
+import candela.base.WholeFile
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.Errors
 import candela.render.{Pass, RenderPlan, PassObserver}
 
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Files, Path, StandardOpenOption}
+import java.nio.file.Path
 
 /** Observes a rendering after 1, 2, 4, 8, … samples per pixel and at its end, beside another. */
 private[cli] abstract class ChainedObserver(other: Option[PassObserver]) extends PassObserver:
@@ -28,13 +29,12 @@ private[cli] final class ErrorLog(
     file: Path,
     other: Option[PassObserver]
 ) extends ChainedObserver(other):
-  // At once: a file that can't be written must not wait for the first pass
-  Files.write(file, Array.empty[Byte]): Unit
+  private val lines = StringBuilder()
 
   protected def saw(pass: Pass, film: Film): Unit =
     val mse = Errors.quickly(reference)(development(film)).mse
-    val line = s"${pass.samples}, ${Figures.general(mse)}\n"
-    Files.writeString(file, line, UTF_8, StandardOpenOption.APPEND): Unit
+    lines ++= s"${pass.samples}, ${Figures.general(mse)}\n"
+    WholeFile.write(file, lines.toString.getBytes(UTF_8))
 
 private[cli] object ErrorLog:
   /** None unless the plan asks for one. */

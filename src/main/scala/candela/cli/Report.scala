@@ -2,7 +2,7 @@ package candela.cli
 
 import java.io.{IOException, PrintStream, UncheckedIOException}
 
-import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos}
+import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos, WriteError}
 import candela.image.ImageError
 import candela.render.RenderFailure
 
@@ -71,7 +71,9 @@ final class Report(
 
   private def print(problem: Problem): Unit = err.println(ProblemText.format(problem, hasColor))
 
-  private def ioMessage(e: IOException): String = s"${e.getClass.getSimpleName}: ${e.getMessage}"
+  private def ioMessage(e: IOException): String = e match
+    case w: WriteError => w.getMessage
+    case other => s"${other.getClass.getSimpleName}: ${other.getMessage}"
 
   private def isMemory(e: Throwable): Boolean =
     e.isInstanceOf[OutOfMemoryError] || Option(e.getCause).exists(isMemory)
@@ -79,7 +81,8 @@ final class Report(
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
     val message = s"out of memory: Java's heap is limited to ${limit}B"
-    val help = "raise the limit, e.g. with the environment variable JAVA_TOOL_OPTIONS=-Xmx8g"
+    val variable = Report.heapVariable(sys.props.getOrElse("java.class.path", ""), sys.env)
+    val help = s"raise the limit, e.g. with the environment variable $variable=-Xmx8g"
     errors(Vector(Problem.general(message, Some(help))))
 
   private def bug(e: Throwable): ExitCode =
@@ -94,6 +97,13 @@ final class Report(
 object Report:
   /** Limit for readability. */
   private[cli] val MostErrors = 20
+
+  /** The variable whose limit of the heap counts: the launcher's options precede Java's own. */
+  private[cli] def heapVariable(classPath: String, environment: Map[String, String]): String =
+    val javas = "JDK_JAVA_OPTIONS"
+    if classPath.endsWith("candela.jar") then "JAVA_OPTS"
+    else if environment.get(javas).exists(_.contains("-Xmx")) then javas
+    else "JAVA_TOOL_OPTIONS"
 
 /** Formats a problem as text; no other class does:
   *

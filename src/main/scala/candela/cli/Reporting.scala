@@ -1,9 +1,9 @@
 package candela.cli
 
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 
-import candela.base.{FileName, Problem, SceneError, Version}
+import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
 
@@ -95,15 +95,10 @@ object ReportFiles:
   def checked(names: Vector[String]): Vector[Path] =
     val paths = names.map(OutputFiles.path).distinct
     val problems = paths.flatMap: path =>
-      val folder = path.toAbsolutePath.getParent
       if !Suffixes.contains(FileName.suffix(path)) then
         val help = Some("reports are written as .html, .json or .csv")
         Some(Problem.general(s"can't write the report `$path`", help))
-      else if !Files.isDirectory(folder) then
-        Some(Problem.general(s"can't write `$path`: no such folder: `$folder`"))
-      else if Files.isDirectory(path) then
-        Some(Problem.general(s"can't write the report `$path`: it is a folder"))
-      else None
+      else FileRegister.obstacle(path)
     if problems.nonEmpty then throw SceneError(problems)
     paths
 
@@ -113,4 +108,4 @@ object ReportFiles:
         case "html" => RenderPage.html(report)
         case "json" => RenderData.json(report)
         case _ => RenderData.csv(report)
-      val _ = Files.write(path, text.getBytes(UTF_8))
+      WholeFile.write(path, text.getBytes(UTF_8))

@@ -1,9 +1,8 @@
 package candela.cli
 
-import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.{Files, Path}
+import candela.image.{ImageFiles, OutputFormat}
 
-import scala.util.{Try, Using}
+import java.nio.file.Path
 
 /** A scene of a sequence, and the output files asked for. */
 private[cli] final case class Frame(scene: String, outfiles: Vector[String])
@@ -60,11 +59,10 @@ private[cli] object Sequence:
 
   private def digits(group: String | Null): Int = if group == null then 1 else group.toInt
 
-  /** Whether the images exist, and are of the rendering with this digest. */
+  /** Whether all images are whole, and of the rendering with this digest. Those that can't hold it
+    * are written before those that can.
+    */
   def isDone(images: Vector[Path], digest: String): Boolean =
-    images.nonEmpty && images.forall(Files.isRegularFile(_)) && holds(images.head, digest)
+    images.exists(keepsDigest) && images.forall(ImageFiles.isWhole(_, digest))
 
-  /** Whether the file's metadata, which precede the pixels, contain the text. */
-  private def holds(file: Path, text: String): Boolean =
-    Try(Using.resource(Files.newInputStream(file))(_.readNBytes(1 << 16))).toOption.exists: bytes =>
-      String(bytes, ISO_8859_1).contains(text)
+  def keepsDigest(image: Path): Boolean = OutputFormat.of(image).exists(_.keepsTexts)

@@ -1,6 +1,10 @@
 package candela.cli
 
-import java.io.{Console, PrintStream}
+import java.io.{
+  BufferedOutputStream, Console, FileDescriptor, FileOutputStream, FilterOutputStream, IOException,
+  PrintStream
+}
+import java.nio.charset.Charset
 import java.nio.file.{Files, Path}
 
 import scala.util.Try
@@ -12,6 +16,7 @@ import scala.util.Try
   * @param isInteractive whether a line on `err` can be redrawn
   * @param columns text width, in characters
   * @param environment variables of the process
+  * @param lost why output was lost, if it is known
   */
 final class Terminal(
     val out: PrintStream,
@@ -19,8 +24,13 @@ final class Terminal(
     val isInteractive: Boolean,
     val interrupts: Interrupts,
     val columns: Int = Terminal.UsualColumns,
-    val environment: Map[String, String] = Map.empty
+    val environment: Map[String, String] = Map.empty,
+    lost: () => Option[IOException] = () => None
 ):
+  /** Why some of the output could not be written, if so. */
+  def failure: Option[IOException] =
+    Option.when(out.checkError())(lost().getOrElse(IOException("it is closed")))
+
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
   def hasColor: Boolean = isInteractive && environment.getOrElse("NO_COLOR", "").isEmpty
 
@@ -29,7 +39,41 @@ object Terminal:
   def ofProcess: Terminal =
     val redraws = isInteractive
     val interrupts = Interrupts.fromSignals(System.err, redraws)
-    Terminal(System.out, System.err, redraws, interrupts, columns, sys.env)
+    val out = Stdout()
+    val buffered = BufferedOutputStream(out, 1 << 13)
+    Terminal(
+      PrintStream(buffered, false, charset),
+      System.err,
+      redraws,
+      interrupts,
+      columns,
+      sys.env,
+      () => out.failure
+    )
+
+  /** Standard output that remembers why it can't be written: a PrintStream tells only that. */
+  private final class Stdout extends FilterOutputStream(FileOutputStream(FileDescriptor.out)):
+    @volatile private var first = Option.empty[IOException]
+
+    def failure: Option[IOException] = first
+
+    override def write(byte: Int): Unit = noting(out.write(byte))
+
+    override def write(bytes: Array[Byte], from: Int, count: Int): Unit =
+      noting(out.write(bytes, from, count))
+
+    private def noting(body: => Unit): Unit =
+      try body
+      catch
+        case e: IOException =>
+          first = first.orElse(Some(e))
+          throw e
+
+  /** As System.out has it. */
+  private def charset: Charset =
+    sys.props.get("stdout.encoding").orElse(sys.props.get("sun.stdout.encoding"))
+      .flatMap(name => Try(Charset.forName(name)).toOption)
+      .getOrElse(Charset.defaultCharset)
 
   private val UsualColumns = 80
 

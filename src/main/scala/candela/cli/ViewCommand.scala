@@ -13,7 +13,7 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
     val outputs = OutputFiles.asked(options.outfiles)
-    outputs.check()
+    outputs.check(options.files, "picture")
     for path <- outputs.paths if !OutputFormat.of(path).exists(_.contents == Contents.Display) do
       val pictures = OutputFormat.listed(Contents.Display)
       throw SceneError(Problem.general(s"`view` writes $pictures, found `$path`"))

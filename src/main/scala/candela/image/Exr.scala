@@ -35,6 +35,8 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
     ExrDecoder.decode(file, parts, chosen, order.toArray, data)
     Image(part.width, part.height, order.map(inFile), data, colorSpace = part.colorSpace)
 
+  override def keepsTexts: Boolean = true
+
   /** ZIP compression; every channel under its own name. Encoded images are decoded first. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     for (name, _) <- metadata if name.isEmpty || name.getBytes("UTF-8").length > 255 do

@@ -1,8 +1,9 @@
 package candela.image
 
-import candela.base.{FileName, WholeFile}
+import candela.base.{FileName, WholeFile, WriteError}
 
 import java.io.IOException
+import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, NoSuchFileException, Path}
 
 /** Reads and writes image files of all supported formats. Every failure is an [[ImageError]]. */
@@ -40,6 +41,18 @@ object ImageFiles:
   def facts(path: Path): Vector[(String, String)] =
     val bytes = Files.readAllBytes(path)
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
+
+  /** Whether the file is a whole image whose metadata contain the text, if its format has any. */
+  def isWhole(path: Path, text: String): Boolean =
+    Files.isRegularFile(path) && OutputFormat.of(path).exists: format =>
+      try
+        val bytes = Files.readAllBytes(path)
+        val holds = !format.keepsTexts || String(bytes, ISO_8859_1).contains(text)
+        holds && {
+          val _ = decode(bytes, FileName.suffix(path))
+          format.hasEnd(bytes)
+        }
+      catch case _: ImageError | _: IOException | _: OutOfMemoryError => false
 
   private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
 
@@ -82,9 +95,7 @@ object ImageFiles:
           case (None, other) => throw ImageError(s"can't write .$other files; $Writable")
       catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
     try WholeFile.write(path, bytes)
-    catch
-      case _: NoSuchFileException => throw ImageError(s"$path: there is no such folder")
-      case e: IOException => throw ImageError(s"$path: can't be written: ${reason(e)}")
+    catch case e: WriteError => throw ImageError(e.getMessage)
 
   /** The bytes that `write` stores in an `.exr` file. */
   def exr(image: Image): Array[Byte] = Exr.write(image, Vector.empty)

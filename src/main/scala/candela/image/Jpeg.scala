@@ -9,6 +9,11 @@ private[image] object Jpeg extends OutputFormat("jpg", Contents.Display):
   /** Differences from the original can hardly be seen. */
   private val Quality = 0.95f
 
+  override def keepsTexts: Boolean = true
+
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    file.takeRight(2).sameElements(Array(0xff.toByte, 0xd9.toByte))
+
   override def aliases: Vector[String] = Vector("jpeg")
 
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.loop
+import candela.base.{loop, WholeFile}
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
@@ -33,7 +33,7 @@ private[image] final class OpenExr private (library: NativeLibrary):
     val halves = MemoryUtil.memAllocShort(4 * part.width * part.height)
     val pixels = MemoryUtil.memAllocFloat(halves.capacity)
     try
-      val _ = Files.write(copy, file)
+      WholeFile.write(copy, file)
       val name = stack.UTF8(copy.toString)
       val opened = invokePP(MemoryUtil.memAddress(name), openFile)
       if opened == 0 then fail(why)

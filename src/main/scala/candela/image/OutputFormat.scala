@@ -38,6 +38,12 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
   /** Other extensions of such files. */
   def aliases: Vector[String] = Vector.empty
 
+  /** Whether its files hold metadata, as plain text. */
+  def keepsTexts: Boolean = false
+
+  /** Whether a file that can be decoded has its last byte, too: decoders are lenient. */
+  private[image] def hasEnd(file: Array[Byte]): Boolean = true
+
   /** Encodes an image file.
     *
     * @param metadata names and texts to store, if the format supports them

@@ -1,10 +1,16 @@
 package candela.image
 
+import java.nio.charset.StandardCharsets.US_ASCII
 import javax.imageio.metadata.{IIOInvalidTreeException, IIOMetadata, IIOMetadataNode}
 
 /** Writes PNG: 8 or 16 bits, sRGB-encoded, values clamped to [0, 1], NaN black. */
 private[image] object Png extends OutputFormat("png", Contents.Display):
   private val NativeFormat = "javax_imageio_png_1.0"
+
+  override def keepsTexts: Boolean = true
+
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    String(file.takeRight(8).take(4), US_ASCII) == "IEND"
 
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     JavaImages.encode("png", Bitmap.of(image, options.display))(describe(_, metadata))

@@ -87,6 +87,9 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
       file(at - 1) & 255
 
   /** Three channels, sRGB-encoded; values clamped to [0, 1], NaN black. */
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    file.takeRight(End.length).sameElements(End)
+
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val picture = Bitmap.of(image, options.display.copy(bits = 8))
     val (width, height) = (picture.getWidth, picture.getHeight)

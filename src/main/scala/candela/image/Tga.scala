@@ -12,6 +12,12 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
   private val TrueColor = 2
   private val TopLeft = 0x20
 
+  private[image] override def hasEnd(file: Array[Byte]): Boolean =
+    val header = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
+    def size(at: Int) = header.getShort(at) & 0xffff
+    // Others compress
+    file(2) != TrueColor || file.length >= HeaderSize + size(12) * size(14) * (file(16) / 8)
+
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val picture = Bitmap.of(image, options.display.copy(bits = 8))
     val (width, height) = (picture.getWidth, picture.getHeight)

@@ -11,13 +11,14 @@ object SceneFiles:
     * write; without duplicates.
     */
   def of(scene: SceneDescription): Vector[Path] =
-    val named =
+    val texts =
       for
         declaration <- declarations(scene)
         param <- declaration.params
         text <- param.strings
-        file <- file(declaration.folder, text)
-      yield file
+      yield (declaration.folder, text)
+    // Distinct, because thousands of shapes may have the same texture
+    val named = texts.distinct.flatMap(file)
     (scene.sources ++ named).distinctBy(_.toAbsolutePath.normalize)
 
   private def declarations(s: SceneDescription): Vector[Declaration] =

@@ -1,5 +1,7 @@
 package candela.suite
 
+import candela.base.WholeFile
+
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
 
@@ -23,7 +25,9 @@ final class SceneCopy(scratch: Path):
       Using.resource(Files.list(scene.toAbsolutePath.getParent)): files =>
         for file <- files.iterator.asScala if file.getFileName != scene.getFileName do
           Files.createSymbolicLink(folder.resolve(file.getFileName), file)
-      Files.writeString(folder.resolve(scene.getFileName), text, ISO_8859_1)
+      val copy = folder.resolve(scene.getFileName)
+      WholeFile.write(copy, text.getBytes(ISO_8859_1))
+      copy
 
 object SceneCopy:
 

@@ -62,7 +62,7 @@ object KilledRenderings:
       if process.isAlive then killed += 1
       process.destroyForcibly().waitFor()
       if !Files.exists(film) then early += 1
-      if Files.exists(folder.resolve(".a.film.next")) then torn += 1
+      if TempFolder.names(folder).exists(_.endsWith(".tmp")) then torn += 1
     finished(candela(folder, if Files.exists(film) then Vector("resume", "a.film") else first))
     val isSame = Files.readAllBytes(image).sameElements(Files.readAllBytes(whole))
     Result(isSame, killed, early, torn)

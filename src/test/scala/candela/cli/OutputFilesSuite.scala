@@ -59,7 +59,7 @@ class OutputFilesSuite extends AnyFunSuite:
   test("a folder in the place of the image is noticed before rendering"):
     TempFolder.use: folder =>
       val path = Files.createDirectory(folder.resolve("a.exr"))
-      assert(problems(path) == Vector(s"can't write the image `$path`: it is a folder"))
+      assert(problems(path) == Vector(s"can't write `$path`: it is a folder"))
 
   test("all that is wrong is told at once"):
     TempFolder.use: folder =>

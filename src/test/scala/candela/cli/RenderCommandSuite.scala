@@ -338,6 +338,20 @@ class RenderCommandSuite extends AnyFunSuite:
       assert(captured.out ==
         s"interrupted: wrote $folder/a.png with less than 1 of 5 samples per pixel\n")
 
+  test("a finished image is kept if its next rendering is interrupted before the first sample"):
+    TempFolder.use: folder =>
+      val old = Files.write(folder.resolve("a.exr"), Array[Byte](1, 2, 3))
+      val interrupts = AtSample()
+      val plan = TinyPlan(filename = old.toString): (_, _) =>
+        interrupts.press()
+        gray
+      val captured = Captured(interrupts = interrupts)
+      assert(run(captured, Known("s.pbrt" -> plan), "s.pbrt", "--nthreads", "1") == 130)
+      assert(Files.readAllBytes(old).sameElements(Array[Byte](1, 2, 3)))
+      assert(captured.out ==
+        s"interrupted: wrote $folder/a.png with less than 1 of 5 samples per pixel\n")
+      assert(captured.err.contains(s"interrupted: kept $old: the new image has less than 1 sample"))
+
   test("an interrupted rendering is written as far as it is; other scenes are left"):
     TempFolder.use: folder =>
       val interrupts = AtSample()

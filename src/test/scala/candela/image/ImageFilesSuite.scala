@@ -123,11 +123,12 @@ class ImageFilesSuite extends AnyFunSuite:
       val taken = Files.createDirectory(folder.resolve("b.exr"))
       val inside = Files.createFile(taken.resolve("keep"))
       val black = Image.rgb(1, 1)
-      assert(error(ImageFiles.write(taken, black)) == s"$taken: can't be written: it is a folder")
+      assert(error(ImageFiles.write(taken, black)) == s"can't write `$taken`: it is a folder")
       assert(Files.exists(inside))
 
       val nowhere = folder.resolve("no/c.exr")
-      assert(error(ImageFiles.write(nowhere, black)) == s"$nowhere: there is no such folder")
+      val why = s"no such folder: `${nowhere.getParent}`"
+      assert(error(ImageFiles.write(nowhere, black)) == s"can't write `$nowhere`: $why")
       assert(names(folder) == Vector("a.png", "b.exr"))
 
   test("a small file that claims to be a huge picture is refused before the memory is taken"):

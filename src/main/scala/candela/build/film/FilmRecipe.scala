@@ -59,7 +59,10 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       "pixelbounds", "x0 x1 y0 y1: crop window in pixels", onlyV4, "integer[4]", "all"
     )
   private val file =
-    string("filename", "image file; its extension selects the format")("pbrt.exr")
+    string(
+      "filename",
+      "image file; its extension selects the format; by default, it has the scene's name"
+    )(FilmRecipe.DefaultFile)
   private val diagonal =
     float("diagonal", "diagonal of the film, for realistic cameras", sinceV3, unit = "mm")(35f)
 
@@ -89,3 +92,7 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
   /** Sorts the edges of a window. */
   private def ordered(w: Array[Float]): Array[Float] =
     Array(w(0).min(w(1)), w(0).max(w(1)), w(2).min(w(3)), w(2).max(w(3)))
+
+object FilmRecipe:
+  /** The image file of scenes that name none. */
+  val DefaultFile = "pbrt.exr"

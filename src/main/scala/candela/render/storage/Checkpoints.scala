@@ -1,5 +1,6 @@
 package candela.render.storage
 
+import candela.base.WholeFile
 import candela.render.{Checkpointer, RenderState}
 
 import java.io.IOException
@@ -47,7 +48,7 @@ final class Checkpoints(
       reason = ""
     catch
       case e: IOException =>
-        val why = Option(e.getMessage).getOrElse(e.getClass.getSimpleName)
+        val why = WholeFile.reason(e)
         if why != reason then warn(why)
         reason = why
     reason.isEmpty

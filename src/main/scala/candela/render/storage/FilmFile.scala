@@ -1,11 +1,12 @@
 package candela.render.storage
 
-import candela.base.CheckedFile
+import candela.base.{CheckedFile, NextFile, WholeFile}
 import candela.render.RenderState
 
 import java.io.IOException
-import java.nio.file.{AtomicMoveNotSupportedException, Files, Path}
-import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
+import java.nio.file.{Files, Path}
+
+import scala.util.Try
 
 /** A saved rendering.
   *
@@ -31,8 +32,13 @@ object FilmFile:
   /** File extension. */
   val Suffix = "film"
 
-  /** Where the previous copy is kept. */
-  def previous(path: Path): Path = path.resolveSibling(s"${path.getFileName}.previous")
+  /** Where the previous copy is kept: beside the file, not beside a link to it. */
+  def previous(path: Path): Path =
+    val file = place(path)
+    file.resolveSibling(s"${file.getFileName}.previous")
+
+  private[storage] def place(path: Path): Path =
+    Try(WholeFile.target(path)).toOption.flatten.getOrElse(path)
 
   /** Opens a film file, or its previous copy if it is damaged or missing.
     *
@@ -61,31 +67,34 @@ object FilmFile:
   * @param isGood whether `path` is a good copy, if it exists
   */
 final class FilmWriter(path: Path, private var isGood: Boolean = true):
-  // One name, so that interrupted runs leave one file at most
-  private val next = path.resolveSibling(s".${path.getFileName}.next")
+  private var next = Option.empty[NextFile]
 
   /** Writes the next copy. */
   def write(header: FilmHeader, state: RenderState): Unit =
+    abandon()
+    val file = NextFile.of(path)
+    next = Some(file)
     try
-      CheckedFile.write(next, FilmFile.Mark): out =>
-        header.save(out)
-        state.save(out)
+      file.write: channel =>
+        CheckedFile.writeTo(channel, FilmFile.Mark): out =>
+          header.save(out)
+          state.save(out)
     catch
-      case e: IOException =>
-        val _ = Files.deleteIfExists(next)
+      case e: Throwable =>
+        abandon()
         throw e
 
   /** Replaces the file by the copy written last, once the device has it. */
   def commit(): Unit =
-    CheckedFile.force(next)
-    if isGood && Files.exists(path) then move(path, FilmFile.previous(path))
-    move(next, path)
-    isGood = true
-    CheckedFile.forceFolder(path.toAbsolutePath.getParent)
-
-  private def move(from: Path, to: Path): Unit =
     try
-      val _ = Files.move(from, to, ATOMIC_MOVE)
-    catch
-      case _: AtomicMoveNotSupportedException =>
-        val _ = Files.move(from, to, REPLACE_EXISTING)
+      next.foreach(_.commit(keepPrevious()))
+      isGood = true
+    finally abandon()
+
+  private def keepPrevious(): Unit =
+    val file = FilmFile.place(path)
+    if isGood && Files.isRegularFile(file) then NextFile.move(file, FilmFile.previous(path))
+
+  private def abandon(): Unit =
+    next.foreach(_.close())
+    next = None

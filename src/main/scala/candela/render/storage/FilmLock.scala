@@ -25,7 +25,8 @@ object FilmLock:
     * @throws IOException if the folder can't be written
     */
   def take(film: Path): Option[FilmLock] =
-    val file = film.resolveSibling(s".${film.getFileName}.lock")
+    val place = FilmFile.place(film)
+    val file = place.resolveSibling(s".${place.getFileName}.lock")
     val channel = FileChannel.open(file, CREATE, WRITE)
     val isOurs =
       try channel.tryLock() != null

@@ -1,0 +1,57 @@
+package candela.cli
+
+import candela.render.storage.FilmFile
+import candela.scenefile.SceneFiles
+
+import java.nio.file.Path
+
+/** The files that a rendering reads and writes. */
+private[cli] final class RenderOutputs(
+    options: Options,
+    report: Report,
+    register: FileRegister,
+    resumed: Option[FilmFile]
+):
+
+  /** Checks what is known before the scene is read, which may take long.
+    *
+    * @throws SceneError if a file can't be written
+    */
+  def check(scene: String, outfiles: Vector[String]): Unit =
+    val images = OutputFiles.asked(outfiles)
+    images.check()
+    register.read((scene +: (options.reference ++ options.switches.reference).toVector)
+      .map(OutputFiles.path))
+    register.check(Output(images.paths, "image", scene))
+    val film = if resumed.isDefined then None else FilmKeeping.named(options, outfiles)
+    others(scene, film.map(OutputFiles.path), options.switches.errors).foreach(register.check)
+
+  /** The images to write, each by one scene.
+    *
+    * @throws SceneError if a file can't be written, or is one of the scene's
+    */
+  def images(scene: String, loaded: LoadedScene, outfiles: Vector[String]): Vector[Path] =
+    val plan = loaded.plan
+    register.read(SceneFiles.of(loaded.description) ++
+      plan.errors.map(e => OutputFiles.path(e.reference)))
+    val files =
+      if outfiles.nonEmpty then OutputFiles.asked(outfiles)
+      else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
+      else OutputFiles.ofScene(scene, loaded).without(register.hasRead)
+    report.warnings(files.warnings, all = true)
+    files.check()
+    if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
+      files.checkLayers()
+    register.write(Output(files.paths, "image", scene))
+    val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
+    others(scene, film, plan.errors.map(_.file)).foreach(register.write)
+    files.paths
+
+  private def others(scene: String, film: Option[Path], errors: Option[String]) =
+    val films = film.toVector.flatMap(f => Vector(f, FilmFile.previous(f)))
+    val named = if options.film.checkpoint.isDefined then "checkpoint" else "outfile"
+    Vector(
+      Output(films, "film", scene, named),
+      Output(ReportFiles.checked(options.reports), "report", scene, "report"),
+      Output(errors.toVector.map(OutputFiles.path), "list of errors", scene, "mse-reference-out")
+    )
