@@ -17,7 +17,7 @@ final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
 
   /** Objects of the scene, in order. */
   val objects: Vector[Property] =
-    val values = Values(find, report)
+    val values = Values(spectrum, report)
     expanded.elements.flatMap: e =>
       if e.tag == "ref" then None
       else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
@@ -69,6 +69,12 @@ final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
     val plain = name.replace('\\', '/')
     expanded.folders.map(_.resolve(plain)).find(Files.isRegularFile(_))
       .getOrElse(folder.resolve(plain))
+
+  /** Path of a file of numbers, which becomes part of the scene if it exists. */
+  def spectrum(name: String): Path =
+    val path = find(name)
+    if Files.isRegularFile(path) then files += path
+    path
 
   /** An existing file, which becomes part of the scene. */
   def file(name: String, at: SourcePos, standIn: String): Option[Path] =

@@ -55,6 +55,15 @@ class LostDataSuite extends AnyFunSuite:
       val (code, captured) = f.render()
       assert(code == 1 && captured.err.contains("refusing to overwrite it"))
 
+  test("a spectrum of a Mitsuba scene is a file of the scene, too"):
+    inFolder: f =>
+      val _ = Files.writeString(f("lamp.exr"), "400 1\n700 2\n")
+      val text = """<scene version="3.0.0"><sensor type="perspective"/><emitter type="constant">
+        |<spectrum name="radiance" filename="lamp.exr"/></emitter></scene>""".stripMargin
+      val scene = Files.writeString(f("m.xml"), text)
+      val (code, captured) = Captured.run(scene.toString, "--outfile", f.name("lamp.exr"))
+      assert(code == 1 && captured.err.contains("refusing to overwrite it"), captured.err)
+
   test("other commands don't overwrite what they read"):
     inFolder: f =>
       ImageFiles.write(f("a.png"), Image.rgb(4, 4))
