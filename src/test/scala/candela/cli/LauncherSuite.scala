@@ -64,6 +64,39 @@ class LauncherSuite extends AnyFunSuite:
       val rest = Vector("-cp", jar, "candela.cli.Main", "a b", "*", "$HOME", "")
       assert(words.drop(5).dropRight(1) == rest)
 
+  test("a collector that is asked for replaces ours: Java refuses two"):
+    staged: p =>
+      val _ = p.jdk("99")
+      val ours = "-XX:-UseParallelGC"
+      for
+        variable <- Seq("JAVA_OPTS", "JDK_JAVA_OPTIONS", "JAVA_TOOL_OPTIONS")
+        collector <- Seq("G1", "Serial", "Z")
+      do
+        val options = s"-Da=b -XX:+Use${collector}GC"
+        assert(p.run(env = Map(None_, variable -> options)).code == 0)
+        val words = p.starts.last
+        assert(words.contains(ours), options)
+        if variable == "JAVA_OPTS" then
+          assert(words.indexOf(ours) < words.indexOf(s"-XX:+Use${collector}GC")): Unit
+      for options <- Seq("", "-XX:+UseParallelGC", "-XX:+UseGCOverheadLimit") do
+        assert(p.run(env = Map(None_, "JAVA_OPTS" -> options)).code == 0)
+        assert(!p.starts.last.contains(ours), options)
+
+  test("in a heap too small for an archive, Java starts without one"):
+    staged: p =>
+      val _ = p.jdk("99")
+      assert(p.run(env = Make).code == 0)
+      def usesArchive(options: String, variable: String = "JAVA_OPTS") =
+        assert(p.run(env = Map(variable -> options)).code == 0)
+        p.starts.last.exists(_.startsWith("-XX:AOTCache="))
+      val small = Seq("-Xmx40m", "-Xmx64M", "-Xmx65536k", "-XX:MaxHeapSize=67108864")
+      for options <- small :+ "-Xmx4g -Xmx64m" do
+        assert(!usesArchive(options), options)
+        assert(!usesArchive(options, "JAVA_TOOL_OPTIONS"), options)
+        assert(p.starts.last.contains("-Xlog:gc+ergo=off"), options)
+      for options <- Seq("-Xmx128m", "-Xmx8g", "-Xmx64m -Xmx8589934592", "-Xmx1t", "-Xmxlots") do
+        assert(usesArchive(options), options)
+
   test("names of files are UTF-8 where there is no locale; a locale stays as it is"):
     staged: p =>
       val _ = p.jdk("99", java = "printf %s \"${LC_ALL:-$LANG}\"")
