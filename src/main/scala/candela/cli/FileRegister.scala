@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, WholeFile}
+import candela.render.storage.FilmFile
 
 import java.nio.file.attribute.BasicFileAttributes
 import java.nio.file.{Files, Path}
@@ -12,12 +13,14 @@ import scala.util.Try
   * @param kind   as messages name them: "image"
   * @param of     the input they belong to
   * @param option that names them
+  * @param beside what is written with them, such as previous copies
   */
 private[cli] final case class Output(
     files: Vector[Path],
     kind: String,
     of: String,
-    option: String = "outfile"
+    option: String = "outfile",
+    beside: Vector[Path] = Vector.empty
 )
 
 /** What a run reads and writes. The one place where outputs are checked, before the work begins:
@@ -37,11 +40,12 @@ private[cli] final class FileRegister:
     * @throws SceneError if one can't be
     */
   def check(output: Output): Unit =
-    val problems = output.files.flatMap: file =>
-      obstacle(file).orElse(Option.when(hasRead(file)):
-        val help = s"choose another name with --${output.option} FILE"
-        Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help)))
+    def problem(file: Path) = obstacle(file).orElse(Option.when(hasRead(file)):
+      val help = s"choose another name with --${output.option} FILE"
+      Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help)))
+    val problems = output.files.flatMap(problem)
     if problems.nonEmpty then throw SceneError(problems)
+    for first <- output.beside.flatMap(problem).headOption do throw SceneError(first)
 
   /** Notes files that will be written.
     *
@@ -49,7 +53,7 @@ private[cli] final class FileRegister:
     */
   def write(output: Output): Unit =
     check(output)
-    for file <- output.files; path <- place(file) do
+    for file <- output.files ++ output.beside; path <- place(file) do
       for other <- outputs.get(path) do throw overwrite(file, output, other)
       outputs += path -> output
 
@@ -60,6 +64,10 @@ private[cli] final class FileRegister:
       if other.of == output.of then s"choose another name with --${output.option} FILE"
       else "render them separately, with --outfile"
     SceneError(Problem.general(message + file, Some(help)))
+
+private[cli] object Output:
+  def film(file: Path, of: String, option: String = "outfile"): Output =
+    Output(Vector(file), "film", of, option, beside = Vector(FilmFile.previous(file)))
 
 private[cli] object FileRegister:
 

@@ -95,8 +95,7 @@ private[cli] object FilmKeeping:
 
   /** @throws SceneError if another rendering writes this film file */
   def locked(path: Path): FilmLock =
-    for file <- Vector(path, FilmFile.previous(path)); problem <- FileRegister.obstacle(file) do
-      throw SceneError(problem)
+    FileRegister().check(Output.film(path, path.toString))
     FilmLock.take(path).getOrElse:
       FilmInput.fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
 

@@ -26,7 +26,7 @@ final class MergeCommand(
       register.read(films.flatMap(f => Vector(f.path, FilmFile.previous(f.path))))
       val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path).toVector
       val outputs = Output(outfiles.paths, "image", first.path.toString) +:
-        merged.map(f => Output(Vector(f, FilmFile.previous(f)), "film", first.path.toString))
+        merged.map(Output.film(_, first.path.toString))
       outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
       val loaded = loader.load(saved.files.head, saved)

@@ -183,8 +183,10 @@ final class RenderCommand(
   ): Watching =
     val reference = options.reference.map(RenderRecorder.fitting(loaded.plan, _))
     def save(rendering: Rendering) =
-      write(writable(paths, rendering), loaded, rendering, finished(loaded, rendering), about)
-        .mkString(", ")
+      val wanted = writable(paths, rendering)
+      if wanted.isEmpty then "nothing: the new image has less than 1 sample per pixel"
+      else
+        write(wanted, loaded, rendering, finished(loaded, rendering), about).mkString(", ")
     Watching(options, scene, loaded.plan, reference, cancellation, terminal, save)
 
   /** Writes the image of a rendering that was put together from film files. */

@@ -48,10 +48,8 @@ private[cli] final class RenderOutputs(
     files.paths
 
   private def others(scene: String, film: Option[Path], errors: Option[String]) =
-    val films = film.toVector.flatMap(f => Vector(f, FilmFile.previous(f)))
     val named = if options.film.checkpoint.isDefined then "checkpoint" else "outfile"
-    Vector(
-      Output(films, "film", scene, named),
+    film.toVector.map(Output.film(_, scene, named)) ++ Vector(
       Output(ReportFiles.checked(options.reports), "report", scene, "report"),
       Output(errors.toVector.map(OutputFiles.path), "list of errors", scene, "mse-reference-out")
     )
