@@ -225,6 +225,7 @@ final class BidirectionalPathTracer(
     val source = scene.surfaceLight(at)
     val radiance = source.radiance(at, wo)
     if radiance.isBlack || edges == 1 then radiance
+    else if source.isShownOnly then if path.isSpecularSoFar then radiance else Rgb.Black
     else
       val index = at.areaLight
       val perArea = vertex.cosine(wo) / (distance * distance)

@@ -59,11 +59,18 @@ private[build] object BuildContext:
   val NoPlace: SourcePos = SourcePos("", 0, 0)
   private val NoFolder = Path.of("")
 
-  def apply(description: SceneDescription, options: BuildOptions): BuildContext =
+  def apply(whole: SceneDescription, options: BuildOptions): BuildContext =
+    val isBlind = whole.dialect == Dialect.V4 && whole.worldToCamera.start.isFlat
+    val description = if isBlind then background(whole) else whole
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val isSharp = description.dialect == Dialect.V4 && !description.isMitsubas
     val basis = if isSharp then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(options.keepGoing, description.lost, description.errors)
+    if isBlind then
+      problems.warn(
+        whole.camera.fold(NoPlace)(_.at),
+        "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
+      )
     val mode = ColorPlan.mode(options.colorMode, description)
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
@@ -76,6 +83,15 @@ private[build] object BuildContext:
     val plain = context(Switches())
     val statement = plain.unwritten("Option", "").copy(params = description.options)
     context(options.switches.over(OptionRecipe.build(plain.site(statement))))
+
+  /** What a camera without a place sees. */
+  private def background(scene: SceneDescription): SceneDescription =
+    scene.copy(
+      worldToCamera = AnimatedTransform(Transform.Identity, Transform.Identity),
+      cameraMedium = "",
+      shapes = Vector.empty,
+      instances = Vector.empty
+    )
 
 /** Default types of each dialect. */
 private[build] final case class Defaults(

@@ -39,6 +39,14 @@ private[build] final class MediaBuilder(
   /** Whether any medium or volume emits light. */
   def isEmissive: Boolean = media.exists(_.isEmissive) || regions.exists(!_.emitted.isBlack)
 
+  /** Whether the integrator shows light of media. */
+  def glows(materials: MaterialTable): Boolean =
+    def inMedia = plan.throughMedia.isDefined && isUsed(materials) && media.exists(_.isEmissive)
+    def inVolumes = plan.throughVolumes.isDefined && regions.exists(!_.emitted.isBlack)
+    inMedia || inVolumes
+
+  private def isUsed(materials: MaterialTable): Boolean = camera >= 0 || materials.touchesMedia
+
   /** Index of the camera's medium; −1: none. */
   private val camera: Int =
     val at = description.camera.fold(BuildContext.NoPlace)(_.at)
@@ -76,7 +84,7 @@ private[build] final class MediaBuilder(
       materials: MaterialTable,
       reach: Float
   ): (RenderMethod, String) =
-    val isUsed = camera >= 0 || materials.touchesMedia
+    val isUsed = this.isUsed(materials)
     warnOfBlindness(isUsed)
     (plan.throughMedia, plan.throughVolumes) match
       case (Some(make), _)

@@ -24,8 +24,9 @@ final case class PlacedObject(
   *     instances don't support these.
   *   - An animated shape is an object; within an object, it is a separate object for each instance.
   *
-  * Instances and animated shapes can't emit light, as in pbrt (which also warns; pbrt-v4 rejects
-  * animated area lights).
+  * Animated shapes can't emit light, as in pbrt (which also warns; pbrt-v4 rejects animated area
+  * lights), nor can instances in v4. In v2 and v3 the area lights of instances are seen, directly
+  * and by specular scattering, but light nothing.
   */
 private[build] final class ObjectUses(description: SceneDescription, problems: Findings):
   private val motions = Motions(description)
@@ -53,8 +54,7 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
             Suggest.help(name, description.objects.keys)
           )
       case Some(shapes) =>
-        val message = "shapes of an object can't be area lights; emission is ignored"
-        place(name, shapes.map(withoutLight(_, message)), uses)
+        place(name, shapes.map(ofObject), uses)
 
   /** Shapes of the world, including copied objects. */
   def world: Vector[ShapeDescription] = own.toVector
@@ -81,6 +81,20 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
       for s <- moving do
         val within = motions.of(s.objectToWorld)
         objects += PlacedObject(Vector(atOrigin(s)), places.map(MotionProduct(_, within)))
+
+  private def ofObject(s: ShapeDescription): ShapeDescription =
+    if description.dialect == Dialect.V4 then
+      withoutLight(s, "shapes of an object can't be area lights; emission is ignored")
+    else if s.areaLight.isDefined && Motions.moves(s.objectToWorld) then
+      withoutLight(s, "animated shapes can't be area lights; emission is ignored")
+    else
+      for light <- s.areaLight do
+        problems.warn(
+          light.at,
+          "area lights of an object are seen, but light nothing, as in pbrt",
+          Some("place the lamp outside of the object")
+        )
+      s.copy(inObject = true)
 
   private def withoutLight(s: ShapeDescription, message: String): ShapeDescription =
     for light <- s.areaLight do problems.warn(light.at, message)

@@ -133,6 +133,10 @@ object SceneBuilder:
             "need \"path\" or \"volpath\""
         )
 
+  private def dialect(scene: SceneDescription): String =
+    val why = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
+    scene.dialect.toString.toLowerCase + why
+
   private def dimsLight(options: BuildOptions): Boolean = options.fireflies match
     case Fireflies.Clamped(_) => !options.preview
     case _ => false
@@ -178,7 +182,7 @@ object SceneBuilder:
         else film.development.copy(scale = film.development.scale * exposure),
       filename = film.filename,
       features = Vector(
-        "dialect" -> context.dialect.toString.toLowerCase,
+        "dialect" -> dialect(context.description),
         "integrator" -> integrator.describe
       ) ++ world.features ++ Vector(
         "motion" -> moving(camera, world),

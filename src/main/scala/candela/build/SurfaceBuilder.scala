@@ -9,7 +9,7 @@ import candela.build.recipe.*
 import candela.build.shapes.{
   EmitterHoles, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
 }
-import candela.lights.Light
+import candela.lights.{Light, ShownLight, SurfaceLight}
 import candela.scene.{ShapeInstance, Surfaces}
 import candela.scenefile.{Declaration, Dialect}
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
@@ -29,8 +29,15 @@ private[build] final class LitSurfaces(
 ):
   def lights(context: BuildContext): Vector[SampledLight] = lit(context)
 
-/** Collects the surfaces of the world or of an instanced object. */
-private[build] final class SurfaceBuilder(context: BuildContext, materials: MaterialTable):
+/** Collects the surfaces of the world or of an instanced object.
+  *
+  * @param firstLight index of its first area light
+  */
+private[build] final class SurfaceBuilder(
+    context: BuildContext,
+    materials: MaterialTable,
+    firstLight: Int = 0
+):
   private val soup = SoupBuilder()
   private val solids = ArrayBuffer.empty[ShapeInstance]
   private val meshMasks = ArrayBuffer.empty[Mask]
@@ -39,15 +46,27 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
 
   /** Creates the area lights from all triangles, in the order of their indices. */
   private val lights = ArrayBuffer.empty[(BuildContext, TriangleSoup) => Vector[SampledLight]]
-  private var lightCount = 0
+  private var lightCount = firstLight
+
+  /** Index after that of the last area light. */
+  def endOfLights: Int = lightCount
 
   /** @param triangles of each light; each has its samples in v2's and v3's direct lighting */
-  private def addLights(count: Int, statement: Declaration, triangles: Int = 1)(
+  private def addLights(
+      count: Int,
+      statement: Declaration,
+      isShownOnly: Boolean,
+      triangles: Int = 1
+  )(
       make: (AreaLightPlan, TriangleSoup) => Vector[Light]
   ): Unit =
     lights += { (context, soup) =>
       context.emission(statement).toVector.flatMap: plan =>
-        make(plan, soup).map(SampledLight(_, plan.samples * triangles, statement))
+        for light <- make(plan, soup) yield
+          val seen = light match
+            case s: SurfaceLight if isShownOnly => ShownLight(s)
+            case other => other
+          SampledLight(seen, plan.samples * triangles, statement)
     }
     lightCount += count
 
@@ -90,8 +109,9 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
 
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
-      case ShapeGeometry.Solid(_) if toWorld.isFlat => () // reported before
-      case ShapeGeometry.Solid(make) => addSolid(make(toWorld, isReversed), lamp, isInverted)
+      case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
+      case ShapeGeometry.Solid(make, turned) =>
+        addSolid(make(toWorld, isReversed), lamp, isInverted != turned)
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
           val name = dressed.shape.shape.name
@@ -112,7 +132,7 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
       val lit = lamp.filter(_ => hasArea(shape))
       val light = lit.fold(-1)(_ => lightCount)
       for lamp <- lit do
-        addLights(1, lamp): (emitted, _) =>
+        addLights(1, lamp, dressed.shape.inObject): (emitted, _) =>
           Vector(plan.holes.light(emitted.ofShape(shape, isInverted), shape))
       solids += ShapeInstance(shape, dressed.material, light, isInverted)
       solidMasks += plan.mask
@@ -147,11 +167,14 @@ private[build] final class SurfaceBuilder(context: BuildContext, materials: Mate
         )
         meshMasks += plan.mask
         meshStatements += dressed.declared
+        val shown = dressed.shape.inObject
         for lamp <- lamp do
           if isPaired then
-            addLights(corners.size, lamp, 2)(MeshLights.ofRectangles(first, corners).of)
+            addLights(corners.size, lamp, shown, 2)(MeshLights.ofRectangles(first, corners).of)
           else
-            addLights(count, lamp)(MeshLights.ofTriangles(plan.holes, first, count, here).of)
+            addLights(count, lamp, shown)(
+              MeshLights.ofTriangles(plan.holes, first, count, here).of
+            )
 
     private def isUniform(lamp: Declaration): Boolean =
       plan.holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)

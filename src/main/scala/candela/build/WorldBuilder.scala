@@ -66,9 +66,11 @@ private[build] final class WorldBuilder(
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials = MaterialTable.of(context, integrator, media, shapes)
 
+    var lightCount = 0
     def collected(shapes: Vector[ShapeDescription]) =
-      val builder = SurfaceBuilder(context, materials)
+      val builder = SurfaceBuilder(context, materials, lightCount)
       for s <- shapes do builder.add(materials.dress(s))
+      lightCount = builder.endOfLights
       builder
     val world = collected(uses.world)
     val objects = uses.shared.map(o => collected(o.shapes))
@@ -76,9 +78,12 @@ private[build] final class WorldBuilder(
     problems.stopAtErrors()
 
     val lit = world.result()
+    val litObjects = objects.map(_.result())
+    def areaLights(context: BuildContext) =
+      lit.lights(context) ++ litObjects.flatMap(_.lights(context))
     val shining = lightPlans.flatMap((l, plan) => light(l, plan).map(l -> _))
-    val lights = lit.lights(context) ++ shining.map(_._2)
-    val placed = structure(lit.surfaces, objects.map(_.result().surfaces), uses.shared)
+    val lights = areaLights(context) ++ shining.map(_._2)
+    val placed = structure(lit.surfaces, litObjects.map(_.surfaces), uses.shared)
     val all = lights.map(_.light).toArray
     val selection = LightSelection.of(all, integrator.lights, placed.accelerator.bounds)
     val scene = Scene(
@@ -93,14 +98,14 @@ private[build] final class WorldBuilder(
       lightGroups =
         grouping.map(LightGrouping.groups(_, lights.map(_.statement), media.isEmissive))
     )
-    warnOfDarkness(scene)
+    warnOfDarkness(scene, media.glows(materials))
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
     val (plain, inMedia) = media.method(scene, samples, shining.map(_._1), materials, reach)
     def recolored(basis: ColorBasis): RenderMethod =
       val other = context.in(basis)
       defineTextures(other)
-      val otherLights = lit.lights(other) ++
+      val otherLights = areaLights(other) ++
         shining.flatMap((l, _) => light(l, lightPlan(l, other)))
       val plan = integratorIn(other)
       val otherScene =
@@ -179,8 +184,8 @@ private[build] final class WorldBuilder(
     val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)
     Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))
 
-  private def warnOfDarkness(scene: Scene): Unit =
-    if scene.lights.isEmpty && integrator.isLit && !problems.hasErrors then
+  private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
+    if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then
       for c <- description.camera do
         problems.warn(c.at, "the scene has no light; its image will be black")
     if !integrator.samplesLights && scene.lights.exists(_.isDelta) then

@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Suggest}
-import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
+import candela.build.{BuildOptions, DialectChoice, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
 import candela.mitsuba.MitsubaScene
 import candela.render.{RenderPlan, ThreadPool}
@@ -52,7 +52,8 @@ object SceneLoader:
     else if options.defines.nonEmpty then
       val help = "-D sets parameters of Mitsuba's XML files"
       throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
-    else Parser.readable(file, options.dialect, options.keepGoing)
+    else
+      DialectChoice.of(Parser.readable(file, options.dialect, options.keepGoing), options.dialect)
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))

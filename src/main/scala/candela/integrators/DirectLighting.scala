@@ -61,7 +61,7 @@ class DirectLighting(
           vertex,
           weight = wi => LightTransport.powerHeuristic(light.pdf, vertex.localPdf(wi))
         )
-    if light.isDelta then byLight else byLight + byBsdf(vertex, sampler)
+    if light.isDelta || light.isShownOnly then byLight else byLight + byBsdf(vertex, sampler)
 
   /** The sample of the BSDF, if it hits the chosen light. */
   private def byBsdf(vertex: SurfaceVertex, sampler: Sampler): Rgb =

@@ -70,6 +70,7 @@ final class LightConnection(
 
   /** True if no direction sampled from a BSDF can meet the light. */
   def isDelta: Boolean = scene.lights(choice.light).isDelta
+  def isShownOnly: Boolean = scene.lights(choice.light).isShownOnly
 
   /** Traces the shadow ray from a surface. */
   def isBlocked(at: ShadingPoint): Boolean = isBlocked(at.offsetOrigin(wi))

@@ -156,10 +156,15 @@ class VolumeWalk(
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
-        val weight = emissionWeight(at.areaLight, source.pdf(lastP, at))
+        val weight =
+          if source.isShownOnly then shownWeight
+          else emissionWeight(at.areaLight, source.pdf(lastP, at))
         val found = weights.throughput * (emitted * weight)
         radiance.add(found)
         if parts != null then parts.addLight(at.areaLight, depth, found)
+
+  /** Of light that only the camera and specular scattering see. */
+  private def shownWeight: Float = if weights.lightDensity > 0f then 0f else 1f
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
   private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =

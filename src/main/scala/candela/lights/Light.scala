@@ -20,6 +20,9 @@ abstract class Light:
     */
   def isContrary: Boolean = false
 
+  /** Whether only the camera sees the light, directly or by specular scattering. */
+  def isShownOnly: Boolean = false
+
   /** Whether rays can never hit the light, and only `sample` finds it. */
   def isDelta: Boolean
 

@@ -102,6 +102,9 @@ object Transform:
   def flat(rows: IndexedSeq[Double]): Transform =
     Transform(IArray.from(rows), IArray.fill(16)(Double.NaN))
 
+  /** Maps everything to one point: nothing that it places is visible. */
+  val nowhere: Transform = flat(Vector.fill(15)(0.0) :+ 1.0)
+
   def translate(x: Double, y: Double, z: Double): Transform =
     Transform(
       IArray[Double](1, 0, 0, x, 0, 1, 0, y, 0, 0, 1, z, 0, 0, 0, 1),

@@ -45,6 +45,7 @@ private[scene] object ReportedLights:
       light.sample(from, u1, u2, out)
       report.chosen(index, out)
     override def isSampled: Boolean = light.isSampled
+    override def isShownOnly: Boolean = light.isShownOnly
     def bounds: Option[LightBounds] = light.bounds
     def radiance(at: ShadingPoint, w: Vec3): Rgb =
       val emitted = light.radiance(at, w)

@@ -2,42 +2,68 @@ package candela.scenefile
 
 import scala.collection.mutable
 
+import candela.base.SourcePos
+
 /** Collects a file's directives and names, and estimates its dialect. Parsing never depends on the
   * estimate.
   */
 final class DialectGuess:
-  private val seen = mutable.HashMap.empty[String, mutable.HashSet[String]]
+  private val seen = mutable.HashMap.empty[String, mutable.LinkedHashMap[String, SourcePos]]
 
   /** Records a directive, parameter type, or implementation of a category. */
-  def uses(category: String, name: String): Unit =
+  def uses(category: String, name: String, at: SourcePos): Unit =
     if name.nonEmpty then
-      val names = seen.getOrElseUpdate(category, mutable.HashSet.empty)
-      if !names.contains(name) then names += name
+      val names = seen.getOrElseUpdate(category, mutable.LinkedHashMap.empty)
+      if !names.contains(name) then names(name) = at
 
-  /** The dialect with the highest total weight; ties go to the newest. */
-  def dialect: Dialect =
-    val found = DialectGuess.Table.filter(e => seen.get(e.category).exists(s => e.names.exists(s)))
-    val absent = if seen.get("directive").exists(_("WorldEnd")) then Nil else List(NoWorldEnd)
-    def sum(weight: Evidence => Int) = (found ++ absent).map(weight).sum
-    List(Dialect.V4 -> sum(_.v4), Dialect.V3 -> sum(_.v3), Dialect.V2 -> sum(_.v2)).maxBy(_._2)._1
+  /** What was found. */
+  def clues: Vector[DialectClue] =
+    val found =
+      for
+        e <- DialectGuess.Table
+        names <- seen.get(e.category)
+        (name, at) <- names.find((n, _) => e.names(n))
+      yield DialectClue(DialectGuess.shown(e.category, name), Some(at), e.v2, e.v3, e.v4)
+    val hasEnd = seen.get("directive").exists(_.contains("WorldEnd"))
+    found.toVector ++ Option.unless(hasEnd)(DialectGuess.NoWorldEnd)
 
-  private val NoWorldEnd = Evidence("directive", Set.empty, 0, 0, 6)
+  def dialect: Dialect = DialectGuess.of(clues)
 
-/** Weight of any of these names for each dialect, counted once: 10 is decisive, 6 is known to no
+/** What speaks for some dialects.
+  *
+  * @param what as shown in messages
+  */
+final case class DialectClue(what: String, at: Option[SourcePos], v2: Int, v3: Int, v4: Int):
+  def weight(d: Dialect): Int = d match
+    case Dialect.V2 => v2
+    case Dialect.V3 => v3
+    case Dialect.V4 => v4
+
+/** Weight of any of these names for each dialect, counted once: 20 is decisive, 6 is known to no
   * other dialect, 1 to 3 are conventions.
   */
 private final case class Evidence(category: String, names: Set[String], v2: Int, v3: Int, v4: Int)
 
 object DialectGuess:
+  /** The dialect with the highest total weight; ties go to the newest. */
+  def of(clues: Vector[DialectClue]): Dialect =
+    Dialect.values.reverse.maxBy(d => clues.map(_.weight(d)).sum)
+
+  private val NoWorldEnd = DialectClue("no WorldEnd", None, 0, 0, 6)
+
+  private def shown(category: String, name: String): String = category match
+    case "directive" => name
+    case "type" => s"the type \"$name\""
+    case _ => s"$category \"$name\""
 
   /** Sources: the implementation names of pbrt-v2, -v3 and -v4, and frequencies in public scene
     * files (which prefer `color` and `point` in v2, `rgb` in v3, `point3` in v4).
     */
   private val Table: List[Evidence] = List(
-    row("directive", 10, 0, 0)("SurfaceIntegrator VolumeIntegrator Renderer Volume"),
+    row("directive", 20, 0, 0)("SurfaceIntegrator VolumeIntegrator Renderer Volume"),
     row("directive", 0, 6, 6)("Integrator"),
     row("directive", 0, 4, 4)("MakeNamedMedium MediumInterface"),
-    row("directive", 0, 0, 10)("Attribute Option ColorSpace Import"),
+    row("directive", 0, 0, 20)("Attribute Option ColorSpace Import"),
     row("directive", 4, 4, 0)("WorldEnd"),
     row("Film", 4, 4, 0)("image"),
     row("Film", 0, 0, 10)("rgb gbuffer spectral"),

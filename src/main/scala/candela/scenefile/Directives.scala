@@ -60,14 +60,15 @@ object Directives:
     ,
     Directive("Rotate", "degrees axis.x axis.y axis.z", Anywhere): (in, scene) =>
       val v = in.numbers(4)
-      val rotation = regular(in.at, "axis of length 0")(Transform.rotate(v(0), v(1), v(2), v(3)))
+      val rotation = Transform.rotate(v(0), v(1), v(2), v(3)).getOrElse(noAxis(in, scene.inV4))
       scene.transform(_ * rotation)
     ,
     Directive("LookAt", "eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z", Anywhere):
       (in, scene) =>
         val v = in.numbers(9)
-        val why = "eye equals look-at point, or up is parallel to the view direction"
-        val view = regular(in.at, why)(Transform.lookAt(v.take(3), v.slice(3, 6), v.drop(6)))
+        val (eye, target) = (v.take(3), v.slice(3, 6))
+        val view = Transform.lookAt(eye, target, v.drop(6)).getOrElse:
+          if eye == target then noDirection(in, scene.inV4) else noUp(in, scene.inV4)
         scene.transform(_ * view)
     ,
     Directive("Transform", "[ 16 numbers in column order ]", Anywhere): (in, scene) =>
@@ -88,8 +89,28 @@ object Directives:
       scene.activate(ActiveTransform.valueOf(in.word("All", "StartTime", "EndTime")))
   )
 
-  private def regular(at: SourcePos, why: String)(t: Option[Transform]): Transform =
-    t.getOrElse(throw SceneError(Problem.error(at, s"transform can't be inverted: $why")))
+  /** pbrt-v4 goes on with NaN, and all that the transform places is invisible; v3 stops. */
+  private def noAxis(in: Arguments, inV4: Boolean): Transform =
+    val message = "transform can't be inverted: axis of length 0"
+    if inV4 then
+      in.report(Problem.warning(in.at, s"$message; what it places is invisible, as in pbrt-v4"))
+      Transform.nowhere
+    else
+      in.report(Problem.warning(in.at, s"$message; the rotation is ignored"))
+      Transform.Identity
+
+  private def noDirection(in: Arguments, inV4: Boolean): Transform =
+    val message = "transform can't be inverted: eye equals look-at point"
+    if !inV4 then throw SceneError(Problem.error(in.at, message))
+    in.report(Problem.warning(in.at, s"$message; what it places is invisible, as in pbrt-v4"))
+    Transform.nowhere
+
+  /** pbrt-v2 and v3 go on, v4 stops. */
+  private def noUp(in: Arguments, inV4: Boolean): Transform =
+    val message = "transform can't be inverted: up is parallel to the view direction"
+    if inV4 then throw SceneError(Problem.error(in.at, message))
+    in.report(Problem.warning(in.at, s"$message; LookAt is ignored, as pbrt does"))
+    Transform.Identity
 
   /** pbrt accepts transforms that flatten meshes, and some scenes use them. */
   private def orFlat(in: Arguments, why: String)(t: Option[Transform])(

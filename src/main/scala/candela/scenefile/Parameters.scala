@@ -86,7 +86,7 @@ final class Parameters(
     val types = Parameters.Types
     in.text.split("[ \t]+").filter(_.nonEmpty) match
       case Array(spelling, name, _*) if types.contains(spelling) =>
-        evidence.uses("type", spelling)
+        evidence.uses("type", spelling, in.at)
         Parameters.Key(types(spelling), name)
       case Array(spelling, _, _*) =>
         fail(s"unknown parameter type `$spelling`", Suggest.help(spelling, types.keys).get)

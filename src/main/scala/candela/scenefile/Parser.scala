@@ -74,4 +74,4 @@ object Parser:
     run.read()
     val guess = dialect.getOrElse(run.guess)
     if dialect.isEmpty && run.askedDialect && guess == Dialect.V4 then Left(guess)
-    else Right(run.result(guess))
+    else Right(run.result(guess).copy(clues = run.clues))

@@ -45,6 +45,9 @@ private[scenefile] final class ParserRun(
   /** The estimated dialect; valid after [[read]]. */
   def guess: Dialect = evidence.dialect
 
+  /** What the estimate is made of. */
+  def clues: Vector[DialectClue] = evidence.clues
+
   def read(): Unit =
     statements(Tokenizer(source, None))
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
@@ -69,6 +72,7 @@ private[scenefile] final class ParserRun(
       case None => ()
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
+        scene.lateParts(dialect).foreach(problems.add)
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then
           val message = "WorldBegin has no WorldEnd; the file may be incomplete"
           problems.add(Problem.warning(begin, message))
@@ -103,7 +107,7 @@ private[scenefile] final class ParserRun(
         problems.add(Problem.warning(at, message, Some("write each frame to a separate file")))
         isDone = true
       case Some(directive) =>
-        evidence.uses("directive", directive.name)
+        evidence.uses("directive", directive.name, at)
         in.advance()
         if isMisplaced(directive, at) then skipToDirective(in)
         else run(directive, at, in)
@@ -195,8 +199,8 @@ private[scenefile] final class ParserRun(
     val isInclude = from.current == Token.Word && from.text == "Include" && from.nextIsText
     if !isInclude then None
     else
-      evidence.uses("directive", "Include")
       val at = from.at
+      evidence.uses("directive", "Include", at)
       from.advance()
       val (name, nameAt) = (from.text, from.at)
       from.advance()

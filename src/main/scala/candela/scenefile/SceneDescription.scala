@@ -24,6 +24,7 @@ enum MaterialRef:
   *
   * @param oneSided whether it is black from behind, unless light passes through it: pbrt has no
   *   such surfaces, Mitsuba has
+  * @param inObject whether it is of an instanced object, whose area lights are seen only
   */
 final case class ShapeDescription(
     shape: Declaration,
@@ -33,7 +34,8 @@ final case class ShapeDescription(
     areaLight: Option[Declaration],
     insideMedium: String = "",
     outsideMedium: String = "",
-    oneSided: Boolean = false
+    oneSided: Boolean = false,
+    inObject: Boolean = false
 )
 
 /** @param medium name of the medium around the light; empty: none */
@@ -84,6 +86,8 @@ final case class TextureDescription(
   * @param sources the scene file and the files that it includes
   * @param isMitsubas whether Mitsuba's rules apply where they differ from pbrt-v4's: colours
   *   multiply by their sRGB components, microfacets, bumps, metals, the poles of environment maps
+  * @param clues what the dialect was estimated from; see [[DialectGuess]]
+  * @param dialectReason why it is that dialect, for the user
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -111,7 +115,9 @@ final case class SceneDescription(
     errors: Vector[Problem] = Vector.empty,
     lost: Set[NameKind] = Set.empty,
     sources: Vector[Path] = Vector.empty,
-    isMitsubas: Boolean = false
+    isMitsubas: Boolean = false,
+    clues: Vector[DialectClue] = Vector.empty,
+    dialectReason: String = ""
 )
 
 /** Kinds of names that statements define. */

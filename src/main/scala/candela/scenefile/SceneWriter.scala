@@ -36,6 +36,36 @@ final class SceneWriter(
   var worldBegin = Option.empty[SourcePos]
   var worldEnd = Option.empty[SourcePos]
 
+  private val mixed = Vector.newBuilder[(Declaration, Param)]
+
+  /** Notes the materials of a mixture that are not defined yet. */
+  private def noteParts(d: Declaration): Declaration =
+    if d.name == "mix" then
+      for p <- d.params if SceneWriter.MixedNames(p.name) && p.strings.size == 1 do
+        if !names.isTaken("material", p.strings.head) then mixed += (d -> p)
+    d
+
+  /** Warnings about mixtures of materials that are defined after them. */
+  def lateParts(dialect: Dialect): Vector[Problem] =
+    val all = result.namedMaterials.map((name, made) => name -> made.at).toMap
+    def isNamed(d: Declaration) = result.namedMaterials.exists((_, made) => made.at == d.at)
+    for
+      (mixture, part) <- mixed.result()
+      // pbrt-v2 looks for the parts of a `Material` when a shape has it
+      if dialect == Dialect.V3 || dialect == Dialect.V2 && isNamed(mixture)
+      later <- all.get(part.strings.head)
+    yield
+      val name = part.strings.head
+      Problem.warning(
+        part.valuesAt,
+        s"material `$name` is defined only later, at $later; pbrt mixes a grey \"matte\" instead " +
+          "and prints an error",
+        Some(s"move its MakeNamedMaterial before this statement")
+      )
+
+  /** Whether the scene is v4's. */
+  def inV4: Boolean = isV4()
+
   private def state = blocks.state
   private def change(f: GraphicsState => GraphicsState): Unit = blocks.state = f(blocks.state)
   private def fail(at: SourcePos, message: String, help: Option[String]) =
@@ -57,7 +87,7 @@ final class SceneWriter(
   // Declarations
 
   private def declare(category: String, from: Named, defaults: String = ""): Declaration =
-    evidence.uses(category, from.name)
+    evidence.uses(category, from.name, from.at)
     val inherited = state.defaults.getOrElse(defaults, Vector.empty)
     val all = from.params ++ inherited.filterNot(d => from.params.exists(_.name == d.name))
     Declaration(category, from.name, state.scope.resolve(all), from.at, folder, state.colorSpace)
@@ -68,7 +98,7 @@ final class SceneWriter(
     val missing = Some(s"add for example \"string type\" \"${SceneWriter.Examples(category)}\"")
     whole.param("type").filter(_.strings.size == 1) match
       case Some(t) =>
-        evidence.uses(category, t.strings.head)
+        evidence.uses(category, t.strings.head, t.valuesAt)
         val params = whole.params.filterNot(_ eq t)
         Declaration(category, t.strings.head, params, t.valuesAt, folder, state.colorSpace)
       case None => fail(from.at, s"\"${from.name}\" must have a \"string type\"", missing)
@@ -129,7 +159,7 @@ final class SceneWriter(
     change(_.copy(areaLight = light))
 
   def material(from: Named): Unit =
-    val material = MaterialRef.Inline(declare("Material", from, "material"))
+    val material = MaterialRef.Inline(noteParts(declare("Material", from, "material")))
     change(_.copy(material = material))
 
   def namedMaterial(name: String, at: SourcePos): Unit =
@@ -137,7 +167,7 @@ final class SceneWriter(
     change(_.copy(material = MaterialRef.Named(unique, at)))
 
   def makeNamedMaterial(from: Named): Unit =
-    val material = declareByType("Material", from, "material")
+    val material = noteParts(declareByType("Material", from, "material"))
     val scope = state.scope
     val current = scope.materials.getOrElse(from.name, from.name)
     val unique =
@@ -243,6 +273,7 @@ final class SceneWriter(
 object SceneWriter:
   private val TextureKinds = List("float", "spectrum")
   private val Targets = List("shape", "light", "material", "medium", "texture")
+  private val MixedNames = Set("namedmaterial1", "namedmaterial2")
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 
 /** A quoted name with its position, and the parameters after it. */

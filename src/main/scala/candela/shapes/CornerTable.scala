@@ -13,11 +13,13 @@ import candela.base.loop
   * @param vertices vertex at each corner
   * @param twins    the same edge in the adjacent face, or −1 on the boundary
   * @param start    a corner of each vertex, where the traversal of its one-ring begins
+  * @param crowded  a corner on an edge of more than two faces, if there is one
   */
 private[shapes] final class CornerTable(
     val vertices: Array[Int],
     val twins: Array[Int],
-    val start: Array[Int]
+    val start: Array[Int],
+    val crowded: Option[Int] = None
 ):
   import CornerTable.{next, previous}
 
@@ -63,44 +65,51 @@ private[shapes] object CornerTable:
 
   /** Computes the adjacency of all faces.
     *
-    * @throws MeshError unless each edge has one face on each side, or one face in all
+    * The first two faces at an edge are neighbours, so are the next two.
+    *
+    * @throws MeshError if two neighbours run along their edge the same way
     */
   def of(vertices: Array[Int], vertexCount: Int): CornerTable =
-    val edges = mutable.LongMap[Int]()
+    val open = mutable.LongMap[Int]()
+    val closed = mutable.LongMap[Unit]()
     val twins = Array.fill(vertices.length)(-1)
     val start = Array.fill(vertexCount)(-1)
+    var crowded = Option.empty[Int]
     loop(vertices.length): corner =>
       val from = vertices(corner)
       val to = vertices(next(corner))
+      val edge = key(Math.min(from, to), Math.max(from, to))
       start(from) = corner
-      val other = edges.getOrElse(key(from, to), -1)
-      if other >= 0 then throw badEdge(vertices, corner, other)
-      edges(key(from, to)) = corner
-      val twin = edges.getOrElse(key(to, from), -1)
-      if twin >= 0 then
-        twins(corner) = twin
-        twins(twin) = corner
-    CornerTable(vertices, twins, start)
+      val other = open.getOrElse(edge, -1)
+      if other < 0 then
+        if closed.contains(edge) then crowded = crowded.orElse(Some(corner))
+        open(edge) = corner
+      else if vertices(other) == from then throw MeshError(opposed(vertices, corner, other))
+      else
+        twins(corner) = other
+        twins(other) = corner
+        open.subtractOne(edge)
+        closed(edge) = ()
+    CornerTable(vertices, twins, start, crowded)
 
-  /** Unique key of a directed edge. The factor scrambles it: the map folds the halves together, and
+  /** Unique key of an edge. The factor scrambles it: the map folds the halves together, and
     * those of the plain key are alike in most edges.
     */
   private def key(from: Int, to: Int): Long = (from.toLong << 32 | to) * 0x9e3779b97f4a7c15L
 
-  /** Describes an edge along which two faces run the same way: a third face, or one of the two
-    * flipped.
+  private def opposed(vertices: Array[Int], corner: Int, other: Int): String =
+    s"faces ${other / 3} and ${corner / 3} wind opposite ways: both run from vertex " +
+      s"${vertices(corner)} to vertex ${vertices(next(corner))}"
+
+  /** What is said of a corner on an edge of more than two faces.
+    *
+    * @param vertices of the input
     */
-  private def badEdge(vertices: Array[Int], corner: Int, other: Int): MeshError =
-    val from = vertices(corner)
-    val to = vertices(next(corner))
-    val faces = (0 until vertices.length / 3).filter: f =>
-      val face = vertices.slice(3 * f, 3 * f + 3)
-      face.contains(from) && face.contains(to)
-    MeshError(
-      if faces.size > 2 then
-        s"the edge between vertices $from and $to belongs to ${faces.size} faces " +
-          s"(${faces.take(8).mkString(", ")}); a surface has at most two there"
-      else
-        s"faces ${other / 3} and ${corner / 3} wind opposite ways: both run from vertex $from to " +
-          s"vertex $to"
-    )
+  def described(corner: Int, vertices: Array[Int]): String =
+    val (from, to) = (vertices(corner), vertices(next(corner)))
+    val faces = vertices.indices.filter: c =>
+      val ends = Set(vertices(c), vertices(next(c)))
+      ends == Set(from, to)
+    .map(_ / 3)
+    s"the edge between vertices $from and $to belongs to ${faces.size} faces " +
+      s"(${faces.take(8).mkString(", ")}); the first two are neighbours, the others end there"

@@ -6,7 +6,9 @@ import candela.math.*
 /** A disk or annulus, optionally partial, under any affine transform.
   *
   * @param height      z in object space
-  * @param innerRadius radius of the hole; 0 for none
+  * @param radius      of the rim; if negative, the normals seen are opposite to those of light
+  *   sampling, as in pbrt
+  * @param innerRadius radius of the hole; 0 for none; of either sign
   * @param phiMax      sweep in radians
   * @param reversed    whether the outside faces −z of object space
   * @param uAlong      what u and v measure
@@ -19,7 +21,7 @@ final class Disk(
     phiMax: Float,
     reversed: Boolean,
     uAlong: DiskU = DiskU.Angle
-) extends SurfaceOfRevolution(objectToWorld, radius, Math.abs(height)):
+) extends SurfaceOfRevolution(objectToWorld, Math.abs(radius), Math.abs(height)):
   private val normal =
     val n = objectToWorld.normal(Vec3.Z).normalized
     if reversed then -n else n
@@ -32,7 +34,7 @@ final class Disk(
 
   def normals: (Vec3, Float) = (normal, 1f)
 
-  def bounds: Bounds3 = worldBounds(radius, height, height)
+  def bounds: Bounds3 = worldBounds(Math.abs(radius), height, height)
 
   def intersect(ray: Ray, hit: Hit): Boolean = shortens(ray, distance(ray))
   def isHit(ray: Ray): Boolean = isWithin(ray, distance(ray))

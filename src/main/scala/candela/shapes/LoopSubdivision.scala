@@ -1,5 +1,7 @@
 package candela.shapes
 
+import scala.collection.mutable
+
 import candela.base.loop
 
 /** A subdivision surface as triangles: limit positions and normals of the vertices.
@@ -8,11 +10,13 @@ import candela.base.loop
   * @param normals   x, y, z per vertex; their lengths differ, the longest is 1. See
   *   [[LoopSubdivision]].
   * @param indices   three vertices per triangle, in the winding of the input
+  * @param crowded   what is said of an edge with more than two faces, if there is one
   */
 final class SubdividedMesh(
     val positions: Array[Float],
     val normals: Array[Float],
-    val indices: Array[Int]
+    val indices: Array[Int],
+    val crowded: Option[String]
 )
 
 /** Loop subdivision: each level splits every triangle in four and smooths the vertices; after the
@@ -27,6 +31,8 @@ final class SubdividedMesh(
   * - Boundary limit points use the weights 1/5, 3/5, 1/5, which Hoppe et al. give for other
   *   refinement rules than those used here (these would have 1/6, 2/3, 1/6).
   * - Where several fans of faces touch in one vertex, the fan of the last face determines it.
+  * - Of three faces at an edge, the first two are neighbours; the third ends there, but shares the
+  *   vertex that the others put on the edge.
   *
   * Sources: Loop, "Smooth subdivision surfaces based on triangles", 1987; Hoppe et al., "Piecewise
   * smooth surface reconstruction", SIGGRAPH 1994; Warren, "Subdivision methods for geometric
@@ -38,7 +44,7 @@ object LoopSubdivision:
   /** @param levels    number of subdivision levels, from 0
     * @param indices   three vertices per face; neighbours have consistent winding
     * @param positions x, y, z per vertex; unreferenced vertices are removed
-    * @throws MeshError if the faces are not a manifold surface, with or without boundary
+    * @throws MeshError if neighbours wind opposite ways
     */
   def subdivide(levels: Int, indices: Array[Int], positions: Array[Float]): SubdividedMesh =
     MeshInput.check(levels, indices, positions)
@@ -47,12 +53,14 @@ object LoopSubdivision:
     var points = Array.tabulate(3 * used.length)(i => positions(3 * used(i / 3) + i % 3).toDouble)
     // Refined vertices have their parent's valence, or at most 6: one buffer serves all levels.
     val ring = new Array[Int](Math.max(table.longestRing, 6))
+    val crowded = table.crowded.map(CornerTable.described(_, indices))
     loop(levels): _ =>
-      val odd = oddVertices(table)
+      val odd = OddVertices.of(table)
       points = refinedPoints(table, points, odd, ring)
       table = refinedTable(table, odd)
     val limit = moved(table, points, 3 * table.vertexCount, 1.0 / 5, limitWeight, ring)
-    SubdividedMesh(limit.map(_.toFloat), LoopNormals.of(table, limit, ring), table.vertices)
+    val normals = LoopNormals.of(table, limit, ring)
+    SubdividedMesh(limit.map(_.toFloat), normals, table.vertices, crowded)
 
   /** Weight of each neighbour in the new position of an interior vertex (Warren). */
   private def evenWeight(valence: Int): Double =
@@ -62,28 +70,16 @@ object LoopSubdivision:
   private def limitWeight(valence: Int): Double =
     1 / (valence + 3 / (8 * evenWeight(valence)))
 
-  /** The new vertex on each corner's edge, numbered after the existing ones. */
-  private def oddVertices(table: CornerTable): Array[Int] =
-    val odd = new Array[Int](table.vertices.length)
-    var count = table.vertexCount
-    loop(odd.length): corner =>
-      val twin = table.twins(corner)
-      if twin >= 0 && twin < corner then odd(corner) = odd(twin)
-      else
-        odd(corner) = count
-        count += 1
-    odd
-
   private def refinedPoints(
       table: CornerTable,
       points: Array[Double],
-      odd: Array[Int],
+      odd: OddVertices,
       ring: Array[Int]
   ): Array[Double] =
-    val refined = moved(table, points, 3 * (odd.max + 1), 1.0 / 8, evenWeight, ring)
+    val refined = moved(table, points, 3 * odd.end, 1.0 / 8, evenWeight, ring)
     loop(odd.length): corner =>
       val twin = table.twins(corner)
-      if twin < corner then // visits each edge once
+      if odd.isLast(corner) then // visits each edge once
         val from = 3 * table.vertices(corner)
         val to = 3 * table.vertices(next(corner))
         val at = 3 * odd(corner)
@@ -132,10 +128,10 @@ object LoopSubdivision:
     *      0___o0__1
     * }}}
     */
-  private def refinedTable(table: CornerTable, odd: Array[Int]): CornerTable =
+  private def refinedTable(table: CornerTable, odd: OddVertices): CornerTable =
     val vertices = new Array[Int](4 * odd.length)
     val twins = new Array[Int](4 * odd.length)
-    val start = new Array[Int](odd.max + 1)
+    val start = new Array[Int](odd.end)
     loop(odd.length): corner =>
       val behind = previous(corner)
       val middle = child(corner, 3)
@@ -157,8 +153,8 @@ object LoopSubdivision:
       twins(ahead) = inner
       twins(inner) = ahead
       if table.start(table.vertices(corner)) == corner then start(table.vertices(corner)) = own
-      if table.twins(corner) < corner then start(odd(corner)) = middle
-    CornerTable(vertices, twins, start)
+      if odd.isLast(corner) then start(odd(corner)) = middle
+    CornerTable(vertices, twins, start, table.crowded)
 
   /** Corner `corner % 3` of child `which` of the face of `corner`. */
   private inline def child(corner: Int, which: Int): Int =
@@ -166,6 +162,50 @@ object LoopSubdivision:
 
   /** From the corner `at`, numbered as `from`, to the corner numbered as `to`. */
   private inline def turned(at: Int, from: Int, to: Int): Int = at - from % 3 + to % 3
+
+/** The new vertices on the edges of a mesh, numbered after the existing ones.
+  *
+  * @param ofCorner the one on each corner's edge
+  * @param end      the number after the last one
+  * @param extra    corners that found another face's vertex on a crowded edge
+  */
+private final class OddVertices(
+    table: CornerTable,
+    ofCorner: Array[Int],
+    val end: Int,
+    extra: Set[Int]
+):
+  def length: Int = ofCorner.length
+  def apply(corner: Int): Int = ofCorner(corner)
+
+  /** Is it the last of the corners that determine the vertex? True of one corner of each edge. */
+  def isLast(corner: Int): Boolean =
+    table.twins(corner) < corner && (extra.isEmpty || !extra(corner))
+
+private object OddVertices:
+  def of(table: CornerTable): OddVertices =
+    val odd = new Array[Int](table.vertices.length)
+    val onEdge = mutable.HashMap.empty[(Int, Int), Int]
+    val extra = Set.newBuilder[Int]
+    var count = table.vertexCount
+    loop(odd.length): corner =>
+      val twin = table.twins(corner)
+      val shared =
+        if table.crowded.isEmpty || (twin >= 0 && twin < corner) then -1
+        else onEdge.getOrElse(edge(table, corner), -1)
+      if twin >= 0 && twin < corner then odd(corner) = odd(twin)
+      else if shared >= 0 then odd(corner) = shared
+      else
+        odd(corner) = count
+        if table.crowded.nonEmpty then onEdge(edge(table, corner)) = count
+        count += 1
+      if shared >= 0 then extra ++= Seq(corner, twin)
+    OddVertices(table, odd, count, extra.result())
+
+  private def edge(table: CornerTable, corner: Int): (Int, Int) =
+    val from = table.vertices(corner)
+    val to = table.vertices(CornerTable.next(corner))
+    (Math.min(from, to), Math.max(from, to))
 
 /** Normals of a subdivision surface: cross products of two tangents, which are weighted sums of the
   * one-ring. Conventions: see [[LoopSubdivision]].

@@ -60,13 +60,15 @@ final class BuildErrorsSuite extends AnyFunSuite:
 
   test("a type of another dialect is made as that one makes it, with a warning"):
     val v4 = only(s"Material \"matte\" \"rgb Kd\" [1 0 0] $sphere", Dialect.V4)
-    assertWarning(v4, "material \"matte\" exists only in v2 and v3; using v3's")
-    assertWarning(only(s"Material \"diffuse\" $sphere"), "\"diffuse\" exists only in v4")
+    val message = "material \"matte\" exists only in v2 and v3; using v3's"
+    assertWarning(v4, message, "in v4, write \"diffuse\"")
+    val v3 = only(s"Material \"diffuse\" $sphere")
+    assertWarning(v3, "\"diffuse\" exists only in v4", "in v3, write \"matte\"")
 
   test("parameters that have no effect have their types checked all the same"):
     val p = only(s"Shape \"loopsubdiv\" \"integer scheme\" 3 $control")
-    val message = "`scheme` of \"loopsubdiv\" must be one string, found 1 of type integer"
-    assertError(p, message, "write \"string scheme\"")
+    val message = "`scheme` of \"loopsubdiv\" must be of type string, found integer"
+    assertWarning(p, message, "write \"string scheme\"")
 
   test("unknown types are errors with the nearest name"):
     def v4(statement: String) = only(statement, Dialect.V4)
@@ -74,7 +76,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertError(v4(s"Material \"difuse\" $sphere"), "unknown material \"difuse\"", "`diffuse`")
     val area = v4(s"AreaLightSource \"difuse\" $sphere")
     assertError(area, "unknown area light \"difuse\"", "`diffuse`")
-    assertError(only("LightSource \"piont\""), "unknown light \"piont\"", "`point`")
+    assertError(v4("LightSource \"piont\""), "unknown light \"piont\"", "`point`")
     val texture = "Texture \"t\" \"float\" \"constnat\""
     assertError(only(texture), "unknown float texture \"constnat\"", "`constant`")
 
@@ -83,6 +85,8 @@ final class BuildErrorsSuite extends AnyFunSuite:
     assertWarning(only("Shape \"shpere\""), s"unknown shape \"shpere\"$skipped", "`sphere`")
     val area = only(s"AreaLightSource \"portal\" $sphere")
     assertWarning(area, s"unknown area light \"portal\"$skipped")
+    val light = only("LightSource \"piont\"")
+    assertWarning(light, s"unknown light \"piont\"$skipped", "`point`")
     val volume = only("Volume \"rainbow\"", Dialect.V2)
     assertWarning(volume, s"unknown volume \"rainbow\"$skipped")
     val mate = only(s"Material \"mate\" $sphere")
@@ -124,24 +128,54 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val portal = "\"infinite\" \"point3 portal\" [0 0 0 1 0 0 1 1 0 0 2 0]"
     assertError(light(portal), "four corners of a rectangle")
 
-  test("values of the wrong type or number are errors"):
-    assertError(
-      only("Shape \"sphere\" \"string radius\" \"big\""),
-      "must be one number",
-      "\"float radius\""
+  test("values of the wrong type or number are errors in v4, and ignored with a warning before"):
+    val radius = only("Shape \"sphere\" \"string radius\" \"big\"", Dialect.V4)
+    assertError(radius, "must be of type float, found string", "\"float radius\"")
+    val two = "Shape \"sphere\" \"float radius\" [1 2]"
+    assertError(only(two, Dialect.V4), "must be one number, found 2 of type float")
+    assertWarning(only(two), "found 2 of type float; it is ignored, as pbrt does")
+    assertWarning(
+      only("LightSource \"point\" \"point from\" [1 2 3 4 5 6]"),
+      "must be 3 numbers"
     )
-    assertError(only("Shape \"sphere\" \"float radius\" [1 2]"), "found 2 of type float")
-    assertError(only("LightSource \"point\" \"point from\" [1 2 3 4 5 6]"), "must be 3 numbers")
     val red = only("LightSource \"point\" \"string I\" \"red\"")
-    assertError(red, "must be a colour or a spectrum")
-    assertError(only("AreaLightSource \"diffuse\" \"string twosided\" \"x\" " + sphere), "one bool")
+    assertWarning(red, "must be of type spectrum, found string", "\"rgb I\"")
+    val sides = "AreaLightSource \"diffuse\" \"string twosided\" \"x\" " + sphere
+    assertWarning(only(sides), "must be of type bool, found string")
 
-  test("values out of range are errors"):
-    assertError(only("Shape \"sphere\" \"float radius\" -1"), "must be above 0, found -1.0")
-    assertError(only("Shape \"disk\" \"float innerradius\" 3"), "innerradius")
-    val mesh = "Shape \"trianglemesh\" \"point P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" "
-    assertError(only(mesh + "[0 1 3]"), "must be vertices of `P`, 0 to 2, found 3")
-    assertError(only(mesh + "[0 1]"), "must have a multiple of 3 numbers, found 2")
+  test("types that only Mitsuba's scenes have are unknown to pbrt's"):
+    val sky = only("LightSource \"sunsky\" \"float turbidity\" 3")
+    assertWarning(sky, "unknown light \"sunsky\"; skipped, as pbrt does")
+    assert(sky.help.contains(
+      "\"sunsky\" is a type of Mitsuba's scenes; pbrt's nearest is \"infinite\""
+    ))
+    val near = only("LightSource \"moon\"").help
+    assert(near.exists(h => h.contains("infinite") && !h.contains("sunsky")))
+    assertError(only("LightSource \"sunsky\"", Dialect.V4), "unknown light \"sunsky\"")
+    for name <- Seq("principled", "roughplastic", "twosided") do
+      val v3 = only(s"Material \"$name\" $sphere")
+      assertWarning(v3, s"unknown material \"$name\"; using \"matte\", as pbrt does")
+      assertError(only(s"Material \"$name\" $sphere", Dialect.V4), s"unknown material \"$name\"")
+
+  test("a scene whose media glow is not told that it will be dark"):
+    val box = "Material \"interface\"\nMediumInterface \"m\" \"\"\nShape \"sphere\"\n"
+    val grid = "\"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 1 \"float density\" 1 "
+    def scene(medium: String) =
+      s"Camera \"perspective\" WorldBegin MakeNamedMedium \"m\" \"string type\" $medium\n$box"
+    val absorbs = "\"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [0 0 0] "
+    for
+      medium <- Seq(
+        s"\"homogeneous\" $absorbs \"rgb Le\" [1 1 1]",
+        s"\"uniformgrid\" $grid $absorbs \"rgb Le\" [1 1 1]",
+        s"\"uniformgrid\" $grid $absorbs \"float temperature\" 3000",
+        s"\"rgbgrid\" ${grid.replace("\"float density\" 1 ", "")} " +
+          "\"rgb sigma_a\" [1 1 1] \"rgb Le\" [1 1 1]"
+      )
+    do assert(SceneTexts.problems(scene(medium), Dialect.V4).isEmpty, medium)
+    assert(SceneTexts.problems(scene(s"\"homogeneous\" $absorbs"), Dialect.V4).nonEmpty)
+    val fog = "Camera \"perspective\" WorldBegin Volume \"homogeneous\" " +
+      "\"color sigma_a\" [1 1 1] \"color Le\" [1 1 1] WorldEnd"
+    assert(!SceneTexts.problems(fog, Dialect.V2).exists(_.message.contains("no light")))
 
   test("a texture that no statement made is an error with the nearest name"):
     val made = "Texture \"wood\" \"spectrum\" \"constant\" "
@@ -177,7 +211,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
   test("a problem in a file shows the line that it is about"):
     val file = Files.createTempFile("shpere", ".pbrt")
     try
-      Files.writeString(file, "WorldBegin\nLightSource \"piont\"\nWorldEnd\n"): Unit
+      Files.writeString(file, "WorldBegin\nLightSource \"piont\"\n"): Unit
       val error = intercept[SceneError](SceneBuilder.build(Parser.parse(file), BuildOptions()))
       assert(error.problems.flatMap(_.excerpt) == Vector("LightSource \"piont\""))
     finally Files.delete(file)

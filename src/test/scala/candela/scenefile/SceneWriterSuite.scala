@@ -23,3 +23,22 @@ class SceneWriterSuite extends AnyFunSuite:
   test("a declaration knows in which color space its colours are"):
     val scene = parse("""ColorSpace "rec2020" WorldBegin LightSource "point" """)
     assert(scene.lights.head.light.colorSpace == "rec2020")
+
+  test("a mixture of materials that are defined after it is told, where pbrt does not find them"):
+    def warnings(text: String, d: Dialect) =
+      parse(s"WorldBegin\n$text\nWorldEnd", Some(d)).warnings
+    val red = "MakeNamedMaterial \"red\" \"string type\" \"matte\"\n"
+    val mix = "\"string namedmaterial1\" \"red\" \"string namedmaterial2\" \"red\"\n"
+    val written = s"Material \"mix\" $mix"
+    val named = s"MakeNamedMaterial \"both\" \"string type\" \"mix\" $mix"
+    val old = Set(Dialect.V2, Dialect.V3)
+    for (text, dialects) <- Seq(written -> Set(Dialect.V3), named -> old) do
+      for d <- Seq(Dialect.V2, Dialect.V3) do
+        val late = warnings(text + red, d)
+        assert(late.size == (if dialects(d) then 2 else 0), s"$d $late")
+        assert(late.forall(_.message.startsWith("material `red` is defined only later, at ")))
+        assert(late.forall(_.at.map(_.line).contains(2)))
+        assert(warnings(red + text, d).isEmpty)
+    val v4 = "MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" " +
+      "[\"red\" \"red\"]\n" + red.replace("matte", "diffuse")
+    assert(parse(s"WorldBegin\n$v4", Some(Dialect.V4)).warnings.isEmpty)

@@ -52,7 +52,10 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
       case other =>
         val found = other.length
         if found > 0 then
-          site.error(s"`screenwindow` must be left right bottom top, found $found numbers")
+          site.warn(
+            s"`screenwindow` must be left right bottom top, found $found numbers; it is ignored, " +
+              "as pbrt does"
+          )
         ScreenWindow.of(ratio)
     ProjectiveSetup(toWorld, width, height, screen, lens(), focus())
 
@@ -63,15 +66,28 @@ object PerspectiveRecipe extends ProjectiveRecipe("perspective", "perspective pr
 
   protected def make()(using site: Site): CameraPlan =
     val angle = if half() > 0f then 2f * half() else fov()
+    // A screen at infinity, or one behind the camera, has an image, too
+    val turned = Math.abs(angle) % 360f
     val isAngle = angle > 0f && angle < 180f
-    if !isAngle then site.error(s"`fov` must be between 0 and 180 degrees, found $angle")
+    if !java.lang.Float.isFinite(angle) then
+      site.error(s"`fov` must be between 0 and 180 degrees, found $angle")
+    else if !isAngle then
+      site.warn(s"`fov` should be between 0 and 180 degrees, found $angle; rendered as in pbrt")
     CameraPlan(
       (toWorld, frame) =>
-        val fits = if isAngle then angle else 90f
+        val fits =
+          if isAngle then angle
+          else if !java.lang.Float.isFinite(angle) then 90f
+          else if turned == 0f then PerspectiveRecipe.Narrowest
+          else if turned == 180f then 180f - PerspectiveRecipe.Narrowest
+          else angle
         clipped(toWorld, PerspectiveCamera(setup(toWorld, frame), fits))
       ,
       shutter()
     )
+
+  /** Field of view that renders as 0 does, in degrees. */
+  private val Narrowest = 0.001f
 
 object OrthographicRecipe extends ProjectiveRecipe("orthographic", "orthographic projection"):
   protected def make()(using Site): CameraPlan = CameraPlan(

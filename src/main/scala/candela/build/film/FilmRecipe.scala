@@ -74,9 +74,12 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       site.error(s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
-    val window = if inPixels then pixels().map(_.toFloat) else crop()
-    if window.length != 0 && window.length != 4 then
-      site.error(s"`cropwindow` must be x0 x1 y0 y1, found ${window.length} numbers")
+    val asked = if inPixels then pixels().map(_.toFloat) else crop()
+    val isWindow = asked.length == 4
+    if asked.nonEmpty && !isWindow then
+      val message = s"`cropwindow` must be x0 x1 y0 y1, found ${asked.length} numbers"
+      site.warn(s"$message; it is ignored, as pbrt does")
+    val window = if isWindow then asked else Array.emptyFloatArray
     if !(diagonal() > 0f) then site.error(s"`diagonal` must be above 0 mm, found ${diagonal()}")
     FilmSettings(
       Math.max(w, 1),

@@ -63,7 +63,7 @@ private[build] object LightImages:
     if !isSquare then
       site.error(
         s"an equal-area map must be square, found ${image.width}×${image.height} pixels",
-        Some("convert an equirectangular image with pbrt-v4's `imgtool makeequiarea`")
+        Some("`candela image IN OUT --environment equalarea` converts an equirectangular image")
       )
     isSquare
 

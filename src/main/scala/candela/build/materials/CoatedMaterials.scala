@@ -53,6 +53,8 @@ object CoatedDiffuseRecipe
 
 object RoughPlasticRecipe
     extends RoughRecipe("roughplastic", "Mitsuba's plastic, smooth or rough", onlyV4, 0f):
+  override def isMitsubas: Boolean = true
+
   private val reflectance =
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)

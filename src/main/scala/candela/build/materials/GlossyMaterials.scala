@@ -116,6 +116,8 @@ object DisneyRecipe
 
 object PrincipledRecipe
     extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyV4):
+  override def isMitsubas: Boolean = true
+
   protected def make()(using Site): Material =
     val p = parameters()
     if p.isThin then PrincipledThinMaterial(p) else PrincipledMaterial(p)

@@ -41,6 +41,8 @@ object TwoSidedRecipe
       "materials of the front and the back, as in Mitsuba",
       onlyV4
     ):
+  override def isMitsubas: Boolean = true
+
   private val both =
     strings("materials", "string[2]", "materials of the front and the back", onlyV4)
 

@@ -29,7 +29,23 @@ class Field[T](
 
   /** Returns the value given by the scene file, if any. */
   def given_()(using site: Site): Option[T] =
-    site.declaration.param(name).filter(_ => dialects(site.dialect)).flatMap(read(_, site))
+    site.declaration.param(name).filter(_ => dialects(site.dialect)).filter(fits(_, site))
+      .flatMap(read(_, site))
+
+  /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
+    * recipes, not those of pbrt.
+    */
+  private def fits(p: Param, site: Site): Boolean =
+    val fits = site.resources.switches.isMitsubas ||
+      ValueTypes.accepts(typeName, name, p, site.dialect)
+    if !fits && !p.isDefault then
+      site.unread(
+        p,
+        s"`$name` of \"${site.declaration.name}\" must be of type $typeName, found " +
+          p.paramType.spelling,
+        ValueTypes.example(typeName, p)
+      )
+    fits
 
 /** Level of support for a parameter. */
 enum Support:

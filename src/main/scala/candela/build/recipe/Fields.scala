@@ -58,12 +58,19 @@ trait Fields:
       if p.paramType == ParamType.String && p.strings.size == 1 then Some(p.strings(0))
       else wrong(p, site, "one string", "string")
 
-  /** A string from a fixed set of values. */
+  /** A string from a fixed set of values. Another one is an error, or a warning where this
+    * dialect's pbrt uses its default.
+    *
+    * @param forgiven whether pbrt-v4 uses its default, as the older ones do
+    * @param instead  what pbrt uses for it, if not the default
+    */
   protected final def oneOf(
       name: String,
       doc: String,
       values: Seq[String],
-      in: Set[Dialect] = every
+      in: Set[Dialect] = every,
+      forgiven: Boolean = false,
+      instead: String = ""
   )(default: Dialect ?=> String): Field[String] =
     val words = s"$doc: ${values.mkString(", ")}"
     field(name, "string", words, in, "", "", default)(DefaultText.quoted): (p, site) =>
@@ -72,12 +79,14 @@ trait Fields:
       else
         p.strings.headOption.filter(values.contains).orElse {
           val found = p.strings.headOption.getOrElse("")
-          site.problems.error(
-            p.valuesAt,
-            s"`$name` must be one of ${values.mkString(", ")}, found \"$found\"",
-            Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
-          )
-          None
+          val message = s"`$name` must be one of ${values.mkString(", ")}, found \"$found\""
+          val help = Suggest.nearest(found, values).map(v => s"did you mean `$v`?")
+          if site.dialect == Dialect.V4 && !forgiven then
+            site.problems.error(p.valuesAt, message, help)
+          else
+            val used = if instead.isEmpty then "the default" else s"\"$instead\""
+            site.problems.warn(p.valuesAt, s"$message; using $used, as pbrt does", help)
+          Option.when(instead.nonEmpty)(instead)
         }
 
   protected final def point(
@@ -184,7 +193,7 @@ trait Fields:
       _.constant.fold("")(DefaultText.number)
     ): (p, site) =>
       if p.paramType == ParamType.Texture then site.resources.floatTexture(p, site.problems)
-      else floats(1, p, site).map(v => ConstantFloat(v(0)))
+      else firstFloat(p, site).map(ConstantFloat(_))
 
   protected final def rgbTexture(
       name: String,
@@ -204,6 +213,16 @@ trait Fields:
       forSite
     )(read)
 
+  /** Constants of textures: pbrt-v2 and v3 take the first of several numbers. */
+  private def firstFloat(p: Param, site: Site): Option[Float] =
+    if p.floats.length > 1 && site.dialect != Dialect.V4 then
+      site.problems.warn(
+        p.valuesAt,
+        s"`${p.name}` must be one number; the first is used, as in pbrt"
+      )
+      Some(p.floats(0))
+    else floats(1, p, site).map(_(0))
+
   private def floats(count: Int, p: Param, site: Site): Option[Array[Float]] =
     val values =
       if p.paramType == ParamType.Integer then p.ints.map(_.toFloat)
@@ -216,8 +235,8 @@ trait Fields:
   private def wrong[T](p: Param, site: Site, expected: String, typeName: String): Option[T] =
     val count = Seq(p.floats.length, p.ints.length, p.bools.size, p.strings.size).max
     val plain = typeName.takeWhile(_ != '[')
-    site.problems.error(
-      p.at,
+    site.unread(
+      p,
       s"`${p.name}` of \"${site.declaration.name}\" must be $expected, found " +
         s"$count of type ${p.paramType.spelling}",
       Option.when(plain != p.paramType.spelling)(s"write \"$plain ${p.name}\"")

@@ -34,6 +34,9 @@ abstract class Recipe[A](
     */
   def substitute: Option[String] = None
 
+  /** Whether only Mitsuba's scenes have this type: no pbrt reads it. */
+  def isMitsubas: Boolean = false
+
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
 
@@ -96,9 +99,12 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
   private lazy val byName = all.groupBy(_.name)
 
-  /** Finds the recipe of this name, preferably of this dialect. */
-  def find(name: String, dialect: Dialect): Option[Recipe[A]] =
-    val candidates = byName.getOrElse(name, Vector.empty)
+  /** Finds the recipe of this name, preferably of this dialect.
+    *
+    * @param inMitsubas whether the scene is Mitsuba's
+    */
+  def find(name: String, dialect: Dialect, inMitsubas: Boolean = false): Option[Recipe[A]] =
+    val candidates = byName.getOrElse(name, Vector.empty).filter(inMitsubas || !_.isMitsubas)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
   /** Builds the declared type. A substituted type is a warning; an unknown one is an error, or a
@@ -106,15 +112,18 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
-    find(name, site.dialect) match
+    val inMitsubas = site.resources.switches.isMitsubas
+    find(name, site.dialect, inMitsubas) match
       case Some(recipe) =>
         for instead <- recipe.substitute do
           site.warn(s"$category \"$name\" is substituted: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
-        val known = all.filter(_.dialects(site.dialect)).map(_.name).filter(_.nonEmpty)
+        val known = all.filter(r => r.dialects(site.dialect) && (inMitsubas || !r.isMitsubas))
+          .map(_.name).filter(_.nonEmpty)
         val message = s"unknown $category \"$name\""
-        val help = Suggest.help(name, known)
+        val help = OtherNames.ofMitsubas(name).filter(_ => byName.contains(name))
+          .orElse(Suggest.help(name, known))
         StandIns.ofPbrt(category, site.dialect) match
           case Some(standIn) => site.warn(s"$message; $standIn, as pbrt does", help)
           case None => site.missing(message, StandIns.ofCategory(category), help)
@@ -127,6 +136,7 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
       val nearest = Dialects.nearest(site.dialect, recipe.dialects)
       site.warn(
         s"$category \"${recipe.name}\" exists only in ${Dialects.list(recipe.dialects)}; " +
-          s"using ${Dialects.name(nearest)}'s"
+          s"using ${Dialects.name(nearest)}'s",
+        OtherNames.hint(category, recipe.name, site.dialect)
       )
       site.in(nearest)

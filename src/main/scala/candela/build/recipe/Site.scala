@@ -40,6 +40,16 @@ final class Site(
   def error(message: String, help: Option[String] = None): Unit =
     problems.error(declaration.at, message, help)
 
+  /** Reports a statement that pbrt-v4 refuses, and older ones skip after a message. */
+  def unusable(message: String, help: Option[String] = None): Unit =
+    if dialect == Dialect.V4 then error(message, help)
+    else warn(s"$message; ${StandIns.LeftOut}, as pbrt does", help)
+
+  /** Reports a value that pbrt-v4 refuses, and older ones do not find: they use the default. */
+  def unread(p: Param, message: String, help: Option[String]): Unit =
+    if dialect == Dialect.V4 then problems.error(p.at, message, help)
+    else problems.warn(p.at, s"$message; it is ignored, as pbrt does", help)
+
   /** Reports that the statement refers to something missing. */
   def missing(message: String, standIn: String, help: Option[String] = None): Unit =
     problems.missing(declaration.at, message, standIn, help)
@@ -128,5 +138,5 @@ object StandIns:
       case _ if dialect == Dialect.V4 => None
       case "material" => Some("using \"matte\"")
       case "accelerator" => Some("using \"bvh\"")
-      case "shape" | "area light" | "volume" => Some(LeftOut)
+      case "shape" | "light" | "area light" | "volume" | "medium" => Some(LeftOut)
       case _ => None

@@ -131,8 +131,8 @@ object Spectra:
         pairs(p.floats, p, site).map(SpectralValue.Wavelengths(_))
       case other =>
         val count = Math.max(p.floats.length, p.strings.size)
-        site.problems.error(
-          p.at,
+        site.unread(
+          p,
           s"`${p.name}` must be a colour or a spectrum, found $count of type ${other.spelling}",
           Some("write e.g. \"rgb " + p.name + "\" [ 0.5 0.5 0.5 ]")
         )

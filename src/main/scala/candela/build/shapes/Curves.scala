@@ -9,7 +9,13 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
   private val points = numbers("P", "point3[]", "control points")
   private val basis = oneOf("basis", "spline basis", Seq("bezier", "bspline"))("bezier")
   private val degree = integer("degree", "spline degree, 2 or 3")(3)
-  private val kind = oneOf("type", "curve type", Seq("flat", "ribbon", "cylinder"))("flat")
+  private val kind = oneOf(
+    "type",
+    "curve type",
+    Seq("flat", "ribbon", "cylinder"),
+    forgiven = true,
+    instead = "cylinder"
+  )("flat")
   private val width = float("width", "constant width", unit = "scene units")(1f)
   private val width0 = float("width0", "width at the start", shown = "width")(1f)
   private val width1 = float("width1", "width at the end", shown = "width")(1f)
@@ -35,7 +41,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       else None
     wrong match
       case Some(message) =>
-        site.error(message)
+        site.unusable(message)
         None
       case None =>
         val chain = if isBezier then BezierCurve.ofBezier(p, d) else BezierCurve.ofBSpline(p, d)
@@ -53,7 +59,7 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       Some(Vector.tabulate(curves + 1)(i => Vec3(n(3 * i), n(3 * i + 1), n(3 * i + 2))))
     else
       val found = n.length / 3
-      site.error(s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found")
+      site.unusable(s"`N` of $curves ribbon segments must have ${curves + 1} normals, found $found")
       None
 
   private def curves(chain: Vector[Array[Double]], ends: Option[Vector[Vec3]])(using

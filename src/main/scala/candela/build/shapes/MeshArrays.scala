@@ -21,8 +21,21 @@ private[build] object MeshArrays:
       uvs: Array[Float],
       indices: Array[Int]
   )(using site: Site): Option[ShapeGeometry] =
-    val fits = isWhole(positions, indices)
-    Option.when(fits)(triangles(positions, normals, uvs, indices))
+    val whole = wholeFaces(indices, 3)
+    val fits = isWhole(positions, whole)
+    Option.when(fits)(triangles(positions, normals, uvs, whole))
+
+  /** Drops the indices of an incomplete last face, with a warning, as pbrt does. */
+  def wholeFaces(indices: Array[Int], corners: Int)(using site: Site): Array[Int] =
+    val extra = indices.length % corners
+    if extra > 0 && indices.length > corners then
+      val ignored = if extra == 1 then "the last is" else s"the last $extra are"
+      site.warn(
+        s"`indices` must have a multiple of $corners numbers, found ${indices.length}; $ignored " +
+          "ignored, as pbrt does"
+      )
+      indices.dropRight(extra)
+    else indices
 
   /** A mesh with checked positions and indices. */
   def triangles(
@@ -83,7 +96,7 @@ private[build] object MeshArrays:
             if positions.exists(x => !java.lang.Float.isFinite(x)) then
               problem("`P` must not contain NaN or infinite numbers")
             else None
-    wrong.foreach(site.error(_))
+    wrong.foreach(site.unusable(_))
     wrong.isEmpty
 
   /** Drops attributes that don't match the number of vertices, with a warning, as pbrt does. */

@@ -39,7 +39,7 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
       site.warn("a mesh without triangles is ignored")
       None
     else if p.isEmpty || index.isEmpty then
-      site.error("a \"trianglemesh\" needs `P` and `indices`")
+      site.unusable("a \"trianglemesh\" needs `P` and `indices`")
       None
     else MeshArrays.checked(p, normals(), uvs, index)
 
@@ -63,7 +63,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
               for x <- e.problems do site.problems.missing(p.valuesAt, x.message, standIn, x.help)
               None
       case _ =>
-        site.error("a \"plymesh\" needs `filename`")
+        site.unusable("a \"plymesh\" needs `filename`")
         None
 
   /** As triangles. */
@@ -131,15 +131,11 @@ object BilinearMeshRecipe
     val p = points()
     val given_ = indices()
     val all = if given_.isEmpty && p.length == 12 then Array(0, 1, 2, 3) else given_
-    val extra = all.length % 4
     if p.isEmpty || all.length < 4 then
       site.error("a \"bilinearmesh\" needs `P` and `indices`")
       None
     else
-      if extra > 0 then
-        val found = all.length
-        site.warn(s"`indices` must have a multiple of 4 numbers, found $found; ignoring the last")
-      val whole = all.dropRight(extra)
+      val whole = MeshArrays.wholeFaces(all, 4)
       Option.when(MeshArrays.isWhole(p, whole, 4))(
         MeshArrays.patches(p, normals(), uv(), whole)
       )
@@ -155,15 +151,17 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val depth = levels.given_().orElse(nlevels.given_()).getOrElse(3)
     if points().isEmpty || indices().isEmpty then
-      site.error("a \"loopsubdiv\" needs `P` and `indices`")
+      site.unusable("a \"loopsubdiv\" needs `P` and `indices`")
       None
     else if depth < 0 || depth > 10 then
       site.error(s"`levels` of \"loopsubdiv\" must be between 0 and 10, found $depth")
       None
     else
-      MeshArrays.checked(points(), Array.empty, Array.empty, indices()).flatMap: _ =>
+      val faces = MeshArrays.wholeFaces(indices(), 3)
+      MeshArrays.checked(points(), Array.empty, Array.empty, faces).flatMap: _ =>
         try
-          val fine = LoopSubdivision.subdivide(depth, indices(), points())
+          val fine = LoopSubdivision.subdivide(depth, faces, points())
+          for edge <- fine.crowded do site.warn(s"\"loopsubdiv\": $edge, as in pbrt")
           Some(ShapeGeometry.Triangles(fine.positions, fine.normals, Array.empty, fine.indices))
         catch
           case e: MeshError =>

@@ -17,7 +17,7 @@ private[build] final class NurbsSide(
   def read()(using site: Site): Option[KnotVector] =
     val (n, k, all) = (count(), order(), knots())
     if all.isEmpty || count.given_().isEmpty || order.given_().isEmpty then
-      site.error(s"a \"nurbs\" needs `n$letter`, `${letter}order` and `${letter}knots`")
+      site.unusable(s"a \"nurbs\" needs `n$letter`, `${letter}order` and `${letter}knots`")
       None
     else checked(n, k, all)
 
@@ -89,7 +89,7 @@ object NurbsRecipe
       Some(Array.tabulate(4 * nu * nv)(i => if i % 4 == 3 then 1.0 else p(i / 4 * 3 + i % 4)))
     else if p.isEmpty && pw.nonEmpty && pw.length == 4 * count then Some(pw.map(_.toDouble))
     else
-      site.error(
+      site.unusable(
         s"`P` or `Pw` of a \"nurbs\" must have ${3 * count} or ${4 * count} numbers for $nu × " +
           s"$nv control points, found ${p.length} and ${pw.length}"
       )

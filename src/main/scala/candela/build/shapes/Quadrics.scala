@@ -14,11 +14,16 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
   private val phimax = float("phimax", "sweep angle about z", unit = "degrees")(360f)
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
-    val r = radius()
+    val r = Math.abs(radius())
+    if radius() < 0f then
+      site.warn(
+        s"`radius` of this sphere is ${radius()}; its absolute value is used. pbrt turns its normals",
+        Some(s"write \"float radius\" $r")
+      )
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))
     val phi = radians(clamp(phimax(), 0f, 360f))
-    if !(r > 0f) then
-      site.error(s"`radius` of a \"sphere\" must be above 0, found $r")
+    if r == 0f then
+      site.warn("this sphere has no surface, because `radius` is 0; it is ignored")
       None
     else if z0 == z1 || phi == 0f then
       site.warn("this sphere has no surface within its bounds; it is ignored")
@@ -39,16 +44,22 @@ object DiskRecipe
 
   protected def geometry()(using site: Site): Option[ShapeGeometry] =
     val (r, i) = (radius(), inner())
-    if !(r > 0f) || !(i >= 0f && i < r) then
-      site.error(s"a \"disk\" must have 0 ≤ `innerradius` < `radius`, found $i and $r")
+    def leftOut(why: String) =
+      site.warn(s"this disk has no surface, because $why; it is ignored")
       None
+    if r == 0f then leftOut("`radius` is 0")
+    else if !(Math.abs(i) < Math.abs(r)) then
+      leftOut(s"`innerradius`, $i, is not below `radius`, $r")
     else if !(phimax() > 0f) then
-      site.warn(s"this disk has no surface, because `phimax` is ${phimax()}; it is ignored")
-      None
+      leftOut(s"`phimax` is ${phimax()}")
     else
+      if r < 0f || i < 0f then
+        site.warn(s"radii of this disk are negative: $r and $i; as in pbrt, their squares count")
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
       val along = if site.resources.switches.isMitsubas then DiskU.Radius else DiskU.Angle
-      Some(ShapeGeometry.Solid((toWorld, reversed) => Disk(toWorld, h, r, i, phi, reversed, along)))
+      def disk(toWorld: Transform, reversed: Boolean) =
+        Disk(toWorld, h, r, i, phi, reversed, along)
+      Some(ShapeGeometry.Solid(disk, turned = r < 0f))
 
 /** Base of surfaces of revolution about the z-axis. */
 abstract class SweptRecipe(name: String, meaning: String, dialects: Set[Dialect])

@@ -108,8 +108,11 @@ enum ShapeGeometry:
       indices: Array[Int]
   )
 
-  /** A single surface, created from its transform and whether its orientation is reversed. */
-  case Solid(make: (Transform, Boolean) => Shape)
+  /** A single surface, created from its transform and whether its orientation is reversed.
+    *
+    * @param turned whether rays see the other side of it than light sampling does
+    */
+  case Solid(make: (Transform, Boolean) => Shape, turned: Boolean = false)
 
   /** Many surfaces, created as above.
     *

@@ -30,7 +30,9 @@ abstract class ImageMapRecipe[A](standIn: String)
       "\"sRGB\" for .png, else \"linear\""
     )("sRGB")
   private val filter =
-    oneOf("filter", "texture filter", ImageMapRecipe.FilterNames, onlyV4)("bilinear")
+    oneOf(
+      "filter", "texture filter", ImageMapRecipe.FilterNames, onlyV4, forgiven = true
+    )("bilinear")
   private val trilinear =
     bool("trilinear", "use trilinear instead of EWA filtering", untilV3)(false)
   private val anisotropy =

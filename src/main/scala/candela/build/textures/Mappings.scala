@@ -9,7 +9,7 @@ import candela.textures.*
 abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dialect] = every)
     extends Recipe[A](name, meaning, dialects):
   private val mapping =
-    oneOf("mapping", "2D mapping", MappedRecipe.Mappings)("uv")
+    oneOf("mapping", "2D mapping", MappedRecipe.Mappings, forgiven = true)("uv")
   private val uscale = float("uscale", "scale of u")(1f)
   private val vscale = float("vscale", "scale of v")(1f)
   private val udelta = float("udelta", "offset of u")(0f)

@@ -1,0 +1,107 @@
+package candela.build
+
+import scala.collection.mutable
+
+import candela.base.Problem
+import candela.build.recipe.{Dialects, Recipes, ValueTypes}
+import candela.scenefile.*
+
+/** The dialect of a scene that does not say it: the parser's estimate, weighed with the parameters,
+  * which only recipes know. v4 scenes are read by other rules and stay v4.
+  */
+object DialectChoice:
+  /** Weight of a parameter that only one of v2 and v3 has, and of all of them together. */
+  private val PerParameter = 3
+  private val MostOfParameters = 15
+
+  /** Weight from which a clue against the choice is told. */
+  private val Contrary = 3
+
+  /** @param asked the dialect that the user asked for, if any */
+  def of(scene: SceneDescription, asked: Option[Dialect]): SceneDescription =
+    if asked.nonEmpty then scene.copy(dialectReason = "as asked for")
+    else
+      val clues = scene.clues ++
+        (if scene.dialect == Dialect.V4 then Vector.empty else parameters(scene))
+      val old = Vector(Dialect.V3, Dialect.V2).maxBy(d => clues.map(_.weight(d)).sum)
+      val chosen = if scene.dialect == Dialect.V4 then Dialect.V4 else old
+      scene.copy(
+        dialect = chosen,
+        dialectReason = reason(clues, chosen),
+        warnings = scene.warnings ++ contradiction(clues, chosen)
+      )
+
+  /** What speaks for the choice, strongest first. */
+  private def reason(clues: Vector[DialectClue], chosen: Dialect): String =
+    val others = Dialect.values.toVector.filter(_ != chosen)
+    def lead(c: DialectClue) = c.weight(chosen) - others.map(c.weight).min
+    val telling = clues.filter(lead(_) > 0).sortBy(c => -lead(c)).take(4)
+    if telling.isEmpty then "nothing in the file tells"
+    else "for " + telling.map(shown).mkString(", ")
+
+  private def shown(c: DialectClue): String =
+    c.what + c.at.fold("")(at => s" (line ${at.line})")
+
+  private def contradiction(clues: Vector[DialectClue], chosen: Dialect): Option[Problem] =
+    val contrary = clues.filter: c =>
+      c.weight(chosen) == 0 && Dialect.values.exists(c.weight(_) >= Contrary) && c.at.nonEmpty
+    contrary.headOption.map: first =>
+      val all = contrary.map: c =>
+        val owners = Dialect.values.toSet.filter(c.weight(_) > 0)
+        s"${shown(c)} is of ${Dialects.list(owners)}"
+      val name = Dialects.name(chosen)
+      val other = Dialect.values.maxBy(d => contrary.map(_.weight(d)).sum)
+      Problem.warning(
+        first.at.get,
+        s"the scene is read as $name (${reason(clues, chosen)}), but ${all.mkString(", ")}",
+        Some(s"`--dialect ${Dialects.name(other)}` reads it as ${Dialects.name(other)}, " +
+          s"`--dialect $name` without this warning")
+      )
+
+  /** Parameters that only one of v2 and v3 has, each counted once. */
+  private def parameters(scene: SceneDescription): Vector[DialectClue] =
+    val seen = mutable.HashSet.empty[(String, String, ParamType, String)]
+    val found = Vector.newBuilder[DialectClue]
+    def add(category: String, d: Declaration): Unit =
+      for p <- d.params do
+        if seen.add((category, d.name, p.paramType, p.name)) then
+          val recipes = Language.categories.find(_.name == category).get.recipes
+          val (inV2, inV3) = (fits(recipes, d, p, Dialect.V2), fits(recipes, d, p, Dialect.V3))
+          if inV2 != inV3 then
+            val what = s"\"${p.paramType.spelling} ${p.name}\" of \"${d.name}\""
+            val (v2, v3) = if inV2 then (PerParameter, 0) else (0, PerParameter)
+            found += DialectClue(what, Some(p.at), v2, v3, 0)
+    def addMaterial(m: MaterialRef): Unit = m match
+      case MaterialRef.Inline(d) => add("Material", d)
+      case _ => ()
+    for (category, d) <- settings(scene); declared <- d do add(category, declared)
+    for (_, d) <- scene.namedMaterials do add("Material", d)
+    for t <- scene.textures do add(s"Texture (${t.valueType})", t.texture)
+    for l <- scene.lights do add("LightSource", l.light)
+    for s <- scene.shapes.iterator ++ scene.objects.valuesIterator.flatten do
+      add("Shape", s.shape)
+      addMaterial(s.material)
+      for l <- s.areaLight do add("AreaLightSource", l)
+    capped(found.result())
+
+  /** Many files repeat what one exporter writes. */
+  private def capped(clues: Vector[DialectClue]): Vector[DialectClue] =
+    val most = MostOfParameters / PerParameter
+    val (v2, v3) = clues.partition(_.v2 > 0)
+    v2.take(most) ++ v3.take(most)
+
+  private def settings(scene: SceneDescription): Vector[(String, Option[Declaration])] =
+    Vector(
+      "Camera" -> scene.camera,
+      "Film" -> scene.film,
+      "PixelFilter" -> scene.filter,
+      "Sampler" -> scene.sampler,
+      "Integrator" -> scene.integrator,
+      "Accelerator" -> scene.accelerator
+    )
+
+  private def fits(recipes: Recipes[?], d: Declaration, p: Param, dialect: Dialect): Boolean =
+    recipes.all.exists: r =>
+      r.name == d.name && r.dialects(dialect) && r.fields.exists: f =>
+        f.name == p.name && f.dialects(dialect) &&
+          ValueTypes.accepts(f.typeName, f.name, p, dialect)

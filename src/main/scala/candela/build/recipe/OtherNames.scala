@@ -1,0 +1,48 @@
+package candela.build.recipe
+
+import candela.scenefile.Dialect
+
+/** What types of one dialect are called in another, for messages. */
+private[build] object OtherNames:
+  /** Category, old name and the nearest type of v4. */
+  private val Pairs = Vector(
+    ("material", "matte", "diffuse"),
+    ("material", "plastic", "coateddiffuse"),
+    ("material", "metal", "conductor"),
+    ("material", "mirror", "conductor"),
+    ("material", "glass", "dielectric"),
+    ("material", "substrate", "coateddiffuse"),
+    ("material", "uber", "coateddiffuse"),
+    ("material", "translucent", "diffusetransmission"),
+    ("material", "kdsubsurface", "subsurface"),
+    ("material", "fourier", "measured"),
+    ("material", "none", "interface"),
+    ("camera", "environment", "spherical"),
+    ("film", "image", "rgb"),
+    ("sampler", "random", "independent"),
+    ("sampler", "lowdiscrepancy", "paddedsobol"),
+    ("sampler", "02sequence", "paddedsobol"),
+    ("integrator", "directlighting", "path"),
+    ("integrator", "whitted", "path"),
+    ("area light", "area", "diffuse")
+  )
+
+  /** Of types that only Mitsuba's scenes have. */
+  private val Mitsubas = Map(
+    "principled" -> "disney",
+    "roughplastic" -> "plastic",
+    "sunsky" -> "infinite",
+    "twosided" -> "mix"
+  )
+
+  /** What a type of another dialect is called in this one. */
+  def hint(category: String, name: String, dialect: Dialect): Option[String] =
+    val other =
+      if dialect == Dialect.V4 then
+        Pairs.collectFirst { case (`category`, `name`, modern) => modern }
+      else Pairs.collectFirst { case (`category`, old, `name`) => old }
+    other.map(o => s"in ${Dialects.name(dialect)}, write \"$o\"")
+
+  /** As above, of Mitsuba's types. */
+  def ofMitsubas(name: String): Option[String] =
+    Mitsubas.get(name).map(o => s"\"$name\" is a type of Mitsuba's scenes; pbrt's nearest is \"$o\"")
