@@ -45,4 +45,5 @@ private[build] object OtherNames:
 
   /** As above, of Mitsuba's types. */
   def ofMitsubas(name: String): Option[String] =
-    Mitsubas.get(name).map(o => s"\"$name\" is a type of Mitsuba's scenes; pbrt's nearest is \"$o\"")
+    for nearest <- Mitsubas.get(name)
+    yield s"\"$name\" is a type of Mitsuba's scenes; pbrt's nearest is \"$nearest\""

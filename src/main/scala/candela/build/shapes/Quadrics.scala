@@ -17,7 +17,8 @@ object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whol
     val r = Math.abs(radius())
     if radius() < 0f then
       site.warn(
-        s"`radius` of this sphere is ${radius()}; its absolute value is used. pbrt turns its normals",
+        s"`radius` of this sphere is ${radius()}; its absolute value counts, but pbrt also turns " +
+          "its normals",
         Some(s"write \"float radius\" $r")
       )
     val (z0, z1) = (clamp(zmin(), -r, r), clamp(zmax(), -r, r))

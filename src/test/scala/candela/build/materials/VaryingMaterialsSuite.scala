@@ -2,6 +2,7 @@ package candela.build.materials
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.{BuildOptions, SceneBuilder}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -21,13 +22,14 @@ class VaryingMaterialsSuite extends AnyFunSuite:
       case ("subsurface", "mfp", Dialect.V4) => "\"rgb reflectance\" [.5 .5 .5]"
       case _ => ""
 
-  private def describe(dialect: Dialect, material: String): String =
+  private def describe(dialect: Dialect, material: String, inMitsubas: Boolean = false): String =
     val matte = if dialect == Dialect.V4 then "diffuse" else "matte"
     val text = "WorldBegin\nTexture \"varying\" \"float\" \"checkerboard\"\n" +
       "Texture \"varying\" \"spectrum\" \"checkerboard\"\n" +
       Seq("a", "b").map(n => s"MakeNamedMaterial \"$n\" \"string type\" \"$matte\"\n").mkString +
       s"$material\nShape \"sphere\"\n" + (if dialect == Dialect.V4 then "" else "WorldEnd\n")
-    SceneTexts.plan(text, dialect).features.toMap.apply("materials")
+    val scene = SceneTexts.parse(text, dialect).copy(isMitsubas = inMitsubas)
+    SceneBuilder.build(scene, BuildOptions())._1.features.toMap.apply("materials")
 
   for
     recipe <- Materials.all.all
@@ -42,7 +44,8 @@ class VaryingMaterialsSuite extends AnyFunSuite:
         val others = beside(recipe.name, field.name, dialect)
         val material =
           s"Material \"${recipe.name}\" \"texture ${field.name}\" \"varying\" $others"
-        assert(describe(dialect, material) == "1, 0 of them constant", material)
+        val found = describe(dialect, material, recipe.isMitsubas)
+        assert(found == "1, 0 of them constant", material)
 
   test("a material whose textures are all constant is constant"):
     assert(describe(Dialect.V4, "Material \"diffuse\"") == "1, 1 of them constant")
