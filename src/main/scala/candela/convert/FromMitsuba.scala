@@ -81,7 +81,7 @@ object FromMitsuba:
       d.name match
         case "roughplastic" => plastic(isotropic(d))
         case "conductor" => conductor(isotropic(d))
-        case "twosided" => front(d)
+        case "twosided" | "nested" => front(d)
         case "dielectric" => dielectric(isotropic(d))
         case "thindielectric" => without(d, "using 1", "reflectance", "transmittance")
         case "principled" if d.param("thin").exists(_.bools.contains(true)) => sheet(d)
@@ -219,7 +219,7 @@ object FromMitsuba:
         val isSmooth = d.param("uroughness").isEmpty
         val others = without(d, "", "scale", "eta", "k").params
         val name = if isSmooth then "Kr" else "reflectance"
-        val tint = d.param("scale").fold(rgb(name, Rgb.White, d))(renamed(_, name))
+        val tint = d.param("scale").fold(rgb(name, Rgb.White, d))(_.renamed(name))
         if isSmooth then
           d.copy(name = "mirror", params = tint +: others, dialect = Some(Dialect.V3))
         else d.copy(params = tint +: others)
@@ -232,7 +232,7 @@ object FromMitsuba:
           val reflectance = color(d, "scale") match
             case Some(c) => rgb("reflectance", (own * c).map(ConductorAlbedo.normal), d)
             case None =>
-              val name = renamed(tint, "reflectance")
+              val name = tint.renamed("reflectance")
               times(name, "spectrum", ConductorAlbedo.normal(own.luminance))
           problems += Problem.warning(
             tint.at,
@@ -245,7 +245,7 @@ object FromMitsuba:
     /** v3's glass has colours. */
     private def dielectric(d: Declaration): Declaration =
       val tints = Vector("reflectance" -> "Kr", "transmittance" -> "Kt")
-        .flatMap((from, to) => d.param(from).map(renamed(_, to)))
+        .flatMap((from, to) => d.param(from).map(_.renamed(to)))
       if tints.isEmpty then d
       else
         val others = without(d, "", "reflectance", "transmittance").params
@@ -290,12 +290,16 @@ object FromMitsuba:
 
     /** pbrt's surfaces look the same from behind. */
     private def front(d: Declaration): Declaration =
-      val names = d.param("materials").get.strings
+      val names = d.param("materials").orElse(d.param("material")).get.strings
       if names.distinct.length > 1 then
         warn(d, "pbrt has no other material on the back; using that of the front for both")
       val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
       val front = named(names.head)
-      material(front.copy(params = front.params ++ reliefs))
+      val takesMore =
+        front.name != "mix" && !front.params.exists(p => FromMitsuba.Reliefs(p.name))
+      if reliefs.nonEmpty && !takesMore then
+        warn(d, "pbrt has no bumps of a blend, or of bumps; these are lost")
+      material(if takesMore then front.copy(params = front.params ++ reliefs) else front)
 
     /** A sheet that transmits as much, but spreads all of it. */
     private def sheet(d: Declaration): Declaration =
@@ -307,17 +311,12 @@ object FromMitsuba:
         (name, part) =>
           color(d, "color") match
             case Some(c) => rgb(name, c * part, d)
-            case None => times(renamed(d.param("color").get, name), "spectrum", part)
+            case None => times(d.param("color").get.renamed(name), "spectrum", part)
       val reliefs = d.params.filter(p => FromMitsuba.Reliefs(p.name))
       d.copy(name = "diffusetransmission", params = colors ++ reliefs)
 
     private def rgb(name: String, c: Rgb, d: Declaration): Param =
       Param.floats(ParamType.Rgb, name, d.at, Array(c.r, c.g, c.b))
-
-    private def renamed(p: Param, name: String): Param = Param(
-      p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault,
-      p.colorSpace
-    )
 
   private val Reliefs = Set("displacement", "bumpmap", "normalmap")
 

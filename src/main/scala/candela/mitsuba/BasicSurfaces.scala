@@ -49,7 +49,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
       else
         for (name, _) <- pigments if in.has(name) do
           session.error(in.atOf(name), s"hair has `sigma_a` or `$name`, not both")
-        val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Plain)
+        val shade = colors.shade(in, "sigma_a", Rgb.Black, Role.Unbounded)
         Seq(textures.color("sigma_a", shade, in.atOf("sigma_a"), scale))
     if scale != 1f && !in.has("sigma_a") then
       session.warn(in.atOf("scale"), "`scale` is for `sigma_a`; it is ignored")
@@ -138,7 +138,7 @@ private[mitsuba] final class BasicSurfaces(session: Session, colors: Colors, tex
         else
           Indices.metal(material, in)
         Vector("eta" -> eta, "k" -> k).map: (name, default) =>
-          textures.color(name, colors.shade(in, name, default, Role.Plain), in.atOf(name))
+          textures.color(name, colors.shade(in, name, default, Role.Unbounded), in.atOf(name))
     made(in, "conductor", isOneSided = true)((params ++ tint ++ rough)*)
 
   /** A coat on a diffuse base. */

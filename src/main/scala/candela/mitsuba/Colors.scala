@@ -2,20 +2,25 @@ package candela.mitsuba
 
 import candela.base.SourcePos
 import candela.color.{Colorimetry, Rgb, Spectrum}
+import candela.math.clamp
 
 /** How spectra become colours: as in Mitsuba's RGB variants. */
 enum Role:
-  /** Lit by D65: a constant 1 is white. */
+  /** Lit by D65: a constant 1 is white. In [0, 1], where the spectrum is not. Numbers of surfaces
+    * and coefficients of media, too.
+    */
   case Reflectance
+
+  /** As reflectance, but without an upper limit: indices of metals, absorption of hair. */
+  case Unbounded
 
   /** A constant 1, given as a number, is white; pairs of wavelengths and values are as measured. */
   case Emission
 
-  /** Indices of refraction, coefficients of media. */
-  case Plain
-
-  private[mitsuba] def white: Colorimetry.White =
-    if this == Reflectance then Colorimetry.White.D65 else Colorimetry.White.EqualEnergy
+  private[mitsuba] def color(s: Spectrum): Rgb = this match
+    case Reflectance => Colorimetry.rgb(s, Colorimetry.White.D65).map(clamp(_, 0f, 1f))
+    case Unbounded => Colorimetry.rgb(s, Colorimetry.White.D65).map(Math.max(_, 0f))
+    case Emission => Colorimetry.rgb(s, Colorimetry.White.EqualEnergy)
 
 /** A colour or a texture. */
 enum Shade:
@@ -38,7 +43,7 @@ final class Colors(session: Session):
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
         case Value.Color(c) => Some(Shade.Constant(c))
-        case Value.Wavelengths(s) => Some(Shade.Constant(color(s, role)))
+        case Value.Wavelengths(s) => Some(Shade.Constant(role.color(s)))
         case Value.Nested(_) | Value.Reference(_) =>
           in.objectNamed(name).flatMap(ofPlugin(_, role, in, name))
         case other =>
@@ -72,8 +77,8 @@ final class Colors(session: Session):
             Some(everywhere(v, Rgb.gray(0.75f), role))
           case Some(v) if v.kind == "volume" => None
           case _ => Some(session.of(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
-      case "irregular" => Some(session.of(p)(in => color(irregular(in), role)))
-      case "regular" => Some(session.of(p)(in => color(regular(in), role)))
+      case "irregular" => Some(session.of(p)(in => role.color(irregular(in))))
+      case "regular" => Some(session.of(p)(in => role.color(regular(in))))
       case _ => None
 
   /** Of a constant volume. */
@@ -122,8 +127,6 @@ final class Colors(session: Session):
       in.at
     )
 
-  private def color(s: Spectrum, role: Role): Rgb = Colorimetry.rgb(s, role.white)
-
   /** In W/(m² sr nm), as Mitsuba's. */
   private def blackbody(kelvin: Float, at: SourcePos): Rgb =
     if !(kelvin > 0) then Values.fail(at, "the temperature of a black body must be positive")
@@ -132,4 +135,4 @@ final class Colors(session: Session):
     val peak = 2.8977721e-3 / kelvin
     val (c, h, k) = (299792458.0, 6.62607015e-34, 1.380649e-23)
     val radiance = 2 * h * c * c / Math.pow(peak, 5) / Math.expm1(h * c / (peak * k * kelvin))
-    color(relative, Role.Emission) * (radiance * 1e-9).toFloat
+    Role.Emission.color(relative) * (radiance * 1e-9).toFloat

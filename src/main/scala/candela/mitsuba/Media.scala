@@ -86,11 +86,11 @@ final class Media(session: Session, colors: Colors):
   private def fixed(in: Asked, name: String, default: Float): Rgb =
     in.objectNamed(name).filter(_.kind == "volume") match
       case Some(v) if v.name == "constvolume" =>
-        colors.everywhere(v, Rgb.gray(default), Role.Plain)
+        colors.everywhere(v, Rgb.gray(default), Role.Reflectance)
       case Some(v) =>
         session.warn(v.at, s"${v.shown} is not supported as `$name`; using $default")
         Rgb.gray(default)
-      case None => colors.fixed(in, name, Rgb.gray(default), Role.Plain)
+      case None => colors.fixed(in, name, Rgb.gray(default), Role.Reflectance)
 
   private def homogeneous(in: Asked, phase: Phase, scale: Float, albedo: Rgb, sigmaT: Rgb) =
     // Coefficients may be given instead of albedo and extinction

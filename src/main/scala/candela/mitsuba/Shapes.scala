@@ -69,7 +69,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val (surface, material) = bsdf.headOption match
       case Some(p) =>
         val s = attributes.fold(surfaces(p))(surfaces.on(_, p))
-        (s, surfaces.ref(p, s))
+        // Masks don't dim lamps
+        val lit = if emitter.isDefined && s.alpha.isDefined then surfaces.whole(s) else s
+        (lit, if lit eq s then surfaces.ref(p, s) else MaterialRef.Inline(lit.material))
       case None =>
         val s = bare(in, emitter.isDefined)
         (s, MaterialRef.Inline(s.material))

@@ -1,5 +1,6 @@
 package candela.mitsuba
 
+import candela.base.SourcePos
 import candela.scenefile.{Declaration, MaterialRef, Param, ParamType}
 
 import scala.collection.mutable
@@ -23,16 +24,29 @@ private[mitsuba] enum Relief:
 
 /** Translates BSDFs, each once. */
 final class Surfaces(session: Session, colors: Colors, textures: Textures):
-  private val made = mutable.HashMap.empty[(Plugin, Relief, Option[MeshAttributes]), Surface]
+  private val made = mutable.HashMap.empty[(Plugin, Option[MeshAttributes]), Surface]
   private val named = mutable.LinkedHashMap.empty[String, Declaration]
   private val names = mutable.HashMap.empty[Declaration, String]
   private val basic = BasicSurfaces(session, colors, textures)
+  private val kinds = SurfaceKinds(named.get)
   private var depth = 0
 
   /** Materials with a name, in order. */
   def result(): Vector[(String, Declaration)] = named.toVector
 
-  def apply(p: Plugin): Surface = of(p, Relief.Flat)
+  def apply(p: Plugin): Surface =
+    made.getOrElse(
+      (p, textures.mesh), {
+        depth += 1
+        if depth > Session.Deepest then
+          Values.fail(p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
+        val surface =
+          try session.of(p)(translated)
+          finally depth -= 1
+        made((p, textures.mesh)) = surface
+        surface
+      }
+    )
 
   /** On a mesh with attributes. */
   def on(mesh: MeshAttributes, p: Plugin): Surface =
@@ -69,103 +83,100 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
       }
     )
 
-  private def of(p: Plugin, relief: Relief): Surface =
-    made.getOrElse(
-      (p, relief, textures.mesh), {
-        depth += 1
-        if depth > Session.Deepest then
-          Values.fail(p.at, s"more than ${Session.Deepest} BSDFs refer to each other")
-        val surface =
-          try session.of(p)(translated(_, relief))
-          finally depth -= 1
-        made((p, relief, textures.mesh)) = surface
-        surface
-      }
-    )
-
-  private def translated(in: Asked, relief: Relief): Surface = in.plugin.name match
-    case "twosided" => twoSided(in, relief)
-    case "mask" => masked(in, relief)
-    case "bumpmap" => bumped(in, relief)
-    case "normalmap" => mapped(in, relief)
-    case "blendbsdf" => blended(in, relief)
-    case _ =>
-      val s = basic(in)
-      s.copy(material = raised(s.material, relief))
+  private def translated(in: Asked): Surface = in.plugin.name match
+    case "twosided" => twoSided(in)
+    case "mask" => masked(in)
+    case "bumpmap" => bumped(in)
+    case "normalmap" => mapped(in)
+    case "blendbsdf" => blended(in)
+    case _ => basic(in)
 
   /** The only BSDF within another. */
-  private def child(in: Asked, relief: Relief): Surface =
+  private def child(in: Asked): Surface =
     in.nested("bsdf").toList match
-      case only :: Nil => of(only, relief)
+      case only :: Nil => apply(only)
       case Nil =>
         session.error(in.at, s"${in.plugin.shown} must contain a bsdf")
         basic.grey(in)
-      case first :: second :: _ =>
-        session.warn(second.at, s"${in.plugin.shown} has one bsdf too many; this one is ignored")
-        of(first, relief)
+      case first :: others =>
+        surplus(in, others)
+        apply(first)
 
-  private def twoSided(in: Asked, relief: Relief): Surface =
-    in.nested("bsdf").toList match
+  private def surplus(in: Asked, others: List[Plugin]): Unit =
+    for p <- others do
+      session.warn(p.at, s"${in.plugin.shown} has one bsdf too many; this one is ignored")
+
+  private def twoSided(in: Asked): Surface =
+    val inner = in.nested("bsdf").toList
+    for p <- inner.find(p => kinds.isTransmissive(apply(p))) do
+      session.warn(p.at, "Mitsuba refuses a bsdf \"twosided\" of one that light passes through")
+    inner match
       case front :: back :: others =>
-        others.foreach: p =>
-          session.warn(p.at, s"${in.plugin.shown} has one bsdf too many; this one is ignored")
-        val both = sides(in, side(front), side(back), Vector.empty)
-        both.copy(material = raised(both.material, relief))
-      case only :: Nil =>
-        val s = of(only, relief)
-        if !isBlackBehind(s.material) then s.copy(isOneSided = false)
-        else
-          val (bumps, plain) = level(s)
-          sides(in, only -> plain, only -> plain, bumps).copy(alpha = s.alpha)
-      case _ => child(in, relief).copy(isOneSided = false)
+        surplus(in, others)
+        sides(in, front, back)
+      case only :: Nil if !kinds.isTransmissive(apply(only)) && kinds.tellsSides(apply(only)) =>
+        sides(in, only, only).copy(alpha = apply(only).alpha)
+      case _ => child(in).copy(isOneSided = false)
 
-  /** One of two sides. */
-  private def side(p: Plugin): (Plugin, Surface) =
-    val s = of(p, Relief.Flat)
-    val (bumps, plain) = level(s)
-    if bumps.nonEmpty then
-      session.warn(p.at, "bumps of one side alone are not supported; this side is level")
-    for alpha <- s.alpha do
+  private def sides(in: Asked, front: Plugin, back: Plugin): Surface =
+    for p <- List(front, back).distinct; alpha <- apply(p).alpha if front ne back do
       session.warn(alpha.at, "a mask of one side alone is not supported; it is opaque")
-    p -> plain
-
-  /** The parameters of bumps, and the surface without them. */
-  private def level(s: Surface): (Vector[Param], Surface) =
-    val (bumps, others) = s.material.params.partition(p => Surfaces.Reliefs(p.name))
-    (bumps, if bumps.isEmpty then s else s.copy(material = s.material.copy(params = others)))
-
-  private def sides(
-      in: Asked,
-      front: (Plugin, Surface),
-      back: (Plugin, Surface),
-      bumps: Vector[Param]
-  ): Surface =
-    val names = List(front, back).map((p, s) => name(p.id.getOrElse(p.name), s.material))
-    val params = Param.string("materials", in.at, names*) +: bumps
-    Surface(session.declare("Material", "twosided", in.at, params), isOneSided = false)
-
-  /** Whether its lobes are black from behind. */
-  private def isBlackBehind(d: Declaration): Boolean = d.name match
-    case "principled" => !d.param("thin").exists(_.bools.contains(true))
-    case "mix" =>
-      d.param("materials").exists(_.strings.flatMap(named.get).exists(isBlackBehind))
-    case _ => false
-
-  private def masked(in: Asked, relief: Relief): Surface =
-    child(in, relief).copy(alpha = Some(textures.number("alpha", in, "opacity", 0.5)))
-
-  private def bumped(in: Asked, relief: Relief): Surface =
-    val scale = in.number("scale", 1).toFloat
-    val heights = in.nested("texture")
-    if relief != Relief.Flat then
-      session.warn(in.at, "bumps of bumps are not supported; using the outer ones")
-    child(
-      in,
-      heights.headOption.filter(_ => relief == Relief.Flat).fold(relief):
-        Relief.Height(_, scale)
+    val names = List(front, back).map(p => nameOf(p, apply(p)))
+    Surface(
+      session.declare(
+        "Material",
+        "twosided",
+        in.at,
+        Seq(Param.string("materials", in.at, names*))
+      ),
+      isOneSided = false
     )
 
-  private def mapped(in: Asked, relief: Relief): Surface =
+  private def nameOf(p: Plugin, s: Surface): String = name(p.id.getOrElse(p.name), s.material)
+
+  private def masked(in: Asked): Surface =
+    val opacity = textures.number("alpha", in, "opacity", 0.5)
+    val inner = child(in)
+    // What a mask within another one lets through is a part of its BSDF
+    (if inner.alpha.isDefined then whole(inner) else inner).copy(alpha = Some(opacity))
+
+  /** A surface whose mask is a part of its BSDF, as within others: a blend with nothing. */
+  def whole(s: Surface): Surface =
+    val there =
+      if s.material.name == "interface" then s.copy(material = clear(s.material.at)) else s
+    there.alpha match
+      case None => there
+      case Some(opacity) =>
+        val Seq(first, second) = Seq(clear(opacity.at), one(there).material).map: d =>
+          name(d.name, d)
+        mixed(opacity.at, first, second, opacity.renamed("amount"))
+
+  /** What passes all light unscattered, but is a surface. */
+  private def clear(at: SourcePos): Declaration =
+    session.declare("Material", "thindielectric", at, Seq(Param.float("eta", at, 1f)))
+
+  /** With a material that is black from behind by itself, if the surface is. */
+  private def one(s: Surface): Surface =
+    if !s.isOneSided then s
+    else
+      val side = Param.bool("onesided", s.material.at, true)
+      s.copy(material = nested(s.material, Vector(side)), isOneSided = false)
+
+  /** A material within another one that changes it. */
+  private def nested(d: Declaration, changes: Vector[Param]): Declaration =
+    val inner = Param.string("material", d.at, name(d.name, d))
+    session.declare("Material", "nested", d.at, inner +: changes)
+
+  private def mixed(at: SourcePos, first: String, second: String, amount: Param): Surface =
+    val parts = Param.string("materials", at, first, second)
+    Surface(session.declare("Material", "mix", at, Seq(parts, amount)), isOneSided = false)
+
+  private def bumped(in: Asked): Surface =
+    val scale = in.number("scale", 1).toFloat
+    val texture = in.nested("texture").headOption
+    raised(child(in), texture.fold(Relief.Flat)(Relief.Height(_, scale)))
+
+  private def mapped(in: Asked): Surface =
     val maps = in.nested("texture", "normalmap") ++ in.nested("texture")
     in.ignore("flip_invalid_normals", "use_shadowing_function")
     val file = maps.headOption.flatMap: t =>
@@ -178,43 +189,78 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
           val mapping = textures.imageMapping(of)
           of.text("filename").flatMap(session.file(_, of.atOf("filename"), "ignored"))
             .map(path => Relief.Normals(session.named(path), mapping))
-    child(in, file.getOrElse(relief))
+    raised(child(in), file.getOrElse(Relief.Flat))
 
-  private def raised(d: Declaration, relief: Relief): Declaration =
+  private def raised(s: Surface, relief: Relief): Surface =
+    val d = s.material
     val isV4 = d.dialect.isEmpty
-    relief match
+    def plain = if kinds.takesRelief(d) then d else nested(d, Vector.empty)
+    val material = relief match
       case Relief.Flat => d
-      case _ if d.name == "interface" || d.name == "mix" => d
+      case _ if d.name == "interface" => d
       case Relief.Height(texture, scale) =>
         val name = if isV4 then "displacement" else "bumpmap"
-        d.copy(params = d.params :+ textures.number(name, Shade.Textured(texture), d.at, scale))
+        val shade = Shade.Textured(texture)
+        plain.copy(params = plain.params :+ textures.number(name, shade, d.at, scale))
       case Relief.Normals(file, mapping) if isV4 =>
         val place = Option.when(mapping != Textures.Upright):
           Param.floats(ParamType.Float, "normalmapuv", d.at, mapping.toArray)
-        d.copy(params = (d.params :+ Param.string("normalmap", d.at, file)) ++ place)
+        plain.copy(params = (plain.params :+ Param.string("normalmap", d.at, file)) ++ place)
       case Relief.Normals(_, _) =>
         session.warn(d.at, "normal maps of this BSDF are not supported; ignored")
         d
+    s.copy(material = material)
 
-  private def blended(in: Asked, relief: Relief): Surface =
+  private def blended(in: Asked): Surface =
     val weight = textures.number("amount", in, "weight", 0.5)
     in.nested("bsdf").toList match
-      case a :: b :: _ =>
-        val (first, second) = (of(a, relief), of(b, relief))
-        for s <- List(first, second); alpha <- s.alpha do
-          session.warn(alpha.at, "a mask within a blend is not supported; it is opaque")
-        val parts = List(a -> first, b -> second).map: (p, s) =>
-          name(p.id.getOrElse(p.name), s.material)
-        val material = session.declare(
-          "Material",
-          "mix",
-          in.at,
-          Seq(Param.string("materials", in.at, parts*), weight)
-        )
-        Surface(material, first.isOneSided && second.isOneSided)
+      case a :: b :: others =>
+        surplus(in, others)
+        val parts = List(a, b).map(p => whole(apply(p)))
+        val isOneSided = parts.forall(_.isOneSided)
+        val Seq(first, second) = List(a, b).zip(parts).map: (p, s) =>
+          nameOf(p, if isOneSided then s else one(s))
+        mixed(in.at, first, second, weight).copy(isOneSided = isOneSided)
       case _ =>
         session.error(in.at, "blendbsdf must contain two bsdfs")
         basic.grey(in)
 
-private object Surfaces:
+/** What is known of materials by their declarations.
+  *
+  * @param named the materials that others contain, by name
+  */
+private final class SurfaceKinds(named: String => Option[Declaration]):
+  private def within(d: Declaration): Iterator[Declaration] =
+    for
+      p <- d.params.iterator if p.name == "materials" || p.name == "material"
+      name <- p.strings.iterator
+      inner <- named(name)
+    yield inner
+
+  private def isFlat(d: Declaration) = !d.params.exists(p => SurfaceKinds.Reliefs(p.name))
+
+  /** Whether bumps can be added to it. */
+  def takesRelief(d: Declaration): Boolean = d.name != "mix" && isFlat(d)
+
+  /** Whether the back does not look like the front: it is black, or has bumps. */
+  def tellsSides(s: Surface): Boolean = tellsSides(s.material)
+
+  private def tellsSides(d: Declaration): Boolean = d.name match
+    case _ if !isFlat(d) => true
+    case "principled" => !d.param("thin").exists(_.bools.contains(true))
+    case "nested" if d.param("onesided").exists(_.bools.contains(true)) => true
+    case "mix" | "nested" => within(d).exists(tellsSides)
+    case _ => false
+
+  /** Whether light passes through it. */
+  def isTransmissive(s: Surface): Boolean = s.alpha.isDefined || isTransmissive(s.material)
+
+  private def isTransmissive(d: Declaration): Boolean = d.name match
+    case "interface" | "dielectric" | "thindielectric" | "hair" => true
+    case "principled" => Seq("spectrans", "difftrans").flatMap(d.param).exists: p =>
+        p.strings.nonEmpty || p.floats.exists(_ > 0f)
+    case "mix" | "nested" => within(d).exists(isTransmissive)
+    case _ => false
+
+private object SurfaceKinds:
   private val Reliefs = Set("displacement", "bumpmap", "normalmap", "normalmapuv")

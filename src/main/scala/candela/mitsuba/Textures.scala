@@ -37,7 +37,7 @@ final class Textures(session: Session, colors: Colors):
   def number(name: String, in: Asked, property: String, default: Double): Param =
     number(
       name,
-      colors.shade(in, property, Rgb.gray(default.toFloat), Role.Plain),
+      colors.shade(in, property, Rgb.gray(default.toFloat), Role.Reflectance),
       in.atOf(property)
     )
 

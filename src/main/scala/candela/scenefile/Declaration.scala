@@ -58,6 +58,9 @@ final class Param(
     val isDefault: Boolean = false,
     val colorSpace: Option[String] = None
 ):
+  def renamed(name: String): Param =
+    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, isDefault, colorSpace)
+
   def withStrings(values: Vector[String]): Param =
     Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace)
 

@@ -44,7 +44,7 @@ final class PbrtParametersSuite extends AnyFunSuite:
         if !known((dialect, category.name, recipe.name, field.name))
       yield (dialect, recipe.name, field.name)
     // Scenes of Mitsuba have materials, a texture and a sky of their own
-    val own = Set("principled", "roughplastic", "twosided", "grid", "sunsky")
+    val own = Set("principled", "roughplastic", "twosided", "nested", "grid", "sunsky")
     val ofMitsuba =
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",

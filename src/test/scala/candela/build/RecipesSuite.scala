@@ -50,7 +50,7 @@ final class ShapeRecipesSuite
 final class MaterialRecipesSuite
     extends RecipeLaws[Material](
       Materials.all,
-      demanding = Set("measured", "fourier", "mix", "twosided")
+      demanding = Set("measured", "fourier", "mix", "twosided", "nested")
     )
 
 final class LightRecipesSuite

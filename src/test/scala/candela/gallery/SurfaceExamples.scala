@@ -40,6 +40,7 @@ private object SurfaceExamples:
     "principled" -> Unseen("of Mitsuba's scenes"),
     "roughplastic" -> Unseen("of Mitsuba's scenes"),
     "twosided" -> Unseen("of Mitsuba's scenes"),
+    "nested" -> Unseen("of Mitsuba's scenes"),
     "measured/v4" -> Unseen(foreign),
     "fourier" -> Unseen(foreign),
     "" -> Unseen(clear),

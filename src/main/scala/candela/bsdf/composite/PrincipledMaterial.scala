@@ -14,12 +14,14 @@ import candela.textures.Textured
   */
 final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p):
 
+  private val transmits = p.transmission.constant.forall(_ > 0f)
+
   def bsdf(at: ShadingPoint): Bsdf =
     val color = p.color.albedo(at)
     val metallic = p.metallic(at)
     val index = p.eta(at)
     // Matched indices would bend nothing
-    val eta = if index == 1f then 1.001f else index
+    val eta = if index == 1f && transmits then 1.001f else index
     val roughness = p.roughness(at)
     val hue = Principled.hue(color)
     val clear = (1f - metallic) * p.transmission(at)
@@ -42,7 +44,9 @@ final class PrincipledMaterial(p: DisneyParameters) extends Material, Textured(p
     val facets = Principled.facets(roughness, p.anisotropic(at))
     val tint = p.specularTint(at)
     val curve = PrincipledReflectance(color, hue, metallic, tint, eta, clear)
-    lobes.add(MicrofacetReflection(facets, curve), Math.max(color.max * metallic, 0.04f))
+    // What the dielectric doesn't reflect, the metal doesn't, either
+    val glossy = if eta == 1f then 0f else Math.max(color.max * metallic, 0.04f)
+    lobes.add(MicrofacetReflection(facets, curve), glossy)
 
     val coat = p.clearcoat(at)
     def sharp = ClearcoatDistribution(lerp(p.clearcoatGloss(at), 0.1f, 1e-3f), isBare = true)

@@ -45,6 +45,7 @@ object Materials:
       FourierRecipe,
       MixRecipe,
       TwoSidedRecipe,
+      NestedRecipe,
       InterfaceRecipe("", sinceV3),
       InterfaceRecipe("none", sinceV3),
       InterfaceRecipe("interface", onlyV4)

@@ -1,6 +1,8 @@
 package candela.build.materials
 
-import candela.bsdf.{InterfaceMaterial, Material, TwoSidedMaterial}
+import candela.bsdf.{
+  FramedMaterial, InterfaceMaterial, Material, OneSidedMaterial, TwoSidedMaterial
+}
 import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -59,7 +61,16 @@ private def named(name: String, parameter: String)(using site: Site): Material =
   if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
     val whole = site.declaration.name
     site.problems.error(at, s"`$parameter` of \"$whole\" must not name an interface, found `$name`")
-  found
+  FramedMaterial.of(found)
+
+object NestedRecipe
+    extends MaterialRecipe("nested", "material within another one of Mitsuba's scenes", onlyV4):
+  private val within = string("material", "name of the material", onlyV4)("")
+  private val onesided = bool("onesided", "whether it is black from behind")(false)
+
+  protected def make()(using site: Site): Material =
+    val inner = named(within(), "material")
+    if onesided() then OneSidedMaterial.of(inner) else inner
 
 /** A medium interface without a surface. */
 final class InterfaceRecipe(name: String, dialects: Set[Dialect])

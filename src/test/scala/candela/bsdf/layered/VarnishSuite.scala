@@ -13,9 +13,10 @@ class VarnishSuite extends BsdfLaws:
   private def varnish(
       under: Varnish,
       top: Roughness,
-      specular: Rgb = Rgb.White
+      specular: Rgb = Rgb.White,
+      eta: Float = 1.5f
   ): Bsdf =
-    VarnishMaterial(ConstantRgb(color), ConstantRgb(specular), under, top, 1.5f)
+    VarnishMaterial(ConstantRgb(color), ConstantRgb(specular), under, top, eta)
       .bsdf(ShadingPoint())
 
   private val smooth = Roughness.Smooth
@@ -28,10 +29,18 @@ class VarnishSuite extends BsdfLaws:
   private def passes(w: Vec3) = 1 - Fresnel.dielectric(w.z, 1.5f)
 
   test("under a smooth coat the base is Mitsuba's formula"):
-    // 0.5963: diffuse light that the inside of index 1.5 reflects, by quadrature of Fresnel's terms
+    // 0.59683: diffuse light that the inside of index 1.5 reflects, by Mitsuba's fit
     for (under, c) <- Seq((Varnish.Colored, 0.5f), (Varnish.Plain, 1f)) do
-      val expected = 0.5 / (1 - 0.5963 * c) * passes(wo) * passes(wi) / (Math.PI * 2.25)
+      val expected = 0.5 / (1 - 0.59683 * c) * passes(wo) * passes(wi) / (Math.PI * 2.25)
       assert(Math.abs(varnish(under, smooth).f(wo, wi).g / expected - 1) < 1e-3)
+
+  test("under a smooth coat of a high index the base reflects more than it should, as Mitsuba's"):
+    def passing(w: Vec3) = 1 - Fresnel.dielectric(w.z, 3f)
+    // 0.93554: Mitsuba 3.9.1's fresnel_diffuse_reflectance(1 / 3); by quadrature 0.885
+    val expected = 0.5 / (1 - 0.93554) * passing(wo) * passing(wi) / (Math.PI * 9)
+    val found = varnish(Varnish.Plain, smooth, eta = 3f).f(wo, wi).g
+    assert(Math.abs(found / expected - 1) < 1e-3)
+    assert(varnish(Varnish.Plain, smooth, eta = 6f).f(wo, wi).g > 0f)
 
   obeysLaws("without interreflection", varnish(Varnish.Once, rough))
 

@@ -1,0 +1,48 @@
+package candela.bsdf
+
+import candela.color.Rgb
+import candela.geometry.{Frame, ShadingPoint}
+import candela.math.*
+
+/** A material that perturbs normals for itself alone: what it is blended with, or what is on the
+  * other side, keeps the shading frame of the surface, as in Mitsuba.
+  */
+final class FramedMaterial(inner: Material) extends DisplacedMaterial(inner):
+  def bsdf(at: ShadingPoint): Bsdf =
+    val outer = at.frame.toFrame
+    val scattered = inner.bsdf(at)
+    val own = at.frame.toFrame
+    at.frame.set(outer)
+    Framed(scattered, Frame(outer.toLocal(own.s), outer.toLocal(own.t), outer.toLocal(own.n)))
+
+object FramedMaterial:
+  /** Where `inner` perturbs normals as Mitsuba does. */
+  def of(inner: Material): Material = inner match
+    case relief: SoftTerminatorMaterial => FramedMaterial(relief)
+    case other => other
+
+/** `inner` in a frame of its own. */
+final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
+
+  /** The cosine is to be that to the normal of `inner`. */
+  def f(wo: Vec3, wi: Vec3): Rgb =
+    val there = frame.toLocal(wi)
+    val cosine = Math.abs(wi.z)
+    if cosine < Hemisphere.Horizon then Rgb.Black
+    else inner.f(frame.toLocal(wo), there) * (Math.abs(there.z) / cosine)
+
+  def pdf(wo: Vec3, wi: Vec3): Float = inner.pdf(frame.toLocal(wo), frame.toLocal(wi))
+
+  override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
+    inner.draw(frame.toLocal(wo), choice, u1, u2, out)
+    val wi = frame.toWorld(out.wi.toVec3)
+    out.set(wi, out.weight, out.pdf, out.isSpecular, out.eta)
+
+  override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    val s = inner.sampleSpecular(frame.toLocal(wo), choice)
+    BsdfSample(frame.toWorld(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
+
+  def isSpecular: Boolean = inner.isSpecular
+  def isTransmissive: Boolean = inner.isTransmissive
+  override def regularized: Bsdf = Framed(inner.regularized, frame)
+  override def isDispersive: Boolean = inner.isDispersive
