@@ -15,6 +15,11 @@ abstract class Mask:
     */
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean
 
+  /** The mask in two parts: that of rays of all kinds, and a veil's, whose openings stop light
+    * samples.
+    */
+  def veiled: (Mask, Mask) = (SolidMask, this)
+
 /** Fully opaque. */
 object SolidMask extends Mask:
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean = false
@@ -39,6 +44,7 @@ final class StochasticMask(alpha: FloatTexture) extends Mask:
 
 /** Also open to rays that meet the surface from behind. */
 final class FrontMask(within: Mask) extends Mask:
+  override def veiled: (Mask, Mask) = (FrontMask(SolidMask), within)
   def isHole(at: ShadingPoint, ray: Ray, primitive: Int, shadow: Boolean): Boolean =
     (ray.direction dot at.geometricNormal) > 0f || within.isHole(at, ray, primitive, shadow)
 

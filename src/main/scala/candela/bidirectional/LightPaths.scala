@@ -16,6 +16,7 @@ import candela.scene.Scene
   * @param regularizes as in [[candela.integrators.PathTracer]]
   * @param media       what the paths go through, if anything
   * @param startsAlone whether the hero wavelength alone is of interest from the start
+  * @param countsPassed whether passing an interface counts as an edge
   */
 private[bidirectional] final class LightPaths(
     scene: Scene,
@@ -25,7 +26,8 @@ private[bidirectional] final class LightPaths(
     weighsAll: Boolean,
     regularizes: Boolean = false,
     startsAlone: Boolean = false,
-    media: PathMedia | Null = null
+    media: PathMedia | Null = null,
+    countsPassed: Boolean = false
 ):
   private val powers = scene.lights.map: light =>
     if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
@@ -94,8 +96,9 @@ private[bidirectional] final class LightPaths(
         val vertex = next()
         if within != null && collision >= 0f then within.scatter(vertex, ray, collision)
         else vertex.hit(ray, hit)
-        if !vertex.isInMedium && vertex.isInterface then
-          edges -= 1
+        if !vertex.isInMedium && scene.isPassed(ray, hit, vertex.at) then
+          if !countsPassed then edges -= 1
+          else alive = edges < maxEdges
           if within == null then vertex.passThrough(ray) else within.passThrough(vertex, ray)
         else
           if !vertex.isInMedium then vertex.evaluate(regularizes && !path.isSpecularSoFar)

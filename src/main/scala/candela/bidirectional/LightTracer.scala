@@ -15,22 +15,32 @@ import candela.scene.Scene
   * @param takes    the image's camera
   * @param splats   receives the splats
   * @param maxDepth scattering events of a path, at most
+  * @param countsPassed as in [[candela.integrators.WalkOptions]]
+  * @param showsSky does the camera see the sky where nothing is before it?
   *
   * Source: Arvo, "Backward Ray Tracing", SIGGRAPH 1986 course notes; PBRT 4th ed., §16.1.
   */
-final class LightTracer(scene: Scene, takes: Camera, splats: Splats, maxDepth: Int)
-    extends SceneIntegrator(scene):
+final class LightTracer(
+    scene: Scene,
+    takes: Camera,
+    splats: Splats,
+    maxDepth: Int,
+    countsPassed: Boolean = false,
+    showsSky: Boolean = false
+) extends SceneIntegrator(scene):
   private val paths = LightPaths(
     scene,
     maxDepth,
     LightTransport.RouletteAfter,
     compresses = true,
-    weighsAll = false
+    weighsAll = false,
+    countsPassed = countsPassed
   )
   private val camera = CameraConnection(scene, takes, splats)
   private val walk = Walk(scene)
 
-  protected def over(scene: Scene): LightTracer = LightTracer(scene, takes, splats, maxDepth)
+  protected def over(scene: Scene): LightTracer =
+    LightTracer(scene, takes, splats, maxDepth, countsPassed, showsSky)
 
   def raysTraced: Long = walk.raysTraced + paths.raysTraced + camera.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
@@ -40,9 +50,7 @@ final class LightTracer(scene: Scene, takes: Camera, splats: Splats, maxDepth: I
     paths.trace(ray.time, sampler)
     camera.connect(paths, isWeighted = false, sampler)
     walk.begin(ray, sampler)
-    while walk.goesOn do
-      if !walk.intersect() then walk.end()
-      else
-        walk.addEmission()
-        if walk.vertex.isInterface then walk.passThrough() else walk.end()
+    // As connections to the camera, which interfaces block
+    if walk.intersect() then walk.addEmission()
+    else if showsSky then walk.addEnvironment()
     walk.radiance.toRgb

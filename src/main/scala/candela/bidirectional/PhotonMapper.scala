@@ -2,7 +2,9 @@ package candela.bidirectional
 
 import candela.color.Rgb
 import candela.geometry.Ray
-import candela.integrators.{LightTransport, PassIntegrator, SceneIntegrator, Walk}
+import candela.integrators.{
+  Interfaces, LightTransport, PassIntegrator, SceneIntegrator, Walk, WalkOptions
+}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -15,7 +17,10 @@ import candela.scene.Scene
   * followed, and photons account for all others: together they cover all indirect light exactly
   * once.
   *
-  * @param maxDepth maximum number of scattering events of the camera subpath
+  * @param maxDepth   maximum number of scattering events of the camera subpath
+  * @param interfaces what they are to light sampling. Where they stop it, lamps without a BSDF are
+  *                   invisible; where they are weighed, paths look for light beyond the surface
+  *                   where they gather
   *
   * Sources: Hachisuka and Jensen, "Stochastic Progressive Photon Mapping", SIGGRAPH Asia 2009;
   * [[PhotonPasses]] for the radius; PBRT 3rd ed., §16.2.
@@ -24,19 +29,21 @@ private[bidirectional] final class PhotonMapper(
     scene: Scene,
     maxDepth: Int,
     settings: PhotonSettings,
-    passes: PhotonPasses
+    passes: PhotonPasses,
+    interfaces: Interfaces = Interfaces.Open
 ) extends SceneIntegrator(scene)
     with PassIntegrator:
   import PhotonMapper.Sharp
 
   private val tracer = PhotonTracer(scene, settings)
-  private val walk = Walk(scene)
+  private val walk = Walk(scene, options = WalkOptions(interfaces = interfaces))
+  private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
   def begin(pass: Int): Unit = photons = passes(pass, tracer)
 
   protected def over(scene: Scene): PhotonMapper =
-    PhotonMapper(scene, maxDepth, settings, passes)
+    PhotonMapper(scene, maxDepth, settings, passes, interfaces)
 
   def raysTraced: Long = walk.raysTraced + tracer.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
@@ -46,12 +53,14 @@ private[bidirectional] final class PhotonMapper(
     walk.begin(ray, sampler)
     // Photons of dispersive scenes have one wavelength
     if scene.isDispersive then walk.keepHero()
+    var hasGathered = false
     while walk.goesOn do
       if !walk.intersect() then walk.addEnvironment()
       else
-        walk.addEmission()
-        if vertex.isInterface then walk.passThrough()
-        else if walk.depth == maxDepth then walk.end()
+        val isPassed = vertex.isInterface
+        if !isPassed || !interfaces.stopsLight then walk.addEmission()
+        if isPassed then walk.passThrough()
+        else if walk.depth == maxDepth || hasGathered then walk.end()
         else
           walk.evaluate()
           val isLast = walk.depth == maxDepth - 1
@@ -64,7 +73,8 @@ private[bidirectional] final class PhotonMapper(
           if !vertex.bsdf.isSpecular && limit > 0f then walk.add(photons.gather(vertex, limit))
           walk.scatter(sampler)
           walk.leave()
-          if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then walk.end()
+          if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then
+            if looksBeyond then hasGathered = true else walk.end()
     walk.radiance.toRgb
 
   /** Next-event estimation, without MIS for directions in which paths end.
@@ -77,7 +87,8 @@ private[bidirectional] final class PhotonMapper(
       walk.addLight(weight =
         wi =>
           val pdf = walk.vertex.localPdf(wi)
-          if pdf > follows then LightTransport.powerHeuristic(light.pdf, pdf) else 1f
+          if pdf > follows || looksBeyond then LightTransport.powerHeuristic(light.pdf, pdf)
+          else 1f
       )
 
 object PhotonMapper:

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import candela.cameras.Shutter
 import candela.film.View
-import candela.integrators.{PassIntegrator, SharedPasses}
+import candela.integrators.{Interfaces, PassIntegrator, SharedPasses}
 import candela.sampling.IndependentSampler
 import candela.scene.{PathReport, Scene}
 
@@ -70,10 +70,16 @@ private[bidirectional] final class PhotonTracer(scene: Scene, settings: PhotonSe
   * Source: Knaus and Zwicker, "Progressive Photon Mapping: A Probabilistic Approach", TOG 30(3),
   * 2011.
   *
-  * @param maxDepth maximum number of scattering events of a camera subpath
+  * @param maxDepth   maximum number of scattering events of a camera subpath
+  * @param interfaces what they are to light sampling
   */
-final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, view: View)
-    extends SharedPasses:
+final class PhotonPasses(
+    scene: Scene,
+    maxDepth: Int,
+    settings: PhotonSettings,
+    view: View,
+    interfaces: Interfaces = Interfaces.Open
+) extends SharedPasses:
   import PhotonPasses.*
 
   private val paths =
@@ -82,7 +88,7 @@ final class PhotonPasses(scene: Scene, maxDepth: Int, settings: PhotonSettings, 
   private val recent = new Array[Pass](SharedPasses.Open)
 
   def integrator(report: Option[PathReport]): PassIntegrator =
-    PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this)
+    PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this, interfaces)
 
   /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. */
   private[bidirectional] def apply(number: Int, tracer: PhotonTracer): PhotonMap =

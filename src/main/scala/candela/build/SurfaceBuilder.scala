@@ -2,8 +2,9 @@ package candela.build
 
 import scala.collection.mutable.ArrayBuffer
 
-import candela.accel.{Mask, Masks}
+import candela.accel.{Mask, Masks, SolidMask}
 import candela.bsdf.InterfaceMaterial
+import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
 import candela.build.shapes.{
@@ -31,17 +32,21 @@ private[build] final class LitSurfaces(
 
 /** Collects the surfaces of the world or of an instanced object.
   *
+  * @param integrator decides what the openings of masks are
   * @param firstLight index of its first area light
   */
 private[build] final class SurfaceBuilder(
     context: BuildContext,
     materials: MaterialTable,
+    integrator: IntegratorPlan,
     firstLight: Int = 0
 ):
   private val soup = SoupBuilder()
   private val solids = ArrayBuffer.empty[ShapeInstance]
   private val meshMasks = ArrayBuffer.empty[Mask]
   private val solidMasks = ArrayBuffer.empty[Mask]
+  private val meshVeils = ArrayBuffer.empty[Mask]
+  private val solidVeils = ArrayBuffer.empty[Mask]
   private val meshStatements, solidStatements = ArrayBuffer.empty[Declaration]
 
   /** Creates the area lights from all triangles, in the order of their indices. */
@@ -50,6 +55,9 @@ private[build] final class SurfaceBuilder(
 
   /** Index after that of the last area light. */
   def endOfLights: Int = lightCount
+
+  /** The first surface that stops light samples, though paths pass it. */
+  var shadowing: Option[Declaration] = None
 
   /** @param triangles of each light; each has its samples in v2's and v3's direct lighting */
   private def addLights(
@@ -91,8 +99,9 @@ private[build] final class SurfaceBuilder(
   def result(): LitSurfaces =
     val triangles = soup.result(materials.needsTangents, context.resources.hasRelief)
     val masks = Masks(meshMasks.toArray, solidMasks.toArray)
+    val veils = Masks(meshVeils.toArray, solidVeils.toArray)
     LitSurfaces(
-      Surfaces(triangles, solids.toArray, masks),
+      Surfaces(triangles, solids.toArray, masks, veils),
       (meshStatements ++ solidStatements).toVector,
       context => lights.iterator.flatMap(_(context, triangles)).toVector
     )
@@ -106,6 +115,14 @@ private[build] final class SurfaceBuilder(
   ):
     private val toWorld = dressed.shape.objectToWorld.start
     private val isReversed = dressed.shape.reverseOrientation
+    private val (mask, veil) =
+      if integrator.hasVeils then plan.mask.veiled else (plan.mask, SolidMask)
+    private val holes = if veil eq SolidMask then plan.holes else EmitterHoles.Ignored
+    if isShadowing then shadowing = shadowing.orElse(Some(dressed.declared))
+
+    /** Does the surface stop light samples, though paths pass it? */
+    private def isShadowing: Boolean = integrator.interfaces.stopsLight &&
+      ((veil ne SolidMask) || (materials.materials(dressed.material) eq InterfaceMaterial))
 
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
@@ -133,9 +150,10 @@ private[build] final class SurfaceBuilder(
       val light = lit.fold(-1)(_ => lightCount)
       for lamp <- lit do
         addLights(1, lamp, dressed.shape.inObject): (emitted, _) =>
-          Vector(plan.holes.light(emitted.ofShape(shape, isInverted), shape))
+          Vector(holes.light(emitted.ofShape(shape, isInverted), shape))
       solids += ShapeInstance(shape, dressed.material, light, isInverted)
-      solidMasks += plan.mask
+      solidMasks += mask
+      solidVeils += veil
       solidStatements += dressed.declared
 
     private def hasArea(shape: Shape): Boolean =
@@ -165,7 +183,8 @@ private[build] final class SurfaceBuilder(
           isPaired,
           readsPartials
         )
-        meshMasks += plan.mask
+        meshMasks += mask
+        meshVeils += veil
         meshStatements += dressed.declared
         val shown = dressed.shape.inObject
         for lamp <- lamp do
@@ -173,11 +192,11 @@ private[build] final class SurfaceBuilder(
             addLights(corners.size, lamp, shown, 2)(MeshLights.ofRectangles(first, corners).of)
           else
             addLights(count, lamp, shown)(
-              MeshLights.ofTriangles(plan.holes, first, count, here).of
+              MeshLights.ofTriangles(holes, first, count, here).of
             )
 
     private def isUniform(lamp: Declaration): Boolean =
-      plan.holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
+      holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
       case Dialect.V4 => BumpTangents.Along

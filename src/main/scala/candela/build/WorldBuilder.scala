@@ -11,7 +11,7 @@ import candela.film.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
-import candela.scenefile.{LightDescription, ShapeDescription}
+import candela.scenefile.{Declaration, LightDescription, ShapeDescription}
 
 /** The world, ready to render, with a description of its features. */
 private[build] final class World(
@@ -68,7 +68,7 @@ private[build] final class WorldBuilder(
 
     var lightCount = 0
     def collected(shapes: Vector[ShapeDescription]) =
-      val builder = SurfaceBuilder(context, materials, lightCount)
+      val builder = SurfaceBuilder(context, materials, integrator, lightCount)
       for s <- shapes do builder.add(materials.dress(s))
       lightCount = builder.endOfLights
       builder
@@ -99,6 +99,8 @@ private[build] final class WorldBuilder(
         grouping.map(LightGrouping.groups(_, lights.map(_.statement), media.isEmissive))
     )
     warnOfDarkness(scene, media.glows(materials))
+    for s <- (world +: objects).flatMap(_.shadowing).headOption if scene.lights.nonEmpty do
+      warnOfShadows(s)
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
     val (plain, inMedia) = media.method(scene, samples, shining.map(_._1), materials, reach)
@@ -183,6 +185,16 @@ private[build] final class WorldBuilder(
     val accelerators = objects.map(o => accelerate(o.primitives()))
     val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)
     Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))
+
+  private def warnOfShadows(surface: Declaration): Unit =
+    val name = description.integrator.fold("path")(_.name)
+    val whose = if description.isMitsubas then "Mitsuba" else "pbrt"
+    problems.warn(
+      surface.at,
+      s"\"$name\" lets no light sample pass this surface, though paths pass it: it casts a " +
+        s"shadow, as in $whose",
+      Some("\"volpath\" lets them pass")
+    )
 
   private def warnOfDarkness(scene: Scene, mediaGlow: Boolean): Unit =
     if scene.lights.isEmpty && !mediaGlow && integrator.isLit && !problems.hasErrors then

@@ -9,6 +9,7 @@ import candela.scene.Scene
   *
   * @param maxDepth     specular bounces plus one, at most
   * @param lightSamples samples of each light at a vertex; empty: one light, chosen at random
+  * @param interfaces   as in [[SpecularWalk]]
   *
   * Where a surface both reflects and transmits, the path follows one of the two at random: the same
   * mean at a cost that does not double with each bounce.
@@ -18,15 +19,16 @@ class DirectLighting(
     scene: Scene,
     maxDepth: Int,
     lightSamples: Array[Int],
-    volumes: VolumeMarch | Null = null
-) extends SpecularWalk(scene, maxDepth, volumes):
+    volumes: VolumeMarch | Null = null,
+    interfaces: Interfaces = Interfaces.Open
+) extends SpecularWalk(scene, maxDepth, volumes, interfaces = interfaces):
   private val bsdfRay = Ray()
   private val bsdfHit = Hit()
   private val emitter = ShadingPoint()
   private var bsdfRays = 0L
 
   protected def over(scene: Scene): DirectLighting =
-    DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes))
+    DirectLighting(scene, maxDepth, lightSamples, VolumeMarch.copy(volumes), interfaces)
 
   override def raysTraced: Long = super.raysTraced + bsdfRays
 
@@ -75,7 +77,7 @@ class DirectLighting(
       bsdfRays += 1
       val p = vertex.at.p
       val chosen = light.probability
-      if scene.closestBehindInterfaces(bsdfRay, bsdfHit, emitter) then
+      if meetsSurface() then
         if emitter.areaLight != light.index then Rgb.Black
         else
           val source = scene.surfaceLight(emitter)
@@ -88,6 +90,14 @@ class DirectLighting(
           val source = scene.environments(found)
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, wi))
           bounce.weight * attenuated(source.radiance(p, wi)) * (weight / chosen)
+
+  /** Finds the surface that light from the sampled direction left last. */
+  private def meetsSurface(): Boolean =
+    if !interfaces.stopsLight then scene.closestBehindInterfaces(bsdfRay, bsdfHit, emitter)
+    else
+      val found = scene.closest(bsdfRay, bsdfHit)
+      if found then scene.surface(bsdfRay, bsdfHit, emitter)
+      found
 
   private def attenuated(light: Rgb): Rgb =
     val march = volumes

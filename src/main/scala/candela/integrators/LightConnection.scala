@@ -11,12 +11,15 @@ import candela.scene.Scene
   *
   * @param volumes what attenuates light between surfaces, if anything does
   * @param steps   their step size towards lights, in units of that towards the camera
+  * @param crosses do shadow rays pass interfaces?
   */
 final class LightConnection(
     scene: Scene,
     volumes: VolumeMarch | Null = null,
-    steps: Float = VolumeMarch.StepsToLights
+    steps: Float = VolumeMarch.StepsToLights,
+    crosses: Boolean = true
 ):
+  private val examines = crosses && scene.hasInterfaces
   private val choice = LightChoice()
   private val ray = Ray()
   private val hit = Hit()
@@ -75,11 +78,11 @@ final class LightConnection(
   /** Traces the shadow ray from a surface. */
   def isBlocked(at: ShadingPoint): Boolean = isBlocked(at.offsetOrigin(wi))
 
-  /** Traces the shadow ray from `origin`, through interfaces. */
+  /** Traces the shadow ray from `origin`, through interfaces where it crosses them. */
   def isBlocked(origin: Vec3): Boolean =
     aim(origin)
     rays += 1
-    if !scene.hasInterfaces then scene.isOccluded(ray, hit)
+    if !examines then scene.isOccluded(ray, hit)
     else
       def opens = scene.isInterface(border)
       !LightConnection.reaches(scene, ray, hit, border, opens, _ => rays += 1, true, aim)

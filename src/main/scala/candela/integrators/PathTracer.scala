@@ -96,8 +96,8 @@ private object PathLoop:
       if !isHit then walk.addEnvironment()
       else
         walk.addEmission()
-        if walk.isPassed then walk.passThrough()
-        else if walk.depth == limits.maxDepth then walk.end()
+        if walk.isPassed then walk.passThrough(limits.maxDepth)
+        else if walk.hasHad(limits.maxDepth) then walk.end()
         else
           walk.evaluate()
           light(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material))

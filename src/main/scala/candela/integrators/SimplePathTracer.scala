@@ -17,7 +17,7 @@ enum Onward:
   * @param maxDepth      scattering events of a path, at most
   * @param samplesLights does light sampling find all light but that seen directly or by way of
   *                      specular surfaces? Else paths find light only where they hit it
-  * @param crosses       do paths continue through interfaces?
+  * @param crosses       do paths continue through interfaces? Each counts as a scattering event
   *
   * Source: PBRT 4th ed., §13.1.2 and §13.2.
   */
@@ -28,7 +28,14 @@ final class SimplePathTracer(
     onward: Onward,
     crosses: Boolean = true
 ) extends CameraPathIntegrator(scene):
-  protected val walk: Walk = Walk(scene, options = WalkOptions(samplesLights = samplesLights))
+  protected val walk: Walk = Walk(
+    scene,
+    options = WalkOptions(
+      samplesLights = samplesLights,
+      interfaces = Interfaces.Closed,
+      countsPassed = true
+    )
+  )
 
   protected def over(scene: Scene): SimplePathTracer =
     SimplePathTracer(scene, maxDepth, samplesLights, onward, crosses)
@@ -41,8 +48,8 @@ final class SimplePathTracer(
       if isHit then
         if !isSampled then walk.addEmission()
         if walk.vertex.isInterface then
-          if crosses then walk.passThrough() else walk.end()
-        else if walk.depth == maxDepth then walk.end()
+          if crosses then walk.passThrough(maxDepth) else walk.end()
+        else if walk.hasHad(maxDepth) then walk.end()
         else
           walk.evaluate()
           if walk.sampleOneLight(sampler) then walk.addLight(weight = _ => 1f)

@@ -10,14 +10,17 @@ import candela.scene.Scene
   *
   * @param maxDepth specular bounces plus one, at most
   * @param steps    as in [[Walk]]
+  * @param interfaces what they are to light sampling; unless they are open, lamps without a BSDF
+  *                   are invisible
   */
 abstract class SpecularWalk(
     scene: Scene,
     maxDepth: Int,
     volumes: VolumeMarch | Null,
-    steps: Float = VolumeMarch.StepsToLights
+    steps: Float = VolumeMarch.StepsToLights,
+    interfaces: Interfaces = Interfaces.Open
 ) extends SceneIntegrator(scene):
-  protected val walk: Walk = Walk(scene, volumes, steps)
+  protected val walk: Walk = Walk(scene, volumes, steps, WalkOptions(interfaces = interfaces))
   protected val light: LightConnection = walk.light
 
   /** Direct light that `vertex`, which is not specular alone, scatters to its `wo`. */
@@ -37,8 +40,9 @@ abstract class SpecularWalk(
       walk.marchThroughVolumes(sampler)
       if !isHit then walk.addEnvironment()
       else
-        walk.addEmission()
-        if walk.vertex.isInterface then walk.passThrough()
+        val passes = walk.vertex.isInterface
+        if !passes || !interfaces.stopsLight then walk.addEmission()
+        if passes then walk.passThrough()
         else
           walk.evaluate()
           walk.add(gathered(walk.vertex, sampler))

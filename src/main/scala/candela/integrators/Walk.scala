@@ -16,13 +16,17 @@ import candela.scene.Scene
   * @param crossesPanes  do paths and light samples through media pass panes without a scattering
   *   event, as they pass interfaces?
   * @param hidesLamps    does the camera see through lamps, and no sky?
+  * @param interfaces    what interfaces are to light sampling
+  * @param countsPassed  is passing an interface one of the events that a path may have?
   */
 final case class WalkOptions(
     regularizes: Boolean = false,
     subsurface: Boolean = false,
     samplesLights: Boolean = true,
     crossesPanes: Boolean = false,
-    hidesLamps: Boolean = false
+    hidesLamps: Boolean = false,
+    interfaces: Interfaces = Interfaces.Open,
+    countsPassed: Boolean = false
 )
 
 /** A path from the camera over surfaces: its state, and the steps of which integrators are made.
@@ -53,7 +57,12 @@ class Walk(
     */
   var etaScale: Float = 1f
 
-  /** Solid-angle density of the current direction; 0 if light sampling did not compete with it. */
+  /** Interfaces passed so far, if they count. */
+  var passed: Int = 0
+
+  /** Solid-angle density of the current direction; 0 if light sampling did not compete with it;
+    * negative if what it finds is lost.
+    */
   var directionPdf: Float = 0f
 
   /** Has the path bounced off a non-specular surface? Followed only if paths are regularized. */
@@ -65,7 +74,8 @@ class Walk(
   final val vertex: SurfaceVertex = SurfaceVertex(scene)
 
   /** Next-event estimation from there. */
-  final val light: LightConnection = LightConnection(scene, volumes, steps)
+  final val light: LightConnection =
+    LightConnection(scene, volumes, steps, crosses = !options.interfaces.stopsLight)
 
   // Where the current direction was sampled
   private val lastP, lastN = MutableVec3()
@@ -76,6 +86,8 @@ class Walk(
   private val regularizes = options.regularizes
   private val samplesLights = options.samplesLights
   private val hidesLamps = options.hidesLamps
+  private val interfaces = options.interfaces
+  private val countsPassed = options.countsPassed
   private val disperses = scene.isDispersive
 
   /** The light found so far, divided, if the scene asks for it. */
@@ -100,6 +112,7 @@ class Walk(
     if parts != null then parts.clear()
     throughput.set(Rgb.White)
     depth = 0
+    passed = 0
     etaScale = 1f
     directionPdf = 0f
     isSpread = false
@@ -115,6 +128,7 @@ class Walk(
   protected final def keep(to: Walk.State): Unit =
     to.throughput.set(throughput.toRgb)
     to.depth = depth
+    to.passed = passed
     to.etaScale = etaScale
     to.directionPdf = directionPdf
     to.isSpread = isSpread
@@ -125,6 +139,7 @@ class Walk(
   protected final def goOn(from: Walk.State): Unit =
     throughput.set(from.throughput.toRgb)
     depth = from.depth
+    passed = from.passed
     etaScale = from.etaScale
     directionPdf = from.directionPdf
     isSpread = from.isSpread
@@ -181,22 +196,38 @@ class Walk(
         if parts != null then parts.addLight(at.areaLight, depth, found)
 
   /** Of light that only the camera and specular scattering see. */
-  private def shownWeight: Float = if directionPdf > 0f then 0f else 1f
+  private def shownWeight: Float = if directionPdf != 0f then 0f else 1f
 
   /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
   private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
     if directionPdf > 0f then
       val chosen = scene.selection.probability(lastP, lastN, light)
       LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
-    else 1f
+    else if directionPdf == 0f then 1f
+    else 0f
 
   /** Does the path go on behind the surface as if it weren't there? */
-  final def isPassed: Boolean = vertex.isInterface || isHidden
+  final def isPassed: Boolean = isAtInterface || isHidden
+
+  /** Does light pass here unscattered? */
+  final def isAtInterface: Boolean = scene.isPassed(ray, hit, vertex.at)
 
   private def isHidden = hidesLamps && depth == 0 && vertex.at.areaLight >= 0
 
-  /** Continues through an interface. Shadow rays pass it, too: light sampling keeps competing. */
-  def passThrough(): Unit = vertex.passThrough(ray)
+  /** Has the path had as many events? */
+  final def hasHad(most: Int): Boolean = depth + passed == most
+
+  /** Continues through an interface or a hidden lamp, unless the path has had `most` events that
+    * count.
+    */
+  def passThrough(most: Int = Int.MaxValue): Unit =
+    if countsPassed && !isHidden then if hasHad(most) then end() else passed += 1
+    if directionPdf > 0f then
+      interfaces match
+        case Interfaces.Closed => directionPdf = 0f
+        case Interfaces.Lossy => directionPdf = Walk.Lost
+        case _ => ()
+    vertex.passThrough(ray)
 
   /** Evaluates the BSDF of the vertex: a scattering event. A dispersive one ends the companions of
     * the hero wavelength.
@@ -293,10 +324,13 @@ class Walk(
     goesOn = !throughput.isBlack
 
 object Walk:
+  /** The density of directions in which light is lost. */
+  private inline val Lost = -1f
+
   /** What a walk keeps of a path that it will follow later. Mutable. */
   private[integrators] final class State:
     val throughput: MutableRgb = MutableRgb()
-    var depth = 0
+    var depth, passed = 0
     var etaScale, directionPdf = 0f
     var isSpread, isAlone = false
     val from: Departure = Departure()

@@ -7,15 +7,21 @@ import candela.scene.Scene
 /** Recursive ray tracing: samples every light once at each vertex, and follows specular reflection
   * and transmission.
   *
-  * @param maxDepth specular bounces plus one, at most
+  * @param maxDepth   specular bounces plus one, at most
+  * @param interfaces as in [[SpecularWalk]]
   *
   * Source: Whitted, "An Improved Illumination Model for Shaded Display", CACM 23(6), 1980; one
   * random specular branch instead of a tree, as in [[DirectLighting]].
   */
-final class Whitted(scene: Scene, maxDepth: Int, volumes: VolumeMarch | Null = null)
-    extends SpecularWalk(scene, maxDepth, volumes, steps = 1f):
+final class Whitted(
+    scene: Scene,
+    maxDepth: Int,
+    volumes: VolumeMarch | Null = null,
+    interfaces: Interfaces = Interfaces.Open
+) extends SpecularWalk(scene, maxDepth, volumes, steps = 1f, interfaces):
 
-  protected def over(scene: Scene): Whitted = Whitted(scene, maxDepth, VolumeMarch.copy(volumes))
+  protected def over(scene: Scene): Whitted =
+    Whitted(scene, maxDepth, VolumeMarch.copy(volumes), interfaces)
 
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black

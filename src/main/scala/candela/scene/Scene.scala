@@ -115,6 +115,18 @@ final class Scene(
   /** Whether light passes this surface unscattered. */
   def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
 
+  private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
+
+  /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
+  def isPassed(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    isInterface(at) || hasVeils && isOpen(ray, hit, at)
+
+  private def isOpen(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    val primitive = hit.primitive
+    if primitive < firstInstance then
+      !surfaces.veils.isEmpty && surfaces.isOpen(primitive, ray, at)
+    else instanced.isOpen(primitive - firstInstance, ray, hit, at)
+
   /** Whether any surface is an interface; shadow rays must then examine their hits. */
   val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
 
@@ -130,7 +142,7 @@ final class Scene(
   def closestBehindInterfaces(ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
     var found = closest(ray, hit)
     if found then surface(ray, hit, at)
-    while found && isInterface(at) do
+    while found && isPassed(ray, hit, at) do
       passThrough(ray, at)
       found = closest(ray, hit)
       if found then surface(ray, hit, at)

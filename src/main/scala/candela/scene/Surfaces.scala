@@ -6,11 +6,16 @@ import candela.shapes.TriangleSoup
 
 /** Geometry and appearance of one accelerator's primitives: those of the world, or of an instanced
   * object.
+  *
+  * @param masks alpha cutouts, where rays of all kinds miss the surface
+  * @param veils masks with openings that paths pass and light samples do not, as Mitsuba's; rays
+  *              hit them
   */
 final class Surfaces(
     val soup: TriangleSoup,
     val solids: Array[ShapeInstance],
-    val masks: Masks = Masks.Empty
+    val masks: Masks = Masks.Empty,
+    val veils: Masks = Masks.Empty
 ):
   def count: Int = soup.count + solids.length
 
@@ -18,6 +23,13 @@ final class Surfaces(
   def partOf(primitive: Int): Int =
     if primitive < soup.count then soup.meshOf(primitive)
     else soup.meshes.length + primitive - soup.count
+
+  /** Does the ray meet an opening of a veil at this point of `primitive`? Requires veils. */
+  def isOpen(primitive: Int, ray: Ray, at: ShadingPoint): Boolean =
+    val veil =
+      if primitive < soup.count then veils.ofMesh(soup.meshOf(primitive))
+      else veils.ofShape(primitive - soup.count)
+    veil.isHole(at, ray, primitive, shadow = false)
 
   def parts: Int = soup.meshes.length + solids.length
 
@@ -45,6 +57,13 @@ final class Instanced(val objects: Array[Surfaces], val instances: Instances):
   def fill(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Unit =
     objects(instances.objectOf(i)).fill(hit.inner, instances.enter(i, ray), hit, at)
     instances.locate(i, ray, at)
+
+  val hasVeils: Boolean = objects.exists(!_.veils.isEmpty)
+
+  /** Does the ray, which just hit instance `i`, meet an opening of a veil? */
+  def isOpen(i: Int, ray: Ray, hit: Hit, at: ShadingPoint): Boolean =
+    val surfaces = objects(instances.objectOf(i))
+    !surfaces.veils.isEmpty && surfaces.isOpen(hit.inner, ray, at)
 
   /** Computes the geometry of a hit at the ray's time, as it is at `time`, in world space. */
   def fillAt(i: Int, ray: Ray, hit: Hit, time: Float, at: ShadingPoint): Unit =

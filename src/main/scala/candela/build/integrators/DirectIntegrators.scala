@@ -20,14 +20,21 @@ object DirectLightingRecipe
 
   protected def make()(using Site): IntegratorPlan =
     val (depth, every) = (Math.max(1, maxDepth()), strategy() != "one")
+    val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
       (scene, samples) =>
         RenderMethod.Tiles(
-          DirectLighting(scene, depth, if every then samples else Array.empty)
+          DirectLighting(
+            scene,
+            depth,
+            if every then samples else Array.empty,
+            interfaces = interfaces
+          )
         ),
       // Lights can rely on BSDF sampling only if every light is sampled
       samplesBsdf = every,
       s"directlighting, ${if every then "all lights" else "one light"} at each point",
+      interfaces = interfaces,
       throughVolumes = Some((scene, samples, march) =>
         DirectLighting(scene, depth, if every then samples else Array.empty, march)
       )
@@ -43,10 +50,12 @@ object WhittedRecipe
 
   protected def make()(using Site): IntegratorPlan =
     val depth = Math.max(1, maxDepth())
+    val interfaces = IntegratorPlan.interfaces
     windowed(IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(Whitted(scene, depth)),
+      (scene, _) => RenderMethod.Tiles(Whitted(scene, depth, interfaces = interfaces)),
       samplesBsdf = false,
       "whitted",
+      interfaces = interfaces,
       throughVolumes = Some((scene, _, march) => Whitted(scene, depth, march))
     ))
 

@@ -53,6 +53,8 @@ object Integrators:
   * @param isLit        whether the integrator uses lights; if not, a scene without them is valid
   * @param followsSpecular whether textures are also filtered along specular paths
   * @param crossesPanes whether panes do not scatter what they transmit, for `throughMedia`
+  * @param interfaces   what interfaces of media are to light sampling
+  * @param hasVeils     whether the openings of masks are interfaces, too
   * @param finish       what the integrator makes of each material
   * @param throughMedia   render method for scenes with participating media, if supported
   * @param throughVolumes creates the integrator for scenes with v2's volumes, if supported
@@ -69,10 +71,19 @@ final case class IntegratorPlan(
     samples: Option[Int] = None,
     window: Option[PixelBounds] = None,
     crossesPanes: Boolean = false,
+    interfaces: Interfaces = Interfaces.Open,
+    hasVeils: Boolean = false,
     finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
 )
+
+object IntegratorPlan:
+  /** What interfaces are to integrators without media. pbrt-v2 has none. */
+  def interfaces(using site: Site): Interfaces = site.dialect match
+    case Dialect.V2 => Interfaces.Open
+    case Dialect.V3 => Interfaces.Lossy
+    case Dialect.V4 => Interfaces.Closed
 
 /** Base of integrators with a maximum path depth. */
 abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -138,11 +149,14 @@ trait PathInstead extends Recipe[IntegratorPlan]:
     val most = Math.max(0, depth())
     val limits =
       PathLimits(most, rouletteAfter = 1, seesThrough = site.dialect == Dialect.V3)
+    val interfaces = IntegratorPlan.interfaces
+    val options = WalkOptions(interfaces = interfaces)
     IntegratorPlan(
-      (scene, _) => RenderMethod.Tiles(PathTracer(scene, limits)),
+      (scene, _) => RenderMethod.Tiles(PathTracer(scene, limits, options)),
       samplesBsdf = true,
       s"path, up to $most scattering events",
       followsSpecular = site.dialect == Dialect.V4,
+      interfaces = interfaces,
       throughVolumes =
         Some((scene, _, march) => PathTracer(scene, limits, volumes = march))
     )

@@ -3,7 +3,7 @@ package candela.build.integrators
 import candela.bidirectional.*
 import candela.build.recipe.*
 import candela.film.{Splats, View}
-import candela.integrators.{PathLimits, PathTracer, VolumePathTracer, WalkOptions}
+import candela.integrators.{Interfaces, PathLimits, PathTracer, VolumePathTracer, WalkOptions}
 import candela.integrators.LightTransport.RouletteAfter
 import candela.lights.{DistantLight, EnvironmentLight}
 import candela.media.SceneMedia
@@ -87,13 +87,18 @@ object LightPathRecipe
         "the sky",
       onlyV4
     ):
-  protected def make()(using Site): IntegratorPlan =
+  protected def make()(using site: Site): IntegratorPlan =
     val most = events()
+    val isMitsubas = site.resources.switches.isMitsubas
     IntegratorPlan(
       (scene, _) =>
-        SplattedTiles(v => LightTracer(scene, v.camera, v.splats, most)),
+        SplattedTiles: v =>
+          LightTracer(scene, v.camera, v.splats, most, isMitsubas, showsSky = isMitsubas)
+      ,
       samplesBsdf = false,
-      s"$name, up to $most scattering events"
+      s"$name, up to $most scattering events",
+      interfaces = Interfaces.Closed,
+      hasVeils = isMitsubas
     )
 
 object FunctionRecipe
@@ -238,12 +243,16 @@ private[build] object PhotonPlans:
       val parameter = if site.dialect == Dialect.V2 then "maxdist" else "radius"
       site.error(s"`$parameter` must be above 0, found ${settings.radius}")
     val seeded = settings.copy(seed = settings.seed ^ site.resources.seed)
+    val interfaces =
+      if site.dialect == Dialect.V4 then Interfaces.Weighed else IntegratorPlan.interfaces
     BidirectionalPlans
       .plan(name, most)
       .copy(
-        method = (scene, _) => RenderMethod.Passes(PhotonPasses(scene, most, seeded, _)),
+        method =
+          (scene, _) => RenderMethod.Passes(PhotonPasses(scene, most, seeded, _, interfaces)),
         describe =
           s"$name, up to $most scattering events, initial photon radius ${settings.radius}",
         samples = passes,
+        interfaces = interfaces,
         throughMedia = None
       )

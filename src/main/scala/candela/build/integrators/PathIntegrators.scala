@@ -28,11 +28,19 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val isMitsubas = site.resources.switches.isMitsubas
     val crossesPanes = name == "volpath" && isMitsubas
     val hidesLamps = isMitsubas && hides()
+    val interfaces = if name == "volpath" then Interfaces.Open else IntegratorPlan.interfaces
+    val countsPassed = isMitsubas && interfaces.stopsLight
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
         val beneath = goesBeneath && scene.hasSubsurface
-        val options = WalkOptions(regularizes, beneath, hidesLamps = hidesLamps)
+        val options = WalkOptions(
+          regularizes,
+          beneath,
+          hidesLamps = hidesLamps,
+          interfaces = interfaces,
+          countsPassed = countsPassed
+        )
         def plain(over: Scene, parts: LightParts | Null) =
           PathTracer(over, limits, options, parts = parts)
         GuidedMethod(
@@ -47,6 +55,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
       goesBeneath = goesBeneath,
       lights = lightStrategy(),
       crossesPanes = crossesPanes,
+      interfaces = interfaces,
+      hasVeils = countsPassed,
       throughMedia = Option.when(name == "volpath"): (scene, media) =>
         val options = WalkOptions(
           regularizes,
@@ -126,5 +136,6 @@ private object SimplePlans:
         RenderMethod.Tiles(SimplePathTracer(scene, most, samplesLights, onward, crosses)),
       samplesBsdf = !samplesLights,
       s"$name, up to $most scattering events$by",
-      samplesLights = samplesLights
+      samplesLights = samplesLights,
+      interfaces = if samplesLights then Interfaces.Closed else Interfaces.Open
     )
