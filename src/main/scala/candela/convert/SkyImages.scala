@@ -5,7 +5,7 @@ import java.nio.file.InvalidPathException
 import candela.base.loop
 import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
-import candela.lights.{EqualAreaMap, LatLongMap, SphereMap}
+import candela.lights.{EqualAreaMap, IesError, IesFile, LatLongMap, SphereMap}
 import candela.scenefile.Param
 
 /** Converts environment maps: equirectangular in v2 and v3, square equal-area in v4. */
@@ -19,9 +19,20 @@ object SkyImages:
     val name = p.strings.head
     try
       val path = s.declaration.folder.resolve(name.replace('\\', '/'))
-      val source = ImageFiles.read(path).linear.toRgb
+      val isLamp = IesFile.isNamed(name)
+      val source =
+        if isLamp then IesFile.read(path).photometry.image else ImageFiles.read(path).linear.toRgb
       val made =
-        if toSquare then
+        if isLamp && !toSquare then
+          resampled(
+            source,
+            LatLongMap,
+            Math.max(source.width, 360),
+            source.height,
+            LatLongMap,
+            true
+          )
+        else if toSquare then
           val side = Math.min(Math.max(2 * source.height, 64), 4096)
           resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
         else
@@ -31,7 +42,7 @@ object SkyImages:
       val kind = if toSquare then "equalarea" else "latlong"
       Some(s.run.files.add(kind, "exr", ImageFiles.exr(tinted)))
     catch
-      case e: ImageError =>
+      case e: (ImageError | IesError) =>
         s.warn(p.at, s"can't convert the image, ignoring it: ${e.getMessage}")
         None
       case _: InvalidPathException =>

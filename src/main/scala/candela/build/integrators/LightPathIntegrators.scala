@@ -93,8 +93,7 @@ object LightPathRecipe
     IntegratorPlan(
       (scene, _) =>
         SplattedTiles: v =>
-          LightTracer(scene, v.camera, v.splats, most, isMitsubas, showsSky = isMitsubas)
-      ,
+          LightTracer(scene, v.camera, v.splats, most, isMitsubas, showsSky = isMitsubas),
       samplesBsdf = false,
       s"$name, up to $most scattering events",
       interfaces = Interfaces.Closed,

@@ -11,13 +11,36 @@ object GoniometricLightRecipe
     extends LightRecipe("goniometric", "point light scaled by an image over directions"):
   private val intensity =
     color("I", "scale of the image", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
-  private val mapname = string("mapname", "equirectangular image", untilV3, "none")("")
+  private val mapname =
+    string("mapname", "equirectangular image, or a photometric file, `.ies`", untilV3, "none")("")
   private val filename =
-    string("filename", "equal-area octahedral image; its channels are averaged", onlyV4, "none")("")
+
+    string(
+      "filename",
+      "equal-area octahedral image, whose channels are averaged, or a photometric file, `.ies`",
+      onlyV4,
+      "none"
+    )("")
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
+    val isV4 = site.dialect == Dialect.V4
+    if IesFile.isNamed(if isV4 then filename() else mapname()) then
+      measured(if isV4 then "filename" else "mapname")
+    else pictured()
+
+  /** The lamp of a photometric file, in candelas. */
+  private def measured(name: String)(using site: Site): LightPlan =
+    LightImages.lamp(name) match
+      case None => LightPlan.nothing
+      case Some(image) =>
+        def lamp(i: Rgb) = sphere(image, LatLongMap, i, smooth = true)
+        val mean = site.resources.once(site.declaration, "mean")(lamp(Rgb.White).meanOfMax)
+        val i = scaled(intensity(), power(), 4f * Pi * mean)
+        shining(i, lamp(i))
+
+  private def pictured()(using site: Site): LightPlan =
     if site.dialect == Dialect.V4 then
       if filename().isEmpty then site.error("a goniometric light needs `filename`")
       LightImages.read("filename").filter(LightImages.isSquare) match

@@ -4,6 +4,7 @@ import candela.base.loop
 import candela.build.recipe.*
 import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, ImageError}
+import candela.lights.{IesError, IesFile}
 import candela.scenefile.Dialect
 
 /** Loads the images of lights. */
@@ -20,6 +21,25 @@ private[build] object LightImages:
     val basis = site.resources.basis
     if basis.isSpectral then site.resources.once(site.declaration, name)(loaded(name))
     else loaded(name)
+
+  /** Returns the lamp of the photometric file that the string parameter `name` names, as an
+    * equirectangular image. Reports files that can't be used.
+    */
+  def lamp(name: String)(using site: Site): Option[Image] =
+    site.resources.once(site.declaration, name):
+      for
+        p <- site.declaration.param(name)
+        path <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
+        image <-
+          try
+            val lamp = IesFile.read(path)
+            lamp.notes.foreach(site.problems.warn(p.valuesAt, _))
+            Some(lamp.photometry.image)
+          catch
+            case e: IesError =>
+              site.problems.missing(p.valuesAt, e.getMessage, StandIns.LeftOut)
+              None
+      yield image
 
   private def loaded(name: String)(using site: Site): Option[Image] =
     for
