@@ -99,15 +99,25 @@ object Placement:
   private def partials(m: Array[Double], at: Int, across: Vec3, n: Vec3, s: ShadingPoint): Unit =
     val side = if (across dot n) < 0f then -1f else 1f
     val (tangentU, tangentV) = (vector(m, at, s.tangentU), vector(m, at, s.tangentV))
+    val (bendU, bendV) = (normal(m, at, s.bendU), normal(m, at, s.bendV))
     val bumpSide = s.bumpSide
+    val placesTangents = s.placesTangents
     s.setPartials(
       vector(m, at, s.dpdu),
       vector(m, at, s.dpdv),
       ShadingPoint.turn(across, normal(m, at, s.dndu)) * side,
       ShadingPoint.turn(across, normal(m, at, s.dndv)) * side
     )
-    s.tangentU = tangentU
-    s.tangentV = tangentV
+    if placesTangents then
+      val along = Frame.along(n, s.dpdu)
+      s.tangentU = -along.s
+      s.tangentV = -along.t
+    else
+      s.tangentU = tangentU
+      s.tangentV = tangentV
+    s.bendU = bendU
+    s.bendV = bendV
+    s.placesTangents = placesTangents
     s.bumpSide = bumpSide
 
   private def absolute(v: Vec3): Vec3 = Vec3(Math.abs(v.x), Math.abs(v.y), Math.abs(v.z))

@@ -7,6 +7,7 @@ import candela.textures.{FloatTexture, Mapping2D, MipLevel, Slopes}
 /** Base of materials that perturb the shading frame at each point. */
 abstract class DisplacedMaterial(inner: Material) extends Material:
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDirected: Boolean = inner.isDirected
   override def isDispersive: Boolean = inner.isDispersive
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
@@ -38,8 +39,8 @@ final class BumpMaterial(inner: Material, height: FloatTexture, smallest: Float)
     at.p = p
     at.v = v
     val up = at.frame.n * at.bumpSide
-    val dpdu = at.tangentU + up * slopeU + at.dndu * here
-    val dpdv = at.tangentV + up * slopeV + at.dndv * here
+    val dpdu = at.tangentU + up * slopeU + at.bendU * here
+    val dpdv = at.tangentV + up * slopeV + at.bendV * here
     val n = dpdu cross dpdv
     if n.lengthSquared > 0f then
       at.frame.set(Frame.along(n.normalized.facing(at.geometricNormal), dpdu))

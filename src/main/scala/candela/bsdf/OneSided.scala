@@ -9,6 +9,7 @@ final class OneSidedMaterial(inner: Material) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = OneSided(inner.bsdf(at))
   override def isConstant: Boolean = inner.isConstant
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDirected: Boolean = inner.isDirected
   override def isDispersive: Boolean = inner.isDispersive
   override def isSubsurface: Boolean = inner.isSubsurface
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)

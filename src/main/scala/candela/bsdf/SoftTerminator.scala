@@ -36,6 +36,7 @@ final class SoftTerminatorMaterial(inner: Material, relief: Material => Material
     private val nothing = Lambert(Rgb.Black)
     def bsdf(at: ShadingPoint): Bsdf = nothing
     override def isAnisotropic: Boolean = inner.isAnisotropic
+    override def isDirected: Boolean = inner.isDirected
 
 /** @param base   normal of the unperturbed surface, in the perturbed frame
   * @param alpha2 square of the roughness that shadows

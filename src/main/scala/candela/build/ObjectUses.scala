@@ -105,4 +105,5 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
 
   private def copied(s: ShapeDescription, use: InstanceDescription): ShapeDescription =
     val toWorld = use.instanceToWorld.start * s.objectToWorld.start
-    s.copy(objectToWorld = GraphicsState.still(toWorld))
+    val instance = Some(use.instanceToWorld.start).filterNot(_.isFlat)
+    s.copy(objectToWorld = GraphicsState.still(toWorld), copied = instance)

@@ -11,6 +11,7 @@ import candela.build.shapes.{
   EmitterHoles, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
 }
 import candela.lights.{Light, ShownLight, SurfaceLight}
+import candela.math.Transform
 import candela.scene.{ShapeInstance, Surfaces}
 import candela.scenefile.{Declaration, Dialect}
 import candela.shapes.{BumpTangents, Shape, TriangleSoup}
@@ -181,7 +182,8 @@ private[build] final class SurfaceBuilder(
           light,
           bumps,
           isPaired,
-          readsPartials
+          readsPartials,
+          turned = context.dialect == Dialect.V3 && materials.materials(dressed.material).isDirected
         )
         meshMasks += mask
         meshVeils += veil
@@ -199,9 +201,14 @@ private[build] final class SurfaceBuilder(
       holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
-      case Dialect.V4 => BumpTangents.Along
-      case Dialect.V2 if isReversed != toWorld.swapsHandedness => BumpTangents.TurnedSinking
-      case _ => BumpTangents.Turned
+      case Dialect.V4 =>
+        val skews = dressed.shape.copied.filter(_.uniformScale.isEmpty)
+        BumpTangents.Along.copy(within = skews.orNull)
+      case Dialect.V2 => BumpTangents.ofV2(isReversed != toWorld.swapsHandedness)
+      case Dialect.V3 =>
+        def isRigid(t: Transform) = t.uniformScale.exists(s => Math.abs(s - 1) <= 1e-5)
+        val scales = dressed.shape.copied.filterNot(isRigid)
+        BumpTangents.Turned.copy(bendsBack = isReversed, within = scales.orNull)
 
 private[build] object SurfaceBuilder:
   /** 9 Floats per triangle must fit into one array. */

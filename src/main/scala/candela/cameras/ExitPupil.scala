@@ -1,16 +1,23 @@
 package candela.cameras
 
+import candela.base.loop
+
 /** Exit pupil bounds: for each of several rings of film positions around the centre, the rectangle
   * on the rear lens surface through which light can reach them. They hold for positions on the
   * film's +x axis, and rotate with the others.
   *
   * @param bounds      x0, x1, y0, y1 for each ring, in metres; x0 > x1 if no light reaches it
   * @param halfDiagonal of the film
+  * @param central      the innermost ring's area as pbrt-v3 has it, in square metres
   *
   * Source: Steinert et al., "General Spectral Camera Lens Simulation", Computer Graphics Forum
   * 30(6), 2011, for bounds tabulated over the film's radius; PBRT 4th ed., §5.4.5.
   */
-final class ExitPupil private (bounds: Array[Double], halfDiagonal: Double):
+final class ExitPupil private (
+    bounds: Array[Double],
+    halfDiagonal: Double,
+    val central: () => Double
+):
   private val rings = bounds.length / 4
 
   def ring(filmRadius: Double): Int =
@@ -69,7 +76,59 @@ object ExitPupil:
         case None =>
           isDark = true // and so are all rings further out
           put(bounds, ring, 1.0, -1.0, 0.0)
-    ExitPupil(bounds, half)
+    ExitPupil(bounds, half, () => sampled(round, half / Rings, bounds, reach, margin))
+
+  /** The area that pbrt-v3 finds for the innermost ring, by which it divides.
+    *
+    * It bounds those of 2²⁰ points on the rear surface that light passes, each for another position
+    * on the film, and pads the bounds. They are smaller than the exact ones if the pupil is small,
+    * since few points are within.
+    */
+  private def sampled(
+      lens: LensSystem,
+      width: Double,
+      exact: Array[Double],
+      reach: Double,
+      margin: Double
+  ): Double =
+    val ray = new Array[Double](6)
+    var x0, y0 = Double.PositiveInfinity
+    var x1, y1 = Double.NegativeInfinity
+    loop(SearchPoints): i =>
+      val x = reach * (2 * (Integer.reverse(i) >>> 12) / SearchPoints.toDouble - 1)
+      val y = reach * (2 * inverse3(i) - 1)
+      // No light passes outside of the exact bounds
+      val isNear = x >= exact(0) && x <= exact(1) && y >= exact(2) && y <= exact(3)
+      if isNear && !(x >= x0 && x <= x1 && y >= y0 && y <= y1) then
+        val radius = (i + 0.5) / SearchPoints * width
+        ray(0) = radius
+        ray(1) = 0
+        ray(2) = 0
+        ray(3) = x - radius
+        ray(4) = y
+        ray(5) = lens.rearZ
+        if lens.fromFilm(ray) > 0 then
+          x0 = Math.min(x0, x)
+          x1 = Math.max(x1, x)
+          y0 = Math.min(y0, y)
+          y1 = Math.max(y1, y)
+    if x0 > x1 then square(2 * reach) // without a point, pbrt takes all
+    else (x1 - x0 + 2 * margin) * (y1 - y0 + 2 * margin)
+
+  private inline val SearchPoints = 1 << 20
+
+  /** The radical inverse in base 3. */
+  private def inverse3(i: Int): Double =
+    var rest = i
+    var digits = 0L
+    var scale = 1L
+    while rest > 0 do
+      digits = digits * 3 + rest % 3
+      scale *= 3
+      rest /= 3
+    digits.toDouble / scale.toDouble
+
+  private def square(x: Double): Double = x * x
 
   private def put(to: Array[Double], ring: Int, x0: Double, x1: Double, top: Double): Unit =
     to(4 * ring) = x0

@@ -63,6 +63,6 @@ object RealisticCamera:
   def exposureGain(lens: LensSystem, seconds: Double): Double =
     seconds / (lens.rearZ * lens.rearZ)
 
-  /** Gain that makes the image centre about as bright as with other cameras. */
+  /** Gain that makes the image centre about as bright as with other cameras, as in pbrt-v3. */
   def relativeGain(pupil: ExitPupil): Double =
-    if pupil.isDark(0) then 0.0 else 1 / pupil.area(0)
+    if pupil.isDark(0) then 0.0 else 1 / pupil.central()

@@ -17,6 +17,7 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   private val ownGeometricNormal = MutableVec3(0f, 0f, 1f)
   private val ownDpdu, ownDpdv, ownDndu, ownDndv = MutableVec3()
   private val ownTangentU, ownTangentV, ownDpdx, ownDpdy = MutableVec3()
+  private val ownBendU, ownBendV = MutableVec3()
 
   /** Scratch memory of triangles. */
   private[candela] val firstEdge, secondEdge = MutableVec3()
@@ -61,6 +62,19 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   def tangentV: MutableVec3 = ownTangentV
   def tangentV_=(v: Vec3): Unit = ownTangentV.set(v)
 
+  /** Derivatives of the normal that displacements are multiplied by: as pbrt transforms them, like
+    * normals, hence too short where the transform enlarges, and of the normal before it is flipped.
+    */
+  def bendU: MutableVec3 = ownBendU
+  def bendU_=(v: Vec3): Unit = ownBendU.set(v)
+  def bendV: MutableVec3 = ownBendV
+  def bendV_=(v: Vec3): Unit = ownBendV.set(v)
+
+  /** Are the tangents for displacements unit vectors along the placed surface, half turned around?
+    * Otherwise instances transform them.
+    */
+  var placesTangents: Boolean = false
+
   /** 1 if displacements rise along `frame.n`, −1 against it. */
   var bumpSide: Float = 1f
 
@@ -100,6 +114,9 @@ final class ShadingPoint(val wantsPartials: Boolean = false, always: Boolean = f
   private[candela] def takeTangents(): Unit =
     tangentU = dpdu
     tangentV = dpdv
+    bendU = dndu
+    bendV = dndv
+    placesTangents = false
     bumpSide = 1f
 
   /** Flips the outside. The tangents and the normal's derivatives keep their meaning. */

@@ -1,7 +1,8 @@
 package candela.math
 
 /** Catmull–Rom splines over increasing nodes: the slope at an inner node is that of the line
-  * through its neighbours, at the first and last node that of the outermost segment's chord.
+  * through its neighbours, at the first and last node that of the outermost segment's chord. Equal
+  * nodes are allowed: the values jump there.
   *
   * Source: Catmull and Rom, "A Class of Local Interpolating Splines", 1974; as a pdf: PBRT 3rd ed.,
   * §8.6 and §14.1.5.
@@ -10,13 +11,16 @@ object CatmullRom:
   /** Result of [[weights]] outside the range of the nodes. */
   inline val Outside = -2
 
-  /** Index of the segment that contains `x`; the nearest if `x` is outside the nodes. */
+  /** Index of the segment that contains `x`; the nearest if `x` is outside the nodes. It has a
+    * length, unless all nodes are equal.
+    */
   def piece(nodes: Array[Float], x: Float): Int =
     var low = 0
     var high = nodes.length - 1
     while high - low > 1 do
       val middle = (low + high) >>> 1
       if nodes(middle) <= x then low = middle else high = middle
+    while low > 0 && nodes(low) == nodes(low + 1) do low -= 1
     low
 
   /** The spline at `x` is Σ to(k)·value(first + k), k from 0 to 3; weights of missing nodes are 0.
@@ -67,7 +71,8 @@ object CatmullRom:
     val sums = new Array[Float](nodes.length)
     var sum = 0.0
     for i <- 0 until nodes.length - 1 do
-      sum += cubic(nodes, values, i).area(1.0) * (nodes(i + 1) - nodes(i))
+      val width = nodes(i + 1) - nodes(i)
+      if width > 0f then sum += cubic(nodes, values, i).area(1.0) * width
       sums(i + 1) = sum.toFloat
     sums
 

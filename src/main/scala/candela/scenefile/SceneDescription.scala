@@ -25,6 +25,7 @@ enum MaterialRef:
   * @param oneSided whether it is black from behind, unless light passes through it: pbrt has no
   *   such surfaces, Mitsuba has
   * @param inObject whether it is of an instanced object, whose area lights are seen only
+  * @param copied the instance whose copy it is; included in `objectToWorld`
   */
 final case class ShapeDescription(
     shape: Declaration,
@@ -35,7 +36,8 @@ final case class ShapeDescription(
     insideMedium: String = "",
     outsideMedium: String = "",
     oneSided: Boolean = false,
-    inObject: Boolean = false
+    inObject: Boolean = false,
+    copied: Option[Transform] = None
 )
 
 /** @param medium name of the medium around the light; empty: none */

@@ -9,6 +9,8 @@ import candela.math.*
   * xy-plane, which rotates along a hyperboloid.
   *
   * @param vSpan negative if v runs downwards; the surface is then inside out
+  * @param loose whether the normals are those of the surface that the line swept by the seam makes,
+  *   which is another one
   */
 final class Profile(
     val g0: Double,
@@ -21,7 +23,8 @@ final class Profile(
     seamX: Double = 1,
     seamY: Double = 0,
     seamDx: Double = 0,
-    seamDy: Double = 0
+    seamDy: Double = 0,
+    val loose: Boolean = false
 ):
   /** Squared radius; negative where there is no surface. */
   inline def radius2(z: Double): Double = g0 + z * (g1 + z * g2)
@@ -51,10 +54,11 @@ final class Profile(
     val length2 = sx * sx + sy * sy
     if length2 > 0 then (sx * seamDy - sy * seamDx) / length2 else 0.0
 
-  /** Whether the point's distance from the z-axis agrees with the profile, to a thousandth. */
-  def follows(p: Vec3): Boolean =
-    val radius2 = p.x.toDouble * p.x + p.y.toDouble * p.y
-    Math.abs(this.radius2(p.z.toDouble) - radius2) <= 1e-3 * radius * radius
+  /** ∂p/∂v of the line swept by the seam, at the angle of (x, y). */
+  def alongLine(x: Double, y: Double, z: Double): Vec3 =
+    val a = angle(x, y, z)
+    val (c, s) = (Math.cos(a), Math.sin(a))
+    Vec3((seamDx * c - seamDy * s).toFloat, (seamDx * s + seamDy * c).toFloat, vSpan.toFloat)
 
   /** Largest radius. */
   def radius: Double =
@@ -83,7 +87,7 @@ object Profile:
   /** The surface that the line from `a` to `b` sweeps, if the line is closest to the z-axis at z =
     * 0. A quadric that is symmetric about z = 0 can't follow other lines; as in pbrt it then passes
     * through b and through a + 2k·(b − a) for the first k = 1, 2 whose distance from the plane z =
-    * 0 differs.
+    * 0 differs, and has the normals of the line's surface.
     *
     * @return None if both points have the same z
     */
@@ -102,8 +106,9 @@ object Profile:
       .find((zz, _) => Math.abs(zz - z2) > 1e-6 * z2)
     for (zz, ss) <- other if dz != 0 yield
       val g2 = (ss - s2) / (zz - z2)
+      val g0 = s2 - g2 * z2
       Profile(
-        s2 - g2 * z2,
+        g0,
         0,
         g2,
         Math.min(p1.z, p2.z),
@@ -113,7 +118,11 @@ object Profile:
         x,
         y,
         dx,
-        dy
+        dy,
+        loose = !isAlike(g0 + g2 * z * z, x * x + y * y, Math.max(s2, x * x + y * y))
       )
+
+  /** To a thousandth of the larger squared radius. */
+  private def isAlike(a: Double, b: Double, largest: Double) = Math.abs(a - b) <= 1e-3 * largest
 
   private def square(x: Double): Double = x * x

@@ -97,7 +97,7 @@ final class Quadric(
         z += k * s
       steps -= 1
     put(x, y, z, at)
-    val slope = profile.slope(z)
+    val slope = leaning(x, y, z)
     val gradient = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
     // An apex points up, as the gradient is zero there
     val up = if gradient.isZero then Vec3.Z else gradient
@@ -110,8 +110,59 @@ final class Quadric(
     ))
     if at.wantsPartials then partials(x, y, z, at)
 
-  /** ∂p/∂v follows the profile, and rotates with the seam. */
+  /** −z of the normal (x, y, −slope). */
+  private def leaning(x: Double, y: Double, z: Double): Double =
+    if !profile.loose then profile.slope(z)
+    else
+      val along = profile.alongLine(x, y, z)
+      (x * along.x + y * along.y) / profile.vSpan
+
   private def partials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
+    if profile.loose then loosePartials(x, y, z, at) else followingPartials(x, y, z, at)
+
+  /** ∂p/∂v is that of the line; ∂n/∂u and ∂n/∂v follow from it by the equations of Weingarten, as
+    * in pbrt.
+    */
+  private def loosePartials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
+    val alongU = Vec3((-y * phiMax).toFloat, (x * phiMax).toFloat, 0f)
+    val alongV = profile.alongLine(x, y, z)
+    val n = (alongU cross alongV).normalized
+    val e = n dot Vec3(-x.toFloat, -y.toFloat, 0f) * square(phiMax)
+    val f = n dot Vec3(-alongV.y, alongV.x, 0f) * phiMax
+    val (uu, uv, vv) = (alongU dot alongU, alongU dot alongV, alongV dot alongV)
+    val inverse = 1f / (uu * vv - uv * uv)
+    val bendU = (alongU * (f * uv - e * vv) + alongV * (e * uv - f * uu)) * inverse
+    val bendV = (alongU * (-f * vv) + alongV * (f * uv)) * inverse
+    put(alongU, alongV, n, bendU, bendV, at)
+
+  /** Sets the derivatives from object space.
+    *
+    * @param n            unit normal on the side of ∂p/∂u × ∂p/∂v
+    * @param bendU, bendV its derivatives
+    */
+  private def put(
+      alongU: Vec3,
+      alongV: Vec3,
+      n: Vec3,
+      bendU: Vec3,
+      bendV: Vec3,
+      at: ShadingPoint
+  ): Unit =
+    val across = objectToWorld.normal(n)
+    val side = if reversed then -1f else 1f
+    val byU = objectToWorld.normal(bendU)
+    val byV = objectToWorld.normal(bendV)
+    at.setPartials(
+      objectToWorld.vector(alongU),
+      objectToWorld.vector(alongV),
+      ShadingPoint.turn(across, byU) * side,
+      ShadingPoint.turn(across, byV) * side
+    )
+    at.bendU = byU
+    at.bendV = byV
+
+  /** ∂p/∂v follows the profile, and rotates with the seam. */
+  private def followingPartials(x: Double, y: Double, z: Double, at: ShadingPoint): Unit =
     val slope = profile.slope(z)
     val radius2 = x * x + y * y
     // Any direction serves at an apex
@@ -128,6 +179,12 @@ final class Quadric(
     val dpdu = objectToWorld.vector(alongU)
     val dpdv = objectToWorld.vector(alongV)
     at.setPartials(dpdu, dpdv, turned(alongU), turned(bend))
+    // pbrt's are of the unit normal in object space, on the side of ∂p/∂u × ∂p/∂v
+    val own = Vec3(x.toFloat, y.toFloat, -slope.toFloat)
+    if !own.isZero then
+      val upwards = if profile.vSpan < 0 then -1f else 1f
+      at.bendU = objectToWorld.normal(ShadingPoint.turn(own, alongU)) * upwards
+      at.bendV = objectToWorld.normal(ShadingPoint.turn(own, bend)) * upwards
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 

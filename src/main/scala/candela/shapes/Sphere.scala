@@ -102,12 +102,17 @@ final class Sphere(
     // The normal of an untransformed sphere is the point itself, over the radius
     val side = if reversed then -1f / radius else 1f / radius
     val n = objectToWorld.normal(Vec3(x.toFloat, y.toFloat, z.toFloat) * side)
+    val alongNU = objectToWorld.normal(alongU * side)
+    val alongNV = objectToWorld.normal(alongV * side)
     at.setPartials(
       objectToWorld.vector(alongU),
       objectToWorld.vector(alongV),
-      ShadingPoint.turn(n, objectToWorld.normal(alongU * side)),
-      ShadingPoint.turn(n, objectToWorld.normal(alongV * side))
+      ShadingPoint.turn(n, alongNU),
+      ShadingPoint.turn(n, alongNV)
     )
+    val outwards = if reversed then -1f else 1f
+    at.bendU = alongNU * outwards
+    at.bendV = alongNV * outwards
 
   def normals: (Vec3, Float) = (Vec3.Z, -1f)
 

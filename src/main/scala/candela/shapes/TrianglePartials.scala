@@ -59,15 +59,27 @@ private[shapes] object TrianglePartials:
 
   private def tangents(at: ShadingPoint, bumps: BumpTangents): Unit =
     val ns = at.frame.n
-    val along = Frame.along(ns, at.dpdu)
-    if bumps == BumpTangents.Along then
-      val length = (ns cross at.dpdu).length
-      at.tangentU = along.s * length
-      at.tangentV = along.t * length
+    if bumps.within == null then
+      val along = Frame.along(ns, at.dpdu)
+      if bumps.turned then
+        at.tangentU = -along.s
+        at.tangentV = -along.t
+      else
+        val length = (ns cross at.dpdu).length
+        at.tangentU = along.s * length
+        at.tangentV = along.t * length
     else
-      at.tangentU = -along.s
-      at.tangentV = -along.t
-      if bumps == BumpTangents.TurnedSinking then at.bumpSide = -1f
+      val own = bumps.toObject.vector(at.dpdu)
+      val n = bumps.toObject.normal(ns).normalized
+      val along = Frame.along(n, own)
+      val scale = if bumps.turned then -1f else (n cross own).length
+      at.tangentU = bumps.within.vector(along.s * scale)
+      at.tangentV = bumps.within.vector(along.t * scale)
+    at.placesTangents = bumps.placed
+    if bumps.bendsBack then
+      at.bendU = -at.bendU
+      at.bendV = -at.bendV
+    if bumps.sinks then at.bumpSide = -1f
 
   private def normal(n: Array[Float], vertex: Int): Vec3 =
     Vec3(n(3 * vertex), n(3 * vertex + 1), n(3 * vertex + 2))
@@ -75,15 +87,34 @@ private[shapes] object TrianglePartials:
   /** Threshold of the determinant of u and v, as in pbrt. */
   private val Degenerate = 1e-8f
 
-/** Tangents along which displacements of a mesh with normals are differentiated, and the side to
-  * which they rise.
+/** How displacements see a mesh with normals: the tangents along which they are differentiated, as
+  * long as the surface's own and along the normals' side (pbrt-v4), and the side to which they rise.
+  *
+  * @param turned    unit tangents, rotated by 180 degrees: bumps of u and v appear as dents (v3, v2)
+  * @param sinks     whether they rise against the normal (pbrt-v2's meshes of reversed orientation)
+  * @param bendsBack whether the normals were flipped, but not their derivatives (pbrt-v3's meshes
+  *                  of reversed orientation)
+  * @param placed    whether instances leave them unit vectors (pbrt-v2)
+  * @param within    the space in which the tangents were found, if the mesh was transformed since:
+  *                  pbrt-v3 and v4 transform them with the instance
   */
-enum BumpTangents:
-  /** As long as the surface's own, along the normals' side (pbrt-v4). */
-  case Along
+final case class BumpTangents(
+    turned: Boolean,
+    sinks: Boolean = false,
+    bendsBack: Boolean = false,
+    placed: Boolean = false,
+    within: Transform | Null = null
+):
+  private[shapes] val toObject: Transform =
+    if within == null then Transform.Identity else within.inverse
 
-  /** Unit vectors, rotated by 180 degrees: bumps of u and v appear as dents (pbrt-v3 and v2). */
-  case Turned
+object BumpTangents:
+  /** Those of pbrt-v4. */
+  val Along: BumpTangents = BumpTangents(turned = false)
 
-  /** As [[Turned]], with the displacement negated (pbrt-v2's meshes of reversed orientation). */
-  case TurnedSinking
+  /** Those of pbrt-v3. */
+  val Turned: BumpTangents = BumpTangents(turned = true)
+
+  /** Those of pbrt-v2. */
+  def ofV2(isReversed: Boolean): BumpTangents =
+    BumpTangents(turned = true, sinks = isReversed, placed = true)

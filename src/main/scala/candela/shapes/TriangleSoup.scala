@@ -15,6 +15,7 @@ import candela.math.*
   * @param bumps         tangents for displacements, if it has normals
   * @param paired        does a light consist of two triangles each?
   * @param readsPartials may its material or light read partial derivatives or footprints?
+  * @param turned        whether its shading tangent is −∂p/∂u, if it has normals
   */
 final class Mesh(
     val firstVertex: Int,
@@ -27,7 +28,8 @@ final class Mesh(
     val firstLight: Int,
     val bumps: BumpTangents = BumpTangents.Along,
     val paired: Boolean = false,
-    val readsPartials: Boolean = true
+    val readsPartials: Boolean = true,
+    val turned: Boolean = false
 )
 
 /** All triangles of a scene in world space.
@@ -85,7 +87,10 @@ final class TriangleSoup(
       val e2 = at.secondEdge
       e1.set(vertex(triangle, 1) - p0)
       e2.set(vertex(triangle, 2) - p0)
-      if tangents then at.frame.set(Frame.along(n, dpdu(mesh, i0, i1, i2, e1, e2)))
+      if tangents then
+        val along = dpdu(mesh, i0, i1, i2, e1, e2)
+        val isTurned = mesh.turned && mesh.normals.length > 0
+        at.frame.set(Frame.along(n, if isTurned then -along else along))
       else at.frame.alignToNormal()
       if at.hasPartials then TrianglePartials.fill(mesh, i0, i1, i2, e1, e2, relief, at)
     at.material = mesh.material

@@ -13,11 +13,16 @@ trait Varying:
   /** Whether it depends on the direction along the surface, and needs the tangent. */
   def isAnisotropic: Boolean = false
 
+  /** Whether it tells that direction from the opposite one. */
+  def isDirected: Boolean = false
+
 /** A quantity composed of parts that may vary. */
 trait Textured(parts: Varying*) extends Varying:
   override val isConstant: Boolean = parts.forall(_.isConstant)
-  private val isDirected = parts.exists(_.isAnisotropic)
-  override def isAnisotropic: Boolean = isDirected
+  private val isAnyAnisotropic = parts.exists(_.isAnisotropic)
+  private val isAnyDirected = parts.exists(_.isDirected)
+  override def isAnisotropic: Boolean = isAnyAnisotropic
+  override def isDirected: Boolean = isAnyDirected
 
 /** A number at every surface point. */
 abstract class FloatTexture extends Varying:

@@ -126,4 +126,4 @@ class PartialsSuite extends AnyFunSuite:
     assert((turned.tangentU + plain.tangentU.normalized).length < 1e-6f)
     assert((turned.tangentV + plain.tangentV.normalized).length < 1e-6f)
     assert((turned.dpdu - plain.dpdu).isZero && turned.bumpSide == 1f)
-    assert(look(triangle(smooth, Array.empty, BumpTangents.TurnedSinking), 0f, 0f).bumpSide == -1f)
+    assert(look(triangle(smooth, Array.empty, BumpTangents.ofV2(true)), 0f, 0f).bumpSide == -1f)

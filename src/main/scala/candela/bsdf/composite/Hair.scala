@@ -298,3 +298,4 @@ final class HairMaterial(
     Hair(clamp(2f * at.v - 1f, -1f, 1f), eta(at), sigmaA, shape)
 
   override def isAnisotropic: Boolean = true
+  override def isDirected: Boolean = true

@@ -194,4 +194,5 @@ final class DispersiveMaterial(inner: Material) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = Dispersive(inner.bsdf(at))
   override def isConstant: Boolean = inner.isConstant
   override def isAnisotropic: Boolean = inner.isAnisotropic
+  override def isDirected: Boolean = inner.isDirected
   override def isDispersive: Boolean = true

@@ -65,11 +65,14 @@ private[build] object BsdfFile:
     val offsets = Array.tabulate(n * n)(i => pairs(2 * i))
     val lengths = Array.tabulate(n * n)(i => pairs(2 * i + 1))
     val coefficients = Array.fill(count)(in.getFloat)
-    val isRising = (1 until n).forall(i => cosines(i) > cosines(i - 1))
+    // Some files have the horizon twice, where reflection becomes transmission
+    val falling = (1 until n).find(i => !(cosines(i) >= cosines(i - 1)))
+    val isRising = falling.isEmpty && cosines(n - 1) > cosines(0)
     val fits = offsets.indices.forall: i =>
       lengths(i) >= 0 && offsets(i) >= 0 && offsets(i) + lengths(i).toLong * channels <= count
     if !isRising || cosines.exists(c => !(Math.abs(c) <= 1f)) then
-      Left("cosines must be strictly increasing within [-1, 1]")
+      val found = falling.fold("")(i => s", found ${cosines(i)} after ${cosines(i - 1)}")
+      Left(s"cosines must increase within [-1, 1]$found")
     else if !fits then Left(s"a series extends past the $count coefficients")
     else if coefficients.exists(c => !java.lang.Float.isFinite(c)) then
       Left("a coefficient is NaN or infinite")

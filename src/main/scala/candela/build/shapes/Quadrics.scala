@@ -120,9 +120,11 @@ object HyperboloidRecipe
     Profile.hyperboloid(p1(), p2()) match
       case None => leftOut(s"`p1` and `p2` have the same z, ${p1().z}")
       case Some(profile) =>
-        if !profile.follows(p1()) then
+        if profile.loose then
           site.warn(
             "the line from `p1` to `p2` is not closest to the z-axis at z = 0; the hyperboloid " +
-              "is symmetric about z = 0 and passes through `p2` only, as in pbrt"
+              "is symmetric about z = 0 and passes through `p2` only, but has the normals of the " +
+              "line's surface, as in pbrt; where the two face apart, rounding decides which light " +
+              "arrives, and pbrt's image may be brighter"
           )
         swept(profile)

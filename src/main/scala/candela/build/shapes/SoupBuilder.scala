@@ -24,6 +24,7 @@ final class SoupBuilder:
     * @param firstLight  index of its first triangle's light; −1: it does not emit
     * @param paired      does a light consist of two triangles each?
     * @param readsPartials may its material or light read partial derivatives or footprints?
+    * @param turned as in [[Mesh]]
     */
   def add(
       mesh: ShapeGeometry.Triangles,
@@ -34,7 +35,8 @@ final class SoupBuilder:
       firstLight: Int,
       bumps: BumpTangents,
       paired: Boolean = false,
-      readsPartials: Boolean = true
+      readsPartials: Boolean = true,
+      turned: Boolean = false
   ): Int =
     val first = triangles
     val base = vertices
@@ -51,7 +53,8 @@ final class SoupBuilder:
       firstLight = firstLight,
       bumps = bumps,
       paired = paired,
-      readsPartials = readsPartials
+      readsPartials = readsPartials,
+      turned = turned
     )
     vertices += mesh.positions.length / 3
     triangles += mesh.indices.length / 3
