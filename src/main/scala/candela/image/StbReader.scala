@@ -27,12 +27,14 @@ private[image] object StbReader:
 
   private def decode(file: ByteBuffer, w: IntBuffer, h: IntBuffer, c: IntBuffer): StoredImage =
     if !STBImage.stbi_info_from_memory(file, w, h, c) then failed()
-    val values = w.get(0).toLong * h.get(0) * c.get(0)
+    // That of a BMP is negative if its rows go from top to bottom
+    val height = Math.abs(h.get(0))
+    val values = w.get(0).toLong * height * c.get(0)
     if values <= 0 || values > Int.MaxValue - 8 then
-      throw ImageError(s"${w.get(0)}×${h.get(0)} pixels are more than fit into memory")
-    if stored(file, w.get(0), h.get(0), values) > file.remaining.toLong * MostPacked then
+      throw ImageError(s"${w.get(0)}×$height pixels are more than fit into memory")
+    if stored(file, w.get(0), height, values) > file.remaining.toLong * MostPacked then
       val bytes = file.remaining
-      throw ImageError(s"${w.get(0)}×${h.get(0)} pixels can't be in a file of $bytes bytes")
+      throw ImageError(s"${w.get(0)}×$height pixels can't be in a file of $bytes bytes")
     if STBImage.stbi_is_16_bit_from_memory(file) then
       val pixels = STBImage.stbi_load_16_from_memory(file, w, h, c, 0)
       if pixels == null then failed()

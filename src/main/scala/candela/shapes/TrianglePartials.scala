@@ -87,10 +87,10 @@ private[shapes] object TrianglePartials:
   /** Threshold of the determinant of u and v, as in pbrt. */
   private val Degenerate = 1e-8f
 
-/** How displacements see a mesh with normals: the tangents along which they are differentiated, as
-  * long as the surface's own and along the normals' side (pbrt-v4), and the side to which they rise.
+/** How displacements see a mesh with normals: the tangents along which they are differentiated
+  * (pbrt-v4's are as long as the surface's own), and the side to which they rise.
   *
-  * @param turned    unit tangents, rotated by 180 degrees: bumps of u and v appear as dents (v3, v2)
+  * @param turned    unit tangents, rotated by 180 degrees: bumps of u and v become dents (v3, v2)
   * @param sinks     whether they rise against the normal (pbrt-v2's meshes of reversed orientation)
   * @param bendsBack whether the normals were flipped, but not their derivatives (pbrt-v3's meshes
   *                  of reversed orientation)

@@ -57,6 +57,15 @@ class ImageFilesSuite extends AnyFunSuite:
         "\u0002\u0000\u0001\u0000\u0001\u0000\u0018\u0000"
       assert(read("a.bmp", header, 30, 20, 10, 255, 50, 40, 0, 0) == (Image.RgbNames, pixels))
 
+  test("a BMP of negative height has its first row on top"):
+    val header = Vector('B'.toInt, 'M'.toInt) ++ Vector.fill(8)(0) ++ Vector(54, 0, 0, 0) ++
+      Vector(40, 0, 0, 0, 1, 0, 0, 0, 0xfe, 0xff, 0xff, 0xff, 1, 0, 24, 0) ++ Vector.fill(24)(0)
+    val bytes = (header ++ Vector(255, 0, 0, 0, 0, 0, 255, 0)).map(_.toByte).toArray
+    Samples.inFolder: folder =>
+      val image = ImageFiles.read(Files.write(folder.resolve("a.bmp"), bytes))
+      assert(image.width == 1 && image.height == 2)
+      assert(image.data.toSeq == Seq[Float](0, 0, 1, 1, 0, 0))
+
   test("errors name the file and what is wrong"):
     Samples.inFolder: folder =>
       def file(name: String, contents: String) =

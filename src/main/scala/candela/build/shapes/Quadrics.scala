@@ -124,7 +124,7 @@ object HyperboloidRecipe
           site.warn(
             "the line from `p1` to `p2` is not closest to the z-axis at z = 0; the hyperboloid " +
               "is symmetric about z = 0 and passes through `p2` only, but has the normals of the " +
-              "line's surface, as in pbrt; where the two face apart, rounding decides which light " +
-              "arrives, and pbrt's image may be brighter"
+              "line's surface, as in pbrt; where the two face apart, rounding decides which " +
+              "light arrives, and pbrt's image may be brighter"
           )
         swept(profile)
