@@ -68,3 +68,37 @@ final class IntBuffer extends NumberBuffer[Array[Int]](new Array[Int](_)):
 
   def apply(i: Int): Int = pieceOf(i)(i & NumberBuffer.Within)
   def update(i: Int, x: Int): Unit = pieceOf(i)(i & NumberBuffer.Within) = x
+
+/** What Floats lack of the numbers that they are rounded from: the rounding errors of large ones.
+  * Most lists have none.
+  */
+final class RestBuffer:
+  private val rests = FloatBuffer()
+
+  /** Notes the rest of the number at index `i`. */
+  def note(i: Int, exact: Double, rounded: Float): Unit =
+    val rest = (exact - rounded).toFloat
+    if rest != 0f && java.lang.Float.isFinite(rest) then
+      while rests.length <= i do rests += 0f
+      rests(i) = rest
+
+  /** The rests of `count` numbers, or nothing if there are none; empties the buffer. */
+  def take(count: Int): Array[Float] =
+    if rests.length == 0 then Array.emptyFloatArray
+    else
+      while rests.length < count do rests += 0f
+      rests.take()
+
+object RestBuffer:
+  /** Magnitude from which on rests matter: Floats are 0.0001 apart there. */
+  private inline val Least = 1024f
+
+  inline def isCoarse(x: Float): Boolean = Math.abs(x) >= Least
+
+  /** The rests of coordinates that are known in Double. */
+  def of(count: Int)(exact: Int => Double): Array[Float] =
+    val buffer = RestBuffer()
+    loop(count): i =>
+      val x = exact(i)
+      if isCoarse(x.toFloat) then buffer.note(i, x, x.toFloat)
+    buffer.take(count)

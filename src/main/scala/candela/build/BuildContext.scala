@@ -11,11 +11,12 @@ import candela.color.ColorBasis
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, Declaration, Dialect, SceneDescription}
 
-/** State shared by all stages of building: the description, its named resources, and the problems
-  * found so far.
+/** State shared by all stages of building: the description, around its render origin, its named
+  * resources, and the problems found so far.
   */
 private[build] final class BuildContext(
     val description: SceneDescription,
+    val origin: RenderOrigin,
     val resources: Resources,
     val problems: Findings
 ):
@@ -26,7 +27,7 @@ private[build] final class BuildContext(
 
   /** The same scene in another colour basis. */
   def in(basis: ColorBasis): BuildContext =
-    new BuildContext(description, resources.in(basis), problems)
+    new BuildContext(description, origin, resources.in(basis), problems)
 
   private val emissions = IdentityHashMap[Declaration, Option[AreaLightPlan]]()
 
@@ -71,15 +72,21 @@ private[build] object BuildContext:
         whole.camera.fold(NoPlace)(_.at),
         "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
       )
+    val origin = RenderOrigin.of(description)
+    val there = origin.around(description)
     val mode = ColorPlan.mode(options.colorMode, description)
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
       // Mitsuba does not filter textures over footprints
       val isMitsubas = description.isMitsubas
       val switches =
-        asked.copy(isMitsubas = isMitsubas, unfiltered = asked.unfiltered || isMitsubas)
+        asked.copy(
+          isMitsubas = isMitsubas,
+          unfiltered = asked.unfiltered || isMitsubas,
+          origin = origin.at
+        )
       val resources = new Resources(basis, options.pool, options.seed, mayBeSpectral, switches)
-      new BuildContext(description, resources, problems)
+      new BuildContext(there, origin, resources, problems)
     val plain = context(Switches())
     val statement = plain.unwritten("Option", "").copy(params = description.options)
     context(options.switches.over(OptionRecipe.build(plain.site(statement))))

@@ -1,14 +1,26 @@
 package candela.build
 
-import candela.math.{Interpolation, InverseMotion, Motion, Still, Transform, Vec3}
+import candela.math.*
 import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}
 
-/** Motions of shapes, instances and the camera, by the rules of the dialect. */
-private[build] final class Motions(description: SceneDescription):
+/** Motions of shapes, instances and the camera, by the rules of the dialect.
+  *
+  * @param description around its render origin
+  */
+private[build] final class Motions(description: SceneDescription, origin: Position):
   private val isV2 = description.dialect == Dialect.V2
 
-  /** Motion of a shape or an instance. pbrt-v2 interpolates the inverse transform. */
+  /** Motion of a shape or an instance in the world. pbrt-v2 interpolates the inverse transform,
+    * whose translation depends on the world's own origin.
+    */
   def of(t: AnimatedTransform): Motion =
+    if isV2 && t.isAnimated && !origin.isOrigin then
+      val own = AnimatedTransform(origin.fromOrigin * t.start, origin.fromOrigin * t.end)
+      RecentredMotion(within(own), Position.Origin, origin)
+    else within(t)
+
+  /** Motion of a shape in an object. */
+  def within(t: AnimatedTransform): Motion =
     if !t.isAnimated then Still(t.start)
     else if isV2 then InverseMotion(between(t.start.inverse, t.end.inverse))
     else between(t.start, t.end)

@@ -4,7 +4,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import candela.base.Suggest
 import candela.build.recipe.*
-import candela.math.{Motion, MotionProduct}
+import candela.math.{Motion, MotionProduct, Position, RecentredMotion}
 import candela.scenefile.*
 
 /** An object and the motions of its instances.
@@ -28,15 +28,19 @@ final case class PlacedObject(
   * lights), nor can instances in v4. In v2 and v3 the area lights of instances are seen, directly
   * and by specular scattering, but light nothing.
   */
-private[build] final class ObjectUses(description: SceneDescription, problems: Findings):
-  private val motions = Motions(description)
+private[build] final class ObjectUses(
+    description: SceneDescription,
+    origin: Position,
+    problems: Findings
+):
+  private val motions = Motions(description, origin)
   private val own = ArrayBuffer.empty[ShapeDescription]
   private val objects = ArrayBuffer.empty[PlacedObject]
 
   for s <- description.shapes do
     if Motions.moves(s.objectToWorld) then
       val dark = withoutLight(s, "animated shapes can't be area lights; emission is ignored")
-      objects += PlacedObject(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
+      objects += placed(Vector(atOrigin(dark)), Vector(motions.of(s.objectToWorld)))
     else
       if s.objectToWorld.isAnimated then
         problems.warn(s.shape.at, Motions.notAnimated("a shape under a perspective transform"))
@@ -76,11 +80,25 @@ private[build] final class ObjectUses(description: SceneDescription, problems: F
     val isAlone = uses.length == 1 && !uses.head.instanceToWorld.isAnimated
     val places = affine.map(u => motions.ofInstance(u.instanceToWorld))
     if isAlone then own ++= affine.flatMap(u => still.map(copied(_, u)))
-    else if still.nonEmpty && places.nonEmpty then objects += PlacedObject(still, places, name)
+    else if still.nonEmpty && places.nonEmpty then objects += placed(still, places, name)
     if places.nonEmpty then
       for s <- moving do
-        val within = motions.of(s.objectToWorld)
-        objects += PlacedObject(Vector(atOrigin(s)), places.map(MotionProduct(_, within)))
+        val within = motions.within(s.objectToWorld)
+        objects += placed(Vector(atOrigin(s)), places.map(MotionProduct(_, within)))
+
+  /** An object whose shapes are far from its origin is built around another. */
+  private def placed(
+      shapes: Vector[ShapeDescription],
+      places: Vector[Motion],
+      name: String = ""
+  ): PlacedObject =
+    val middle = RenderOrigin.ofObject(shapes, looks = !origin.isOrigin)
+    if middle.isOrigin then PlacedObject(shapes, places, name)
+    else
+      def moved(s: ShapeDescription) =
+        s.copy(objectToWorld = GraphicsState.still(middle.toOrigin * s.objectToWorld.start))
+      val there = places.map(RecentredMotion(_, middle, Position.Origin))
+      PlacedObject(shapes.map(moved), there, name)
 
   private def ofObject(s: ShapeDescription): ShapeDescription =
     if description.dialect == Dialect.V4 then

@@ -11,7 +11,7 @@ import candela.film.{
   VisibleSurface
 }
 import candela.guiding.{Guide, GuidingMode}
-import candela.math.{Motion, Still, Transform}
+import candela.math.{Motion, Still}
 import candela.render.{ErrorFile, LayerPlan, RenderMethod, RenderPlan}
 import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
@@ -184,7 +184,7 @@ object SceneBuilder:
       features = Vector(
         "dialect" -> dialect(context.description),
         "integrator" -> integrator.describe
-      ) ++ world.features ++ Vector(
+      ) ++ context.origin.describe.map("origin" -> _) ++ world.features ++ Vector(
         "motion" -> moving(camera, world),
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
@@ -196,7 +196,8 @@ object SceneBuilder:
       shutter = Option.when(moves)(camera.shutter),
       weighsFirst = context.isV4,
       layers = Option.when(image.layers.nonEmpty && usesSampler):
-        val space = if film.layersInWorld then Still(Transform.Identity) else camera.fromWorld
+        val space =
+          if film.layersInWorld then Still(context.origin.at.fromOrigin) else camera.fromWorld
         layerPlan(context, image, camera, world, space)
       ,
       sharesSamples = shares,

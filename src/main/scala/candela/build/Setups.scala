@@ -158,7 +158,7 @@ private[build] object CameraSetup:
         context.problems.warn(c.at, Motions.notAnimated("this camera"))
     val plan = context.made(description.camera, Cameras.all, "perspective")
     val toWorld = fromWorld.start.inverse
-    val motion = Motions(description).camera
+    val motion = Motions(description, context.origin.at).camera
     val camera = motion match
       case Some(moving) => MovingCamera(plan.make(Transform.Identity, image.frame), moving)
       case None => plan.make(toWorld, image.frame)

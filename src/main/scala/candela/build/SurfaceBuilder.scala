@@ -8,7 +8,7 @@ import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
 import candela.build.shapes.{
-  EmitterHoles, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
+  EmitterHoles, FarPoints, Rectangles, ShapeGeometry, ShapePlan, Shapes, SoupBuilder
 }
 import candela.lights.{Light, ShownLight, SurfaceLight}
 import candela.math.Transform
@@ -80,12 +80,16 @@ private[build] final class SurfaceBuilder(
     lightCount += count
 
   def add(dressed: DressedShape): Unit =
-    val here = context.site(dressed.declared, dressed.shape.objectToWorld.start)
+    val written = dressed.shape.objectToWorld.start
+    val (declared, toWorld) = FarPoints.near(dressed.declared, written) match
+      case Some((near, origin)) => (near, written * origin.fromOrigin)
+      case None => (dressed.declared, written)
+    val here = context.site(declared, toWorld)
     for plan <- Shapes.all.build(here).flatten do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
       if lamp.isDefined || !isNothing(dressed.material) then
-        Placement(dressed, here, plan, lamp).place(plan.geometry)
+        Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&
@@ -112,9 +116,9 @@ private[build] final class SurfaceBuilder(
       dressed: DressedShape,
       here: Site,
       plan: ShapePlan,
-      lamp: Option[Declaration]
+      lamp: Option[Declaration],
+      toWorld: Transform
   ):
-    private val toWorld = dressed.shape.objectToWorld.start
     private val isReversed = dressed.shape.reverseOrientation
     private val (mask, veil) =
       if integrator.hasVeils then plan.mask.veiled else (plan.mask, SolidMask)
@@ -137,6 +141,8 @@ private[build] final class SurfaceBuilder(
         for shape <- make(toWorld, isReversed) do
           addSolid(shape, lamp.filter(_ => emits), isInverted = false)
       case ShapeGeometry.Several(parts) => parts.foreach(place)
+      case ShapeGeometry.Around(origin, parts) =>
+        Placement(dressed, here, plan, lamp, toWorld * origin.fromOrigin).place(parts)
 
     /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =

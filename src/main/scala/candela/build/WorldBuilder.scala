@@ -61,7 +61,7 @@ private[build] final class WorldBuilder(
   /** @param footprints evaluated only if a texture or a material needs ray differentials */
   def build(footprints: => Footprints): World =
     defineTextures(context)
-    val uses = ObjectUses(description, problems)
+    val uses = ObjectUses(description, context.origin.at, problems)
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials = MaterialTable.of(context, integrator, media, shapes)

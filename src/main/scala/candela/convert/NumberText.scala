@@ -2,6 +2,8 @@ package candela.convert
 
 import java.lang.Math.abs
 
+import candela.scenefile.Param
+
 /** Formats numbers with the fewest digits that round-trip. */
 object NumberText:
 
@@ -15,6 +17,13 @@ object NumberText:
     if value == 0.0 then zero(1.0 / value < 0.0)
     else if abs(value) < 1e15 && value == value.toLong.toDouble then value.toLong.toString
     else sign(value < 0.0) + plain(shortest(abs(value).toString, _.toDouble == abs(value)))
+
+  /** A parameter's number, with the digits that Floats lack: to 15, more than its two parts have. */
+  def of(p: Param, i: Int): String =
+    if p.rests(i) == 0f then of(p.floats(i))
+    else
+      val digits = java.math.MathContext(15, java.math.RoundingMode.HALF_EVEN)
+      of(java.math.BigDecimal(p.number(i)).round(digits).doubleValue)
 
   private def sign(isNegative: Boolean) = if isNegative then "-" else ""
   private def zero(isNegative: Boolean) = if isNegative then "-0" else "0"

@@ -5,7 +5,9 @@ import java.nio.{ByteBuffer, ByteOrder}
 import candela.base.loop
 import candela.scenefile.{Declaration, Param, ParamType, SceneDescription, ShapeDescription}
 
-/** Moves large meshes to binary PLY files (little-endian, 32-bit floats). */
+/** Moves large meshes to binary PLY files: little-endian, 32-bit floats, doubles for vertices with
+  * more digits.
+  */
 object PlyWriter:
 
   /** The scene with every mesh of at least `least` triangles moved to its own file. */
@@ -36,18 +38,25 @@ object PlyWriter:
     val (vertices, faces) = (p.length / 3, indices.length / 3)
     val names = Vector("x", "y", "z") ++ (if n.nonEmpty then Vector("nx", "ny", "nz") else Nil) ++
       (if uv.nonEmpty then Vector("u", "v") else Nil)
+    val rests = d.param("P").get.rests
+    val isFine = rests.nonEmpty
+    def kind(name: String) =
+      if isFine && Set("x", "y", "z")(name) then "double" else "float"
     val header = (Vector("ply", "format binary_little_endian 1.0", s"element vertex $vertices") ++
-      names.map(name => s"property float $name") ++
+      names.map(name => s"property ${kind(name)} $name") ++
       Vector(s"element face $faces", "property list uchar int vertex_indices", "end_header"))
       .map(_ + "\n").mkString.getBytes("US-ASCII")
-    val out = ByteBuffer.allocate(header.length + vertices * 4 * names.size + faces * 13)
+    val out =
+      ByteBuffer.allocate(header.length + vertices * (4 * names.size + (if isFine then 12
+                                                                        else 0)) + faces * 13)
     out.order(ByteOrder.LITTLE_ENDIAN).put(header)
     def number(x: Float): Unit =
       val _ = out.putFloat(x)
     def index(i: Int): Unit =
       val _ = out.putInt(i)
     loop(vertices): i =>
-      loop(3)(k => number(p(3 * i + k)))
+      if isFine then loop(3)(k => out.putDouble(d.param("P").get.number(3 * i + k)): Unit)
+      else loop(3)(k => number(p(3 * i + k)))
       if n.nonEmpty then loop(3)(k => number(n(3 * i + k)))
       if uv.nonEmpty then loop(2)(k => number(uv(2 * i + k)))
     loop(faces): i =>

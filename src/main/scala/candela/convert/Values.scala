@@ -103,9 +103,7 @@ object Values:
   def isGray(c: Rgb): Boolean = c.r == c.g && c.g == c.b
 
   def renamed(p: Param, name: String): Param =
-    if p.name == name then p
-    else
-      Param(p.paramType, name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault)
+    if p.name == name then p else p.renamed(name, p.paramType)
 
   def rgb(p: Param, c: Rgb): Param =
     Param(ParamType.Rgb, p.name, p.at, p.valuesAt, floats = Array(c.r, c.g, c.b))
@@ -118,4 +116,4 @@ object Values:
   def constant(p: Param): Param = pairs(p, Vector((360f, p.floats(0)), (830f, p.floats(0))))
 
   def typed(p: Param, t: ParamType): Param =
-    Param(t, p.name, p.at, p.valuesAt, p.floats, p.ints, p.bools, p.strings, p.isDefault)
+    p.renamed(p.name, t)

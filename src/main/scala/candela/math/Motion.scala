@@ -69,3 +69,20 @@ final class MotionProduct(outer: Motion, inner: Motion) extends Motion:
         m(at + r + c) = if c == 3 then sum + m(a + r + 3) else sum
         c += 1
       r += 4
+
+/** A motion between spaces whose origins lie elsewhere.
+  *
+  * @param from the new origin, in the space that `motion` maps from
+  * @param to   the new origin, in the space that it maps to
+  */
+final class RecentredMotion(motion: Motion, from: Position, to: Position) extends Motion:
+  override def moves: Boolean = motion.moves
+  def write(time: Float, rows: Array[Double], at: Int): Unit =
+    motion.write(time, rows, at)
+    recentre(rows, at, from, to)
+    recentre(rows, at + 12, to, from)
+
+  private def recentre(m: Array[Double], at: Int, from: Position, to: Position): Unit =
+    m(at + 3) += m(at) * from.x + m(at + 1) * from.y + m(at + 2) * from.z - to.x
+    m(at + 7) += m(at + 4) * from.x + m(at + 5) * from.y + m(at + 6) * from.z - to.y
+    m(at + 11) += m(at + 8) * from.x + m(at + 9) * from.y + m(at + 10) * from.z - to.z

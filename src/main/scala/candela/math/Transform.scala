@@ -25,6 +25,15 @@ final class Transform private (val m: IArray[Double], val inverseM: IArray[Doubl
       ((m(8) * x + m(9) * y + m(10) * z + m(11)) / w).toFloat
     )
 
+  /** As above, in Double. */
+  def position(p: Position): Position =
+    val w = m(12) * p.x + m(13) * p.y + m(14) * p.z + m(15)
+    Position(
+      (m(0) * p.x + m(1) * p.y + m(2) * p.z + m(3)) / w,
+      (m(4) * p.x + m(5) * p.y + m(6) * p.z + m(7)) / w,
+      (m(8) * p.x + m(9) * p.y + m(10) * p.z + m(11)) / w
+    )
+
   def vector(v: Vec3): Vec3 =
     val x = v.x.toDouble
     val y = v.y.toDouble

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.base.SourcePos
-import candela.math.{Transform, Vec3, lerp}
+import candela.math.{Position, Transform, Vec3, lerp}
 import candela.scenefile.{Param, ParamType}
 
 import java.io.IOException
@@ -11,14 +11,39 @@ import java.nio.file.{Files, Path}
 import scala.collection.mutable.ArrayBuffer
 import scala.jdk.CollectionConverters.*
 
-/** Control points of a curve, with the radius at each. */
-final case class CurvePoints(points: Vector[Vec3], radii: Vector[Float]):
+/** Control points of a curve, with the radius at each.
+  *
+  * @param origin what the points are relative to: not their own origin if they are far from it
+  */
+final case class CurvePoints(
+    points: Vector[Vec3],
+    radii: Vector[Float],
+    origin: Position = Position.Origin
+):
+  def place: Transform = origin.fromOrigin
+
   /** Has the tube of its spline an open end? */
   def isOpen: Boolean = Seq(0 -> 0.0, points.size - 4 -> 1.0).exists: (first, t) =>
     Spline.at(this, first, t).radius > 0f
 
+  private def moved(toWorld: Transform, to: Position): CurvePoints =
+    val map = to.toOrigin * toWorld * place
+    copy(points = points.map(map.point(_)), origin = to)
+
+object CurvePoints:
+  /** Sizes of curves from the origin at which they are kept around another. */
+  private[mitsuba] val Far = 1024
+
   /** In world space; Mitsuba's radii are not scaled. */
-  def placed(toWorld: Transform): CurvePoints = copy(points = points.map(toWorld.point(_)))
+  def placed(curves: Vector[CurvePoints], toWorld: Transform): Vector[CurvePoints] =
+    val map = toWorld * curves.head.place
+    def there(p: Vec3) = map.position(Position(p.x, p.y, p.z))
+    val first = there(curves.head.points.head)
+    val size = curves.iterator.flatMap(_.points).map(p => there(p).distance(first)).max
+    val isFar = first.reach > Far * size
+    if !isFar && curves.head.origin.isOrigin then
+      curves.map(c => c.copy(points = c.points.map(toWorld.point(_))))
+    else curves.map(_.moved(toWorld, if isFar then first else Position.Origin))
 
 /** Reads Mitsuba's files of curves: a control point and its radius in each line, empty lines
   * between curves.
@@ -33,13 +58,13 @@ object CurveFile:
     val lines =
       try Files.readAllLines(path, StandardCharsets.ISO_8859_1).asScala
       catch case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
-    val curves = Vector.newBuilder[CurvePoints]
-    val points = ArrayBuffer.empty[Vec3]
+    val curves = Vector.newBuilder[(Vector[Position], Vector[Float])]
+    val points = ArrayBuffer.empty[Position]
     val radii = ArrayBuffer.empty[Float]
     def finish(line: Int): Unit =
       if points.nonEmpty && points.size < least then
         fail(s"the curve before line $line has ${points.size} points; it needs $least")
-      if points.nonEmpty then curves += CurvePoints(points.toVector, radii.toVector)
+      if points.nonEmpty then curves += points.toVector -> radii.toVector
       points.clear()
       radii.clear()
     for (line, i) <- lines.zipWithIndex do
@@ -51,12 +76,21 @@ object CurveFile:
           numbers(3) < 0f
         then
           fail(s"line ${i + 1} must have x, y, z and a radius, found `${line.trim.take(60)}`")
-        points += Vec3(numbers(0), numbers(1), numbers(2))
+        points += Position(words(0).toDouble, words(1).toDouble, words(2).toDouble)
         radii += numbers(3)
     finish(lines.size + 1)
     val made = curves.result()
     if made.isEmpty then fail("it has no curve")
-    made
+    val first = made.head._1.head
+    val size = made.iterator.flatMap(_._1).map(_.distance(first)).max
+    val origin = if first.reach > CurvePoints.Far * size then first else Position.Origin
+    made.map: (points, radii) =>
+      def near(p: Position) = Vec3(
+        (p.x - origin.x).toFloat,
+        (p.y - origin.y).toFloat,
+        (p.z - origin.z).toFloat
+      )
+      CurvePoints(points.map(near), radii, origin)
 
 /** A curve of pbrt's: a B-spline whose width changes evenly. */
 private[mitsuba] final case class Fibre(points: Vector[Vec3], width0: Float, width1: Float):

@@ -1,23 +1,43 @@
 package candela.mitsuba
 
-import candela.base.loop
-import candela.math.{Transform, Vec3}
+import candela.base.{loop, RestBuffer}
+import candela.math.{Position, Transform, Vec3}
 
 /** Triangles of a mesh file. Normals and coordinates may be empty.
   *
-  * @param uvs with v as in Mitsuba
+  * @param uvs   with v as in Mitsuba
+  * @param rests what Floats lack of `positions`, as in [[candela.scenefile.Param]]
   */
 final class Mesh(
     val positions: Array[Float],
     val normals: Array[Float],
     val uvs: Array[Float],
-    val indices: Array[Int]
+    val indices: Array[Int],
+    val rests: Array[Float] = Array.emptyFloatArray
 ):
 
   /** In world space, as Mitsuba keeps meshes: reflections turn triangles over. */
   def placed(toWorld: Transform): Mesh =
     if toWorld.isIdentity then this
-    else Mesh(mapped(positions)(toWorld.point), mapped(normals)(toWorld.normal), uvs, indices)
+    else
+      def place(i: Int) = toWorld.position(point(i))
+      val there = new Array[Float](positions.length)
+      val missing = RestBuffer()
+      def put(i: Int, x: Double): Unit =
+        there(i) = x.toFloat
+        if RestBuffer.isCoarse(there(i)) then missing.note(i, x, there(i))
+      loop(positions.length / 3): i =>
+        val p = place(i)
+        put(3 * i, p.x)
+        put(3 * i + 1, p.y)
+        put(3 * i + 2, p.z)
+      Mesh(there, mapped(normals)(toWorld.normal), uvs, indices, missing.take(there.length))
+
+  /** A vertex, with all its digits. */
+  private def point(i: Int): Position =
+    def exact(k: Int) =
+      if rests.isEmpty then positions(k).toDouble else positions(k).toDouble + rests(k)
+    Position(exact(3 * i), exact(3 * i + 1), exact(3 * i + 2))
 
   private def mapped(values: Array[Float])(f: Vec3 => Vec3): Array[Float] =
     val made = new Array[Float](values.length)
@@ -29,7 +49,26 @@ final class Mesh(
     made
 
   /** Without vertex normals. */
-  def faceted: Mesh = Mesh(positions, Array.emptyFloatArray, uvs, indices)
+  def faceted: Mesh = Mesh(positions, Array.emptyFloatArray, uvs, indices, rests)
+
+  /** Whether the mesh is so far out that Floats are too coarse for the angles of its triangles. */
+  private def isFar: Boolean =
+    rests.nonEmpty && (0 until 3).exists: k =>
+      val along = Iterator.range(k, positions.length, 3).map(positions(_))
+      val (low, high) = along.foldLeft((Float.MaxValue, -Float.MaxValue)): (box, x) =>
+        (Math.min(box._1, x), Math.max(box._2, x))
+      Math.max(Math.abs(low), Math.abs(high)) > Mesh.Far * (high - low)
+
+  /** Its vertices around the first of them. */
+  private def centred: Array[Float] =
+    val first = point(0)
+    val made = new Array[Float](positions.length)
+    loop(positions.length / 3): i =>
+      val p = point(i)
+      made(3 * i) = (p.x - first.x).toFloat
+      made(3 * i + 1) = (p.y - first.y).toFloat
+      made(3 * i + 2) = (p.z - first.z).toFloat
+    made
 
   /** With vertex normals, if it has none: those of the triangles, weighted by their angles at the
     * vertex.
@@ -41,7 +80,8 @@ final class Mesh(
     if normals.nonEmpty then this
     else
       val sums = new Array[Float](positions.length)
-      def point(i: Int) = Vec3(positions(3 * i), positions(3 * i + 1), positions(3 * i + 2))
+      val near = if isFar then centred else positions
+      def point(i: Int) = Vec3(near(3 * i), near(3 * i + 1), near(3 * i + 2))
       loop(indices.length / 3): t =>
         val corners = Array(indices(3 * t), indices(3 * t + 1), indices(3 * t + 2))
         val p = corners.map(point)
@@ -57,17 +97,21 @@ final class Mesh(
               sums(at) += unit.x * angle
               sums(at + 1) += unit.y * angle
               sums(at + 2) += unit.z * angle
-      Mesh(positions, sums, uvs, indices).unit
+      Mesh(positions, sums, uvs, indices, rests).unit
 
   private def unit: Mesh =
     Mesh(
       positions,
       mapped(normals)(n => if n.lengthSquared > 0f then n.normalized else Vec3.Z),
       uvs,
-      indices
+      indices,
+      rests
     )
 
 object Mesh:
+  /** Sizes from the origin at which digits of a mesh's vertices are missing. */
+  private val Far = 1024f
+
   /** The square of ±1 in the xy-plane, facing +z. */
   val rectangle: Mesh = Mesh(
     Array(-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0),

@@ -54,7 +54,13 @@ final class MeshAttributes(ply: PlyMesh):
       val (x, y) = (first % width + (if i % 3 == 1 then 1 else 0), first / width + i % 3 / 2)
       uvs(2 * i) = (x + 0.5f) / width
       uvs(2 * i + 1) = (y + 0.5f) / height
-    Mesh(spread(mesh.positions, 3), spread(mesh.normals, 3), uvs, Array.range(0, corners))
+    Mesh(
+      spread(mesh.positions, 3),
+      spread(mesh.normals, 3),
+      uvs,
+      Array.range(0, corners),
+      spread(mesh.rests, 3)
+    )
 
 object MeshAttributes:
   private val Colors = Vector(Vector("r", "g", "b", "a"), Vector("red", "green", "blue", "alpha"))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, loop, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, loop, RestBuffer, SourcePos}
 
 import java.io.IOException
 import java.nio.ByteBuffer
@@ -27,6 +27,10 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
   private val positions, normals, uvs = FloatBuffer()
   private val indices = IntBuffer()
 
+  /** What Floats lack of `p`, and which of its vertices those of the mesh are. */
+  private val missing = RestBuffer()
+  private val vertices = IntBuffer()
+
   /** Index of each corner: position, coordinates, normal. */
   private val corners = mutable.HashMap.empty[(Int, Int, Int), Int]
   private var line = 1
@@ -48,7 +52,9 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
     if flipped then loop(uv.length / 2)(i => uv(2 * i + 1) = 1 - uv(2 * i + 1))
     val normal = if hasNormals then normals.take() else Array.emptyFloatArray
     if indices.length == 0 then fail("it has no faces")
-    Mesh(positions.take(), normal, uv, indices.take())
+    val rests = missing.take(p.length)
+    def spread = vertices.take().flatMap(v => rests.slice(3 * v, 3 * v + 3))
+    Mesh(positions.take(), normal, uv, indices.take(), if rests.isEmpty then rests else spread)
 
   /** The next word of the line; empty at its end. */
   private def word(): String =
@@ -80,6 +86,7 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
       val text = word()
       val x = text.toFloatOption.getOrElse(fail(s"expected a number, found `$text`"))
       if !x.isFinite then fail(s"expected a finite number, found `$text`")
+      if (to eq p) && RestBuffer.isCoarse(x) then missing.note(p.length, text.toDouble, x)
       to += x
 
   private def face(): Unit =
@@ -109,6 +116,7 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
     corners.getOrElseUpdate(
       key, {
         val (vertex, uv, normal) = key
+        vertices += vertex
         loop(3)(k => positions += p(3 * vertex + k))
         if uv < 0 then hasUvs = false
         loop(2)(k => uvs += (if uv < 0 then 0f else t(2 * uv + k)))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, RestBuffer, SourcePos}
 
 import java.io.{ByteArrayInputStream, EOFException, IOException, InputStream}
 import java.nio.{ByteBuffer, ByteOrder}
@@ -61,14 +61,20 @@ private final class SerializedReader(bytes: Array[Byte], version: Int, fail: Str
     val size = vertices.toLong * perVertex * (if isDouble then 8 else 4) + triangles * 12L
     if size > SerializedReader.Free && size > bytes.length * SerializedReader.MostPacked then
       fail(s"it claims $vertices vertices and $triangles triangles, more than it can hold")
-    def values(n: Long, isThere: Boolean) =
+    val rests = RestBuffer()
+    def values(n: Long, isThere: Boolean, missing: RestBuffer | Null = null) =
       val made = FloatBuffer()
       var i = 0L
       while isThere && i < n do
-        made += (if isDouble then take(8).getDouble.toFloat else take(4).getFloat)
+        if isDouble then
+          val x = take(8).getDouble
+          if missing != null && RestBuffer.isCoarse(x.toFloat) then
+            missing.note(made.length, x, x.toFloat)
+          made += x.toFloat
+        else made += take(4).getFloat
         i += 1
       made.take()
-    val positions = values(3L * vertices, true)
+    val positions = values(3L * vertices, true, rests)
     val normals = values(3L * vertices, (flags & 1) != 0)
     val uvs = values(2L * vertices, (flags & 2) != 0)
     val _ = values(3L * vertices, (flags & 8) != 0)
@@ -80,7 +86,8 @@ private final class SerializedReader(bytes: Array[Byte], version: Int, fail: Str
       indices += index
       i += 1
     if !positions.forall(_.isFinite) then fail("a position is not finite")
-    Mesh(positions, normals.map(x => if x.isFinite then x else 0f), uvs, indices.take())
+    val finite = normals.map(x => if x.isFinite then x else 0f)
+    Mesh(positions, finite, uvs, indices.take(), rests.take(positions.length))
 
   private def skipName(): Unit =
     var length = 0

@@ -160,7 +160,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         mesh(in, toWorld, isFlipped, attributes): path =>
           val ply = PlyFile.read(path, Some(in.at))
           if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
-          Mesh(ply.positions, ply.normals, ply.uvs, ply.indices)
+          Mesh(ply.positions, ply.normals, ply.uvs, ply.indices, ply.rests)
       case "serialized" =>
         val index = in.integer("shape_index", 0)
         in.ignore("flip_tex_coords")
@@ -202,7 +202,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   private def read(in: Asked, least: Int): Option[Vector[CurvePoints]] =
     val toWorld = in.transform("to_world")
-    fileOf(in).map(CurveFile.read(_, least, in.atOf("filename")).map(_.placed(toWorld)))
+    fileOf(in).map(path =>
+      CurvePoints.placed(CurveFile.read(path, least, in.atOf("filename")), toWorld)
+    )
 
   private def curves(in: Asked, least: Int, isFlipped: Boolean)(
       made: Vector[CurvePoints] => Mesh
@@ -211,13 +213,13 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       // Through an open end, the far side is not seen from within
       val isOpen = least == 4 && found.exists(_.isOpen)
       val culls = Option.when(isOpen)(Param.bool("cullbackfaces", in.at, true))
-      Form("trianglemesh", params(made(found), in) ++ culls, Transform.Identity, isFlipped)
+      Form("trianglemesh", params(made(found), in) ++ culls, found.head.place, isFlipped)
 
   /** pbrt's curves: light that is transmitted does not meet the far side. */
   private def fibres(in: Asked): Vector[Form] =
     in.ignore("flip_normals")
-    read(in, 4).toVector.flatten.flatMap(Fibres.of(_)).map: fibre =>
-      Form("curve", fibre.params(in.at), Transform.Identity, isReversed = false)
+    for curve <- read(in, 4).toVector.flatten; fibre <- Fibres.of(curve)
+    yield Form("curve", fibre.params(in.at), curve.place, isReversed = false)
 
   private def meshForm(
       in: Asked,
@@ -236,7 +238,7 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     loop(uvs.length / 2)(i => uvs(2 * i + 1) = 1 - uvs(2 * i + 1))
     Seq(
       Param.int("indices", in.at, m.indices*),
-      Param.floats(ParamType.Point3, "P", in.at, m.positions)
+      Param.floats(ParamType.Point3, "P", in.at, m.positions, m.rests)
     ) ++
       Option.when(m.normals.nonEmpty)(Param.floats(ParamType.Normal, "N", in.at, m.normals)) ++
       Option.when(uvs.nonEmpty)(Param.floats(ParamType.Point2, "uv", in.at, uvs))

@@ -1,6 +1,7 @@
 package candela.scenefile
 
 import candela.base.SourcePos
+import candela.math.Position
 
 /** The three published scene formats; v1 files read as v2. */
 enum Dialect:
@@ -42,6 +43,8 @@ enum ParamType(val spelling: String):
   * @param valuesAt position of the first value
   * @param floats values of numeric types except `integer`, otherwise empty; `bools`, `ints` and
   *   `strings` hold the values of their types
+  * @param rests what the values of `floats` lack of those written, if coordinates are so large
+  *   that Floats are coarse; otherwise empty
   * @param colorSpace name of its colour space, if not that of the declaration
   * @param isDefault whether it comes from an `Attribute` statement, which applies to many
   *   declarations, not all of which know it
@@ -56,22 +59,39 @@ final class Param(
     val bools: Vector[Boolean] = Vector.empty,
     val strings: Vector[String] = Vector.empty,
     val isDefault: Boolean = false,
-    val colorSpace: Option[String] = None
+    val colorSpace: Option[String] = None,
+    val rests: Array[Float] = Array.emptyFloatArray
 ):
+  /** A number of `floats`, with its rest. */
+  def number(i: Int): Double =
+    if rests.length == 0 then floats(i) else floats(i).toDouble + rests(i)
+
+  /** The triple from the number `i` on. */
+  def position(i: Int): Position = Position(number(i), number(i + 1), number(i + 2))
+
   def renamed(name: String): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, isDefault, colorSpace)
+    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, isDefault, colorSpace, rests)
 
   def withStrings(values: Vector[String]): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace)
+    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace, rests)
 
   /** In the colour space of the declaration. */
   def withFloats(values: Array[Float]): Param =
     Param(paramType, name, at, valuesAt, values, ints, bools, strings, isDefault)
 
+  /** With the first `count` of its numbers. */
+  def first(count: Int): Param =
+    val (f, r) = (floats.take(count), rests.take(count))
+    Param(paramType, name, at, valuesAt, f, ints, bools, strings, isDefault, colorSpace, r)
+
+  /** With another name and type of numbers. */
+  def renamed(other: String, otherType: ParamType): Param =
+    Param(otherType, other, at, valuesAt, floats, ints, bools, strings, isDefault, rests = rests)
+
   /** As given by an `Attribute` statement in a colour space. */
   def asDefault(space: String): Param =
     val own = Option.when(paramType == ParamType.Rgb)(space)
-    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, own)
+    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, own, rests)
 
 object Param:
   def float(name: String, at: SourcePos, values: Float*): Param =
@@ -84,8 +104,14 @@ object Param:
     Param(ParamType.String, name, at, at, strings = values.toVector)
   def texture(name: String, at: SourcePos, texture: String): Param =
     Param(ParamType.Texture, name, at, at, strings = Vector(texture))
-  def floats(kind: ParamType, name: String, at: SourcePos, values: Array[Float]): Param =
-    Param(kind, name, at, at, floats = values)
+  def floats(
+      kind: ParamType,
+      name: String,
+      at: SourcePos,
+      values: Array[Float],
+      rests: Array[Float] = Array.emptyFloatArray
+  ): Param =
+    Param(kind, name, at, at, floats = values, rests = rests)
 
 /** A quoted implementation name with its parameters: `"perspective" "float fov" 45`.
   *

@@ -3,7 +3,7 @@ package candela.scenefile
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
 
 /** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
   * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.
@@ -109,11 +109,16 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     if found then addInt(into)
     found
 
-  /** Appends all numbers after the current token; the token after them becomes current. */
-  def readFloats(into: FloatBuffer): Unit =
+  /** Appends all numbers after the current token; the token after them becomes current.
+    *
+    * @param rests receives what Floats lack of large numbers
+    */
+  def readFloats(into: FloatBuffer, rests: RestBuffer): Unit =
     var end = scanNext()
     while end >= 0 do
-      into += number.toFloat
+      val x = number.toFloat
+      if RestBuffer.isCoarse(x) then rests.note(into.length, number.toDouble, x)
+      into += x
       next = end
       end = scanNext()
     advance()

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
 
 /** Reads parameter values and checks them against the parameter's type.
   *
@@ -9,6 +9,7 @@ import candela.base.{FloatBuffer, IntBuffer, Problem, SceneError, SourcePos}
   */
 final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   private val floats = FloatBuffer()
+  private val rests = RestBuffer()
   private val ints = IntBuffer()
 
   /** Reads a value or a bracketed list from the current token on.
@@ -31,7 +32,11 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       case ParamType.Spectrum if isText =>
         Param(paramType, name, at, valuesAt, strings = texts(in, isList))
       case _ =>
-        Param(paramType, name, at, valuesAt, floats = numbers(in, isList))
+        val values = numbers(in, isList)
+        val missing = rests.take(values.length)
+        val isPlace = paramType == ParamType.Point3 || name == "Pw"
+        val kept = if isPlace then missing else Array.emptyFloatArray
+        Param(paramType, name, at, valuesAt, floats = values, rests = kept)
     open match
       case Some(_) if in.current == Token.Close => in.advance()
       case Some(_) => throw SceneError(misfit(param, in, open))
@@ -42,7 +47,7 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
   // does not.
 
   private def numbers(in: Tokenizer, isList: Boolean): Array[Float] =
-    if isList then in.readFloats(floats) else if in.readFloat(floats) then in.advance()
+    if isList then in.readFloats(floats, rests) else if in.readFloat(floats) then in.advance()
     floats.take()
 
   private def integers(name: String, at: SourcePos, in: Tokenizer, isList: Boolean): Array[Int] =
@@ -141,4 +146,4 @@ final class ValueReader(warn: Problem => Unit, isV4: () => Boolean):
       else
         val ignored = if excess == 1 then "the last is" else s"the last $excess are"
         warn(Problem.warning(param.valuesAt, s"$message; $ignored ignored", help))
-        param.withFloats(param.floats.dropRight(excess))
+        param.first(n - excess)

@@ -18,8 +18,9 @@ object Octaves:
   /** Fractional Brownian motion.
     *
     * @param footprint squared, in the space of `p`
+    * @param far       what to add to `p` in Double
     */
-  def fbm(p: Vec3, footprint: Float, omega: Float, most: Int): Float =
+  def fbm(p: Vec3, footprint: Float, omega: Float, most: Int, far: Position): Float =
     val count = visible(footprint, most)
     val whole = count.toInt
     var sum = 0f
@@ -27,11 +28,11 @@ object Octaves:
     var strength = 1f
     var i = 0
     while i < whole do
-      sum += strength * PerlinNoise(p * scale)
+      sum += strength * noise(p, scale, far)
       scale *= Lacunarity
       strength *= omega
       i += 1
-    sum + strength * fade(count - whole) * PerlinNoise(p * scale)
+    sum + strength * fade(count - whole) * noise(p, scale, far)
 
   /** Turbulence: the sum of the noises' magnitudes, with their mean in place of octaves beyond the
     * Nyquist limit.
@@ -39,7 +40,14 @@ object Octaves:
     * @param evenMean whether these means are equal, as in pbrt-v2, or scaled by their octave's
     *   amplitude
     */
-  def turbulence(p: Vec3, footprint: Float, omega: Float, most: Int, evenMean: Boolean): Float =
+  def turbulence(
+      p: Vec3,
+      footprint: Float,
+      omega: Float,
+      most: Int,
+      evenMean: Boolean,
+      far: Position
+  ): Float =
     val count = visible(footprint, most)
     val whole = count.toInt
     var sum = 0f
@@ -47,11 +55,11 @@ object Octaves:
     var strength = 1f
     var i = 0
     while i < whole do
-      sum += strength * abs(PerlinNoise(p * scale))
+      sum += strength * abs(noise(p, scale, far))
       scale *= Lacunarity
       strength *= omega
       i += 1
-    val last = abs(PerlinNoise(p * scale))
+    val last = abs(noise(p, scale, far))
     val part = fade(count - whole)
     if evenMean then sum + strength * part * last + (most - count) * MeanMagnitude
     else
@@ -61,6 +69,19 @@ object Octaves:
         strength *= omega
         i += 1
       sum
+
+  /** An octave. The noise repeats, so that of `far` only the part beyond whole periods counts. */
+  private def noise(p: Vec3, scale: Float, far: Position): Float =
+    if far eq Position.Origin then PerlinNoise(p * scale)
+    else
+      PerlinNoise(
+        p.x * scale + rest(far.x * scale),
+        p.y * scale + rest(far.y * scale),
+        p.z * scale + rest(far.z * scale)
+      )
+
+  private def rest(x: Double): Float =
+    (x - PerlinNoise.Period * Math.rint(x / PerlinNoise.Period)).toFloat
 
   /** Number of octaves coarser than twice the footprint. */
   private def visible(footprint: Float, most: Int): Float =

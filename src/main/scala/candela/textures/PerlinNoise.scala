@@ -8,6 +8,8 @@ import candela.math.*
   * implementation. Of its 16 gradients, 12 of them distinct, the last four are in pbrt's order.
   */
 object PerlinNoise:
+  /** Along each axis. */
+  val Period = 256.0
 
   def apply(x: Float, y: Float, z: Float): Float =
     val x0 = floor(x)

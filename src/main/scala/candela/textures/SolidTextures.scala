@@ -7,21 +7,24 @@ import candela.math.*
 /** Fractional Brownian motion: clouds. */
 final class FbmTexture(mapping: Mapping3D, octaves: Int, omega: Float) extends FloatTexture:
   def apply(at: ShadingPoint): Float =
-    Octaves.fbm(mapping(at), mapping.footprintSquared(at), omega, octaves)
+    Octaves.fbm(mapping(at), mapping.footprintSquared(at), omega, octaves, mapping.far)
 
 /** Turbulence: creases, as in wrinkled skin. `evenMean` as for [[Octaves.turbulence]]. */
 final class WrinkledTexture(mapping: Mapping3D, octaves: Int, omega: Float, evenMean: Boolean)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
-    Octaves.turbulence(mapping(at), mapping.footprintSquared(at), omega, octaves, evenMean)
+    val footprint = mapping.footprintSquared(at)
+    Octaves.turbulence(mapping(at), footprint, omega, octaves, evenMean, mapping.far)
 
 /** Waves with an amplitude of coarser noise: water under gusts of wind. */
 final class WindyTexture(mapping: Mapping3D) extends FloatTexture:
+  private val far = mapping.far
+  private val coarse = far * 0.1f
   def apply(at: ShadingPoint): Float =
     val p = mapping(at)
     val footprint = mapping.footprintSquared(at)
-    val wind = Octaves.fbm(p * 0.1f, footprint * 0.01f, 0.5f, 3)
-    abs(wind) * Octaves.fbm(p, footprint, 0.5f, 6)
+    val wind = Octaves.fbm(p * 0.1f, footprint * 0.01f, 0.5f, 3, coarse)
+    abs(wind) * Octaves.fbm(p, footprint, 0.5f, 6, far)
 
 /** Layers along y, perturbed by noise, in the colours of grey marble (linear sRGB).
   *
@@ -39,11 +42,13 @@ final class MarbleTexture(
     variation: Float,
     lastCurve: Int
 ) extends RgbTexture:
+  private val far = mapping.far * scale
+
   def apply(at: ShadingPoint): Rgb =
     val p = mapping(at) * scale
     val footprint = mapping.footprintSquared(at) * square(scale)
-    val layer = p.y + variation * Octaves.fbm(p, footprint, omega, octaves)
-    val along = (0.5f + 0.5f * Math.sin(layer.toDouble).toFloat) * MarbleColors.Curves
+    val layer = p.y + variation * Octaves.fbm(p, footprint, omega, octaves, far)
+    val along = (0.5f + 0.5f * Math.sin(layer + far.y).toFloat) * MarbleColors.Curves
     val curve = Math.min(along.toInt, lastCurve)
     MarbleColors.bezier(curve, along - curve)
 

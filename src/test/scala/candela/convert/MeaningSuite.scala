@@ -2,6 +2,7 @@ package candela.convert
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.build.shapes.PlyFile
 import candela.cli.TempFolder
 import candela.scenefile.*
 import candela.testing.SceneTexts
@@ -18,6 +19,20 @@ class MeaningSuite extends AnyFunSuite:
         .replace("random", "independent")
     else view
     TempFolder.use(folder => Converter.convert(SceneTexts.parse(start + world, from), to, folder))
+
+  test("coordinates keep the digits that Floats lack, in text and in PLY files"):
+    val far = "Shape \"trianglemesh\" \"integer indices\" [0 1 2] " +
+      "\"point3 P\" [4200000.123 -500000.0625 1 4200001 -500001.21 2.5 4200002.875 -500000 3]"
+    val made = converted("LightSource \"infinite\"\n" + far, Dialect.V4, Dialect.V3)
+    val text = Descriptions.text(made.scene)
+    assert(text.contains("4200000.123 -500000.0625 1 4200001 -500001.21 2.5"), text)
+    TempFolder.use: folder =>
+      val files = SideFiles(folder)
+      val moved = PlyWriter.extract(made.scene, 1, files)
+      val name = moved.shapes.head.shape.param("filename").get.strings.head
+      val mesh = PlyFile.read(folder.resolve(name))
+      val x = mesh.positions(0).toDouble + mesh.rests(0)
+      assert(Math.abs(x - 4200000.123) < 1e-7, x)
 
   private def assertSameLight(light: String, from: Dialect, to: Dialect) =
     val start = if from == Dialect.V4 then

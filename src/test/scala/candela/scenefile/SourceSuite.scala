@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{FloatBuffer, Problem, SceneError}
+import candela.base.{FloatBuffer, Problem, RestBuffer, SceneError}
 import org.scalacheck.Gen
 import org.scalatest.funsuite.AnyFunSuite
 import org.scalatestplus.scalacheck.ScalaCheckPropertyChecks
@@ -18,7 +18,7 @@ class SourceSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
     val floats = FloatBuffer()
     def step(): String =
       try
-        if in.current == Token.Open then in.readFloats(floats) else in.advance()
+        if in.current == Token.Open then in.readFloats(floats, RestBuffer()) else in.advance()
         s"${in.at} ${in.current} ${in.text} ${in.numberHere} ${floats.take().mkString(",")}"
       catch case e: SceneError => e.problems.mkString
     Iterator.continually(step()).takeWhile(_ => in.current != Token.End).toVector

@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{FloatBuffer, SceneError}
+import candela.base.{FloatBuffer, RestBuffer, SceneError}
 import org.scalatest.funsuite.AnyFunSuite
 
 class TokenizerSuite extends AnyFunSuite:
@@ -65,7 +65,7 @@ class TokenizerSuite extends AnyFunSuite:
     val in = Tokenizer(Source.fromText("test", "[ 1 -2.5 # three\n 3e0\r\n] X"), None)
     in.advance()
     val floats = FloatBuffer()
-    in.readFloats(floats)
+    in.readFloats(floats, RestBuffer())
     assert(floats.take().toVector == Vector(1f, -2.5f, 3f))
     assert(in.current == Token.Close && in.at.line == 3)
 
@@ -74,7 +74,7 @@ class TokenizerSuite extends AnyFunSuite:
     val in = Tokenizer(Source.fromText("test", values.mkString("[", " ", "]")), None)
     in.advance()
     val floats = FloatBuffer()
-    in.readFloats(floats)
+    in.readFloats(floats, RestBuffer())
     assert(floats.take().toVector == values)
 
   test("a text that the line or the file ends is an error at its opening quote"):

@@ -18,6 +18,17 @@ class MappingSuite extends AnyFunSuite:
 
   private val moved = Transform.translate(10, 20, 30)
 
+  test("noise far out is that of the same place, though its Floats are those near the origin"):
+    for octaves <- 1 to 6; p <- Seq(Vec3(.3f, .7f, .1f), Vec3(-.4f, 1.6f, 9.2f)) do
+      // Numbers that Floats hold exactly, so that both know the same place
+      val far = Position(8192, -4096, 2048)
+      val near = Vec3((p.x * 64).toInt / 64f, (p.y * 64).toInt / 64f, (p.z * 64).toInt / 64f)
+      val there = Vec3(near.x + 8192, near.y - 4096, near.z + 2048)
+      val a = Octaves.fbm(there, 0f, .5f, octaves, Position.Origin)
+      val b = Octaves.fbm(near, 0f, .5f, octaves, far)
+      // Each octave's coordinates are rounded to 1/2048 of a step of its noise, whose slope is 2
+      assert(Math.abs(a - b) < 1e-2, s"$octaves octaves at $p: $a, $b")
+
   test("uv: scaled, then moved"):
     val point = ShadingPoint()
     point.u = 0.5f

@@ -6,6 +6,27 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 
+/** Points of lights that may lie so far out that Floats are coarse. */
+private object Places:
+
+  /** The point in Double, if that makes a difference. */
+  def far(name: String)(using site: Site): Option[Position] =
+    val p = site.declaration.param(name).filter(_.floats.length == 3)
+    val isMoved = !site.resources.switches.origin.isOrigin
+    p.filter(q => isMoved || q.rests.length > 0).map(_.position(0))
+
+  def exact(p: Vec3): Position = Position(p.x, p.y, p.z)
+
+  def rounded(p: Position): Vec3 = Vec3(p.x.toFloat, p.y.toFloat, p.z.toFloat)
+
+  /** From one point to another. */
+  def between(a: String, from: Vec3, b: String, to: Vec3)(using
+      Site
+  ): Vec3 =
+    val (p, q) = (far(a), far(b))
+    if p.isEmpty && q.isEmpty then to - from
+    else rounded(p.getOrElse(exact(from)).toOrigin.position(q.getOrElse(exact(to))))
+
 object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
   private val intensity =
     color("I", "radiant intensity", SpectrumRole.Emission, unit = "W/sr")(Rgb.White)
@@ -15,9 +36,13 @@ object PointLightRecipe extends LightRecipe("point", "isotropic point light"):
 
   protected def make()(using site: Site): LightPlan =
     val (i, p) = (scaled(intensity(), power(), 4f * Pi), from())
+    val far = Places.far("from")
     // v2 and v3 translate by `from` after the transform, v4 before it
-    def place(toWorld: Transform) =
-      if site.dialect == Dialect.V4 then toWorld.point(p) else toWorld.point(Vec3.Zero) + p
+    def place(toWorld: Transform) = far match
+      case Some(q) if site.dialect == Dialect.V4 => Places.rounded(toWorld.position(q))
+      case Some(q) => Places.rounded((q.fromOrigin * toWorld).position(Position.Origin))
+      case None if site.dialect == Dialect.V4 => toWorld.point(p)
+      case None => toWorld.point(Vec3.Zero) + p
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else LightPlan((toWorld, _) => Some(PointLight(place(toWorld), i)), samples = 1)
 
@@ -40,7 +65,8 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val picture = image.map(Picture(_, PictureLookup.SmoothRepeating, LightImages.conversion))
     val (edge, full) = (cos(radians(cone())), cos(radians(cone() - fading())))
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
-    val (p, axis) = (from(), to() - from())
+    val p = Places.far("from").getOrElse(Places.exact(from()))
+    val axis = Places.between("from", from(), "to", to())
     val fade =
       if site.resources.switches.isMitsubas then Fade.Linear
       else if site.dialect == Dialect.V4 then Fade.Cubic
@@ -73,7 +99,8 @@ object DistantLightRecipe extends LightRecipe("distant", "directional light, suc
       onlyV4, "lx", "none")(-1f)
 
   protected def make()(using site: Site): LightPlan =
-    val (l, d) = (scaled(radiance(), illuminance(), 1f), from() - to())
+    val l = scaled(radiance(), illuminance(), 1f)
+    val d = Places.between("to", to(), "from", from())
     if d.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !shines(l) then LightPlan.leftOut(LightPlan.Black)
     else

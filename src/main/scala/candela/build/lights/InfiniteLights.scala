@@ -61,7 +61,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     val isLit = resources.basis.isSpectral || image.meanOfMax > 0f
     if !shines(l) || !isLit then LightPlan.leftOut(LightPlan.Black)
     else
-      val p = portal()
+      val p = corners()
       if p.isEmpty then
         def light(toWorld: Transform, complete: Boolean) =
           val distribution = resources.once(site.declaration, s"distribution, $complete"):
@@ -72,7 +72,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
         window(p) match
           case None => LightPlan.nothing
           case Some(frame) =>
-            val (corner, opposite) = (Vec3(p(0), p(1), p(2)), Vec3(p(6), p(7), p(8)))
+            val (corner, opposite) = (p(0), p(2))
             def light(toWorld: Transform) =
               val plain = resources.once(site.declaration, "portal"):
                 PortalEnvironment(LightFrame(toWorld), image, corner, opposite, frame)
@@ -83,12 +83,26 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
                 plain.converted(c => lookUp(resources.plainBasis.toSrgb(c)) * day)
             LightPlan((toWorld, _) => Some(light(toWorld)), sampleCount())
 
+  /** Corners of the portal, around the render origin. */
+  private def corners()(using site: Site): Vector[Vec3] =
+    val origin = site.resources.switches.origin
+    val numbers = portal()
+    val written = site.declaration.param("portal").filter(_.rests.length == numbers.length)
+    def number(i: Int) = written.fold(numbers(i).toDouble)(_.number(i))
+    def relative(i: Int) = Vec3(
+      (number(i) - origin.x).toFloat,
+      (number(i + 1) - origin.y).toFloat,
+      (number(i + 2) - origin.z).toFloat
+    )
+    Vector.tabulate((numbers.length + 2) / 3)(i =>
+      if 3 * i + 2 < numbers.length then relative(3 * i) else Vec3.Zero
+    )
+
   /** Frame of the portal, which must be a rectangle. */
-  private def window(p: Array[Float])(using site: Site): Option[Frame] =
+  private def window(corners: Vector[Vec3])(using site: Site): Option[Frame] =
     val frame =
-      if p.length != 12 then None
+      if corners.size != 4 || portal().length != 12 then None
       else
-        val corners = Vector.tabulate(4)(i => Vec3(p(3 * i), p(3 * i + 1), p(3 * i + 2)))
         val (up, across) = (corners(1) - corners(0), corners(3) - corners(0))
         val closes = ((corners(2) - corners(1)) - across).length <= 1e-3f * across.length
         val (t, s) = (up.normalized, across.normalized)

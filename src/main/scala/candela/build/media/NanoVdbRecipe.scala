@@ -78,12 +78,20 @@ object NanoVdbRecipe
         x <- Vector(grid.low(0), grid.high(0) + 1)
         y <- Vector(grid.low(1), grid.high(1) + 1)
         z <- Vector(grid.low(2), grid.high(2) + 1)
-      yield grid.toIndex.inverse.point(Vec3(x.toFloat, y.toFloat, z.toFloat))
-    val box = Bounds3.of(corners)
+      yield grid.toIndex.inverse.position(Position(x, y, z))
+    // Floats are coarse where a grid is many times its size from its origin
+    val isFar = corners.head.reach >= 1024 * corners.map(_.distance(corners.head)).max
+    val origin = if isFar then corners.head else Position.Origin
+    def near(p: Position) = Vec3(
+      (p.x - origin.x).toFloat,
+      (p.y - origin.y).toFloat,
+      (p.z - origin.z).toFloat
+    )
+    val box = Bounds3.of(corners.map(near))
     val (low, size) = (box.min, box.max - box.min)
     val fits = low.isFinite && size.isFinite
     for scale <- Transform.scale(size.x, size.y, size.z) if fits yield
-      val fromUnit = Transform.translate(low.x, low.y, low.z) * scale
+      val fromUnit = origin.fromOrigin * Transform.translate(low.x, low.y, low.z) * scale
       val Vector(nx, ny, nz) = grid.low.zip(grid.high).map((a, b) => b - a + 1): @unchecked
       def mapped(g: NanoVdbGrid) = SparseGrid(g.tree, g.toIndex * fromUnit)
       Voxels(SparseDensity(mapped(grid), nx, ny, nz), temperature.map(mapped), fromUnit)

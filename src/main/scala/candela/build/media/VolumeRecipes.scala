@@ -21,19 +21,29 @@ abstract class VolumeRecipe(name: String, meaning: String)
   protected def filling()(using Site): Filling =
     Filling(held(sigmaA(), "sigma_a"), held(sigmaS(), "sigma_s"), held(emitted(), "Le"), phase())
 
-  /** The box in world space. Warns and returns None if it is empty or its transform is singular. */
-  protected def box()(using site: Site): Option[Bounds3] =
+  /** The box and its transform to the world. Warns and returns None if it is empty or its transform
+    * is singular.
+    */
+  protected def box()(using site: Site): Option[(Transform, Bounds3)] =
     val (low, high) = corners(sorted = true)
     val size = high - low
     val hasVolume = size.isFinite && size.x > 0f && size.y > 0f && size.z > 0f
     if !hasVolume || site.toWorld.isFlat then
       site.warn("this volume is empty; it is ignored")
       None
-    else Some(Bounds3(low, high))
+    else
+      val (least, most) = (corner(low), corner(high))
+      val isFar = least.reach >= VolumeRecipe.Far * size.length
+      if !isFar then Some((site.toWorld, Bounds3(low, high)))
+      else Some((site.toWorld * least.fromOrigin, Bounds3(Vec3.Zero, span(least, most))))
+
+private object VolumeRecipe:
+  /** Sizes from its own origin at which a box is moved there, where Floats are finer. */
+  private val Far = 1024.0
 
 object HomogeneousVolumeRecipe extends VolumeRecipe("homogeneous", "homogeneous volume in a box"):
   protected def make()(using site: Site): Option[Region] =
-    box().map(UniformRegion(site.toWorld, _, filling()))
+    box().map((toWorld, b) => UniformRegion(toWorld, b, filling()))
 
 object ExponentialVolumeRecipe
     extends VolumeRecipe("exponential", "density that falls off with height h: a exp(-b h)"):
@@ -47,9 +57,9 @@ object ExponentialVolumeRecipe
       site.error("`updir` must not be zero")
       None
     else
-      for b <- box()
+      for (toWorld, b) <- box()
       yield ExponentialRegion(
-        site.toWorld,
+        toWorld,
         b,
         filling(),
         direction.normalized,
@@ -62,6 +72,6 @@ object VolumeGridRecipe extends VolumeRecipe("volumegrid", "density grid in a bo
 
   protected def make()(using site: Site): Option[Region] =
     for
-      b <- box()
+      (toWorld, b) <- box()
       grids <- samples("density", density())
-    yield GridRegion(site.toWorld, b, filling(), grids.head)
+    yield GridRegion(toWorld, b, filling(), grids.head)

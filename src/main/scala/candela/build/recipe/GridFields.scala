@@ -42,16 +42,26 @@ trait HasBox extends Fields:
       (box.min, box.max)
     else (a, b)
 
+  protected def span(low: Position, high: Position): Vec3 =
+    Vec3((high.x - low.x).toFloat, (high.y - low.y).toFloat, (high.z - low.z).toFloat)
+
+  /** A corner, with the digits that Floats lack. */
+  protected def corner(p: Vec3)(using site: Site): Position =
+    def exact(x: Vec3 => Float, i: Int) =
+      Vector("p0", "p1").flatMap(site.declaration.param).filter(_.floats.length == 3)
+        .find(_.floats(i) == x(p)).fold(x(p).toDouble)(_.number(i))
+    Position(exact(_.x, 0), exact(_.y, 1), exact(_.z, 2))
+
   /** Transform from world space to the unit cube. Warns and returns None if it is singular. */
   protected def toUnit()(using site: Site): Option[Transform] =
     // Swapped corners in pbrt-v3 reflect the grid
     val (a, b) = corners(sorted = site.dialect == Dialect.V4)
-    val size = b - a
+    val size = span(corner(a), corner(b))
     val scale = Transform.scale(size.x, size.y, size.z)
     val map =
       if site.toWorld.isFlat then None
       else
         scale.map: s =>
-          (site.toWorld * Transform.translate(a.x, a.y, a.z) * s).inverse
+          (site.toWorld * corner(a).fromOrigin * s).inverse
     if map.isEmpty then site.warn("its box has no volume; it is ignored")
     map

@@ -1,6 +1,7 @@
 package candela.build.recipe
 
 import candela.guiding.GuidingMode
+import candela.math.Position
 
 /** What pbrt-v4's `Option` statements and the options of its command line set for a whole scene.
   *
@@ -14,6 +15,7 @@ import candela.guiding.GuidingMode
   * @param reference   reference image of the errors to write
   * @param errors      file for the errors
   * @param isMitsubas  apply Mitsuba's rules where they differ from pbrt-v4's
+  * @param origin      where the origin of what is built lies in the scene's world
   * @param guiding     whether paths learn where light comes from
   */
 final case class Switches(
@@ -27,7 +29,8 @@ final case class Switches(
     reference: Option[String] = None,
     errors: Option[String] = None,
     isMitsubas: Boolean = false,
-    guiding: GuidingMode = GuidingMode.Off
+    guiding: GuidingMode = GuidingMode.Off,
+    origin: Position = Position.Origin
 ):
   /** Both together; where they differ, these. */
   def over(scene: Switches): Switches =

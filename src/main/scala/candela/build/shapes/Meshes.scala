@@ -3,6 +3,7 @@ package candela.build.shapes
 import candela.base.{loop, SceneError}
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
+import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
 import candela.shapes.{DisplacedMesh, LoopSubdivision, MeshError}
 
@@ -56,8 +57,13 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         val standIn = StandIns.LeftOut
         site.resources.file(p, site.declaration, site.problems, standIn).flatMap: path =>
           try
-            val mesh = PlyFile.read(path, keepQuads = site.dialect == Dialect.V4)
-            if displacement.given_().isEmpty then Some(ofFile(mesh)) else displaced(mesh)
+            val read = PlyFile.read(path, keepQuads = site.dialect == Dialect.V4)
+            val near = read.near(site.toWorld)
+            val (mesh, origin) = near.getOrElse((read, Position.Origin))
+            val toWorld = if near.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
+            val made =
+              if displacement.given_().isEmpty then Some(ofFile(mesh)) else displaced(mesh, toWorld)
+            if near.isEmpty then made else made.map(ShapeGeometry.Around(origin, _))
           catch
             case e: SceneError =>
               for x <- e.problems do site.problems.missing(p.valuesAt, x.message, standIn, x.help)
@@ -67,7 +73,9 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
         None
 
   /** As triangles. */
-  private def displaced(mesh: PlyMesh)(using site: Site): Option[ShapeGeometry] =
+  private def displaced(mesh: PlyMesh, toWorld: Transform)(using
+      site: Site
+  ): Option[ShapeGeometry] =
     val longest = edge() * site.resources.switches.edgeScale.getOrElse(1f)
     if mesh.uvs.isEmpty then
       site.error("a displaced mesh needs texture coordinates, as in pbrt")
@@ -85,7 +93,7 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
           mesh.normals,
           mesh.uvs,
           mesh.indices ++ halves,
-          site.toWorld,
+          toWorld,
           longest
         ): (p, u, v) =>
           at.p = p

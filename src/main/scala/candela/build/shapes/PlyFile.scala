@@ -3,12 +3,16 @@ package candela.build.shapes
 import java.io.IOException
 import java.nio.file.Path
 
-import candela.base.{FloatBuffer, IntBuffer, loop, Problem, SceneError, Severity, SourcePos}
+import candela.base.{
+  FloatBuffer, IntBuffer, loop, Problem, RestBuffer, SceneError, Severity, SourcePos
+}
+import candela.math.{Position, Transform}
 import candela.scenefile.Source
 
 /** Mesh of a PLY file.
   *
   * @param positions x, y, z of each vertex; all finite
+  * @param rests     what `positions` lack of the numbers in the file, as in [[Param.rests]]
   * @param normals   x, y, z of each vertex, not normalised; empty if the file has none. Components
   *                  that are not finite are 0, which means no normal.
   * @param uvs       u, v of each vertex; empty if the file has none
@@ -24,8 +28,14 @@ final class PlyMesh(
     val indices: Array[Int],
     val quads: Array[Int],
     val ofVertices: Vector[(String, Array[Float])] = Vector.empty,
-    val ofTriangles: Vector[(String, Array[Float])] = Vector.empty
-)
+    val ofTriangles: Vector[(String, Array[Float])] = Vector.empty,
+    val rests: Array[Float] = Array.emptyFloatArray
+):
+  /** Around another point, if digits of the vertices would be missing in the world. */
+  def near(toWorld: Transform): Option[(PlyMesh, Position)] =
+    FarPoints.middle(positions, rests, toWorld).map: origin =>
+      val there = FarPoints.relative(positions, rests, origin)
+      (PlyMesh(there, normals, uvs, indices, quads, ofVertices, ofTriangles), origin)
 
 /** Reads meshes in the polygon file format: ASCII, binary of both byte orders, and either gzipped.
   *
@@ -47,6 +57,17 @@ object PlyFile:
     Source.read(path) match
       case Right(source) => mesh(source, at, keepQuads, keepsAll)
       case Left(why) => throw problem(at, s"can't read the mesh `$path`: $why")
+
+  /** Positions of the first vertices, at most `most`. */
+  def begin(path: Path, most: Int): Array[Double] =
+    def fail(at: Long, message: String) = throw problem(None, message)
+    Source.read(path) match
+      case Left(why) => fail(0, why)
+      case Right(source) =>
+        try
+          val header = PlyHeader.read(source, fail)
+          PlyReader(header, PlyNumbers.of(source, header, fail), false, false, fail).begin(most)
+        finally source.close()
 
   private def problem(at: Option[SourcePos], message: String): SceneError =
     SceneError(Problem(Severity.Error, at, message))
@@ -101,6 +122,7 @@ private[build] final class PlyReader(
     keepsAll: Boolean,
     fail: (Long, String) => Nothing
 ):
+  private val rests = RestBuffer()
   private var positions = Array.emptyFloatArray
   private var normals = Array.emptyFloatArray
   private var uvs = Array.emptyFloatArray
@@ -123,7 +145,21 @@ private[build] final class PlyReader(
     val patches = quads.take()
     if triangles.isEmpty && patches.isEmpty then fail(in.offset, "no face has three corners")
     val others = ofTriangles.map((name, values) => name -> values.take())
-    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, others)
+    val missing = rests.take(positions.length)
+    PlyMesh(positions, normals, uvs, triangles, patches, ofVertices, others, missing)
+
+  /** Positions of the first vertices, if the file begins with them. */
+  def begin(most: Int): Array[Double] =
+    val element = header.elements.head
+    val places = PlyReader.Position.map(name => element.properties.indexWhere(_.name == name))
+    if element.name != "vertex" || places.exists(_ < 0) ||
+      element.properties.exists(_.countType.nonEmpty)
+    then Array.emptyDoubleArray
+    else
+      Array.fill(Math.min(most, element.count)):
+        val row = element.properties.map(p => in.next(p.valueType))
+        places.map(row(_))
+      .flatten
 
   private def needed(name: String): PlyElement =
     header.elements.find(_.name == name).filter(_.count > 0).getOrElse:
@@ -171,13 +207,18 @@ private[build] final class PlyReader(
         loop(properties.length): k =>
           val target = targets(k)
           if target == null then skip(properties(k))
-          else target(i * strides(k) + places(k)) = number(properties(k), target eq positions, i)
+          else
+            val at = i * strides(k) + places(k)
+            target(at) = number(properties(k), target eq positions, i, at)
 
   /** The property's value; 0 if it is not finite, except in positions, where that is an error. */
-  private def number(p: PlyProperty, isPosition: Boolean, vertex: Int): Float =
+  private def number(p: PlyProperty, isPosition: Boolean, vertex: Int, i: Int): Float =
     val at = in.offset
-    val value = in.next(p.valueType).toFloat
-    if java.lang.Float.isFinite(value) then value
+    val exact = in.next(p.valueType)
+    val value = exact.toFloat
+    if java.lang.Float.isFinite(value) then
+      if isPosition && RestBuffer.isCoarse(value) then rests.note(i, exact, value)
+      value
     else if isPosition then fail(at, s"`${p.name}` of vertex $vertex must be finite, found $value")
     else 0f
 

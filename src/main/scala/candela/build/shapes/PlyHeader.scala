@@ -7,6 +7,7 @@ import java.nio.charset.StandardCharsets.ISO_8859_1
 import scala.annotation.switch
 import scala.collection.mutable
 
+import candela.base.RestBuffer
 import candela.scenefile.{NumberReader, Source}
 
 /** Number types of PLY files, with their size in bytes in binary files. */
@@ -226,7 +227,8 @@ private[build] final class AsciiPlyNumbers(
       end = number.scan(at)
     if end < 0 then fail(offset, "expected a number")
     at = end
-    if t == PlyType.Float32 then number.toFloat.toDouble else number.toDouble
+    val isCoarse = RestBuffer.isCoarse(number.toFloat)
+    if t == PlyType.Float32 && !isCoarse then number.toFloat.toDouble else number.toDouble
 
   // a digit and a blank for each number, but no blank after the last
   protected def leastSize(element: PlyElement): Long =

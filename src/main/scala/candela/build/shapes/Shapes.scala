@@ -3,7 +3,7 @@ package candela.build.shapes
 import candela.accel.{FrontMask, HoleMask, Mask, SolidMask, StochasticMask}
 import candela.build.recipe.*
 import candela.lights.{HiddenLight, Light, PerforatedLight, SurfaceLight}
-import candela.math.Transform
+import candela.math.{Position, Transform}
 import candela.scenefile.Dialect
 import candela.shapes.{Shape, SurfaceSampler}
 import candela.textures.{ConstantFloat, FloatTexture}
@@ -119,6 +119,9 @@ enum ShapeGeometry:
     * @param emits whether they can be area lights
     */
   case Solids(make: (Transform, Boolean) => Vector[Shape], emits: Boolean)
+
+  /** A part whose points are relative to one in object space. */
+  case Around(origin: Position, part: ShapeGeometry)
 
   /** Several parts of different kinds. */
   case Several(parts: Vector[ShapeGeometry])

@@ -121,6 +121,12 @@ abstract class ImageMapRecipe[A](standIn: String)
         site.error(s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\"")
         identity
 
+  /** With which the image repeats. */
+  protected def period(using Site): Double = wrap() match
+    case "repeat" => 1
+    case "mirror" => 2
+    case _ => 0
+
   protected def outerScale(using site: Site): Float =
     if site.dialect == Dialect.V2 then 1f else scale()
 
@@ -133,7 +139,7 @@ object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
     def texels(stored: StoredImage, decode: Float => Float) =
       val _ = stored.colorChannels // an error without any
       () => read(stored, decode)
-    lookup(texels).fold(StandIns.number)(FloatImageTexture(mapped(), _, outerScale, invert()))
+    lookup(texels).fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
   protected def make()(using site: Site): RgbTexture =
@@ -145,7 +151,7 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
           Rgb(made(i, 0), made(i, 1), made(i, 2))
       () => made
     lookup(texels).fold(StandIns.color(basis)): found =>
-      val image = RgbImageTexture(mapped(), found, outerScale, invert())
+      val image = RgbImageTexture(mapped(period), found, outerScale, invert())
       if basis.isSrgb then image else RebasedTexture(image, basis.lookUp)
 
   /** pbrt-v4 alone knows other colour spaces. */

@@ -20,7 +20,7 @@ abstract class CheckerboardRecipe[A]
       else if isSolid || aamode() == "none" then CheckFilter.Point
       else CheckFilter.Box
     if filter != CheckFilter.Point then site.resources.askForFootprints("checkerboards")
-    if isSolid then Cubes(Solid.mapping, filter) else Squares(mapped(), filter)
+    if isSolid then Cubes(Solid.repeating(2), filter) else Squares(mapped(2), filter)
 
 object FloatCheckerboardRecipe extends CheckerboardRecipe[FloatTexture]:
   private val tex1 = floatTexture("tex1", "value of even squares")(1f)
@@ -38,7 +38,7 @@ object FloatBilerpRecipe
     (n, d) =>
       float(n, s"value at the corner $n")(d)
   protected def make()(using Site): FloatTexture =
-    BilerpFloat(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
+    BilerpFloat(mapped(0), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
 object RgbBilerpRecipe
     extends MappedRecipe[RgbTexture]("bilerp", "bilinear interpolation of four corner values"):
@@ -46,19 +46,21 @@ object RgbBilerpRecipe
     (n, d) =>
       color(n, s"colour at the corner $n", SpectrumRole.Reflectance)(Rgb.gray(d))
   protected def make()(using Site): RgbTexture =
-    BilerpRgb(mapped(), corners(0)(), corners(1)(), corners(2)(), corners(3)())
+    BilerpRgb(mapped(0), corners(0)(), corners(1)(), corners(2)(), corners(3)())
 
 /** All versions of pbrt use `inside` outside the dots and `outside` inside. */
 object FloatDotsRecipe extends MappedRecipe[FloatTexture]("dots", "polka dots"):
   private val inside = floatTexture("inside", "value outside the dots, as in pbrt")(1f)
   private val outside = floatTexture("outside", "value inside the dots, as in pbrt")(0f)
-  protected def make()(using Site): FloatTexture = DotsFloat(mapped(), outside(), inside())
+  protected def make()(using Site): FloatTexture =
+    DotsFloat(mapped(PerlinNoise.Period), outside(), inside())
 
 object RgbDotsRecipe extends MappedRecipe[RgbTexture]("dots", "polka dots"):
   private val inside = rgbTexture("inside", "value outside the dots, as in pbrt")(Rgb.White)
   private val outside = rgbTexture("outside", "value inside the dots, as in pbrt")(Rgb.Black)
-  protected def make()(using Site): RgbTexture = DotsRgb(mapped(), outside(), inside())
+  protected def make()(using Site): RgbTexture =
+    DotsRgb(mapped(PerlinNoise.Period), outside(), inside())
 
 object RgbUvRecipe
     extends MappedRecipe[RgbTexture]("uv", "texture coordinates as red and green", untilV3):
-  protected def make()(using Site): RgbTexture = UvColor(mapped())
+  protected def make()(using Site): RgbTexture = UvColor(mapped(1))
