@@ -83,8 +83,8 @@ private[build] object RenderOrigin:
       val rounding = if step >= 0.1 then f"$step%.2g" else f"$step%.1g"
       RenderOrigin(
         snapped(point, eye.reach),
-        s"at the camera, ${plain(eye.reach)} from the world's origin, Floats are $rounding apart, " +
-          s"and what it sees is ${plain(size)} large or away"
+        s"at the camera, ${plain(eye.reach)} from the world's origin, Floats are $rounding " +
+          s"apart, and what it sees is ${plain(size)} large or away"
       )
 
   /** Rounds to so few digits that frames of a sequence agree, while the rest is small. */

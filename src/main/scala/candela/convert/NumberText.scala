@@ -2,6 +2,7 @@ package candela.convert
 
 import java.lang.Math.abs
 
+import candela.base.RestBuffer
 import candela.scenefile.Param
 
 /** Formats numbers with the fewest digits that round-trip. */
@@ -18,9 +19,10 @@ object NumberText:
     else if abs(value) < 1e15 && value == value.toLong.toDouble then value.toLong.toString
     else sign(value < 0.0) + plain(shortest(abs(value).toString, _.toDouble == abs(value)))
 
-  /** A parameter's number, with the digits that Floats lack: to 15, more than its two parts have. */
+  /** A coordinate: where Floats are coarse, with 15 digits, because they are all read. */
   def of(p: Param, i: Int): String =
-    if p.rests(i) == 0f then of(p.floats(i))
+    if !RestBuffer.isCoarse(p.floats(i)) || !java.lang.Float.isFinite(p.floats(i)) then
+      of(p.floats(i))
     else
       val digits = java.math.MathContext(15, java.math.RoundingMode.HALF_EVEN)
       of(java.math.BigDecimal(p.number(i)).round(digits).doubleValue)

@@ -93,7 +93,8 @@ final class Statements(out: Writer, dialect: Dialect):
       // v2 and v3 scenes conventionally quote booleans; v4 rejects quotes.
       p.bools.map(b => if dialect == Dialect.V4 then b.toString else s"\"$b\"")
     case _ if p.strings.nonEmpty => p.strings.map(Statements.quoted)
-    case _ if p.rests.length > 0 => p.floats.indices.view.map(NumberText.of(p, _)).toSeq
+    case _ if p.paramType == ParamType.Point3 || p.rests.length > 0 =>
+      p.floats.indices.view.map(NumberText.of(p, _)).toSeq
     case _ => p.floats.view.map(NumberText.of).toSeq
 
   def transform(t: AnimatedTransform): Unit =

@@ -132,7 +132,7 @@ private object Mapping2D:
 /** Maps points to three-dimensional texture coordinates.
   *
   * @param worldToTexture in pbrt-v2 and v3 the statement's transform itself, in v4 its inverse
-  * @param far what to add to the coordinates in Double, if they are so far out that Floats are coarse
+  * @param far what to add to the coordinates in Double, where Floats are coarse
   */
 final class Mapping3D(worldToTexture: Transform, val far: Position = Position.Origin):
   def apply(at: ShadingPoint): Vec3 = worldToTexture.point(at.p)
