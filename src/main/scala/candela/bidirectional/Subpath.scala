@@ -40,7 +40,11 @@ private[bidirectional] final class Subpath(
     if bounce.weight.isBlack || !(bounce.isSpecular || vertex.isOpen(wi)) then false
     else
       // Refraction scales radiance, but not power (Veach 1997, §5.2)
-      val kept = if compresses then bounce.weight * square(bounce.eta) else bounce.weight
+      val kept =
+        if carriesLight && !bounce.isSpecular && !vertex.bsdf.isReciprocal then
+          vertex.sent(wi) * (Math.abs(bounce.wi.z) / bounce.pdf)
+        else if compresses then bounce.weight * square(bounce.eta)
+        else bounce.weight
       throughput = throughput *
         (if carriesLight && !vertex.isInMedium then kept * correction(vertex, wi, bounce.wi.z)
          else bounce.weight)

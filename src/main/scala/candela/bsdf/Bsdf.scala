@@ -42,6 +42,11 @@ abstract class Bsdf:
   /** Whether a part of the light is scattered evenly, by a diffuse lobe. */
   def isDiffuse: Boolean = false
 
+  /** Whether values are the same when `wo` and `wi` change places, but for the square of the index in
+    * refraction. If not, light subpaths are weighted by the values that the camera sees.
+    */
+  def isReciprocal: Boolean = true
+
   /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
     * them. Used at vertices after a non-specular bounce of a regularised path.
     *
@@ -72,6 +77,7 @@ abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   def isSpecular: Boolean = inner.isSpecular
   def isTransmissive: Boolean = inner.isTransmissive
   override def isDiffuse: Boolean = inner.isDiffuse
+  override def isReciprocal: Boolean = inner.isReciprocal
   override def regularized: Bsdf
   override def isDispersive: Boolean = inner.isDispersive
 

@@ -48,4 +48,5 @@ object DiffuseEquivalent:
     def isSpecular: Boolean = false
     def isTransmissive: Boolean = false
     override def isDiffuse: Boolean = true
+    override def isReciprocal: Boolean = false
     override def isDispersive: Boolean = inner.isDispersive

@@ -75,6 +75,11 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
   override def isDiffuse: Boolean = lobes.exists(_.isDiffuse)
 
+  // Light may be compressed by one of two lobes that transmit it, and not by the other
+  override val isReciprocal: Boolean =
+    lobes.forall(_.isReciprocal) && lobes.count(_.isTransmissive) < 2
+
+
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
   override def isDispersive: Boolean = lobes.exists(_.isDispersive)
 

@@ -39,5 +39,6 @@ final class OneSided(inner: Bsdf) extends LeanBsdf:
   def isSpecular: Boolean = inner.isSpecular
   def isTransmissive: Boolean = false
   override def isDiffuse: Boolean = inner.isDiffuse
+  override def isReciprocal: Boolean = inner.isReciprocal
   override def regularized: Bsdf = OneSided(inner.regularized)
   override def isDispersive: Boolean = inner.isDispersive

@@ -92,5 +92,6 @@ final class SoftTerminator(inner: Bsdf, base: Vec3, alpha2: Float) extends LeanB
   /** Through the perturbed surface, where its normals are turned. */
   def isTransmissive: Boolean = inner.isTransmissive || base.z < 1f
   override def isDiffuse: Boolean = inner.isDiffuse
+  override def isReciprocal: Boolean = false
   override def regularized: Bsdf = SoftTerminator(inner.regularized, base, alpha2)
   override def isDispersive: Boolean = inner.isDispersive

@@ -40,5 +40,6 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
   val isSpecular: Boolean = front.isSpecular && back.isSpecular
   def isTransmissive: Boolean = false
   override def isDiffuse: Boolean = front.isDiffuse || back.isDiffuse
+  override def isReciprocal: Boolean = front.isReciprocal && back.isReciprocal
   override def regularized: Bsdf = TwoSided(front.regularized, back.regularized)
   override def isDispersive: Boolean = front.isDispersive || back.isDispersive

@@ -43,6 +43,9 @@ abstract class BsdfLaws extends AnyFunSuite:
     if !bsdf.isSpecular && isReciprocal && !isWalked then
       test(s"$name: is reciprocal, but for the square of the index in refraction"):
         reciprocates(bsdf)
+    if !isReciprocal then
+      test(s"$name: tells that it is not reciprocal"):
+        assert(!bsdf.isReciprocal)
     if !bsdf.isSpecular && !isNarrow && !isWalked then
       test(s"$name: sampled directions are spread like the pdf"):
         spreadsLikePdf(bsdf)

@@ -152,6 +152,7 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       else BsdfSample.Absorbed
 
   def isSpecular: Boolean = false
+  override def isReciprocal: Boolean = false
   def isTransmissive: Boolean = true
 
 object Hair:

@@ -99,6 +99,7 @@ final class AdaptiveReflection(
       else BsdfSample(wi, color, found, isSpecular = false)
 
   def isSpecular: Boolean = false
+  override def isReciprocal: Boolean = false
   def isTransmissive: Boolean = false
 
 object AdaptiveReflection:

@@ -149,6 +149,7 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
       BsdfSample(wi, weight, pdf, isSpecular = false, eta)
 
   def isSpecular: Boolean = false
+  override def isReciprocal: Boolean = false
   def isTransmissive: Boolean = true
 
 object FourierBsdf:

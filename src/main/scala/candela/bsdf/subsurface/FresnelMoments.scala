@@ -76,3 +76,4 @@ final class NormalizedFresnel(eta: Float) extends LeanBsdf:
   def isSpecular: Boolean = false
   def isTransmissive: Boolean = false
   override def isDiffuse: Boolean = true
+  override def isReciprocal: Boolean = false
