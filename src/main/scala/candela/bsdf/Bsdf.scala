@@ -42,8 +42,8 @@ abstract class Bsdf:
   /** Whether a part of the light is scattered evenly, by a diffuse lobe. */
   def isDiffuse: Boolean = false
 
-  /** Whether values are the same when `wo` and `wi` change places, but for the square of the index in
-    * refraction. If not, light subpaths are weighted by the values that the camera sees.
+  /** Whether values are the same when `wo` and `wi` change places, but for the square of the index
+    * in refraction. If not, light subpaths are weighted by the values that the camera sees.
     */
   def isReciprocal: Boolean = true
 

@@ -85,8 +85,6 @@ object ExtremeBall:
     "coat of roughness 1" -> s""""coateddiffuse" $plain 1""",
     "coat of index 1.001" -> s""""coateddiffuse" $plain .3 "float eta" 1.001""",
     "coat of index 5" -> s""""coateddiffuse" $plain .5 "float eta" 5""",
-    "coat that scatters back" ->
-      s""""coateddiffuse" $plain .3 "float thickness" 1 "float g" -.95 "rgb albedo" [.9 .9 .9]""",
     "coat that scatters on" ->
       s""""coateddiffuse" $plain .3 "float thickness" 9 "float g" .95 "rgb albedo" [1 1 1]""",
     "coat of no thickness" -> s""""coateddiffuse" $plain .3 "float thickness" 0""",
@@ -124,6 +122,8 @@ object ExtremeBall:
     "metal of roughness 1e-6" -> s""""conductor" $plain 1e-6""",
     "metal of roughness .01" -> s""""conductor" $plain .01""",
     "glass of roughness .02" -> s""""dielectric" $plain .02""",
+    "coat that scatters back" ->
+      s""""coateddiffuse" $plain .3 "float thickness" 1 "float g" -.95 "rgb albedo" [.9 .9 .9]""",
     "a smooth coat" -> """"coateddiffuse" "float roughness" 0""",
     "smooth hair" -> """"hair" "float beta_m" .05 "float beta_n" .1 "rgb sigma_a" [.3 .3 .3]""",
     "smoothly coated metal" -> """"coatedconductor" "float interface.roughness" 0"""

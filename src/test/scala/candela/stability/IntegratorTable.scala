@@ -9,8 +9,8 @@ import candela.testing.SceneTexts
 /** A way to render a scene. What pbrt's own integrators leave out is not compared:
   *
   *   - `path`, `sppm`, `lightpath` and `directlighting` ignore media;
-  *   - `lightpath` sees nothing in mirrors and through smooth glass or coats, and little but noise by
-  *     way of narrow lobes; only v4 has it;
+  *   - `lightpath` sees nothing in mirrors and through smooth glass or coats, and little but noise
+  *     by way of narrow lobes; only v4 has it;
   *   - `directlighting` is compared with paths of one event, where nothing is specular; only v3 has
   *     it;
   *   - `whitted` leaves out what is neither direct nor specular, and `ambientocclusion` shows no
