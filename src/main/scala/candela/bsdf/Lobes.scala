@@ -79,7 +79,6 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   override val isReciprocal: Boolean =
     lobes.forall(_.isReciprocal) && lobes.count(_.isTransmissive) < 2
 
-
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
   override def isDispersive: Boolean = lobes.exists(_.isDispersive)
 

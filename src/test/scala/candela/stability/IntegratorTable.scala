@@ -130,8 +130,8 @@ object IntegratorTable:
     val references = ways.map(w => (w.reference, w.depth(ball))).distinct
       .map((r, depth) => (r, depth) -> r.means(ball.copy(depth = depth), effort))
       .toMap
-    for way <- ways yield
-      Compared(way, way.means(ball, effort), references((way.reference, way.depth(ball))))
+    for way <- ways
+    yield Compared(way, way.means(ball, effort), references((way.reference, way.depth(ball))))
 
   /** Prints how all ways of rendering differ from volpath; arguments choose balls by name. */
   def main(args: Array[String]): Unit =
