@@ -44,5 +44,7 @@ final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
 
   def isSpecular: Boolean = inner.isSpecular
   def isTransmissive: Boolean = inner.isTransmissive
+  override def isDiffuse: Boolean = inner.isDiffuse
+  override def isReciprocal: Boolean = false
   override def regularized: Bsdf = Framed(inner.regularized, frame)
   override def isDispersive: Boolean = inner.isDispersive
