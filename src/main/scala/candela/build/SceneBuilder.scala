@@ -234,7 +234,16 @@ object SceneBuilder:
       else SurfaceNames.Empty
     val motion =
       if wants(Layer.Motion) then ScreenMotion.of(camera.camera, camera.shutter) else None
-    val surface = VisibleSurface(world.scene, space, context.resources.basis, names, motion)
+    val scene = context.description
+    val surface = VisibleSurface(
+      world.scene,
+      space,
+      context.resources.basis,
+      names,
+      motion,
+      scene.hidesEmitters,
+      skyCovers = scene.isMitsubas && !scene.hidesEmitters && world.scene.environments.nonEmpty
+    )
     val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)
     LayerPlan(image.layers, surface, names, groups)
 

@@ -129,11 +129,15 @@ private[build] final class SurfaceBuilder(
     private def isShadowing: Boolean = integrator.interfaces.stopsLight &&
       ((veil ne SolidMask) || (materials.materials(dressed.material) eq InterfaceMaterial))
 
+    /** In Mitsuba's scenes, samples of a lamp lie on the side that rays see. */
+    private val isConsistent = context.description.isMitsubas
+
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
-        addSolid(make(toWorld, isReversed), lamp, isInverted != turned)
+        val facesInwards = isReversed != (isConsistent && toWorld.swapsHandedness)
+        addSolid(make(toWorld, facesInwards), lamp, isInverted != turned)
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
           val name = dressed.shape.shape.name
@@ -146,7 +150,8 @@ private[build] final class SurfaceBuilder(
 
     /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =
-      if context.isV2 then dressed.declared.name == "disk" else toWorld.swapsHandedness
+      if context.isV2 then dressed.declared.name == "disk"
+      else !isConsistent && toWorld.swapsHandedness
 
     private def addSolid(
         shape: Shape,

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
+import candela.film.Layer
 import candela.image.{Contents, OutputFormat}
 import candela.render.RenderPlan
 
@@ -46,9 +47,11 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
 
 object OutputFiles:
 
-  /** Whether a file must store layers; those that only guide the denoiser need none. */
+  /** Whether a file must store layers; alpha, which scenes ask for, and those that only guide the
+    * denoiser need none.
+    */
   def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
-    val guides = if denoises then Denoising.Layers else Vector.empty
+    val guides = Layer.Alpha +: (if denoises then Denoising.Layers else Vector.empty)
     plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
 
   /** Exactly the requested images. */

@@ -37,6 +37,7 @@ object FromMitsuba:
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
         without(d, "nothing is clipped", "nearclip", "farclip")
+      else if d.category == "Film" then without(d, "no alpha is written", "alpha")
       else if d.category == "Integrator" then
         without(d, "lamps and sky are visible", "hideemitters")
       else if d.category == "Shape" then

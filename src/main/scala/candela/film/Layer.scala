@@ -148,6 +148,13 @@ enum Layer(
         Cryptomatte.Ranked(Cryptomatte.tally(_.materialId)),
         needsFloat = true
       )
+  case Alpha
+      extends Layer(
+        "alpha",
+        Vector("A"),
+        "coverage by surfaces; in Mitsuba's scenes, a visible sky covers all",
+        MeanOfAll(Tally.everywhere(_.coverage))
+      )
 
   /** Channels in an image whose lights have these groups. */
   def channelsOf(groups: Vector[String]): Vector[String] = this match
@@ -208,6 +215,13 @@ private[film] object Tally:
       while i < all.length do
         sums.add(at + i, weight * all(i)(seen))
         i += 1
+
+  /** A number that samples without a surface have, too. */
+  def everywhere(of: Number): Tally = new Tally(1):
+    override def needsSurface: Boolean = false
+
+    def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =
+      sums.add(at, weight * of(seen))
 
   def vector(of: VisibleSurface => Vec3): Tally = new Tally(3):
     def add(sums: ExactSums, at: Int, weight: Double, light: Rgb, seen: VisibleSurface) =

@@ -13,13 +13,17 @@ import candela.scene.{Scene, SurfaceNames}
   * @param basis  of the scene's colours
   * @param names  of what can be seen
   * @param motion projection of moving points, if the camera has one
+  * @param hidesLamps whether the camera sees through lamps
+  * @param skyCovers  whether samples of the sky count as covered
   */
 final class VisibleSurface(
     val scene: Scene,
     output: Motion,
     basis: ColorBasis,
     names: SurfaceNames = SurfaceNames.Empty,
-    motionOnFilm: Option[ScreenMotion] = None
+    motionOnFilm: Option[ScreenMotion] = None,
+    hidesLamps: Boolean = false,
+    skyCovers: Boolean = false
 ):
   private val ray = Ray()
   private val map = new Array[Double](Motion.Work)
@@ -44,7 +48,8 @@ final class VisibleSurface(
   val hit: Hit = Hit()
   val at: ShadingPoint = scene.newPoint(always = true)
 
-  def copy(): VisibleSurface = VisibleSurface(scene, output, basis, names, motionOnFilm)
+  def copy(): VisibleSurface =
+    VisibleSurface(scene, output, basis, names, motionOnFilm, hidesLamps, skyCovers)
 
   /** Traces a camera ray through interfaces; leaves the ray unchanged.
     *
@@ -56,6 +61,9 @@ final class VisibleSurface(
     ray.time = from.time
     ray.differential.copy(from.differential)
     isHit = scene.closestBehindInterfaces(ray, hit, at)
+    while isHit && hidesLamps && at.areaLight >= 0 do
+      scene.passThrough(ray, at)
+      isHit = scene.closestBehindInterfaces(ray, hit, at)
     if isHit then record(from, scene.bsdf(at))
 
   /** Records the hit in `at`. */
@@ -69,6 +77,9 @@ final class VisibleSurface(
 
   /** False if the ray missed; all other properties are then stale. */
   def isThere: Boolean = isHit
+
+  /** 1 or 0, also of a ray that missed. */
+  def coverage: Float = if isHit || skyCovers then 1f else 0f
 
   def p: Vec3 = vector(at.p) + Vec3(map(3).toFloat, map(7).toFloat, map(11).toFloat)
 

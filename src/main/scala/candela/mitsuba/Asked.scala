@@ -37,7 +37,9 @@ final class Asked(val plugin: Plugin, val session: Session):
       found
 
   def number(name: String): Option[Double] =
-    value(name, "a number") { case Value.Number(x) => x }
+    value(name, "a number"):
+      case Value.Number(x) => x
+      case Value.Flat(x) => x
   def number(name: String, default: Double): Double = number(name).getOrElse(default)
 
   def integer(name: String, default: Int): Int =

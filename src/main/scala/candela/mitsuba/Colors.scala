@@ -3,6 +3,7 @@ package candela.mitsuba
 import candela.base.SourcePos
 import candela.color.{Colorimetry, Rgb, Spectrum}
 import candela.math.clamp
+import candela.scenefile.{Param, ParamType}
 
 /** How spectra become colours: as in Mitsuba's RGB variants. */
 enum Role:
@@ -11,10 +12,10 @@ enum Role:
     */
   case Reflectance
 
-  /** As reflectance, but without an upper limit: indices of metals, absorption of hair. */
+  /** As reflectance, but without an upper limit: indices of metals, absorption of hair, volumes. */
   case Unbounded
 
-  /** A constant 1, given as a number, is white; pairs of wavelengths and values are as measured. */
+  /** A number or a colour of 1 is white; a spectrum is as measured. */
   case Emission
 
   private[mitsuba] def color(s: Spectrum): Rgb = this match
@@ -24,12 +25,13 @@ enum Role:
 
 /** A colour or a texture. */
 enum Shade:
-  case Constant(c: Rgb)
+  /** @param light the spectrum that has the colour, if light is given by one */
+  case Constant(c: Rgb, light: Option[Spectrum] = None)
   case Textured(texture: Plugin)
 
   /** The colour, if it is constant. */
   def constant: Option[Rgb] = this match
-    case Constant(c) => Some(c)
+    case Constant(c, _) => Some(c)
     case Textured(_) => None
 
 /** Reads colours. */
@@ -43,7 +45,9 @@ final class Colors(session: Session):
       p.value match
         case Value.Number(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
         case Value.Color(c) => Some(Shade.Constant(c))
-        case Value.Wavelengths(s) => Some(Shade.Constant(role.color(s)))
+        case Value.Wavelengths(s) => Some(measured(s, role))
+        case Value.Flat(x) if role == Role.Emission => Some(measured(flat(x), role))
+        case Value.Flat(x) => Some(Shade.Constant(Rgb.gray(x.toFloat)))
         case Value.Nested(_) | Value.Reference(_) =>
           in.objectNamed(name).flatMap(ofPlugin(_, role, in, name))
         case other =>
@@ -54,6 +58,8 @@ final class Colors(session: Session):
     if p.kind != "texture" && p.kind != "spectrum" then
       session.error(p.at, s"`$name` of ${in.plugin.shown} must be a colour or a texture")
       None
+    else if p.name == "irregular" then Some(session.of(p)(in => measured(irregular(in), role)))
+    else if p.name == "regular" then Some(session.of(p)(in => measured(regular(in), role)))
     else Some(constant(p, role).fold(Shade.Textured(p))(Shade.Constant(_)))
 
   /** The colour of a spectrum; None for textures. */
@@ -77,8 +83,6 @@ final class Colors(session: Session):
             Some(everywhere(v, Rgb.gray(0.75f), role))
           case Some(v) if v.kind == "volume" => None
           case _ => Some(session.of(p)(fixed(_, "volume", Rgb.gray(0.75f), role)))
-      case "irregular" => Some(session.of(p)(in => role.color(irregular(in))))
-      case "regular" => Some(session.of(p)(in => role.color(regular(in))))
       case _ => None
 
   /** Of a constant volume. */
@@ -97,14 +101,18 @@ final class Colors(session: Session):
 
   /** A constant colour. */
   def fixed(in: Asked, name: String, default: Rgb, role: Role): Rgb =
+    uniform(in, name, default, role).c
+
+  /** A constant colour, with its spectrum. */
+  def uniform(in: Asked, name: String, default: Rgb, role: Role): Shade.Constant =
     shade(in, name, default, role) match
-      case Shade.Constant(c) => c
+      case c: Shade.Constant => c
       case Shade.Textured(t) =>
         session.warn(
           t.at,
           s"`$name` of ${in.plugin.shown} must be constant here; using the default"
         )
-        default
+        Shade.Constant(default)
 
   private def list(in: Asked, name: String): Vector[Double] =
     in.text(name).fold(Vector.empty)(Values.numbers(_, in.atOf(name)))
@@ -126,6 +134,26 @@ final class Colors(session: Session):
       values.indices.flatMap(i => Vector(from + i * step, values(i))).toVector,
       in.at
     )
+
+  private def measured(s: Spectrum, role: Role): Shade =
+    Shade.Constant(role.color(s), Option.when(role == Role.Emission)(s))
+
+  private def flat(x: Double): Spectrum =
+    Spectrum(Array(360f, 830f), Array.fill(2)(x.toFloat), Spectrum.Outside.Zero)
+
+  /** Light of a constant colour, times a factor: of its spectrum, if it has one. pbrt-v4 scales
+    * spectra of light to luminance 1.
+    */
+  def light(name: String, shade: Shade.Constant, at: SourcePos, factor: Float = 1f): Seq[Param] =
+    val c = shade.c * factor
+    if Math.min(c.r, Math.min(c.g, c.b)) < 0f && c.max <= 0f then
+      session.warn(at, "negative light, which takes light away in Mitsuba, is not supported")
+    shade.light.filter(_ => c.luminance > 0f).fold(Seq(Textures.rgb(name, c, at))): s =>
+      val pairs = s.lambda.zip(s.values).flatMap((nm, x) => Array(nm, x))
+      Seq(
+        Param.floats(ParamType.Spectrum, name, at, pairs),
+        Param.float("scale", at, c.luminance)
+      )
 
   /** In W/(m² sr nm), as Mitsuba's. */
   private def blackbody(kelvin: Float, at: SourcePos): Rgb =

@@ -16,7 +16,7 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
       session.of(p): in =>
         in.ignore("sampling_weight")
         val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
-          case Shade.Constant(c) => Some(Seq(Textures.rgb("L", c, in.at)))
+          case c: Shade.Constant => Some(colors.light("L", c, in.at))
           case Shade.Textured(t) => picture(t).map((_, params) => params)
         params.map(session.declare("AreaLightSource", "diffuse", p.at, _))
 
@@ -27,17 +27,17 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
       val around = in.nested("medium").headOption.fold("")(medium)
       p.name match
         case "constant" =>
-          val c = colors.fixed(in, "radiance", Rgb.White, Role.Emission)
-          Some(light(in, "infinite", Transform.Identity, around)(Textures.rgb("L", c, in.at)))
+          val c = colors.uniform(in, "radiance", Rgb.White, Role.Emission)
+          Some(light(in, "infinite", Transform.Identity, around)(colors.light("L", c, in.at)*))
         case "envmap" => environment(in)
         case "sunsky" | "timed_sunsky" =>
           val toWorld = in.transform("to_world")
           Some(LightDescription(skies(in, toWorld), GraphicsState.still(toWorld), ""))
         case "point" =>
-          val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
+          val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
           val at = in.triple("position").fold(in.transform("to_world")): (x, y, z) =>
             Transform.translate(x, y, z)
-          Some(light(in, "point", at, around)(Textures.rgb("I", c, in.at)))
+          Some(light(in, "point", at, around)(colors.light("I", c, in.at)*))
         case "spot" => spot(in, around)
         case "directional" => Some(directional(in))
         case "projector" => projector(in, around)
@@ -79,31 +79,31 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
       )
 
   private def spot(in: Asked, around: String): Option[LightDescription] =
-    val c = colors.fixed(in, "intensity", Rgb.White, Role.Emission)
+    val c = colors.uniform(in, "intensity", Rgb.White, Role.Emission)
     val cutoff = in.number("cutoff_angle", 20)
     val beam = in.number("beam_width", cutoff * 0.75)
-    def lit(tint: Rgb, slide: Seq[Param]) =
-      val params = Vector(
-        Textures.rgb("I", c * tint, in.at),
+    def lit(shade: Shade.Constant, slide: Seq[Param]) =
+      val params = colors.light("I", shade, in.at) ++ Vector(
         Param.float("coneangle", in.at, cutoff.toFloat),
         Param.float("conedeltaangle", in.at, (cutoff - beam).toFloat)
       )
       Some(light(in, "spot", in.transform("to_world"), around)((params ++ slide)*))
     colors.shade(in, "texture", Rgb.White, Role.Reflectance) match
-      case Shade.Constant(tint) => lit(tint, Vector.empty)
+      case Shade.Constant(tint, _) =>
+        lit(if tint == Rgb.White then c else Shade.Constant(c.c * tint), Vector.empty)
       case Shade.Textured(t) =>
-        picture(t).flatMap((_, params) => lit(Rgb.White, slides(params)))
+        picture(t).flatMap((_, params) => lit(c, slides(params)))
 
   private def slides(params: Seq[Param]): Seq[Param] =
     params.map(p => Param.string("mapname", p.at, p.strings.head))
 
   private def directional(in: Asked): LightDescription =
-    val c = colors.fixed(in, "irradiance", Rgb.White, Role.Emission)
+    val c = colors.uniform(in, "irradiance", Rgb.White, Role.Emission)
     val (x, y, z) = in.triple("direction").getOrElse((0.0, 0.0, 1.0))
+    val way = Seq("from" -> Array(0f, 0f, 0f), "to" -> Array(x.toFloat, y.toFloat, z.toFloat))
     light(in, "distant", in.transform("to_world"), "")(
-      Textures.rgb("L", c, in.at),
-      Param.floats(ParamType.Point3, "from", in.at, Array(0f, 0f, 0f)),
-      Param.floats(ParamType.Point3, "to", in.at, Array(x.toFloat, y.toFloat, z.toFloat))
+      (colors.light("L", c, in.at) ++
+        way.map((name, p) => Param.floats(ParamType.Point3, name, in.at, p)))*
     )
 
   /** Irradiance of the plane at distance 1, by an image or a colour; the intensity of pbrt-v3's
@@ -117,7 +117,7 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
       val upright = in.transform("to_world") * Transform.scale(-1, -1, 1).get
       light(in, "projection", upright, around, Some(Dialect.V3))((params :+ fov)*)
     colors.shade(in, "irradiance", Rgb.White, Role.Emission) match
-      case Shade.Constant(c) => Some(lit(Textures.rgb("I", c * scale, in.at)))
+      case Shade.Constant(c, _) => Some(lit(Textures.rgb("I", c * scale, in.at)))
       case Shade.Textured(t) =>
         for axis <- in.text("fov_axis") if axis != "x" do
           session.warn(in.atOf("fov_axis"), "only x can be the axis beside an image; using x")

@@ -37,7 +37,8 @@ final class Integrators(session: Session):
   private def limited(in: Asked, name: String, more: Param*): Declaration =
     val depth = in.integer("max_depth", -1)
     val edges = if depth < 0 then Integrators.Unlimited else Math.max(0, depth - 1)
-    if depth == 0 then session.warn(in.atOf("max_depth"), "a depth of 0 is black in Mitsuba")
+    if depth == 0 then
+      session.warn(in.atOf("max_depth"), "paths of depth 0 see nothing; the image is black")
     session.declare(
       "Integrator",
       name,
@@ -50,6 +51,13 @@ final class Integrators(session: Session):
     Option.when(in.flag("hide_emitters", false))(Param.bool("hideemitters", at, true)).toSeq
 
 object Integrators:
+  /** Whether its paths have no edge: they see nothing, not even lamps. */
+  def isBlack(p: Plugin): Boolean = p.properties.exists: q =>
+    q.value match
+      case Value.Number(x) => q.name == "max_depth" && x == 0
+      case Value.Nested(inner) => inner.kind == "integrator" && isBlack(inner)
+      case _ => false
+
   /** Russian roulette ends paths long before. */
   private val Unlimited = 10_000
 

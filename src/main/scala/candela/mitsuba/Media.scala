@@ -86,7 +86,7 @@ final class Media(session: Session, colors: Colors):
   private def fixed(in: Asked, name: String, default: Float): Rgb =
     in.objectNamed(name).filter(_.kind == "volume") match
       case Some(v) if v.name == "constvolume" =>
-        colors.everywhere(v, Rgb.gray(default), Role.Reflectance)
+        colors.everywhere(v, Rgb.gray(default), Role.Unbounded)
       case Some(v) =>
         session.warn(v.at, s"${v.shown} is not supported as `$name`; using $default")
         Rgb.gray(default)

@@ -1,7 +1,7 @@
 package candela.mitsuba
 
 import candela.base.{FileName, SceneError, Severity, SourcePos}
-import candela.scenefile.{Dialect, Excerpts, SceneDescription}
+import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
 
 import java.nio.file.Path
 
@@ -70,8 +70,10 @@ private final class Translation(session: Session, file: Path):
         session.attempt(views.seen(first, scene)).getOrElse(scene)
     val integrator =
       of("integrator").headOption.flatMap(p => session.attempt(Integrators(session)(p)))
-    seen.copy(
-      integrator = Some(integrator.getOrElse(Integrators.default(session, start))),
+    val tracer = integrator.getOrElse(Integrators.default(session, start))
+    val whole = seen.copy(
+      integrator = Some(tracer),
+      film = if tracer.name == "lightpath" then seen.film.map(opaque) else seen.film,
       textures = textures.result(),
       namedMaterials = surfaces.result(),
       lights = lights,
@@ -80,3 +82,16 @@ private final class Translation(session: Session, file: Path):
       instances = shapes.instances,
       media = media.result()
     )
+    if !of("integrator").headOption.exists(Integrators.isBlack) then whole
+    else
+      whole.copy(
+        lights = Vector.empty,
+        shapes = Vector.empty,
+        objects = Map.empty,
+        instances = Vector.empty
+      )
+
+  /** Paths from lights find no coverage. */
+  private def opaque(film: Declaration): Declaration =
+    for p <- film.param("alpha") do session.warn(p.at, "\"ptracer\" gives no alpha here")
+    film.copy(params = film.params.filterNot(_.name == "alpha"))

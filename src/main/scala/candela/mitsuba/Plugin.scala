@@ -12,6 +12,9 @@ enum Value(val shown: String):
   case Triple(x: Double, y: Double, z: Double) extends Value("a vector")
   case Color(c: Rgb) extends Value("a colour")
   case Wavelengths(s: Spectrum) extends Value("a spectrum")
+
+  /** A spectrum of equal values, whose light is not white. */
+  case Flat(x: Double) extends Value("a spectrum")
   case Placed(t: Transform) extends Value("a transform")
   case Nested(plugin: Plugin) extends Value("an object")
   case Reference(id: String) extends Value("a reference")

@@ -124,13 +124,12 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
     val toWorld = in.transform("to_world")
     val isFlipped = in.flag("flip_normals", false)
     def number(name: String, x: Double) = Param.float(name, in.atOf(name), x.toFloat)
-    // pbrt turns the normals of reflected quadrics
-    def quadric(name: String, place: Transform, params: Param*) =
-      Some(Form(name, params, place, isFlipped != place.swapsHandedness))
     in.plugin.name match
       case "sphere" =>
         val centre = in.triple("center").fold(Transform.Identity)(Transform.translate(_, _, _))
-        quadric("sphere", toWorld * centre, number("radius", in.number("radius", 1)))
+        // A reflection turns it inside out, in Mitsuba as in pbrt
+        val size = Seq(number("radius", in.number("radius", 1)))
+        Some(Form("sphere", size, toWorld * centre, isFlipped))
       case "cylinder" =>
         for (place, length) <- axis(in, toWorld) yield
           // Upside down, so that v runs as on Mitsuba's; lamps have none, and pbrt's light of
@@ -142,7 +141,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
           Form("cylinder", size.map(number(_, _)), whole, isFlipped != whole.swapsHandedness)
       case "disk" =>
-        quadric("disk", toWorld, number("radius", 1))
+        // pbrt turns the normals of all reflected quadrics
+        Some(Form("disk", Seq(number("radius", 1)), toWorld, isFlipped != toWorld.swapsHandedness))
       case "rectangle" =>
         val mesh = Mesh.rectangle.placed(toWorld)
         Some(Form(

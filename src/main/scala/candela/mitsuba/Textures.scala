@@ -28,7 +28,7 @@ final class Textures(session: Session, colors: Colors):
 
   /** A colour parameter. */
   def color(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
-    case Shade.Constant(c) => Textures.rgb(name, c * scale, at)
+    case Shade.Constant(c, _) => Textures.rgb(name, c * scale, at)
     case Shade.Textured(t) =>
       this(t, "spectrum", scale).fold(Textures.rgb(name, Textures.Fallback * scale, at)):
         Param.texture(name, at, _)
@@ -42,7 +42,7 @@ final class Textures(session: Session, colors: Colors):
     )
 
   def number(name: String, shade: Shade, at: SourcePos, scale: Float = 1f): Param = shade match
-    case Shade.Constant(c) => Param.float(name, at, c.luminance * scale)
+    case Shade.Constant(c, _) => Param.float(name, at, c.luminance * scale)
     case Shade.Textured(t) =>
       this(t, "float", scale).fold(Param.float(name, at, Textures.Fallback.r * scale)):
         Param.texture(name, at, _)

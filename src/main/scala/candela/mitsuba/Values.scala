@@ -102,7 +102,7 @@ final class Values(find: String => Path, report: Problem => Unit):
     (e("value"), e("filename")) match
       case (Some(text), _) if text.contains(':') =>
         Value.Wavelengths(pairs(words(text).flatMap(_.split(':')), e.at))
-      case (Some(text), _) => Value.Number(number(text, e.at))
+      case (Some(text), _) => Value.Flat(number(text, e.at))
       case (None, Some(name)) => Value.Wavelengths(file(name, e.at))
       case _ => fail(e.at, "<spectrum> must have the attribute `value` or `filename`")
 
@@ -155,6 +155,20 @@ private[mitsuba] object Transforms:
   /** Steps apply in order. */
   def of(e: Element): Transform = e.children.foldLeft(Transform.Identity)((t, s) => step(s) * t)
 
+  /** By Rodrigues' formula with the axis as it is: Mitsuba does not normalise it. */
+  private def rotation(degrees: Double, axis: Vector[Double]): Option[Transform] =
+    val Vector(x, y, z) = axis: @unchecked
+    val isUnit = Math.abs(x * x + y * y + z * z - 1) < 1e-6
+    if isUnit then Transform.rotate(degrees, x, y, z)
+    else
+      val (s, c) = (Math.sin(Math.toRadians(degrees)), Math.cos(Math.toRadians(degrees)))
+      val k = 1 - c
+      Transform.fromRows(
+        Vector(x * x * k + c, x * y * k - z * s, x * z * k + y * s, 0) ++
+          Vector(x * y * k + z * s, y * y * k + c, y * z * k - x * s, 0) ++
+          Vector(x * z * k - y * s, y * z * k + x * s, z * z * k + c, 0) ++ Vector(0, 0, 0, 1)
+      )
+
   private def step(e: Element): Transform =
     def or(name: String, default: Double) = e(name).fold(default)(number(_, e.at))
     def list(name: String) =
@@ -179,7 +193,7 @@ private[mitsuba] object Transforms:
         val v = axes(0)
         val degrees = e("angle").fold(fail(e.at, "<rotate> must have the attribute `angle`")):
           number(_, e.at)
-        regular(Transform.rotate(degrees, v(0), v(1), v(2)), "axis of length 0")
+        regular(rotation(degrees, v), "axis of length 0, or far from 1")
       case "lookat" =>
         val why = "origin equals target, or up is parallel to the view direction"
         val up = if e("up").isDefined then list("up") else Vector(0.0, 0.0, 1.0)

@@ -48,7 +48,7 @@ final class Views(session: Session, media: Media, scene: Path):
     val dy = in.number("principal_point_offset_y", 0)
     val (halfX, halfY) = if aspect >= 1 then (aspect, 1.0) else (1.0, 1 / aspect)
     def window(halfX: Double, halfY: Double) =
-      val (cx, cy) = (-2 * dx * halfX, 2 * dy * halfY)
+      val (cx, cy) = (2 * dx * halfX, -2 * dy * halfY)
       val sides = Seq(cx - halfX, cx + halfX, cy - halfY, cy + halfY).map(_.toFloat)
       Param.float("screenwindow", in.at, sides*)
     in.plugin.name match
@@ -83,7 +83,7 @@ final class Views(session: Session, media: Media, scene: Path):
     if width < 1 || height < 1 then Values.fail(in.at, s"a film can't have $width × $height pixels")
     in.nested("rfilter"): Unit
     in.ignore(
-      "file_format", "pixel_format", "banner", "compensate", "sample_border", "gamma",
+      "file_format", "banner", "compensate", "sample_border", "gamma",
       "tonemap_method", "attach_log", "exposure", "key", "burn", "high_quality_edges"
     )
     val crop = Seq("crop_offset_x", "crop_offset_y", "crop_width", "crop_height")
@@ -91,13 +91,25 @@ final class Views(session: Session, media: Media, scene: Path):
       val (x, y) = (in.integer("crop_offset_x", 0), in.integer("crop_offset_y", 0))
       val (w, h) = (in.integer("crop_width", width), in.integer("crop_height", height))
       Param.int("pixelbounds", in.at, x, x + w, y, y + h)
+    val format = in.text("pixel_format", "rgb").toLowerCase
+    val at = in.atOf("pixel_format")
+    if !Views.PixelFormats.contains(format) then
+      session.error(
+        at,
+        s"unknown pixel_format `$format`",
+        candela.base.Suggest.help(format, Views.PixelFormats)
+      )
+    else if !format.startsWith("rgb") then
+      session.warn(at, s"pixel_format `$format` is not supported; red, green and blue are written")
+    val alpha =
+      Option.when(format.endsWith("a"))(Param.bool("alpha", at, true))
     val isHalf = in.text("component_format", "float16").toLowerCase == "float16"
     val params = Seq(
       Param.int("xresolution", in.atOf("width"), width),
       Param.int("yresolution", in.atOf("height"), height),
       Param.string("filename", in.at, s"${FileName.stem(scene)}.exr"),
       Param.bool("savefp16", in.at, isHalf)
-    ) ++ bounds
+    ) ++ bounds ++ alpha
     (width, height, session.declare("Film", "rgb", in.at, params))
 
   private def filterOf(in: Asked): Declaration =
@@ -139,3 +151,7 @@ final class Views(session: Session, media: Media, scene: Path):
         if other != "independent" then
           Plugins.unsupported(in.plugin, "using \"independent\"", session)
         sampler("independent", Param.int("pixelsamples", at, count))
+
+private object Views:
+  private val PixelFormats =
+    Vector("luminance", "luminance_alpha", "rgb", "rgba", "xyz", "xyza", "multichannel")

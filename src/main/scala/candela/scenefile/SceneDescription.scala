@@ -120,7 +120,10 @@ final case class SceneDescription(
     isMitsubas: Boolean = false,
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = ""
-)
+):
+  /** Whether the camera sees no lamps and no sky. */
+  def hidesEmitters: Boolean =
+    isMitsubas && integrator.exists(_.param("hideemitters").exists(_.bools.contains(true)))
 
 /** Kinds of names that statements define. */
 enum NameKind:

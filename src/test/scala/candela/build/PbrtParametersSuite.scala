@@ -49,7 +49,7 @@ final class PbrtParametersSuite extends AnyFunSuite:
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
         "hideemitters", "normalmapuv", "phases", "phaseweights", "phasevalues",
-        "cullbackfaces"
+        "cullbackfaces", "alpha"
       )
     val slides = Set((Dialect.V4, "spot", "mapname"))
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))

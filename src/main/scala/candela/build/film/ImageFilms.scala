@@ -22,7 +22,11 @@ object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
       _ => SampleLimit.luminance(most())
     )
 
-object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image")
+object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
+  private val alpha = bool("alpha", "add the layer alpha, channel A; Mitsuba's")(false)
+  override protected def make()(using Site): FilmSettings =
+    val made = super.make()
+    if alpha() then made.copy(layers = Vector(Layer.Alpha)) else made
 
 object GBufferFilmRecipe
     extends SensorFilmRecipe("gbuffer", "RGB image with AOVs: positions, normals, albedo and more"):

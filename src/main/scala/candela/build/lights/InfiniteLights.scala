@@ -37,7 +37,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     if given_.nonEmpty then
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
-        case Some(image) =>
+        case Some(read) =>
+          val isPolar = !octahedral && site.resources.switches.isMitsubas
+          val image = if isPolar then LightImages.withEquator(read) else read
           val unit = if octahedral then Spectra.white else radiance()
           val perUnit =
             if octahedral then site.resources.once(site.declaration, "perUnit")(onThePlane(image))
@@ -45,7 +47,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           val l = scaled(unit, illuminance(), perUnit)
           val layout =
             if octahedral then EqualAreaMap
-            else if site.resources.switches.isMitsubas then PolarLatLongMap(image.height)
+            else if isPolar then PolarLatLongMap(image.height)
             else LatLongMap
           around(l, SphereImage(image, layout, l, smooth = !octahedral, LightImages.conversion))
     else

@@ -62,6 +62,15 @@ private[build] object LightImages:
       System.arraycopy(image.data, y * row, data, data.length - (y + 1) * row, row)
     Image(image.width, image.height, image.channelNames, data)
 
+  /** Rows at the poles alone have no area: those between are added. */
+  def withEquator(image: Image): Image =
+    if image.height > 2 then image
+    else
+      val row = 3 * image.width
+      val (top, bottom) = (image.data.take(row), image.data.takeRight(row))
+      val middle = top.lazyZip(bottom).map((a, b) => 0.5f * (a + b))
+      Image(image.width, 3, image.channelNames, top ++ middle ++ bottom)
+
   private def usable(image: Image, fail: String => Unit)(using site: Site): Option[Image] =
     val linear =
       if site.dialect == Dialect.V4 || site.resources.switches.isMitsubas then image.linear

@@ -1,0 +1,152 @@
+package candela.mitsuba
+
+import candela.build.{BuildOptions, SceneBuilder}
+import candela.image.{Image, ImageFiles}
+import candela.render.Renderer
+import candela.scenefile.SceneDescription
+
+import java.nio.file.Files
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Values are Mitsuba 3.9.1's (`scalar_rgb`). */
+class MitsubaRulesSuite extends AnyFunSuite:
+
+  private def inFile[A](body: String)(use: SceneDescription => A): A =
+    val folder = Files.createTempDirectory("candela-rules")
+    val file = Files.writeString(folder.resolve("s.xml"), s"<scene version=\"3.0.0\">$body</scene>")
+    try use(MitsubaScene.readable(file, Map.empty, keepGoing = false))
+    finally
+      Files.delete(file)
+      Files.delete(folder)
+
+  private def sensor(film: String = "", more: String = "") =
+    s"""<sensor type="perspective"><float name="fov" value="40"/>$more<transform name="to_world">
+      <lookat origin="0,0,5" target="0,0,0" up="0,1,0"/></transform><sampler type="independent">
+      <integer name="sample_count" value="64"/></sampler><film type="hdrfilm">
+      <integer name="width" value="16"/><integer name="height" value="12"/><rfilter type="box"/>
+      $film</film></sensor>"""
+
+  private val Path6 =
+    "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/></integrator>"
+
+  private def means(body: String): Vector[Double] = inFile(body): scene =>
+    assert(scene.errors.isEmpty, scene.errors)
+    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val image = Renderer.render(plan, threads = 1).image(plan.development)
+    val n = image.channels
+    Vector.tabulate(3)(c => image.data.indices.by(n).map(i => image.data(i + c).toDouble).sum)
+      .map(_ * n / image.data.length)
+
+  private def isNear(found: Vector[Double], right: Double*)(error: Double): Unit =
+    for (a, b) <- found.zip(right) do assert(Math.abs(a - b) <= error, s"$found, not $right")
+
+  test("a principal point moves the image to the left and down"):
+    val at = "<float name=\"principal_point_offset_x\" value=\".2\"/>" +
+      "<float name=\"principal_point_offset_y\" value=\"-.1\"/>"
+    inFile(sensor(more = at)): scene =>
+      val window = scene.camera.get.param("screenwindow").get.floats
+      val right = Seq(0.4 * 4 / 3 - 4.0 / 3, 0.4 * 4 / 3 + 4.0 / 3, 0.2 - 1, 0.2 + 1)
+      assert(window.toSeq.zip(right).forall((a, b) => Math.abs(a - b) < 1e-6), window.toSeq)
+
+  test("a lamp's spectrum of one value is flat, a number and a uniform spectrum are white"):
+    def sky(radiance: String) =
+      means(s"$Path6${sensor()}<emitter type=\"constant\">$radiance</emitter>")
+    // Digits of Mitsuba's table of the observer
+    isNear(sky("<spectrum name=\"radiance\" value=\"1\"/>"), 1.2048, 0.9483, 0.9089)(6e-4)
+    isNear(sky("<spectrum name=\"radiance\" value=\"400:1, 700:1\"/>"), 1.1997, .9495, .9034)(6e-4)
+    isNear(sky("<float name=\"radiance\" value=\"1\"/>"), 1, 1, 1)(1e-5)
+    val uniform = "<spectrum name=\"radiance\" type=\"uniform\"><float name=\"value\" value=\"1\"/>"
+    isNear(sky(s"$uniform</spectrum>"), 1, 1, 1)(1e-5)
+
+  test("the spectrum of a lamp keeps its wavelengths, whatever lamp it is"):
+    def spectrum(name: String) = s"<spectrum name=\"$name\" value=\"2\"/>"
+    for (kind, name) <- Seq(
+        "point" -> "intensity",
+        "spot" -> "intensity",
+        "directional" -> "irradiance",
+        "constant" -> "radiance"
+      )
+    do
+      inFile(s"${sensor()}<emitter type=\"$kind\">${spectrum(name)}</emitter>"): scene =>
+        val d = scene.lights.head.light
+        val own = d.param("L").orElse(d.param("I")).get
+        assert(own.floats.toSeq == Seq(360f, 2f, 830f, 2f), kind)
+        assert(Math.abs(d.param("scale").get.floats.head - 2f) < 1e-3f, kind)
+
+  test("pairs of a medium's coefficients are lit by D65, and at most 1 outside volumes"):
+    def sigmaT(coefficient: String) =
+      val medium = s"<medium name=\"interior\" type=\"homogeneous\">$coefficient" +
+        "<float name=\"albedo\" value=\"0\"/></medium>"
+      inFile(s"${sensor()}<shape type=\"sphere\"><bsdf type=\"null\"/>$medium</shape>"):
+        _.media.head.medium.param("sigma_a").get.floats.toVector.map(_.toDouble)
+    def pairs(name: String, x: String) = s"<spectrum name=\"$name\" value=\"360:$x, 830:$x\"/>"
+    isNear(sigmaT(pairs("sigma_t", ".5")), .5, .5, .5)(1e-3)
+    isNear(sigmaT(pairs("sigma_t", "2")), 1, 1, 1)(1e-6)
+    isNear(sigmaT("<spectrum name=\"sigma_t\" value=\"2\"/>"), 2, 2, 2)(1e-6)
+    val volume = s"<volume name=\"sigma_t\" type=\"constvolume\">${pairs("value", "2")}</volume>"
+    isNear(sigmaT(volume), 2, 2, 2)(4e-3)
+
+  test("a transform that mirrors turns spheres inside out, not disks"):
+    def lamp(shape: String, mirror: String) = means(
+      s"""$Path6${sensor()}<shape type="$shape"><transform name="to_world">$mirror
+        <scale value=".3"/><translate z="1"/></transform><emitter type="area">
+        <rgb name="radiance" value="9"/></emitter></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="9"/><translate z="-1"/>
+        </transform><bsdf type="diffuse"><rgb name="reflectance" value=".5"/></bsdf></shape>"""
+    ).head
+    val (z, x) = ("<scale z=\"-1\"/>", "<scale x=\"-1\"/>")
+    assert(lamp("sphere", z) == 0 && lamp("sphere", x) == 0)
+    assert(lamp("sphere", "<scale x=\"-1\" z=\"-1\"/>") > 0.4)
+    // The noise of 64 samples per pixel
+    assert(Math.abs(lamp("disk", z) - 0.0418) < 1e-3)
+    assert(Math.abs(lamp("disk", x) - lamp("disk", "")) < 0.01)
+
+  test("an environment map may have one row or two"):
+    for (height, right) <- Seq(1 -> 0.25, 2 -> 0.5) do
+      val rows = Array.fill(3)(0.25f) ++ Array.fill(3 * (height - 1))(0.75f)
+      val map = Files.createTempFile("candela-map", ".exr")
+      try
+        ImageFiles.write(map, Image(1, height, Image.RgbNames, rows))
+        val found = means(s"""$Path6${sensor()}<emitter type="envmap">
+          <string name="filename" value="$map"/></emitter>""")
+        // The rows are the poles, and the camera looks at the horizon
+        isNear(found, right, right, right)(0.01)
+      finally Files.delete(map)
+
+  test("the axis of a rotation is not normalised"):
+    inFile(
+      s"""${sensor()}<shape type="sphere"><transform name="to_world">
+        <rotate x="0" y="1" z="1" angle="-25"/></transform></shape>"""
+    ): scene =>
+      val m = scene.shapes.head.objectToWorld.start.m
+      val right = Seq(.9063, .4226, -.4226, 0, -.4226, 1, .0937, 0, .4226, .0937, 1)
+      assert(right.zip(m).forall((a, b) => Math.abs(a - b) < 1e-4), m.mkString(" "))
+
+  test("a depth of 0 is black, lamps and sky included"):
+    val scene = s"${sensor()}<emitter type=\"constant\"/>"
+    val depth = "<integer name=\"max_depth\" value=\"0\"/>"
+    for kind <- Seq("path", "volpath", "ptracer") do
+      isNear(means(s"<integrator type=\"$kind\">$depth</integrator>$scene"), 0, 0, 0)(0)
+
+  test("rgba is an alpha of surfaces: lamps that are hidden have none, a visible sky is opaque"):
+    def alpha(body: String, hides: Boolean): Double =
+      val integrator = "<integrator type=\"path\"><boolean name=\"hide_emitters\" " +
+        s"value=\"$hides\"/></integrator>"
+      val film = sensor("<string name=\"pixel_format\" value=\"rgba\"/>")
+      inFile(s"$integrator$film$body"): scene =>
+        val plan = SceneBuilder.build(scene, BuildOptions())._1
+        val image = Renderer.render(plan, threads = 1).image(plan.development)
+        val a = image.channelNames.indexOf("A")
+        val values = image.data.indices.by(image.channels).map(i => image.data(i + a).toDouble)
+        values.sum / values.size
+    val ball = "<shape type=\"sphere\"><float name=\"radius\" value=\".6\"/></shape>"
+    val lamp = "<shape type=\"rectangle\"><transform name=\"to_world\"><translate z=\"-1\"/>" +
+      "</transform><emitter type=\"area\"/></shape>"
+    val sky = "<emitter type=\"constant\"/>"
+    // The share of the ball in the picture; noise of 64 samples in 192 pixels
+    assert(Math.abs(alpha(ball, hides = false) - 0.1151) < 3e-3)
+    assert(Math.abs(alpha(ball + lamp, hides = true) - 0.1151) < 3e-3)
+    assert(Math.abs(alpha(ball + lamp + sky, hides = true) - 0.1151) < 3e-3)
+    assert(alpha(ball + lamp, hides = false) > 0.2)
+    assert(alpha(ball + sky, hides = false) == 1)
