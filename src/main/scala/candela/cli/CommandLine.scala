@@ -169,6 +169,7 @@ final case class Options(
     debug: Boolean = false,
     dialect: Option[Dialect] = None,
     keepGoing: Boolean = false,
+    world: Int = 0,
     defines: Map[String, String] = Map.empty,
     color: ColorMode = ColorMode.Auto,
     points: PointChoice = PointChoice.Best,

@@ -34,26 +34,35 @@ final class RenderCommand(
 
   def run(): ExitCode =
     val sequence = Sequence(options)
-    for Frame(scene, outfiles) <- sequence.frames if !cancellation.isRequested do
-      sequence.ended(scene):
-        report.guarded:
-          val loaded = load(scene, outfiles)
-          if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
-          else if options.pixelMaterial.isDefined then
-            val (x, y) = options.pixelMaterial.get
-            PixelMaterial.run(loaded.plan, x, y, terminal.out)
-          else render(scene, loaded, outfiles, outputs(scene, loaded, outfiles), sequence)
+    for Frame(scene, outfiles) <- sequence.frames do
+      // Files of v2 and v3 may have several worlds
+      var world = Option(0)
+      while world.nonEmpty && !cancellation.isRequested do
+        val n = world.get
+        world = None
+        sequence.ended(scene):
+          report.guarded:
+            val loaded = load(scene, outfiles, n)
+            if options.debug then PixelTrace.run(loaded.plan, options, terminal.out)
+            else if options.pixelMaterial.isDefined then
+              val (x, y) = options.pixelMaterial.get
+              PixelMaterial.run(loaded.plan, x, y, terminal.out)
+            else
+              val isFollowed = loaded.description.isFollowed
+              val names = Sequence.ofWorld(scene, outfiles, n, isFollowed)
+              world = Option.when(isFollowed)(n + 1)
+              render(scene, loaded, names, outputs(scene, loaded, names), sequence)
     if !options.quiet && !cancellation.isRequested then
       sequence.summary.foreach(terminal.out.println)
     terminal.out.flush()
     sequence.code
 
-  private[cli] def load(scene: String, outfiles: Vector[String]): LoadedScene =
+  private[cli] def load(scene: String, outfiles: Vector[String], world: Int = 0): LoadedScene =
     // Warns before parsing, which may take long.
     files.check(scene, outfiles)
     for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
     denoising.foreach(identity)
-    val loaded = loader.load(scene, options)
+    val loaded = loader.load(scene, options.copy(world = world))
     // A first look ignores most of what warnings are about.
     val isBrief = options.preview && !options.verbose
     val told = if isBrief then loaded.warnings.filter(_.standIn.nonEmpty) else loaded.warnings

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Suggest}
+import candela.base.{Problem, SceneError, Severity, Suggest}
 import candela.build.{BuildOptions, DialectChoice, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
 import candela.mitsuba.MitsubaScene
@@ -53,7 +53,12 @@ object SceneLoader:
       val help = "-D sets parameters of Mitsuba's XML files"
       throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
     else
-      DialectChoice.of(Parser.readable(file, options.dialect, options.keepGoing), options.dialect)
+      val read = Parser.readable(file, options.dialect, options.keepGoing, options.world)
+      val scene = DialectChoice.of(read, options.dialect)
+      if !scene.isFollowed || options.command == Command.Render then scene
+      else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
+
+  private val FirstOnly = "the file has several worlds; this is about the first"
 
   private def buildOptions(o: Options): BuildOptions =
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))

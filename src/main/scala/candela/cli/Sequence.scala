@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.base.{Problem, SceneError}
 import candela.image.{ImageFiles, OutputFormat}
 
 import java.nio.file.Path
@@ -56,6 +57,30 @@ private[cli] object Sequence:
   /** The name with a number in place of `%d` or `%04d`. */
   def numbered(name: String, n: Int): String =
     Number.replaceAllIn(name, m => n.toString.reverse.padTo(digits(m.group(2)), '0').reverse)
+
+  /** The output files of a world of a scene; its number, from 1, is in their names if there are
+    * several.
+    *
+    * @param n          index of the world
+    * @param isFollowed whether another follows
+    * @throws SceneError if the worlds would have the same files
+    */
+  def ofWorld(
+      scene: String,
+      outfiles: Vector[String],
+      n: Int,
+      isFollowed: Boolean
+  ): Vector[String] =
+    if n == 0 && !isFollowed then outfiles
+    else
+      for name <- outfiles
+      yield
+        if FilmOptions.isFilm(name) then
+          throw SceneError(Problem.general(s"`$scene` has several worlds; a .film file holds one"))
+        else if !hasNumber(name) then
+          val message = s"`$scene` has several worlds, each an image; `$name` names one"
+          throw SceneError(Problem.general(message, Some("write %d, or %04d, for the number")))
+        else numbered(name, n + 1)
 
   private def digits(group: String | Null): Int = if group == null then 1 else group.toInt
 

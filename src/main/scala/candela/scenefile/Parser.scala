@@ -17,11 +17,17 @@ object Parser:
   /** Parses the readable part of a scene; see [[SceneDescription.errors]].
     *
     * @param keepGoing if true, skips missing include files
+    * @param world which of the file's worlds, from 0: v2's and v3's files may have several
     * @throws SceneError if the file contains no scene at all
     */
-  def readable(file: Path, dialect: Option[Dialect], keepGoing: Boolean): SceneDescription =
+  def readable(
+      file: Path,
+      dialect: Option[Dialect],
+      keepGoing: Boolean,
+      world: Int = 0
+  ): SceneDescription =
     Source.read(file) match
-      case Right(source) => read(source, folderOf(file), Some(file), dialect, keepGoing)
+      case Right(source) => read(source, folderOf(file), Some(file), dialect, keepGoing, world)
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
@@ -35,9 +41,10 @@ object Parser:
       text: String,
       folder: Path,
       dialect: Option[Dialect] = None,
-      keepGoing: Boolean = false
+      keepGoing: Boolean = false,
+      world: Int = 0
   ): SceneDescription =
-    whole(read(Source.fromText(name, text), folder, None, dialect, keepGoing))
+    whole(read(Source.fromText(name, text), folder, None, dialect, keepGoing, world))
 
   /** The scene, if it has no errors. */
   def whole(scene: SceneDescription): SceneDescription =
@@ -51,14 +58,15 @@ object Parser:
       folder: Path,
       file: Option[Path],
       dialect: Option[Dialect],
-      keepGoing: Boolean
+      keepGoing: Boolean,
+      world: Int
   ): SceneDescription =
-    attempt(source, folder, file, dialect, keepGoing) match
+    attempt(source, folder, file, dialect, keepGoing, world) match
       case Right(scene) => scene
       case Left(better) =>
         val once = source.again.getOrElse:
           throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
-        attempt(once, folder, file, Some(better), keepGoing).toOption.get
+        attempt(once, folder, file, Some(better), keepGoing, world).toOption.get
 
   /** The scene; or the dialect to parse it with again: the few statements that v4 treats
     * differently were parsed as v3's.
@@ -68,9 +76,10 @@ object Parser:
       folder: Path,
       file: Option[Path],
       dialect: Option[Dialect],
-      keepGoing: Boolean
+      keepGoing: Boolean,
+      world: Int
   ): Either[Dialect, SceneDescription] =
-    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing)
+    val run = ParserRun(source, folder, file, dialect.getOrElse(Dialect.V3), keepGoing, world)
     run.read()
     val guess = dialect.getOrElse(run.guess)
     if dialect.isEmpty && run.askedDialect && guess == Dialect.V4 then Left(guess)

@@ -9,18 +9,20 @@ import candela.base.{Problem, SceneError, Severity, SourcePos, Suggest}
   * @param file path of `source`, if it is a file
   * @param dialect decides the meaning of statements that differ between dialects
   * @param keepGoing if true, skips missing include files
+  * @param world which of the file's worlds to read, from 0
   */
 private[scenefile] final class ParserRun(
     source: Source,
     folder: Path,
     file: Option[Path],
     dialect: Dialect,
-    keepGoing: Boolean
+    keepGoing: Boolean,
+    world: Int
 ):
   private val evidence = DialectGuess()
   private val problems = Problems()
   private val parameters = Parameters(evidence, problems.add, continuation, () => isV4)
-  private val scene = SceneWriter(folder, evidence, () => isV4, problems.add)
+  private var scene = SceneWriter(folder, evidence, () => isV4, problems.add)
   private val misplaced = Problems()
 
   private var sources = file.toVector
@@ -28,6 +30,12 @@ private[scenefile] final class ParserRun(
 
   /** Whether the rest of the file is ignored. */
   private var isDone = false
+
+  private var worldsToSkip = world
+
+  /** The first statement after the world, and whether another world follows. */
+  private var trailing = Option.empty[SourcePos]
+  private var isFollowed = false
 
   /** Files being read, innermost first. */
   private var reading = file.toList
@@ -59,7 +67,13 @@ private[scenefile] final class ParserRun(
     val all = Excerpts.fill(problems.result(), open)
     if scene.worldBegin.isEmpty then throw SceneError(all)
     val (errors, warnings) = all.partition(_.severity == Severity.Error)
-    scene.description(dialect, warnings).copy(errors = errors, lost = lost, sources = sources)
+    val read = scene.description(dialect, warnings)
+    read.copy(
+      errors = errors,
+      lost = lost,
+      sources = sources,
+      isFollowed = isFollowed && dialect != Dialect.V4
+    )
 
   /** Checks possible only at the end of the file. */
   private def finish(dialect: Dialect): Unit =
@@ -73,6 +87,8 @@ private[scenefile] final class ParserRun(
       case Some(begin) =>
         misplaced.result().foreach(problems.add)
         scene.lateParts(dialect).foreach(problems.add)
+        for at <- trailing if !isFollowed || dialect == Dialect.V4 do
+          problems.add(Problem.warning(at, "statements after WorldEnd are ignored"))
         if dialect != Dialect.V4 && scene.worldEnd.isEmpty && problems.errors == 0 then
           val message = "WorldBegin has no WorldEnd; the file may be incomplete"
           problems.add(Problem.warning(begin, message))
@@ -102,15 +118,27 @@ private[scenefile] final class ParserRun(
     val at = in.at
     Directives.all.get(in.text).filter(_ => in.current == Token.Word) match
       case None => unknown(in)
-      case Some(_) if scene.worldEnd.nonEmpty =>
-        val message = "statements after WorldEnd are ignored"
-        problems.add(Problem.warning(at, message, Some("write each frame to a separate file")))
-        isDone = true
+      case Some(directive) if scene.worldEnd.nonEmpty && worldsToSkip == 0 =>
+        trailing = trailing.orElse(Some(at))
+        isFollowed = directive.name == "WorldBegin"
+        isDone = isFollowed
+        if !isDone then in.advanceToName()
       case Some(directive) =>
+        if scene.worldEnd.nonEmpty then beginNext()
         evidence.uses("directive", directive.name, at)
         in.advance()
         if isMisplaced(directive, at) then skipToDirective(in)
         else run(directive, at, in)
+
+  /** Forgets the world just read; v2 keeps the settings of the image. */
+  private def beginNext(): Unit =
+    worldsToSkip -= 1
+    problems.clear()
+    misplaced.clear()
+    lost = Set.empty
+    val before = scene
+    scene = SceneWriter(folder, evidence, () => isV4, problems.add)
+    if evidence.dialect == Dialect.V2 then scene.keepSettings(before)
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
     val arguments = Arguments(directive, at, in, parameters, problems.add, include(in))

@@ -4,7 +4,7 @@ import candela.base.{Problem, Severity}
 
 /** Collects problems, up to a limit that bounds memory. */
 final class Problems:
-  private val collected = Vector.newBuilder[Problem]
+  private var collected = Vector.newBuilder[Problem]
   private var errorCount = 0
   private var warningCount = 0
 
@@ -12,6 +12,11 @@ final class Problems:
 
   /** Whether parsing should stop: with this many errors the file is no scene. */
   def isFull: Boolean = errorCount >= Problems.MostErrors
+
+  def clear(): Unit =
+    collected = Vector.newBuilder[Problem]
+    errorCount = 0
+    warningCount = 0
 
   def add(problem: Problem): Unit =
     if problem.severity == Severity.Error then

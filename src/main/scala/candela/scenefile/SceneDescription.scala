@@ -90,6 +90,7 @@ final case class TextureDescription(
   *   multiply by their sRGB components, microfacets, bumps, metals, the poles of environment maps
   * @param clues what the dialect was estimated from; see [[DialectGuess]]
   * @param dialectReason why it is that dialect, for the user
+  * @param isFollowed whether the file has another world, another image, after this one
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -119,7 +120,8 @@ final case class SceneDescription(
     sources: Vector[Path] = Vector.empty,
     isMitsubas: Boolean = false,
     clues: Vector[DialectClue] = Vector.empty,
-    dialectReason: String = ""
+    dialectReason: String = "",
+    isFollowed: Boolean = false
 ):
   /** Whether the camera sees no lamps and no sky. */
   def hidesEmitters: Boolean =

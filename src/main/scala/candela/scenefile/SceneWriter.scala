@@ -118,6 +118,21 @@ final class SceneWriter(
       case "Renderer" => result.copy(renderer = d)
       case "Accelerator" => result.copy(accelerator = d)
 
+  /** Takes over all that stands before the world of another scene. */
+  def keepSettings(of: SceneWriter): Unit =
+    val old = of.result
+    result = result.copy(
+      camera = old.camera,
+      worldToCamera = old.worldToCamera,
+      film = old.film,
+      sampler = old.sampler,
+      filter = old.filter,
+      integrator = old.integrator,
+      volumeIntegrator = old.volumeIntegrator,
+      renderer = old.renderer,
+      accelerator = old.accelerator
+    )
+
   def option(param: Param): Unit = result = result.copy(options = result.options :+ param)
 
   def transformTimes(start: Float, end: Float): Unit =

@@ -132,3 +132,28 @@ final class PbrtHabitsSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val printed = run("--format", scene(folder)).out
       assert(printed.contains("Shape \"trianglemesh\"") && printed.contains("Film \"rgb\""))
+
+  test("each world of a file is an image: of its Film, or by number"):
+    TempFolder.use: folder =>
+      def world(color: String, name: String) =
+        s"""Film "image" "integer xresolution" 4 "integer yresolution" 3 "string filename" "$name"
+           |Sampler "random" "integer pixelsamples" 1
+           |Camera "perspective"
+           |WorldBegin
+           |LightSource "infinite" "rgb L" [$color]
+           |WorldEnd
+           |""".stripMargin
+      val scene = folder.resolve("two.pbrt")
+      val text = world("1 0 0", s"$folder/a.exr") + world("0 1 0", s"$folder/b.exr")
+      Files.writeString(scene, text)
+      def isColored(name: String, channel: Int) =
+        val image = ImageFiles.read(folder.resolve(name))
+        (0 until 3).forall(c => image(0, 0, c) == (if c == channel then 1f else 0f))
+      val _ = run(s"$scene", "--quiet")
+      assert(isColored("a.exr", 0) && isColored("b.exr", 1))
+      val _ = run(s"$scene", "--quiet", "--outfile", s"$folder/w%02d.exr")
+      assert(isColored("w01.exr", 0) && isColored("w02.exr", 1))
+      val captured = Captured()
+      val code = Main.run(Seq(s"$scene", "--outfile", s"$folder/x.exr"), captured.terminal)
+      assert(code == 1 && captured.err.contains("has several worlds, each an image;"))
+      assert(!Files.exists(folder.resolve("x.exr")))

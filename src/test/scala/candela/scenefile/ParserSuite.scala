@@ -234,5 +234,22 @@ class ParserSuite extends AnyFunSuite:
     assert(errors(s"Film \"rgb\" $text").size == 2)
 
   test("statements after WorldEnd are ignored with a warning"):
-    val scene = parse("WorldBegin Shape \"a\" WorldEnd WorldBegin Shape \"b\" WorldEnd")
-    assert(scene.shapes.size == 1 && scene.warnings.size == 1)
+    val scene = parse("WorldBegin Shape \"a\" WorldEnd Film \"image\" AttributeEnd")
+    assert(scene.shapes.size == 1 && !scene.isFollowed)
+    assert(scene.warnings.map(_.message) == Vector("statements after WorldEnd are ignored"))
+
+  test("another world after WorldEnd is another scene, with what v2 and v3 keep of the first"):
+    val world = "WorldBegin Shape \"a\" WorldEnd\n"
+    val text = "Film \"image\" Texture \"t\" \"float\" \"constant\"" + world +
+      "Sampler \"random\" WorldBegin Shape \"b\" Shape \"c\" WorldEnd\n" + world
+    def read(prefix: String, n: Int) =
+      val folder = java.nio.file.Path.of("")
+      Parser.parseText("test.pbrt", prefix + text, folder, None, keepGoing = false, world = n)
+    for (prefix, keeps) <- Seq("Integrator \"path\"" -> false, "Renderer \"sampler\"" -> true) do
+      val worlds = Vector.tabulate(3)(read(prefix, _))
+      assert(worlds.map(_.shapes.size) == Vector(1, 2, 1))
+      assert(worlds.map(_.isFollowed) == Vector(true, true, false))
+      assert(worlds.map(_.film.isDefined) == Vector(true, keeps, keeps))
+      assert(worlds.map(_.sampler.isDefined) == Vector(false, true, keeps))
+      // Only the first has the misplaced texture
+      assert(worlds.map(_.warnings.size) == Vector(1, 0, 0))
