@@ -3,6 +3,8 @@ package candela.bsdf
 import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
+import scala.annotation.unused
+
 /** The BSDF at a surface point. Directions are unit vectors that point away from the surface, in a
   * local frame whose +z is the shading normal. `wo` is the direction towards the camera, `wi` the
   * direction towards the light. Immutable.
@@ -47,6 +49,12 @@ abstract class Bsdf:
     */
   def isReciprocal: Boolean = true
 
+  /** Whether a specular part of the light keeps its direction on its way through, as in panes. */
+  def isPane: Boolean = false
+
+  /** That part. */
+  def straight(@unused wo: Vec3): Rgb = Rgb.Black
+
   /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
     * them. Used at vertices after a non-specular bounce of a regularised path.
     *
@@ -59,13 +67,6 @@ abstract class Bsdf:
     * first component of its values, that of the hero wavelength, is right.
     */
   def isDispersive: Boolean = false
-
-/** A specular surface that transmits light in its direction only: sampling returns either that, or
-  * a reflection.
-  */
-trait Pane:
-  /** The part of the light that is transmitted. */
-  def straight(wo: Vec3): Rgb
 
 /** Delegates to `inner`. A subclass that changes the value must also override `regularized`.
   */

@@ -88,14 +88,21 @@ final class SlopeBumpMaterial(inner: Material, height: FloatTexture, step: Float
   * normal in [−1, 1].
   *
   * @param mapping to the image, whose t begins at the bottom
+  * @param faces   whether normals are kept on the side of the geometric one
   */
-final class NormalMapMaterial(inner: Material, map: MipLevel, mapping: Mapping2D)
-    extends DisplacedMaterial(inner):
+final class NormalMapMaterial(
+    inner: Material,
+    map: MipLevel,
+    mapping: Mapping2D,
+    faces: Boolean = true
+) extends DisplacedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
     val place = mapping(at)
     val c = map.bilinear(place.s, 1f - place.t)
     val frame = Frame.along(at.frame.n, at.tangentU)
     val n = frame.toWorld(Vec3(2f * c.r - 1f, 2f * c.g - 1f, 2f * c.b - 1f))
     if n.lengthSquared > 0f then
-      at.frame.set(Frame.along(n.normalized.facing(at.geometricNormal), at.tangentU))
+      val unit = n.normalized
+      val there = if faces then unit.facing(at.geometricNormal) else unit
+      at.frame.set(Frame.along(there, at.tangentU))
     inner.bsdf(at)

@@ -8,6 +8,8 @@ import candela.math.*
   * other side, keeps the shading frame of the surface, as in Mitsuba.
   */
 final class FramedMaterial(inner: Material) extends DisplacedMaterial(inner):
+  override def isDirected: Boolean = true
+
   def bsdf(at: ShadingPoint): Bsdf =
     val outer = at.frame.toFrame
     val scattered = inner.bsdf(at)

@@ -74,6 +74,15 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
   val isSpecular: Boolean = lobes.forall(_.isSpecular)
   val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
   override def isDiffuse: Boolean = lobes.exists(_.isDiffuse)
+  override val isPane: Boolean = lobes.exists(_.isPane)
+
+  override def straight(wo: Vec3): Rgb =
+    var sum = Rgb.Black
+    var i = 0
+    while i < lobes.length do
+      sum = sum + lobes(i).straight(wo)
+      i += 1
+    sum
 
   // Light may be compressed by one of two lobes that transmit it, and not by the other
   override val isReciprocal: Boolean =
@@ -125,6 +134,8 @@ final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
     val s = inner.sample(wo, choice, u1, u2)
     BsdfSample(s.wi, s.weight * scale, s.pdf, s.isSpecular, s.eta)
 
+  override def isPane: Boolean = inner.isPane
+  override def straight(wo: Vec3): Rgb = inner.straight(wo) * scale
   override def regularized: Bsdf = Scaled(inner.regularized, scale)
 
 /** Transmits what `reflection` would reflect.

@@ -28,7 +28,7 @@ abstract class Material extends Varying:
   /** Whether [[bssrdf]] may return one. */
   def isSubsurface: Boolean = false
 
-  /** Whether its BSDFs are panes. */
+  /** Whether its BSDFs are panes, or have a part that is. */
   def isPane: Boolean = false
 
 /** A medium interface: rays pass through unscattered (pbrt's "interface" and "none"). */
@@ -44,6 +44,4 @@ final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = 
   override def isConstant: Boolean = true
   override def folded: Material = this
   override def isDispersive: Boolean = value.isDispersive
-  override def isPane: Boolean = value match
-    case _: Pane => true
-    case _ => false
+  override def isPane: Boolean = value.isPane

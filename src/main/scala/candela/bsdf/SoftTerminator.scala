@@ -10,12 +10,17 @@ import candela.math.*
   * to it fades as microfacets shadow each other. Normals that face away are mirrored.
   *
   * @param relief perturbs the shading frame of `inner`
+  * @param turns  whether normals that face away are mirrored; else the surface is black there
   *
   * Source: Estevez, Lecocq and Stein, "A Microfacet-Based Shadowing Function to Solve the Bump
   * Terminator Problem", Ray Tracing Gems, 2019.
   */
-final class SoftTerminatorMaterial(inner: Material, relief: Material => Material, shadows: Boolean)
-    extends DisplacedMaterial(inner):
+final class SoftTerminatorMaterial(
+    inner: Material,
+    relief: Material => Material,
+    shadows: Boolean,
+    turns: Boolean = true
+) extends DisplacedMaterial(inner):
   private val perturbed = relief(NormalsOnly)
 
   def bsdf(at: ShadingPoint): Bsdf =
@@ -25,11 +30,11 @@ final class SoftTerminatorMaterial(inner: Material, relief: Material => Material
     val sheared = Math.max(0f, 1f - n.z * n.z) / Math.max(n.z * n.z, 1e-8f)
     val alpha2 = if shadows then Math.min(0.125f * sheared, 1f) else 0f
     val base = at.frame.toLocal(flat.n)
-    SoftTerminator(inner.bsdf(at), base, alpha2)
+    SoftTerminator(inner.bsdf(at), base, alpha2, turns, inner.isDirected)
 
   /** Black from behind, by the side of the surface that `wo` is on. */
   def oneSided: SoftTerminatorMaterial =
-    SoftTerminatorMaterial(OneSidedMaterial(inner), relief, shadows)
+    SoftTerminatorMaterial(OneSidedMaterial(inner), relief, shadows, turns)
 
   /** Stands for the inner material while the frame is perturbed. */
   private object NormalsOnly extends Material:
@@ -38,10 +43,18 @@ final class SoftTerminatorMaterial(inner: Material, relief: Material => Material
     override def isAnisotropic: Boolean = inner.isAnisotropic
     override def isDirected: Boolean = inner.isDirected
 
-/** @param base   normal of the unperturbed surface, in the perturbed frame
-  * @param alpha2 square of the roughness that shadows
+/** @param base       normal of the unperturbed surface, in the perturbed frame
+  * @param alpha2     square of the roughness that shadows
+  * @param turns      as in [[SoftTerminatorMaterial]]
+  * @param isDirected whether `inner` tells the two directions of its tangent apart
   */
-final class SoftTerminator(inner: Bsdf, base: Vec3, alpha2: Float) extends LeanBsdf:
+final class SoftTerminator(
+    inner: Bsdf,
+    base: Vec3,
+    alpha2: Float,
+    turns: Boolean = true,
+    isDirected: Boolean = false
+) extends LeanBsdf:
 
   /** Whether the perturbed normal faces away from `wo`. Then its image about `base` replaces it. */
   private def isAway(wo: Vec3): Boolean = (wo dot base) * wo.z <= 0f
@@ -58,31 +71,38 @@ final class SoftTerminator(inner: Bsdf, base: Vec3, alpha2: Float) extends LeanB
       val tan2 = Math.max(0f, 1f - cos * cos) / (cos * cos)
       2f / (1f + sqrt(1f + alpha2 * tan2))
 
+  /** `w` for `inner`, whose tangent is not turned together with its normal, and back. */
+  private def within(w: Vec3, away: Boolean): Vec3 =
+    if away && isDirected then Vec3(-w.x, -w.y, w.z) else w
+
   def f(wo: Vec3, wi: Vec3): Rgb =
-    if !isAway(wo) then facing(wo, wi)
+    if !isAway(wo) then facing(wo, wi, away = false)
+    else if !turns then Rgb.Black
     else
       // The cosine is to be that to the turned normal
       val there = turned(wi)
       val cosine = Math.abs(wi.z)
       if cosine < Hemisphere.Horizon then Rgb.Black
-      else facing(turned(wo), there) * (Math.abs(there.z) / cosine)
+      else facing(turned(wo), there, away = true) * (Math.abs(there.z) / cosine)
 
-  private def facing(wo: Vec3, wi: Vec3): Rgb =
+  private def facing(wo: Vec3, wi: Vec3, away: Boolean): Rgb =
     val part = passed(wi)
-    if part == 0f then Rgb.Black else inner.f(wo, wi) * part
+    if part == 0f then Rgb.Black else inner.f(within(wo, away), within(wi, away)) * part
 
   def pdf(wo: Vec3, wi: Vec3): Float =
-    if isAway(wo) then facingPdf(turned(wo), turned(wi)) else facingPdf(wo, wi)
+    if !isAway(wo) then facingPdf(wo, wi, away = false)
+    else if !turns then 0f
+    else facingPdf(turned(wo), turned(wi), away = true)
 
-  private def facingPdf(wo: Vec3, wi: Vec3): Float =
-    if passed(wi) == 0f then 0f else inner.pdf(wo, wi)
+  private def facingPdf(wo: Vec3, wi: Vec3, away: Boolean): Float =
+    if passed(wi) == 0f then 0f else inner.pdf(within(wo, away), within(wi, away))
 
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val away = isAway(wo)
-    inner.draw(if away then turned(wo) else wo, choice, u1, u2, out)
-    val wi = out.wi.toVec3
+    inner.draw(within(if away then turned(wo) else wo, away), choice, u1, u2, out)
+    val wi = within(out.wi.toVec3, away)
     val part = passed(wi)
-    if part == 0f then out.absorb()
+    if part == 0f || away && !turns then out.absorb()
     else
       val there = if away then turned(wi) else wi
       out.set(there, out.weight * part, out.pdf, out.isSpecular, out.eta)
@@ -93,5 +113,6 @@ final class SoftTerminator(inner: Bsdf, base: Vec3, alpha2: Float) extends LeanB
   def isTransmissive: Boolean = inner.isTransmissive || base.z < 1f
   override def isDiffuse: Boolean = inner.isDiffuse
   override def isReciprocal: Boolean = false
-  override def regularized: Bsdf = SoftTerminator(inner.regularized, base, alpha2)
+  override def regularized: Bsdf =
+    SoftTerminator(inner.regularized, base, alpha2, turns, isDirected)
   override def isDispersive: Boolean = inner.isDispersive

@@ -136,7 +136,7 @@ private[build] final class SurfaceBuilder(
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
-        val facesInwards = isReversed != (isConsistent && toWorld.swapsHandedness)
+        val facesInwards = isReversed != (isConsistent && isReflected)
         addSolid(make(toWorld, facesInwards), lamp, isInverted != turned)
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
@@ -151,7 +151,11 @@ private[build] final class SurfaceBuilder(
     /** pbrt-v3 and v4 flip the normals of reflected quadrics, v2 those of all disks. */
     private def isInverted: Boolean =
       if context.isV2 then dressed.declared.name == "disk"
-      else !isConsistent && toWorld.swapsHandedness
+      else !isConsistent && isReflected
+
+    /** Is the shape mirrored where it is defined? Instances keep the outside of their objects. */
+    private def isReflected: Boolean =
+      toWorld.swapsHandedness != dressed.shape.copied.exists(_.swapsHandedness)
 
     private def addSolid(
         shape: Shape,

@@ -34,6 +34,7 @@ object FromMitsuba:
 
     def plain(d: Declaration): Declaration =
       if d.category == "LightSource" then light(d)
+      else if d.category == "AreaLightSource" then lamp(d)
       else if d.category == "Texture" then texture(d)
       else if d.category == "Camera" then
         without(d, "nothing is clipped", "nearclip", "farclip")
@@ -53,13 +54,22 @@ object FromMitsuba:
             p.at,
             "pbrt's normal maps lie on u and v as they are; `to_uv` of this one is lost"
           )
-        for p <- d.params if FromMitsuba.Reliefs(p.name) do
+        for p <- d.params if FromMitsuba.Reliefs(p.name) && isSoft(d) do
           problems += Problem.warning(
             p.at,
             "pbrt does not darken the edge of the shadow on bumps, as Mitsuba does"
           )
-        val mapped = without(d, "", "normalmapuv")
+        val mapped = without(d, "", "normalmapuv", "softedges", "turnednormals")
         if d.dialect.isDefined then mapped else material(mapped)
+
+    private def isSoft(d: Declaration): Boolean =
+      !d.param("softedges").exists(_.bools.contains(false))
+
+    /** pbrt's images end with their border; only a mapping or a filter shows much of that. */
+    private def lamp(d: Declaration): Declaration =
+      val isFiltered = d.param("filter").exists(_.strings.contains("point"))
+      val filtered = without(d, if isFiltered then "it is smooth" else "", "filter")
+      without(without(filtered, "the image lies on u and v as they are", "imageuv"), "", "wrap")
 
     /** pbrt's media scatter by Henyey and Greenstein: the mean cosine stays. */
     private def phased(d: Declaration): Declaration =

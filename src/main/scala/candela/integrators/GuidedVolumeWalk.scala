@@ -48,9 +48,9 @@ final class GuidedVolumeWalk(
     super.evaluate()
     guidance.arrive()
 
-  override def crossPane(sampler: Sampler): Unit =
+  override def meetPane(): Unit =
     guidance.leaveAlone()
-    super.crossPane(sampler)
+    super.meetPane()
 
   override def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
     guidance.leaveAlone()

@@ -1,6 +1,5 @@
 package candela.integrators
 
-import candela.bsdf.Pane
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.LightSample
 import candela.math.*
@@ -55,15 +54,13 @@ private[candela] final class MediumVisibility(
       rays += 1
       !scene.isOccluded(ray, hit) && attenuate(medium)
 
-  /** Whether the border is a pane, which then attenuates the light. */
+  /** Whether light passes the border in its direction, which then attenuates it. */
   private def isPane: Boolean =
     scene.isPane(border) && {
-      scene.bsdf(border) match
-        case pane: Pane =>
-          val wo = border.frame.toLocal(ray.direction.normalized)
-          work.shadow.scale(pane.straight(wo))
-          true
-        case _ => false
+      val bsdf = scene.bsdf(border)
+      val passed = bsdf.straight(border.frame.toLocal(ray.direction.normalized))
+      work.shadow.scale(passed)
+      !passed.isBlack
     }
 
   private def attenuate(medium: Int): Boolean =

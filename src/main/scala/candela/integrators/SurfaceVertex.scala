@@ -110,6 +110,10 @@ class SurfaceVertex(scene: Scene):
   /** Does the local direction lie on the other side of the shading normal than `wo`? */
   final def crosses(localWi: Vec3): Boolean = localWi.z * ownLocalWo.z < 0f
 
+  /** Does the bounce keep the path's direction? */
+  final def isStraight: Boolean =
+    bounce.isSpecular && (bounce.wi.toVec3 + ownLocalWo.toVec3).lengthSquared < 1e-10f
+
   /** False if the BSDF only reflects, and the geometric normal separates `wi` from `wo`. */
   final def isOpen(wi: Vec3): Boolean =
     !scene.sidesByGeometry || bsdf.isTransmissive ||

@@ -89,6 +89,8 @@ private object VolumePathLoop:
         walk.addEmission()
         if walk.isPassed then walk.passThrough()
         else if walk.isAtPane then
+          walk.meetPane()
+          if !walk.vertex.bsdf.isSpecular && walk.depth <= limits.maxDepth then light(false)
           walk.crossPane(sampler)
           if walk.depth > limits.maxDepth then walk.end()
           surviveRoulette(walk, limits, sampler)

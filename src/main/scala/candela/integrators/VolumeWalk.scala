@@ -188,16 +188,19 @@ class VolumeWalk(
   /** Is the surface a pane that paths cross? */
   def isAtPane: Boolean = crossesPanes && scene.isPane(vertex.at)
 
-  /** Continues through a pane, as through an interface, or is reflected: a scattering event. */
-  def crossPane(sampler: Sampler): Unit =
+  /** Evaluates the BSDF of a pane: a scattering event, unless the path crosses it. */
+  def meetPane(): Unit =
+    depth += 1
     vertex.evaluate()
+
+  /** Continues through a pane, as through an interface, or is scattered. */
+  def crossPane(sampler: Sampler): Unit =
     scatter(sampler)
-    if vertex.crosses(vertex.bounce.wi) then
+    if vertex.isStraight then
+      depth -= 1
       passThrough()
       goesOn = !isAbsorbed
-    else
-      depth += 1
-      leave()
+    else leave()
 
   /** Scatters the path at parameter `t` of the ray, having added direct light there. */
   def scatterInMedium(t: Float, sampler: Sampler): Unit =

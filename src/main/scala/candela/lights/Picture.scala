@@ -4,19 +4,21 @@ import candela.base.loop
 import candela.color.Rgb
 import candela.image.Image
 import candela.math.*
+import candela.textures.Wrap
 
-/** Filter and wrap mode of a light's image. */
-enum PictureLookup:
-  /** Nearest pixel. */
-  case Nearest
+/** How a light's image is looked up.
+  *
+  * @param isSmooth bilinear; else the nearest pixel
+  * @param wrap     outside the image
+  */
+final case class PictureLookup(isSmooth: Boolean, wrap: Wrap)
 
-  /** Bilinear, clamped at the border. */
-  case Smooth
+object PictureLookup:
+  val Nearest: PictureLookup = PictureLookup(isSmooth = false, Wrap.Clamp)
+  val Smooth: PictureLookup = PictureLookup(isSmooth = true, Wrap.Clamp)
+  val SmoothRepeating: PictureLookup = PictureLookup(isSmooth = true, Wrap.Repeat)
 
-  /** Bilinear, repeating. */
-  case SmoothRepeating
-
-/** A flat image emitted by a light; (x, y) in [0, 1], y down from the top.
+/** A flat image emitted by a light; the image is (x, y) in [0, 1], y down from the top.
   *
   * @param image  red, green, blue, linear
   * @param colors converts the image's colours, if they are not those of the scene's basis
@@ -30,14 +32,13 @@ final class Picture(image: Image, lookup: PictureLookup, colors: Option[Rgb => R
   val aspect: Float = width.toFloat / height
 
   def apply(x: Float, y: Float): Rgb =
-    if lookup == PictureLookup.Nearest then
-      val i =
-        pixel(clamp((x * width).toInt, 0, width - 1), clamp((y * height).toInt, 0, height - 1))
+    if !lookup.isSmooth then
+      val i = pixel(Math.floor(x * width).toInt, Math.floor(y * height).toInt)
       converted(Rgb(data(i), data(i + 1), data(i + 2)))
     else
       val fx = x * width - 0.5f
       val fy = y * height - 0.5f
-      converted(Bilinear(data, fx, fy)((i, j) => pixel(wrapped(i, width), wrapped(j, height))))
+      converted(Bilinear(data, fx, fy)(pixel(_, _)))
 
   private def converted(c: Rgb): Rgb =
     val conversion = convert
@@ -46,11 +47,7 @@ final class Picture(image: Image, lookup: PictureLookup, colors: Option[Rgb => R
   /** The same image with converted colours. */
   def converted(colors: Rgb => Rgb): Picture = Picture(image, lookup, Some(colors))
 
-  private def pixel(x: Int, y: Int): Int = 3 * (y * width + x)
-
-  private def wrapped(i: Int, size: Int): Int =
-    if lookup == PictureLookup.SmoothRepeating then Math.floorMod(i, size)
-    else clamp(i, 0, size - 1)
+  private def pixel(x: Int, y: Int): Int = 3 * lookup.wrap.index(x, y, width, height)
 
   /** Mean of `f` over the pixels' colours, weighted by their position (x, y). */
   def mean(f: (Rgb, Float, Float) => Float): Float =

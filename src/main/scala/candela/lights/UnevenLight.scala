@@ -4,6 +4,7 @@ import candela.color.Rgb
 import candela.geometry.{Ball, ShadingPoint}
 import candela.math.*
 import candela.shapes.SurfaceSampler
+import candela.textures.{Mapping2D, UvMapping}
 
 /** An area light with spatially varying emission: the emission of `even`, scaled at each point.
   * Points are sampled as for uniform emission.
@@ -57,16 +58,23 @@ object UnevenLight:
 
 /** An area light textured by an image over u and v (v up).
   *
-  * @param plain light of the same surface with the image's scale as its emission
+  * @param plain   light of the same surface with the image's scale as its emission
+  * @param mapping of u and v, to an image whose t begins at the bottom
   */
-final class PictureLight(plain: AreaLight, surface: SurfaceSampler, picture: Picture)
-    extends UnevenLight(plain, surface):
+final class PictureLight(
+    plain: AreaLight,
+    surface: SurfaceSampler,
+    picture: Picture,
+    mapping: Mapping2D = UvMapping(1f, 1f, 0f, 0f)
+) extends UnevenLight(plain, surface):
 
   def radiance(at: ShadingPoint, w: Vec3): Rgb =
     val light = plain.radiance(at, w)
     if light.isBlack then light else light * factor(at)
 
-  protected def factor(at: ShadingPoint): Rgb = picture(at.u, 1f - at.v)
+  protected def factor(at: ShadingPoint): Rgb =
+    val place = mapping(at)
+    picture(place.s, 1f - place.t)
 
   protected lazy val strength: Float = picture.mean((c, _, _) => c.max)
 

@@ -5,7 +5,13 @@ import candela.math.Transform
 import candela.scenefile.{Declaration, Dialect, GraphicsState, LightDescription, Param, ParamType}
 
 /** Translates emitters. */
-final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plugin => String):
+final class Emitters(
+    session: Session,
+    colors: Colors,
+    textures: Textures,
+    skies: Skies,
+    medium: Plugin => String
+):
 
   /** The area light of a shape. */
   def area(p: Plugin): Option[Declaration] =
@@ -17,7 +23,7 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
         in.ignore("sampling_weight")
         val params = colors.shade(in, "radiance", Rgb.White, Role.Emission) match
           case c: Shade.Constant => Some(colors.light("L", c, in.at))
-          case Shade.Textured(t) => picture(t).map((_, params) => params)
+          case Shade.Textured(t) => spread(t)
         params.map(session.declare("AreaLightSource", "diffuse", p.at, _))
 
   /** A light of its own. */
@@ -124,18 +130,50 @@ final class Emitters(session: Session, colors: Colors, skies: Skies, medium: Plu
         picture(t).map: (_, params) =>
           lit((Textures.rgb("I", scale, in.at) +: slides(params))*)
 
-  /** The file of a bitmap that emits. */
-  private def picture(p: Plugin): Option[(String, Seq[Param])] =
+  /** A bitmap that emits, over u and v. */
+  private def spread(p: Plugin): Option[Seq[Param]] =
+    picture(
+      p,
+      in =>
+        val filter = in.word("filter_type", "bilinear", "bilinear", "nearest")
+        val wrap = in.word("wrap_mode", "repeat", "repeat", "mirror", "clamp")
+        val mapping = textures.imageMapping(in)
+        val place = Option.when(mapping != Textures.Upright):
+          Param.floats(ParamType.Float, "imageuv", in.atOf("to_uv"), mapping.toArray)
+        Seq(
+          Param.string("wrap", in.atOf("wrap_mode"), wrap),
+          Param
+            .string(
+              "filter",
+              in.atOf("filter_type"),
+              if filter == "nearest" then "point" else filter
+            )
+        ) ++ place
+    ).map((_, params) => params)
+
+  /** The file of a bitmap that emits.
+    *
+    * @param more parameters of its own
+    */
+  private def picture(
+      p: Plugin,
+      more: Asked => Seq[Param] = whole
+  ): Option[(String, Seq[Param])] =
     if p.name != "bitmap" then
       session.warn(p.at, s"${p.shown} can't emit here; using nothing")
       None
     else
       session.of(p): in =>
-        in.ignore("filter_type", "wrap_mode", "format", "accel")
-        in.lose("ignored", "to_uv")
+        in.ignore("format", "accel")
+        val others = more(in)
         if in.flag("raw", false) then
           session.warn(in.atOf("raw"), "images that emit are decoded if they have 8 bits")
         for
           name <- in.text("filename")
           path <- session.file(name, in.atOf("filename"), "skipped")
-        yield (name, Seq(Param.string("filename", in.atOf("filename"), session.named(path))))
+        yield (name, Param.string("filename", in.atOf("filename"), session.named(path)) +: others)
+
+  private def whole(in: Asked): Seq[Param] =
+    in.ignore("filter_type", "wrap_mode")
+    in.lose("ignored", "to_uv")
+    Seq.empty

@@ -48,6 +48,24 @@ final class Mesh(
       made(3 * i + 2) = v.z
     made
 
+  /** With coordinates where it has none, Mitsuba's: the weights of each triangle's second and third
+    * corner.
+    */
+  def onTriangles: Mesh =
+    if uvs.nonEmpty then this
+    else
+      def apart(of: Array[Float]) =
+        if of.isEmpty then of
+        else Array.tabulate(3 * indices.length)(i => of(3 * indices(i / 3) + i % 3))
+      val corners = Array(0f, 0f, 1f, 0f, 0f, 1f)
+      Mesh(
+        apart(positions),
+        apart(normals),
+        Array.tabulate(2 * indices.length)(i => corners(i % 6)),
+        Array.range(0, indices.length),
+        apart(rests)
+      )
+
   /** Without vertex normals. */
   def faceted: Mesh = Mesh(positions, Array.emptyFloatArray, uvs, indices, rests)
 

@@ -36,7 +36,8 @@ private final class Translation(session: Session, file: Path):
   private val textures = Textures(session, colors)
   private val surfaces = Surfaces(session, colors, textures)
   private val media = Media(session, colors)
-  private val emitters = Emitters(session, colors, Skies(session, colors, shutter), media(_))
+  private val emitters =
+    Emitters(session, colors, textures, Skies(session, colors, shutter), media(_))
   private val shapes = Shapes(session, surfaces, emitters, media)
   private val views = Views(session, media, file)
 

@@ -134,8 +134,9 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         for (place, length) <- axis(in, toWorld) yield
           // Upside down, so that v runs as on Mitsuba's; lamps have none, and pbrt's light of
           // reflected ones is not consistent
-          val isLamp = in.nested("emitter").nonEmpty
-          val down = if isLamp then Transform.Identity else Transform.scale(1, 1, -1).get
+          val isEven =
+            in.nested("emitter").nonEmpty && !in.nested("emitter").exists(isMapped)
+          val down = if isEven then Transform.Identity else Transform.scale(1, 1, -1).get
           val whole = place * down
           val ends = if down.isIdentity then Seq(0.0, length) else Seq(-length, 0.0)
           val size = Seq("radius" -> in.number("radius", 1)) ++ Seq("zmin", "zmax").zip(ends)
@@ -230,8 +231,13 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
   ): Form =
     val there = mesh.placed(toWorld)
     val whole = if in.flag("face_normals", false) then there.faceted else there.smooth
-    val shaded = attributes.fold(whole)(_.laidOut(whole))
+    val laid = attributes.fold(whole)(_.laidOut(whole))
+    val shaded = if in.nested("bsdf").headOption.exists(isMapped) then laid.onTriangles else laid
     Form("trianglemesh", params(shaded, in), Transform.Identity, isFlipped)
+
+  /** Does the look of the surface depend on u and v? */
+  private def isMapped(bsdf: Plugin): Boolean =
+    surfaces.textureTypes(bsdf).exists(Set("bitmap", "checkerboard"))
 
   private def params(m: Mesh, in: Asked): Seq[Param] =
     val uvs = m.uvs.clone

@@ -174,11 +174,18 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
   private def bumped(in: Asked): Surface =
     val scale = in.number("scale", 1).toFloat
     val texture = in.nested("texture").headOption
-    raised(child(in), texture.fold(Relief.Flat)(Relief.Height(_, scale)))
+    raised(child(in), texture.fold(Relief.Flat)(Relief.Height(_, scale)), seen(in))
+
+  /** How normals that are perturbed are seen. */
+  private def seen(in: Asked): Seq[Param] =
+    for
+      (theirs, ours) <-
+        Seq("use_shadowing_function" -> "softedges", "flip_invalid_normals" -> "turnednormals")
+      if !in.flag(theirs, true)
+    yield Param.bool(ours, in.atOf(theirs), false)
 
   private def mapped(in: Asked): Surface =
     val maps = in.nested("texture", "normalmap") ++ in.nested("texture")
-    in.ignore("flip_invalid_normals", "use_shadowing_function")
     val file = maps.headOption.flatMap: t =>
       if t.name != "bitmap" then
         session.warn(t.at, "only bitmaps can be normal maps; this one is ignored")
@@ -189,12 +196,14 @@ final class Surfaces(session: Session, colors: Colors, textures: Textures):
           val mapping = textures.imageMapping(of)
           of.text("filename").flatMap(session.file(_, of.atOf("filename"), "ignored"))
             .map(path => Relief.Normals(session.named(path), mapping))
-    raised(child(in), file.getOrElse(Relief.Flat))
+    raised(child(in), file.getOrElse(Relief.Flat), seen(in))
 
-  private def raised(s: Surface, relief: Relief): Surface =
+  private def raised(s: Surface, relief: Relief, seen: Seq[Param]): Surface =
     val d = s.material
     val isV4 = d.dialect.isEmpty
-    def plain = if kinds.takesRelief(d) then d else nested(d, Vector.empty)
+    def plain =
+      val own = if kinds.takesRelief(d) then d else nested(d, Vector.empty)
+      if isV4 then own.copy(params = own.params ++ seen) else own
     val material = relief match
       case Relief.Flat => d
       case _ if d.name == "interface" => d

@@ -49,6 +49,12 @@ final class AffineUvMapping(
       tu * at.dudy + tv * at.dvdy
     )
 
+object AffineUvMapping:
+  /** @param rows s and t by u, v and 1; without them, u and v as they are */
+  def of(rows: Array[Float]): Mapping2D = rows match
+    case Array(su, sv, ds, tu, tv, dt) => AffineUvMapping(su, sv, ds, tu, tv, dt)
+    case _ => UvMapping(1f, 1f, 0f, 0f)
+
 /** Spherical mapping about the texture space's origin: s is the angle from +z over π, t the angle
   * around z, counter-clockwise from +x, over 2π, in [0, 1).
   */

@@ -49,9 +49,11 @@ final class PbrtParametersSuite extends AnyFunSuite:
       Set(
         "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
         "hideemitters", "normalmapuv", "phases", "phaseweights", "phasevalues",
-        "cullbackfaces", "alpha"
+        "cullbackfaces", "softedges", "turnednormals", "alpha"
       )
-    val slides = Set((Dialect.V4, "spot", "mapname"))
+    val slides =
+      Set("wrap", "filter", "imageuv").map((Dialect.V4, "diffuse", _)) +
+        ((Dialect.V4, "spot", "mapname"))
     val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))
     val foreign = beyond.toSet.filter: (dialect, recipe, field) =>
       dialect == Dialect.V4 && (own(recipe) || ofMitsuba(field))

@@ -1,16 +1,11 @@
 package candela.mitsuba
 
-import candela.build.{BuildOptions, SceneBuilder}
 import candela.color.Rgb
-import candela.render.Renderer
-import candela.scenefile.SceneDescription
 
-import java.nio.file.{Files, Path}
-
-import org.scalatest.funsuite.AnyFunSuite
+import java.nio.file.Path
 
 /** Surfaces within others, against Mitsuba 3.9.1. */
-final class SurfacesSuite extends AnyFunSuite:
+final class SurfacesSuite extends MitsubaPictures:
   private val Diffuse = "<bsdf type=\"diffuse\"/>"
   private val Nothing = "<bsdf type=\"null\"/>"
   private val Frosted = "<bsdf type=\"roughdielectric\"/>"
@@ -23,44 +18,14 @@ final class SurfacesSuite extends AnyFunSuite:
     s"<bsdf type=\"mask\"><float name=\"opacity\" value=\".4\"/>$inner</bsdf>"
   private def twoSided(inner: String) = s"<bsdf type=\"twosided\">$inner</bsdf>"
 
-  private def bumpy(inner: String) =
-    "<bsdf type=\"normalmap\"><texture name=\"normalmap\" type=\"bitmap\">" +
+  private def bumpy(inner: String, options: String = "") =
+    s"<bsdf type=\"normalmap\">$options<texture name=\"normalmap\" type=\"bitmap\">" +
       s"<string name=\"filename\" value=\"$normals\"/><boolean name=\"raw\" value=\"true\"/>" +
       s"</texture>$inner</bsdf>"
   private val normals = Path.of("scenes/textures/normals.png").toAbsolutePath
 
-  private def read(body: String): SceneDescription = using(body)(identity)
-
-  private def using[A](body: String)(use: SceneDescription => A): A =
-    val folder = Files.createTempDirectory("candela-surfaces")
-    val scene = Files.writeString(
-      folder.resolve("scene.xml"),
-      s"""<scene version="3.0.0">$body</scene>"""
-    )
-    try use(MitsubaScene.readable(scene, Map.empty, keepGoing = false))
-    finally
-      Files.delete(scene)
-      Files.delete(folder)
-
-  private def view(fov: Int, samples: Int) =
-    "<integrator type=\"path\"><integer name=\"max_depth\" value=\"6\"/></integrator>" +
-      s"<sensor type=\"perspective\"><float name=\"fov\" value=\"$fov\"/>" +
-      "<transform name=\"to_world\"><lookat origin=\"0,0,5\" target=\"0,0,0\" up=\"0,1,0\"/>" +
-      "</transform><sampler type=\"independent\">" +
-      s"<integer name=\"sample_count\" value=\"$samples\"/></sampler><film type=\"hdrfilm\">" +
-      "<integer name=\"width\" value=\"8\"/><integer name=\"height\" value=\"6\"/>" +
-      "<rfilter type=\"box\"/></film></sensor>"
-
   private val White =
     "<emitter type=\"constant\"><rgb name=\"radiance\" value=\"1\"/></emitter>"
-
-  private def mean(body: String): Rgb = using(body): scene =>
-    val plan = SceneBuilder.build(scene, BuildOptions())._1
-    val data = Renderer.render(plan, threads = 1).image(plan.development).data
-    val sums = Array(0.0, 0.0, 0.0)
-    for i <- data.indices do sums(i % 3) += data(i)
-    val Array(r, g, b) = sums.map(s => (s * 3 / data.length).toFloat)
-    Rgb(r, g, b)
 
   /** The middle of a ball under a white sky. */
   private def ball(bsdf: String): Rgb =
@@ -103,6 +68,66 @@ final class SurfacesSuite extends AnyFunSuite:
   test("normal maps lie around blends and within them"):
     lit(bumpy(blend(".5", Diffuse, Metal)), isBack = false, 0.09706f)
     lit(blend(".5", bumpy(Diffuse), Metal), isBack = false, 0.11414f)
+
+  test("a normal map within another one has its frame, and is turned with it where it faces away"):
+    lit(bumpy(bumpy(Diffuse)), isBack = false, 0.05622f)
+    lit(bumpy(blend(".5", bumpy(Diffuse), Diffuse)), isBack = false, 0.06966f)
+    val oblique = view(20, 256, from = "-4,-3,1") +
+      s"<shape type=\"rectangle\">${bumpy(bumpy(Diffuse))}</shape>$Sun"
+    val found = mean(oblique).g
+    // 2 %: pixels hold many changes of light and shadow
+    assert(Math.abs(found - 0.01161f) < 0.02f * 0.01161f, found)
+
+  test("normals that face away are turned, and edges of shadows softened, unless a scene says no"):
+    def seen(name: String) =
+      val bsdf = bumpy(Diffuse, s"<boolean name=\"$name\" value=\"false\"/>")
+      mean(view(20, 1024, from = "-3,-4,1") + s"<shape type=\"rectangle\">$bsdf</shape>$Sun").g
+    // 1 %: pixels hold many changes of light and shadow. Else, 0.01490
+    for
+      (name, expected) <-
+        Seq("flip_invalid_normals" -> 0.01072f, "use_shadowing_function" -> 0.01519f)
+    do
+      val found = seen(name)
+      assert(Math.abs(found - expected) < 0.01f * expected, s"$name: $found")
+
+  test("a mirrored instance keeps the outside of its shapes"):
+    def instanced(shape: String) = mean(
+      view(30, 256) + "<shape type=\"shapegroup\" id=\"g\">" +
+        s"<shape type=\"$shape\">$Diffuse</shape></shape>" +
+        "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\">" +
+        s"<scale x=\"-1\"/><rotate x=\"1\" angle=\"30\"/></transform></shape>$White"
+    ).g
+    assert(Math.abs(instanced("sphere") - 0.6965f) < 0.004f)
+    assert(Math.abs(instanced("disk") - 0.7435f) < 0.004f)
+    assert(Math.abs(instanced("cylinder") - 0.7113f) < 0.006f)
+
+  /** A lamp, a pane, and the floor behind it. */
+  private def behind(pane: String, integrator: String): Float =
+    def square(scale: String, z: String, bsdf: String) =
+      "<shape type=\"rectangle\"><transform name=\"to_world\">" +
+        s"<scale value=\"$scale\"/><translate z=\"$z\"/></transform>$bsdf</shape>"
+    mean(
+      view(20, 256, integrator) + square("4", "-1", Diffuse) + square("1.5", ".5", pane) +
+        "<emitter type=\"point\"><point name=\"position\" x=\"0.2\" y=\"0.1\" z=\"2\"/>" +
+        "<rgb name=\"intensity\" value=\"4\"/></emitter>"
+    ).g
+
+  test("light samples of volpath pass what a blend has of null or of a mask, those of path don't"):
+    val lamp =
+      mask(Diffuse) +
+        "<emitter type=\"area\"><rgb name=\"radiance\" value=\".1\"/></emitter>"
+    for
+      (pane, byPath, byVolpath) <- Seq(
+        (blend(".5", Nothing, Diffuse), 0.11446f, 0.13045f),
+        (blend(".5", mask(Diffuse), Diffuse), 0.16023f, 0.16596f),
+        (blend(".5", blend(".5", Nothing, Metal), Diffuse), 0.3239f, 0.32782f),
+        (lamp, 0.1914f, 0.21558f)
+      )
+      (integrator, expected) <- Seq("path" -> byPath, "volpath" -> byVolpath)
+    do
+      val found = behind(pane, integrator)
+      // A quarter of the smallest difference between the two
+      assert(Math.abs(found - expected) < 0.005f * expected, s"$integrator: $found, not $expected")
 
   test("bumps within a two-sided surface are seen from behind as from the front"):
     lit(twoSided(bumpy(Diffuse)), isBack = true, 0.08265f)

@@ -134,6 +134,7 @@ final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
       .addScaled(other, rest)
       .result
 
+  override def isPane: Boolean = first.isPane || second.isPane
   override def isDispersive: Boolean = first.isDispersive || second.isDispersive
 
 object MixedMaterial:

@@ -2,7 +2,7 @@ package candela.bsdf.microfacet
 
 import candela.bsdf.{
   Bounce, Bsdf, DielectricReflectance, Fresnel, FullReflectance, Hemisphere, Lambert, LeanBsdf,
-  Material, Pane, ReflectanceCurve
+  Material, ReflectanceCurve
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -93,15 +93,15 @@ final class ThinDielectric(
     eta: Float,
     reflectance: Rgb = Rgb.White,
     transmittance: Rgb = Rgb.White
-) extends Specular,
-      Pane:
+) extends Specular:
   override def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     val back = reflected(wo)
     if choice < back then
       out.set(Hemisphere.mirrored(wo), reflectance, back, isSpecular = true)
     else out.set(-wo, transmittance, 1f - back, isSpecular = true)
 
-  def straight(wo: Vec3): Rgb = transmittance * (1f - reflected(wo))
+  override def isPane: Boolean = true
+  override def straight(wo: Vec3): Rgb = transmittance * (1f - reflected(wo))
 
   /** The geometric series of inner reflections. */
   private def reflected(wo: Vec3): Float =

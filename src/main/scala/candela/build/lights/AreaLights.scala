@@ -8,6 +8,7 @@ import candela.lights.*
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.shapes.{RectangleSampler, Shape, SurfaceSampler, TriangleSampler, TriangleSoup}
+import candela.textures.{AffineUvMapping, Mapping2D, Wrap}
 
 /** Recipes of area lights. */
 object AreaLights:
@@ -20,12 +21,14 @@ object AreaLights:
 /** An area light statement; it applies to the shapes that follow.
   *
   * @param emitted emitted radiance, or scale of the image
+  * @param mapping of u and v to the image
   * @param power   v4's total power per shape, independent of its area; not set if ≤ 0
   * @param perUnit mean luminance of the image; 1 without an image
   */
 final class AreaLightPlan(
     emitted: Rgb,
     picture: Option[Picture],
+    mapping: Mapping2D,
     perUnit: Float,
     power: Float,
     twoSided: Boolean,
@@ -65,7 +68,7 @@ final class AreaLightPlan(
   ): SurfaceLight =
     val emitted = radiance(surface.area)
     val plain = AreaLight(surface, emitted, twoSided, bounds, axis, cosSpread, contrary)
-    picture.fold(plain)(PictureLight(plain, surface, _))
+    picture.fold(plain)(PictureLight(plain, surface, _, mapping))
 
 /** Creates no light if nothing is emitted. */
 final class DiffuseLightRecipe(
@@ -91,13 +94,41 @@ final class DiffuseLightRecipe(
     )
   private val filename =
     string("filename", "image over the surface's uv, instead of `L`", onlyV4, "none")("")
+  private val wrap =
+    oneOf(
+      "wrap",
+      "of Mitsuba's scenes: wrap mode outside the image",
+      Vector("clamp", "repeat", "mirror"),
+      onlyV4
+    )("clamp")
+  private val filter =
+    oneOf(
+      "filter",
+      "of Mitsuba's scenes: filter of the image",
+      Vector("bilinear", "point"),
+      onlyV4
+    )("bilinear")
+  private val places =
+    numbers(
+      "imageuv",
+      "float[6]",
+      "of Mitsuba's scenes: s and t of the image, by u, v and 1",
+      onlyV4
+    )
+
+  private def lookup(using Site): PictureLookup =
+    val around = wrap() match
+      case "repeat" => Wrap.Repeat
+      case "mirror" => Wrap.Mirror
+      case _ => Wrap.Clamp
+    PictureLookup(filter() == "bilinear", around)
 
   protected def make()(using site: Site): Option[AreaLightPlan] =
     val isPicture = site.dialect == Dialect.V4 && filename().nonEmpty
     if isPicture && radiance.given_().isDefined then
       site.error("`L` and `filename` of a diffuse area light are mutually exclusive")
     val image = if isPicture then LightImages.read("filename") else None
-    val picture = image.map(Picture(_, PictureLookup.Smooth, LightImages.conversion))
+    val picture = image.map(Picture(_, lookup, LightImages.conversion))
     val unit = if isPicture then Spectra.white else radiance()
     val emitted = unit * colored() * scale()
     val perUnit = picture.fold(1f): p =>
@@ -108,7 +139,9 @@ final class DiffuseLightRecipe(
     else if !(shines && perUnit > 0f) then
       site.warn("this area light emits nothing; it is ignored")
       None
-    else Some(AreaLightPlan(emitted, picture, perUnit, power(), twoSided(), sampleCount()))
+    else
+      val mapping = AffineUvMapping.of(places())
+      Some(AreaLightPlan(emitted, picture, mapping, perUnit, power(), twoSided(), sampleCount()))
 
 private object DiffuseLightRecipe:
   def luminance(picture: Picture, basis: ColorBasis): Float =

@@ -9,9 +9,7 @@ import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
 import candela.scenefile.Dialect
-import candela.textures.{
-  AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, UvMapping, Wrap
-}
+import candela.textures.{AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, Wrap}
 
 /** Recipes of materials. */
 object Materials:
@@ -85,6 +83,10 @@ abstract class MaterialRecipe(
       "of Mitsuba's scenes: s and t of the normal map, by u, v and 1",
       onlyV4
     )
+  private val edges: Option[Field[Boolean]] = Option.when(bumps):
+    bool("softedges", "of Mitsuba's scenes: soften the edge of the shadow on bumps", onlyV4)(true)
+  private val turns: Option[Field[Boolean]] = Option.when(bumps):
+    bool("turnednormals", "of Mitsuba's scenes: turn normals that face away", onlyV4)(true)
 
   override protected def made(site: Site): Material =
     given Site = site
@@ -92,7 +94,9 @@ abstract class MaterialRecipe(
     normalMap() match
       case Some(picture) =>
         site.resources.askForRelief("normal maps")
-        raised(smooth, NormalMapMaterial(_, picture, place()))
+        // In Mitsuba, what faces away is turned for each viewer
+        val faces = !site.resources.switches.isMitsubas
+        raised(smooth, NormalMapMaterial(_, picture, place(), faces))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
         height.fold(smooth)(field => bumped(smooth, field()))
@@ -110,13 +114,16 @@ abstract class MaterialRecipe(
 
   private def raised(smooth: Material, relief: Material => Material)(using site: Site): Material =
     if site.resources.switches.isMitsubas then
-      SoftTerminatorMaterial(smooth, relief, shadows = true)
+      SoftTerminatorMaterial(
+        smooth,
+        relief,
+        shadows = edges.forall(_()),
+        turns = turns.forall(_())
+      )
     else relief(smooth)
 
   private def place()(using Site): Mapping2D =
-    places.map(_()) match
-      case Some(Array(su, sv, ds, tu, tv, dt)) => AffineUvMapping(su, sv, ds, tu, tv, dt)
-      case _ => UvMapping(1f, 1f, 0f, 0f)
+    AffineUvMapping.of(places.fold(Array.emptyFloatArray)(_()))
 
   private def normalMap()(using site: Site): Option[MipLevel] =
     for
