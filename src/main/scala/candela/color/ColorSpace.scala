@@ -84,11 +84,36 @@ final class ColorSpace private (
   /** Light of this space's colour `c`, in linear sRGB. */
   def light(c: Rgb): Rgb = if isSrgb then c else toSrgb * c
 
+  /** The colour, in linear sRGB, of the light that pbrt-v4 assigns to `c`: another than [[light]]
+    * if no smooth spectrum under the illuminant has it.
+    */
+  def emission(c: Rgb): Rgb =
+    val scale = 2f * c.max
+    if isSrgb || !(scale > 0f) || Upsampling.isExact(c * (1f / scale), this) then light(c)
+    else
+      val s = Upsampling.unbounded(c, this)
+      var x, y, z = 0.0
+      for row <- seen do
+        val v = s(row(0).toFloat)
+        x += v * row(1)
+        y += v * row(2)
+        z += v * row(3)
+      Colorimetry.fromXyz(x, y, z)
+
   /** Linear sRGB under D65 of the reflectance that pbrt-v4 assigns to `c`. */
   def reflectance(c: Rgb): Rgb =
+    if c.max <= 1f then underD65(c, 1f, Upsampling.spectrum(c, this)) else unbounded(c)
+
+  /** As [[reflectance]], of a quantity that may be above 1. */
+  def unbounded(c: Rgb): Rgb =
+    if c.max > 0f then underD65(c, 2f * c.max, Upsampling.unbounded(c, this)) else Rgb.Black
+
+  /** @param scale that of the colour which was fitted */
+  private def underD65(c: Rgb, scale: Float, spectrum: => Float => Float): Rgb =
+    def isExact = Upsampling.isExact(c * (1f / scale), this)
     if isSrgb || (c.r == c.g && c.g == c.b) then c
-    else if illuminant eq ColorSpace.Srgb.illuminant then toSrgb * c
-    else Colorimetry.rgb(Upsampling.unbounded(c, this), Colorimetry.White.D65)
+    else if (illuminant eq ColorSpace.Srgb.illuminant) && isExact then toSrgb * c
+    else Colorimetry.rgb(spectrum, Colorimetry.White.D65)
 
   /** X, Y and Z by wavelength (in nm, first) of the illuminant, over the Y of white. */
   private[color] lazy val seen: Array[Array[Double]] =

@@ -14,27 +14,43 @@ import candela.math.clamp
   */
 object Upsampling:
 
-  /** @param reflectance clamped to [0.001, 0.999], where the fit is smooth */
+  /** @param reflectance clamped to [0.001, 0.999], where the fit is smooth; if no such spectrum has
+    *                    it, or one that pbrt-v4's table can't hold, to [0, 1]; see [[GamutEdge]]
+    */
   def spectrum(reflectance: Rgb, space: ColorSpace = ColorSpace.Srgb): Float => Float =
-    val target = reflectance.map(clamp(_, 1e-3f, 0.999f))
-    val grey = (target.r == target.g) && (target.g == target.b)
-    if grey then _ => target.r
+    val target = reflectance.map(inRange)
+    if isGrey(target) then _ => target.r
     else
-      val c = coefficients(target, space)
+      val c = fit(reflectance, space).coefficients
       nm => logistic(c, nm)
+
+  /** Whether the spectrum has this colour, in a space other than sRGB. */
+  private[color] def isExact(reflectance: Rgb, space: ColorSpace): Boolean =
+    isGrey(reflectance.map(inRange)) || fit(reflectance, space).isExact
+
+  private def isGrey(c: Rgb): Boolean = (c.r == c.g) && (c.g == c.b)
+
+  private def inRange(c: Float): Float = clamp(c, 1e-3f, 0.999f)
+
+  private final class Fit(val coefficients: Array[Double], val isExact: Boolean)
 
   /** Fits so far: a scene names a colour for each of many materials, and a fit takes a millisecond.
     */
-  private val fits = ConcurrentHashMap[(Rgb, ColorSpace), Array[Double]]()
+  private val fits = ConcurrentHashMap[(Rgb, ColorSpace), Fit]()
 
-  private def coefficients(target: Rgb, space: ColorSpace): Array[Double] =
+  private def fit(color: Rgb, space: ColorSpace): Fit =
     if fits.size > MostFits then fits.clear()
     fits.computeIfAbsent(
-      (target, space),
-      _ =>
+      (color.map(clamp(_, 0f, 1f)), space),
+      (c, _) =>
+        def doubles(c: Rgb) = Array(c.r.toDouble, c.g.toDouble, c.b.toDouble)
         val walk = Walk(space)
-        walk.go(Array(target.r.toDouble, target.g.toDouble, target.b.toDouble))
-        walk.coefficients
+        val target = doubles(c.map(inRange))
+        walk.go(target)
+        val settled = walk.coefficients
+        if !space.isSrgb then GamutEdge.settle(settled, doubles(c), space)
+        val isExact = walk.isAt(target) && settled.max < GamutEdge.Largest - 1e-6
+        Fit(if isExact || space.isSrgb then walk.coefficients else settled, isExact)
     )
 
   /** Spectrum of an unbounded quantity (such as an index of refraction): scaled down to fit, then
@@ -56,6 +72,9 @@ object Upsampling:
     private var here = Array(0.5, 0.5, 0.5)
 
     def apply(nm: Float): Float = logistic(c, nm)
+
+    /** Whether the last walk ended at its goal. */
+    def isAt(target: Array[Double]): Boolean = here eq target
 
     /** Moves to a reflectance with components in [0.001, 0.999]; towards one that no such spectrum
       * has, as far as the straight way there goes.
@@ -88,8 +107,11 @@ object Upsampling:
       if !isThere then System.arraycopy(before, 0, c, 0, 3)
       isThere
 
+  /** From 0 to 1 over the wavelengths of a spectrum. */
+  private[color] def position(nm: Float): Double = (nm - 360.0) / 470.0
+
   private def logistic(c: Array[Double], nm: Float): Float =
-    val x = (nm - 360.0) / 470.0
+    val x = position(nm)
     val t = (c(0) * x + c(1)) * x + c(2)
     (0.5 + t / (2 * Math.sqrt(1 + t * t))).toFloat
 
@@ -121,16 +143,23 @@ object Upsampling:
       up(k) += h
       down(k) -= h
       color(up, space).zip(color(down, space)).map((a, b) => (a - b) / (2 * h))
+    for step <- solve(columns, off) do
+      val largest = step.map(Math.abs).max
+      val scale = if largest > 50 then 50 / largest else 1.0
+      for k <- 0 until 3 do c(k) = Math.max(-500, Math.min(500, c(k) - step(k) * scale))
+
+  /** The three factors of the columns whose sum is `off`, if there are such. */
+  private[color] def solve(
+      columns: Array[Array[Double]],
+      off: Array[Double]
+  ): Option[Array[Double]] =
     def det(a: Array[Double], b: Array[Double], d: Array[Double]): Double =
       a(0) * (b(1) * d(2) - b(2) * d(1)) - b(0) * (a(1) * d(2) - a(2) * d(1)) +
         d(0) * (a(1) * b(2) - a(2) * b(1))
     val all = det(columns(0), columns(1), columns(2))
-    if Math.abs(all) > 1e-18 then
-      val step = Array(
+    Option.when(Math.abs(all) > 1e-18):
+      Array(
         det(off, columns(1), columns(2)) / all,
         det(columns(0), off, columns(2)) / all,
         det(columns(0), columns(1), off) / all
       )
-      val largest = step.map(Math.abs).max
-      val scale = if largest > 50 then 50 / largest else 1.0
-      for k <- 0 until 3 do c(k) = Math.max(-500, Math.min(500, c(k) - step(k) * scale))

@@ -42,7 +42,7 @@ object ColorSpaces:
         val isLight = Lights(d.category) || p.name == "Le"
         val colors = p.floats.grouped(3).filter(_.length == 3).map: v =>
           val c = Rgb(v(0), v(1), v(2))
-          if isLight then space.light(c) else space.reflectance(c)
+          if isLight then space.emission(c) else space.reflectance(c)
         val all = colors.toVector
         if all.exists(c => c.r < 0f || c.g < 0f || c.b < 0f) then
           warn(s"`${p.name}` is outside the gamut of sRGB; clamping")

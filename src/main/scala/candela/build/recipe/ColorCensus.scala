@@ -51,7 +51,9 @@ final class ColorCensus(basis: ColorBasis):
   def add(value: SpectralValue, role: SpectrumRole, components: Rgb): Unit = value match
     case SpectralValue.Color(c, space) if space.isSrgb => add(c, role, components)
     case SpectralValue.Color(c, space) if role == SpectrumRole.Emission =>
-      add(space.light(c), role, components)
+      add(space.emission(c), role, components)
+    case SpectralValue.Color(c, space) if role == SpectrumRole.Unbounded =>
+      add(space.unbounded(c), role, components)
     case SpectralValue.Color(c, space) => add(space.reflectance(c), role, components)
     case SpectralValue.Wavelengths(s) => add(s, role, s(_), components)
 

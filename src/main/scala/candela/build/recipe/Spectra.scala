@@ -57,7 +57,7 @@ object Spectra:
         basis.ofLight(c)
       case (SpectralValue.Color(c, space), SpectrumRole.Emission) =>
         val filter = Upsampling.unbounded(c, space)
-        basis.ofLight(nm => filter(nm) * space.illuminant(nm), space.light(c))
+        basis.ofLight(nm => filter(nm) * space.illuminant(nm), space.emission(c))
       case (SpectralValue.Color(c, space), SpectrumRole.Reflectance) if space.isSrgb =>
         basis.fromSrgb(c)
       case (SpectralValue.Color(c, space), SpectrumRole.Reflectance) if c.max <= 1f =>
@@ -84,9 +84,12 @@ object Spectra:
 
   /** A colour of any space in linear sRGB. Three components can't be negative reflectances. */
   private def inSrgb(c: Rgb, space: ColorSpace, role: SpectrumRole, basis: ColorBasis): Rgb =
-    if role == SpectrumRole.Emission then space.light(c)
-    else if space.isSrgb then c
-    else nonNegative(space.reflectance(c), basis)
+    if space.isSrgb then c
+    else
+      role match
+        case SpectrumRole.Emission => space.emission(c)
+        case SpectrumRole.Reflectance => nonNegative(space.reflectance(c), basis)
+        case SpectrumRole.Unbounded => nonNegative(space.unbounded(c), basis)
 
   private def nonNegative(c: Rgb, basis: ColorBasis): Rgb =
     basis.toSrgb(basis.fromSrgb(c).map(Math.max(_, 0f)))
