@@ -6,13 +6,15 @@ import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, NoSuchFileException, Path}
 
+import scala.util.Using
+
 /** Reads and writes image files of all supported formats. Every failure is an [[ImageError]]. */
 object ImageFiles:
 
   /** Extensions of readable files, most accurate first. */
   val readable: Vector[String] = Vector(
-    "exr", "pfm", "hdr", "pic", "png", "qoi", "tga", "bmp", "ppm", "pgm", "psd", "gif", "jpg",
-    "jpeg"
+    "exr", "pfm", "hdr", "pic", "png", "qoi", "tga", "bmp", "ppm", "pgm", "pbm", "pnm", "psd",
+    "gif", "jpg", "jpeg"
   )
 
   private val Readable =
@@ -42,6 +44,15 @@ object ImageFiles:
     val bytes = Files.readAllBytes(path)
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
 
+  /** What pbrt-v4 makes of the file, if it is another image. */
+  def remark(path: Path): Option[String] =
+    def start = Using.resource(Files.newInputStream(path))(_.readNBytes(1 << 16))
+    val found = FileName.suffix(path) match
+      case "tga" => Tga.remark(start)
+      case "ppm" | "pgm" | "pbm" | "pnm" => Pnm.remark(start)
+      case _ => None
+    found.map(text => s"$path: $text")
+
   /** Whether the file is a whole image whose metadata contain the text, if its format has any. */
   def isWhole(path: Path, text: String): Boolean =
     Files.isRegularFile(path) && OutputFormat.of(path).exists: format =>
@@ -68,9 +79,10 @@ object ImageFiles:
     else if beginsWith("#?") then Hdr.read(bytes)
     else if beginsWith("PF") || beginsWith("Pf") then Pfm.read(bytes)
     else if beginsWith("qoif") then Qoi.read(bytes)
-    else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || extension == "tga" ||
-      StbMarks.exists(beginsWith)
-    then StbReader.read(bytes)
+    else if Pnm.isMark(bytes) then Pnm.read(bytes)
+    else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || StbMarks.exists(beginsWith) then
+      StbReader.read(bytes)
+    else if extension == "tga" then Tga.read(bytes)
     else if readable.contains(extension) then
       throw ImageError(s"not a valid .$extension file: it begins with other bytes")
     else throw ImageError(s"unknown format; $Readable")
@@ -104,8 +116,8 @@ object ImageFiles:
   def png(image: Image, display: DisplayTransform = DisplayTransform.Plain): Array[Byte] =
     Png.write(image, Vector.empty, WriteOptions(display = display))
 
-  /** Signatures of BMP, GIF, PSD, PGM and PPM. */
-  private val StbMarks = Vector("BM", "GIF8", "8BPS", "P5", "P6")
+  /** Signatures of BMP, GIF and PSD. */
+  private val StbMarks = Vector("BM", "GIF8", "8BPS")
 
   private def reason(e: IOException): String =
     e.getClass.getSimpleName.stripSuffix("Exception") match

@@ -8,8 +8,8 @@ import org.lwjgl.system.{MemoryStack, MemoryUtil}
 
 import java.nio.{ByteBuffer, IntBuffer}
 
-/** Reads PNG (8 and 16 bits), JPEG, TGA, BMP, GIF (its first image), PSD, PGM and PPM through
-  * stb_image; palettes are expanded.
+/** Reads PNG (8 and 16 bits), JPEG, TGA, BMP, GIF (its first image), and PSD through stb_image;
+  * palettes are expanded.
   */
 private[image] object StbReader:
 

@@ -2,8 +2,8 @@ package candela.image
 
 import java.nio.{ByteBuffer, ByteOrder}
 
-/** Writes TGA, which films of pbrt-v2 and v3 may name: 24 bits, uncompressed, sRGB-encoded, values
-  * clamped to [0, 1], NaN black.
+/** Reads TGA, and writes it, since films of pbrt-v2 and v3 may name it: 24 bits, uncompressed,
+  * sRGB-encoded, values clamped to [0, 1], NaN black.
   *
   * Source: Truevision TGA File Format Specification, version 2.0, 1991.
   */
@@ -11,6 +11,58 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
   private val HeaderSize = 18
   private val TrueColor = 2
   private val TopLeft = 0x20
+  private val FromRight = 0x10
+
+  /** By stb_image, which knows neither columns from the right nor palettes that don't begin with
+    * entry 0.
+    */
+  def read(file: Array[Byte]): StoredImage =
+    val image = StbReader.read(withWholePalette(file))
+    if !isFromRight(file) then image
+    else
+      val n = image.channels
+      val source = (0 until image.width * image.height * n).map: i =>
+        val x = i / n % image.width
+        i + (image.width - 1 - 2 * x) * n
+      image match
+        case bytes: ByteImage =>
+          val turned = source.map(bytes.bytes(_)).toArray
+          ByteImage(image.width, image.height, image.channelNames, turned, bytes.encoding)
+        case floats: Image =>
+          val turned = source.map(floats.data(_)).toArray
+          Image(image.width, image.height, image.channelNames, turned, floats.encoding)
+
+  /** What pbrt-v4 makes of the file, if it is another image. */
+  def remark(file: Array[Byte]): Option[String] =
+    if file.length < HeaderSize then None
+    else if isFromRight(file) then Some("its columns run from the right; pbrt-v4 mirrors it")
+    else if firstEntry(file) > 0 then
+      Some(s"its palette begins with entry ${firstEntry(file)}; pbrt-v4 takes it for entry 0")
+    else None
+
+  private def isFromRight(file: Array[Byte]) =
+    file.length >= HeaderSize && (file(17) & FromRight) != 0
+
+  private def short(file: Array[Byte], at: Int) = file(at) & 0xff | (file(at + 1) & 0xff) << 8
+
+  /** Number of the palette's first entry; 0 without a palette. */
+  private def firstEntry(file: Array[Byte]): Int =
+    if file.length < HeaderSize || file(1) != 1 then 0 else short(file, 3)
+
+  /** The file with a palette from entry 0. */
+  private def withWholePalette(file: Array[Byte]): Array[Byte] =
+    val first = firstEntry(file)
+    def count = first + short(file, 5)
+    if first == 0 || count > 0xffff then file
+    else
+      val start = HeaderSize + (file(0) & 0xff)
+      val unused = new Array[Byte](first * (((file(7) & 0xff) + 7) / 8))
+      val whole = file.take(start) ++ unused ++ file.drop(start)
+      whole(3) = 0
+      whole(4) = 0
+      whole(5) = count.toByte
+      whole(6) = (count >> 8).toByte
+      whole
 
   private[image] override def hasEnd(file: Array[Byte]): Boolean =
     val header = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)

@@ -106,7 +106,9 @@ final class SharedResources(
   ): Option[StoredImage] =
     file(p, from, problems, standIn).flatMap: path =>
       loaded.computeIfAbsent(path, load) match
-        case Right(image) => Some(image)
+        case Right(image) =>
+          for remark <- ImageFiles.remark(path) do problems.warn(p.valuesAt, remark)
+          Some(image)
         case Left(message) =>
           problems.missing(p.valuesAt, message, standIn)
           None

@@ -1,0 +1,104 @@
+package candela.image
+
+import candela.base.loop
+import candela.color.Encoding
+
+import java.nio.charset.StandardCharsets.US_ASCII
+
+/** Reads portable bitmaps, grey maps and pixmaps, in numerals (`P1` to `P3`) or binary (`P4` to
+  * `P6`), of any maximum up to 65535. The maximum is white.
+  *
+  * Source: netpbm.sourceforge.net, "PPM", "PGM" and "PBM Format Specification".
+  */
+private[image] object Pnm:
+
+  def isMark(file: Array[Byte]): Boolean =
+    file.length > 2 && file(0) == 'P' && file(1) >= '1' && file(1) <= '6' &&
+      (isBlank(file(2)) || file(2) == '#')
+
+  def read(file: Array[Byte]): StoredImage = Reader(file).image()
+
+  /** What pbrt-v4 makes of the file, if it is another image. */
+  def remark(file: Array[Byte]): Option[String] =
+    try
+      Option.when(isMark(file))(Reader(file)).flatMap: reader =>
+        if !reader.isBinary || reader.isBits then
+          Some("pbrt-v4 can't read it: only PGM and PPM files of bytes, P5 and P6")
+        else
+          Some(reader.header().most).filter(_ != 255).map: most =>
+            s"its values are at most $most, which is white; pbrt-v4 takes 255 for white" +
+              (if most > 255 then ", and the lower byte of each value" else "")
+    catch case _: ImageError => None
+
+  private final case class Header(width: Int, height: Int, most: Int)
+
+  private def isBlank(b: Byte) = b == ' ' || (b >= '\t' && b <= '\r')
+
+  private final class Reader(file: Array[Byte]):
+    private val kind = file(1) - '0'
+    val isBits = kind == 1 || kind == 4
+    val isBinary = kind >= 4
+    private val names = if kind % 3 == 0 then Image.RgbNames else Vector("Y")
+    private var at = 2
+
+    def header(): Header =
+      val (width, height) = (number("width", Int.MaxValue), number("height", Int.MaxValue))
+      val most = if isBits then 1 else number("maximum", 65535)
+      if width < 1 || height < 1 || most < 1 then
+        throw ImageError(s"expected sizes and a maximum above 0, found $width $height $most")
+      Header(width, height, most)
+
+    def image(): StoredImage =
+      val Header(width, height, most) = header()
+      val row = width.toLong * names.size
+      val count = row * height
+      // A single blank ends the header of binary files
+      if isBinary then at += 1
+      val bytesOfRow = if isBits then (row + 7) / 8 else if most > 255 then 2 * row else row
+      val least = if isBinary then bytesOfRow * height else count
+      val rest = Math.max(file.length - at, 0)
+      if least > rest || count > Int.MaxValue - 8 then
+        throw ImageError(s"$width×$height pixels need $least bytes, found $rest")
+      val start = at
+      def value(i: Int): Int =
+        if !isBinary then if isBits then bit() else number("value", 65535)
+        else if isBits then
+          val (y, x) = (i / width, i % width)
+          file((start + y * bytesOfRow + x / 8).toInt) >> (7 - x % 8) & 1
+        else if most > 255 then
+          (file(start + 2 * i) & 0xff) << 8 | (file(start + 2 * i + 1) & 0xff)
+        else file(start + i) & 0xff
+      if most == 255 || isBits then
+        val bytes = new Array[Byte](count.toInt)
+        // 1 is black in bitmaps
+        if isBits then loop(bytes.length)(i => bytes(i) = (255 * (1 - value(i))).toByte)
+        else loop(bytes.length)(i => bytes(i) = Math.min(value(i), 255).toByte)
+        ByteImage(width, height, names, bytes, Encoding.Srgb)
+      else
+        val data = new Array[Float](count.toInt)
+        loop(data.length)(i => data(i) = Math.min(value(i), most) / most.toFloat)
+        Image(width, height, names, data, Encoding.Srgb)
+
+    /** A numeral after blanks and comments. */
+    private def number(what: String, largest: Int): Int =
+      skip()
+      val start = at
+      while at < file.length && at - start < 10 && file(at) >= '0' && file(at) <= '9' do at += 1
+      val text = String(file, start, at - start, US_ASCII)
+      text.toIntOption.filter(_ <= largest).getOrElse:
+        val found = String(file, start, Math.min(file.length - start, 10), US_ASCII)
+        throw ImageError(s"expected its $what, at most $largest, found `${found.trim}`")
+
+    /** Bits need no blanks between them. */
+    private def bit(): Int =
+      skip()
+      if at == file.length || (file(at) != '0' && file(at) != '1') then
+        throw ImageError("expected bits, 0 or 1, for all of its pixels")
+      at += 1
+      file(at - 1) - '0'
+
+    private def skip(): Unit =
+      while at < file.length && (isBlank(file(at)) || file(at) == '#') do
+        if file(at) == '#' then
+          while at < file.length && file(at) != '\n' && file(at) != '\r' do at += 1
+        else at += 1
