@@ -58,6 +58,8 @@ final case class BuildOptions(
   * Selects the simplest exact specialisation of each object, once (see the features of the plan).
   */
 object SceneBuilder:
+  /** Pixels of which the films of a rendering can have all their values. */
+  private val MostPixels = Int.MaxValue / 16
 
   /** Returns the plan and warnings about unsupported features. Throws [[SceneError]] with all
     * errors, including those of the description.
@@ -77,6 +79,12 @@ object SceneBuilder:
         camera.cone(image, sampling.footprint)
       Footprints(integrator.followsSpecular, cone)
     val crop = image.crop(integrator.window, options)
+    if crop.pixels > MostPixels then
+      context.problems.error(
+        context.description.film.fold(BuildContext.NoPlace)(_.at),
+        s"can't render ${crop.width}×${crop.height} pixels at once",
+        Some("give the film a crop window, or render parts of it with --crop")
+      )
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
     Hierarchies.expect(samples, options.pool)
     val world =

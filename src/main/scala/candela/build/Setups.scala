@@ -29,28 +29,28 @@ private[build] final case class ImageSetup(
     * @param window the integrator's window of the full image, if any
     */
   def crop(window: Option[PixelBounds], options: BuildOptions): PixelBounds =
-    val (x0, x1, y0, y1) = options.cropWindow.getOrElse:
-      val c = film.crop
-      if film.inPixels then
-        (c(0) / film.width, c(1) / film.width, c(2) / film.height, c(3) / film.height)
-      else (c(0), c(1), c(2), c(3))
+    // The image may be smaller than the film. In Double: a pixel's number must not be rounded up
+    def x(at: Double) = Math.ceil(at * width / film.width).toInt
+    def y(at: Double) = Math.ceil(at * height / film.height).toInt
+    def clipped(p: PixelBounds) = PixelBounds(
+      Math.max(p.x0, 0),
+      Math.max(p.y0, 0),
+      Math.min(p.x1, width),
+      Math.min(p.y1, height)
+    )
     def edge(part: Float, size: Int) =
       candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
-    val onFilm = options.pixels match
-      case Some(p) =>
-        PixelBounds(
-          Math.max(p.x0, 0),
-          Math.max(p.y0, 0),
-          Math.min(p.x1, width),
-          Math.min(p.y1, height)
-        )
-      case None =>
-        PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
+    def byParts(w: (Float, Float, Float, Float)) =
+      PixelBounds(edge(w._1, width), edge(w._3, height), edge(w._2, width), edge(w._4, height))
+    val c = film.crop
+    val onFilm = (options.pixels, options.cropWindow) match
+      case (Some(p), _) => clipped(p)
+      case (None, Some(parts)) => byParts(parts)
+      case (None, None) if film.inPixels =>
+        clipped(PixelBounds(x(c(0)), y(c(2)), x(c(1)), y(c(3))))
+      case (None, None) => byParts((c(0), c(1), c(2), c(3)))
     val isAsked = options.cropWindow.isDefined || options.pixels.isDefined
     val bounds = window.filterNot(_ => isAsked).fold(onFilm): w =>
-      // The image may be smaller than the film
-      def x(at: Int) = Math.ceil(at.toDouble * width / film.width).toInt
-      def y(at: Int) = Math.ceil(at.toDouble * height / film.height).toInt
       PixelBounds(
         Math.max(onFilm.x0, x(w.x0)),
         Math.max(onFilm.y0, y(w.y0)),
@@ -65,7 +65,9 @@ private[build] final case class ImageSetup(
           options.pixels match
             case Some(p) => s"pixels ${p.x0},${p.x1},${p.y0},${p.y1} are outside $width×$height"
             case None =>
-              s"the crop window $x0 $x1 $y0 $y1, with `pixelbounds`, has no pixel of $width×$height"
+              val asked = options.cropWindow.fold(c.toSeq)(w => Seq(w._1, w._2, w._3, w._4))
+              s"the crop window ${asked.mkString(" ")}, with `pixelbounds`, has no pixel of " +
+                s"$width×$height"
         )
       )
     bounds

@@ -129,6 +129,35 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val asked = BuildOptions(cropWindow = Some((0f, 0.1f, 0f, 0.1f)))
     assert(SceneTexts.plan(cropped, options = asked).crop == PixelBounds(0, 0, 8, 4))
 
+  test("windows in pixels are those pixels, at any width"):
+    for width <- Vector(100, 400, 1920, 15000); x <- 0 until width by Math.max(1, width / 500) do
+      val film = s"Film \"rgb\" \"integer xresolution\" $width \"integer yresolution\" 9"
+      val text = s"$film \"integer pixelbounds\" [$x ${x + 1} 2 4]\n$nothing"
+      assert(SceneTexts.plan(text, Dialect.V4).crop == PixelBounds(x, 2, x + 1, 4))
+
+  test("a film may be larger than memory: a window of it costs what the window does"):
+    def film(window: String) =
+      s"Film \"image\" \"integer xresolution\" 45000 \"integer yresolution\" 46000 $window\n"
+    val window = "\"float cropwindow\" [.5 .5001 .5 .5001]"
+    val methods = Vector(
+      "Integrator \"path\"",
+      "Integrator \"bdpt\"",
+      "Integrator \"sppm\" \"integer iterations\" 1",
+      "Integrator \"mlt\" \"integer mutationsperpixel\" 1 \"integer bootstrapsamples\" 64"
+    )
+    val samplers = Vector("random", "halton", "sobol", "stratified", "02sequence", "maxmindist")
+    val lit = "LightSource \"infinite\"\nTranslate 0 0 3\nShape \"sphere\"\nWorldEnd"
+    for method <- methods; sampler <- if method.contains("path") then samplers else Seq("halton") do
+      val text = s"${film(window)}Sampler \"$sampler\" \"integer pixelsamples\" 1\n$method\n" +
+        s"Camera \"perspective\"\nWorldBegin\n$lit"
+      val scenes = BuildOptions(points = PointChoice.Scene)
+      val plan = SceneTexts.plan(text, options = scenes)
+      assert(plan.crop == PixelBounds(22500, 23000, 22505, 23005), method)
+      val image = Renderer.render(plan, threads = 1).image(plan.development)
+      assert(image.width == 5 && image.data.exists(_ > 0f), s"$method $sampler")
+    val whole = SceneTexts.problems(s"${film("")}$nothing").map(_.message)
+    assert(whole == Vector("can't render 45000×46000 pixels at once"))
+
   test("v4's images are the brighter the longer the shutter is open; older ones are not"):
     val camera = "Camera \"perspective\" \"float shutteropen\" 0.25 \"float shutterclose\" 0.75"
     val film = "Film \"rgb\" \"float iso\" 400 \"float maxcomponentvalue\" 6"

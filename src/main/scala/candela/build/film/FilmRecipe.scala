@@ -70,7 +70,7 @@ abstract class FilmRecipe(name: String, meaning: String, dialects: Set[Dialect])
       site: Site
   ): FilmSettings =
     val (w, h) = (x(), y())
-    if w < 1 || h < 1 || w.toLong * h > Int.MaxValue / 16 then
+    if w < 1 || h < 1 || w.toLong * h > Int.MaxValue then
       site.error(s"can't render an image of $w×$h pixels")
     // v4 prefers the fractional window if both are given
     val inPixels = crop().isEmpty && pixels().length == 4
