@@ -4,7 +4,7 @@ import candela.base.{Problem, SceneError, Severity}
 import candela.build.cameras.Cameras
 import candela.build.film.{FilmSettings, Films, Filters}
 import candela.build.integrators.IntegratorPlan
-import candela.build.sampling.{SamplerRequest, Samplers}
+import candela.build.sampling.{SamplerPlan, SamplerRequest, Samplers}
 import candela.cameras.{Camera, FilmFrame, MovingCamera, PixelCone, Shutter}
 import candela.film.{Filter, Layer, PixelBounds}
 import candela.math.*
@@ -119,12 +119,25 @@ private[build] object SamplingSetup:
     val request = SamplerRequest(samples, options.seed ^ switches.seed)
     val default = context.defaults.sampler
     val asked = context.made(context.description.sampler, Samplers.all, default)(request)
-    val points = asked.points(options.points)
+    val chosen = asked.points(options.points)
+    def warn(message: String) =
+      context.problems.warn(context.description.sampler.map(_.at), message)
+    val points = if asked.count <= chosen.most then chosen else SamplerPlan.Best
+    if points != chosen then
+      warn(
+        s"\"${chosen.word}\" has at most ${chosen.most} samples per pixel, not ${asked.count}; " +
+          s"using ${points.meaning}"
+      )
     val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
+    if sampler.samplesPerPixel != asked.count then
+      warn(
+        s"\"${points.word}\" takes ${sampler.samplesPerPixel} samples per pixel, the next power " +
+          s"of two, not ${asked.count}"
+      )
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
-      asked.describe(options.points),
+      if points == chosen then asked.describe(options.points) else points.meaning,
       samples,
       if switches.centers then 1f
       else if context.isV4 then Math.max(SharpestV4, density)

@@ -66,8 +66,9 @@ object Renderer:
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
-    for end <- ends(schedule, passObserver).filter(isNew) if !queue.isStopped && !isEnough do
-      run(end)
+    ends(schedule, passObserver).filter(isNew).takeWhile(_ =>
+      !queue.isStopped && !isEnough
+    ).foreach(run)
     var wave = schedule.waves
     while live.keepsOn && !queue.isStopped && !isEnough do
       // A third of all samples is new: seldom enough for the workers to wait for each other
@@ -114,11 +115,11 @@ object Renderer:
     )
 
   /** The waves after which the workers wait for each other. */
-  private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Vector[Int] =
+  private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Iterator[Int] =
     passObserver match
-      case None => Vector(schedule.waves)
-      case Some(w) if w.seesWaves => (1 to schedule.waves).toVector
-      case Some(_) => schedule.passes
+      case None => Iterator(schedule.waves)
+      case Some(w) if w.seesWaves => Iterator.range(1, schedule.waves + 1)
+      case Some(_) => schedule.passes.iterator
 
   /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.
     *

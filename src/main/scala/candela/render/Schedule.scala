@@ -21,15 +21,22 @@ private[render] abstract class Schedule(
     val openWaves: Int = Int.MaxValue
 ):
 
-  // Wave w has the samples from waveStarts(w) until waveStarts(w + 1); two double the total.
-  private val waveStarts: Array[Int] =
+  // The waves before the first of the largest size; from then on, all are of that size.
+  private val growing: Array[Int] =
     Iterator
-      .iterate(0): start =>
-        start + Math.min(Math.max(Integer.highestOneBit(start) / 2, 1), largestWave)
-      .takeWhile(_ < samplesPerPixel)
-      .toArray :+ samplesPerPixel
+      .iterate(0)(start => start + Schedule.size(start))
+      .takeWhile(Schedule.size(_) < largestWave)
+      .toArray
+  private val grown = growing.lastOption.fold(0)(start => start + Schedule.size(start))
 
-  val waves: Int = waveStarts.length - 1
+  /** First sample of a wave, if there were no end. */
+  private def start(wave: Int): Long =
+    if wave < growing.length then growing(wave)
+    else grown + (wave - growing.length).toLong * largestWave
+
+  val waves: Int =
+    if samplesPerPixel <= grown then growing.count(_ < samplesPerPixel)
+    else growing.length + (samplesPerPixel - grown - 1) / largestWave + 1
 
   /** Number of steps, each a piece in a wave; the steps of a wave are consecutive. */
   val steps: Long = waves.toLong * pieces
@@ -42,19 +49,33 @@ private[render] abstract class Schedule(
 
   /** Waves beyond the planned ones are of equal size. */
   def firstSample(wave: Int): Int =
-    if wave <= waves then waveStarts(wave) else samplesPerPixel + (wave - waves) * largestWave
+    if wave < waves then start(wave).toInt
+    else
+      val further = samplesPerPixel + (wave - waves).toLong * largestWave
+      Math.min(further, Int.MaxValue).toInt
 
   /** One more than the last sample of the wave. */
   def endSample(wave: Int): Int = firstSample(wave + 1)
 
   /** Waves after which every pixel has 1, 2, 4, 8, … samples, and the last wave. */
-  def passes: Vector[Int] = (1 to waves).toVector.filter: end =>
-    end == waves || Integer.bitCount(waveStarts(end)) == 1
+  def passes: Vector[Int] =
+    val doublings = Iterator.iterate(1L)(_ * 2).takeWhile(_ <= samplesPerPixel).flatMap(endingAt)
+    (doublings ++ Iterator(waves)).toVector.distinct
+
+  /** The number of waves that have this many samples, if no wave is divided. */
+  private def endingAt(samples: Long): Option[Int] =
+    if samples < grown then Some(growing.indexOf(samples.toInt)).filter(_ > 0)
+    else
+      val whole = growing.length + (samples - grown) / largestWave
+      Option.when(start(whole.toInt) == samples)(whole.toInt)
 
 private[render] object Schedule:
 
   /** Larger waves would not be cheaper. */
   val LargestWave: Int = 64
+
+  /** Of the wave that begins with this sample, unless it is limited: two waves double the total. */
+  private def size(start: Int): Int = Math.max(Integer.highestOneBit(start) / 2, 1)
 
 /** A schedule whose pieces are the tiles of an image, row by row. */
 private[render] final class TileSchedule(
@@ -86,7 +107,14 @@ private[render] final class ChainSchedule(
 
   protected def samplesOf(chain: Int, progress: Long): Int =
     if !takes(chain) then samplesPerPixel
-    else (0 to waves).map(firstSample).filter(paths(chain, _) <= progress).last
+    else
+      // The last wave whose paths are all there
+      var done = 0
+      var open = waves
+      while done < open do
+        val middle = done + (open - done + 1) / 2
+        if paths(chain, firstSample(middle)) <= progress then done = middle else open = middle - 1
+      firstSample(done)
 
 private[render] object TileSchedule:
 

@@ -1,6 +1,7 @@
 package candela.render
 
 import java.util.concurrent.atomic.{
+  AtomicInteger,
   AtomicIntegerArray,
   AtomicLong,
   AtomicLongArray,
@@ -15,7 +16,9 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   private var endStep = 0L // changed only while no worker runs
   private val finishedWaves = AtomicIntegerArray(schedule.pieces)
   private val limitsWaves = schedule.openWaves < schedule.waves
-  private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.waves else 0)
+  // How many pieces of an open wave are finished; a wave takes the place of one that is closed.
+  private val finishedPieces = AtomicIntegerArray(if limitsWaves then schedule.openWaves else 0)
+  private val closedWaves = AtomicInteger()
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
   private val gate = Gate()
@@ -66,12 +69,15 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   private[render] def isTurn(piece: Int, wave: Int): Boolean =
     finishedWaves.get(piece) == wave &&
       (wave < schedule.openWaves ||
-        finishedPieces.get(wave - schedule.openWaves) == schedule.pieces)
+        closedWaves.get > wave - schedule.openWaves)
 
   def finish(piece: Int, wave: Int): Unit =
     finishedWaves.set(piece, wave + 1)
     if limitsWaves then
-      val _ = finishedPieces.incrementAndGet(wave)
+      val place = wave % schedule.openWaves
+      if finishedPieces.incrementAndGet(place) == schedule.pieces then
+        finishedPieces.set(place, 0)
+        closedWaves.set(wave + 1)
 
 private object TaskQueue:
   /** In nanoseconds; short beside the milliseconds of a step. */

@@ -17,7 +17,7 @@ package candela.sampling
   *   `start`
   */
 final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) extends HashedSampler:
-  require(requested > 0 && requested <= (1 << 24), s"$requested samples per pixel")
+  require(requested > 0 && requested <= ZSobolSampler.Most, s"$requested samples per pixel")
 
   private val logSamples = ZSobolSampler.ceilLog2(requested)
   val samplesPerPixel: Int = 1 << logSamples
@@ -65,6 +65,8 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
   private def fraction(reversed: Int): Float = SampleHash.toUnit(Integer.reverse(reversed))
 
 object ZSobolSampler:
+  /** Maximum samples per pixel: with them, places along the curve of any film fit a `Long`. */
+  val Most: Int = 1 << 24
 
   /** The 24 permutations of 0, 1, 2, 3 in 8 bits each: the image of digit d is in bits 2d and 2d +
     * 1.

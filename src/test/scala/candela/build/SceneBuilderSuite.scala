@@ -117,6 +117,28 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(sampler(PointChoice.Best).isInstanceOf[ZSobolSampler])
     assert(sampler(PointChoice.Progressive).isInstanceOf[OwenSobolSampler])
 
+  test("a number of samples that the points can't have is said, as is what is rendered"):
+    def of(spp: Int, sampler: String = "\"zsobol\"") =
+      val text = s"Sampler $sampler\n$nothing"
+      val options = BuildOptions(spp = Some(spp), points = PointChoice.Scene)
+      val found = SceneTexts.problems(text, Dialect.V4, options = options)
+      (SceneTexts.plan(text, Dialect.V4, options).sampler.samplesPerPixel, found.map(_.message))
+    val none = of(256)
+    assert(none._1 == 256)
+    val rounded = of(300)
+    assert(rounded._1 == 512)
+    assert(rounded._2.diff(none._2) == Vector(
+      "\"zsobol\" takes 512 samples per pixel, the next power of two, not 300"
+    ))
+    val replaced = of(Int.MaxValue)
+    assert(replaced._1 == Int.MaxValue)
+    assert(replaced._2.diff(none._2).head.contains("at most 16777216 samples per pixel"))
+
+  test("more strata than there are numbers of samples are an error"):
+    val text = s"Sampler \"stratified\" \"integer xsamples\" 100000 \"integer ysamples\" 100000\n"
+    val found = SceneTexts.problems(text + nothing, Dialect.V4)
+    assert(found.exists(_.message.contains("at most 2147483647 samples per pixel, found")))
+
   test("the whole image is rendered unless the scene or the caller crops it"):
     assert(SceneTexts.plan(s"$film\n$nothing").crop == PixelBounds(0, 0, 80, 40))
     val cropped = s"$film \"float cropwindow\" [0.25 0.5 0.5 1]\n$nothing"

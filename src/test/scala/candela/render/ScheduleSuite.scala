@@ -2,6 +2,8 @@ package candela.render
 
 import candela.film.PixelBounds
 
+import java.util.concurrent.atomic.AtomicLongArray
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class ScheduleSuite extends AnyFunSuite:
@@ -18,6 +20,28 @@ class ScheduleSuite extends AnyFunSuite:
       val covered = (0 until schedule.waves).flatMap: wave =>
         schedule.firstSample(wave) until schedule.endSample(wave)
       assert(covered == (0 until samples))
+
+  test("the greatest numbers of samples have waves, without a list of them"):
+    val schedule = TileSchedule(crop, Int.MaxValue)
+    assert(schedule.firstSample(schedule.waves) == Int.MaxValue)
+    assert(schedule.firstSample(schedule.waves - 1) == Int.MaxValue - 63)
+    assert(schedule.endSample(schedule.waves) == Int.MaxValue)
+    assert(schedule.passes.take(4) == Vector(1, 2, 4, 6))
+    assert(schedule.passes.last == schedule.waves)
+    assert(schedule.passes.init.map(schedule.firstSample) == (0 to 30).map(1 << _))
+    val single = TileSchedule(crop, Int.MaxValue, largestWave = 1, openWaves = 1)
+    assert(single.waves == Int.MaxValue)
+    val _ = TaskQueue(single, Cancellation())
+
+  test("a chain has the samples of the last wave whose paths are all there"):
+    val schedule = ChainSchedule(3, 100, 1000000000, Shard.Whole)
+    def done(paths: Long) =
+      schedule.samplesDone(AtomicLongArray(Array.tabulate(3)(_ => paths)))
+    for wave <- Vector(0, 1, 5, 9, 1000, schedule.waves) do
+      val samples = schedule.firstSample(wave)
+      val paths = schedule.paths(0, samples)
+      assert(done(paths) == samples)
+      assert(wave == 0 || done(paths - 1) == schedule.firstSample(wave - 1))
 
   test("a wave begins when the pieces of the one before the last are all finished"):
     val schedule = TileSchedule(crop, 5, largestWave = 1, openWaves = 2)

@@ -75,6 +75,10 @@ final class Findings(
   def warn(at: SourcePos, message: String, help: Option[String] = None): Unit =
     add(Problem.warning(at, message, help))
 
+  /** Warns of a choice that no statement need have made, at the statement that has. */
+  def warn(at: Option[SourcePos], message: String): Unit =
+    add(Problem(Severity.Warning, at, message))
+
   def error(at: SourcePos, message: String, help: Option[String] = None): Unit =
     add(Problem.error(at, message, help))
 

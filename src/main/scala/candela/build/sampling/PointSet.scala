@@ -15,7 +15,12 @@ enum PointSet(val word: String, val meaning: String):
   case Sobol extends PointSet("sobol", "scrambled Sobol' points")
   case ZSobol extends PointSet("zsobol", "scrambled Sobol' points along a space-filling curve")
 
-  /** @param count samples per pixel; some sets round it up */
+  /** The most samples per pixel that it can place. */
+  def most: Int = this match
+    case ZSobol => ZSobolSampler.Most
+    case _ => Int.MaxValue
+
+  /** @param count samples per pixel, at most `most`; some sets round it up */
   def sampler(count: Int, seed: Int, width: Int, height: Int): Sampler = this match
     case Independent => IndependentSampler(count, seed)
     case Stratified(grid) =>

@@ -62,8 +62,16 @@ object StratifiedRecipe
   noMeaning("all dimensions are equally well sampled")(
     integer("dimensions", "well-sampled dimensions", onlyV3)(4)
   )
-  protected def make()(using Site): SamplerRequest => SamplerPlan =
-    val fixed = Strata(Math.max(1, x()), Math.max(1, y()), jitter())
+  protected def make()(using site: Site): SamplerRequest => SamplerPlan =
+    val asked = Strata(Math.max(1, x()), Math.max(1, y()), jitter())
+    val fixed =
+      if asked.x.toLong * asked.y <= Int.MaxValue then asked
+      else
+        site.error(
+          s"`xsamples` × `ysamples` must be at most ${Int.MaxValue} samples per pixel, found " +
+            s"${asked.x} × ${asked.y}"
+        )
+        asked.copy(x = 1, y = 1)
     val s = seed()
     request =>
       val grid = request.spp.fold(fixed)(Strata.square(_, fixed.jitter))
