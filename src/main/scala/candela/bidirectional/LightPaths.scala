@@ -30,7 +30,7 @@ private[bidirectional] final class LightPaths(
     countsPassed: Boolean = false
 ):
   private val powers = scene.lights.map: light =>
-    if weighsAll && light.isContrary then 0f else Math.max(0f, light.power(scene.ball))
+    if weighsAll && light.isContrary then 0f else Discrete.weight(light.power(scene.ball))
   private val choice: Discrete | Null = if powers.exists(_ > 0f) then Discrete(powers) else null
   private val start = EmittedRay()
   private val ray = Ray()

@@ -9,8 +9,10 @@ import candela.textures.Textured
 final class TwoSidedMaterial(front: Material, back: Material)
     extends Material,
       Textured(front, back):
-  def bsdf(at: ShadingPoint): Bsdf = TwoSided(front.bsdf(at), back.bsdf(at))
-  override def isDispersive: Boolean = front.isDispersive || back.isDispersive
+  def bsdf(at: ShadingPoint): Bsdf =
+    val facing = front.bsdf(at)
+    TwoSided(facing, if back eq front then facing else back.bsdf(at))
+  override val isDispersive: Boolean = front.isDispersive || back.isDispersive
 
 /** Reflects by `front` above the surface and by `back`, mirrored, below it. */
 final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
@@ -39,7 +41,9 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
 
   val isSpecular: Boolean = front.isSpecular && back.isSpecular
   def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = front.isDiffuse || back.isDiffuse
-  override def isReciprocal: Boolean = front.isReciprocal && back.isReciprocal
-  override def regularized: Bsdf = TwoSided(front.regularized, back.regularized)
-  override def isDispersive: Boolean = front.isDispersive || back.isDispersive
+  override val isDiffuse: Boolean = front.isDiffuse || back.isDiffuse
+  override val isReciprocal: Boolean = front.isReciprocal && back.isReciprocal
+  override def regularized: Bsdf =
+    val facing = front.regularized
+    TwoSided(facing, if back eq front then facing else back.regularized)
+  override val isDispersive: Boolean = front.isDispersive || back.isDispersive

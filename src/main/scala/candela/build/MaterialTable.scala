@@ -69,7 +69,12 @@ private[build] object MaterialTable:
     val number = worn.zipWithIndex.toMap
     def make(context: BuildContext, integrator: IntegratorPlan): Array[Material] =
       for (name, d) <- named do
-        context.resources.materials.define(name, () => Materials.build(context.site(d)))
+        context.resources.materials.define(
+          name,
+          d.at,
+          Materials.parts(d),
+          () => Materials.build(context.site(d))
+        )
       val made = mutable.HashMap.empty[MaterialRef, Material]
       worn.map: (finish, _) =>
         finish.of(made.getOrElseUpdate(finish.ref, finished(context, integrator, finish.ref)))

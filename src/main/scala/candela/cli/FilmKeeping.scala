@@ -119,7 +119,7 @@ private[cli] object FilmKeeping:
       val film =
         try FilmInput.open(path.toString, report)
         catch case e: SceneError => FilmInput.fail(e.problems.head.message, Remove)
-      for difference <- film.header.difference(now) do
+      for difference <- now.difference(film.header) do
         FilmInput.fail(s"`$path` is of another rendering: it has $difference", Remove)
       if film.header.shards != now.shards then
         FilmInput.fail(s"`$path` is of another shard: ${film.header.part}", Remove)

@@ -32,6 +32,9 @@ final case class FilmOptions(
   def endsEarly: Boolean = time.isDefined || error.isDefined
 
 object FilmOptions:
+  /** All of them are listed. */
+  private[cli] val MostFrames = 1_000_000
+
   def isFilm(name: String): Boolean =
     name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
 
@@ -98,6 +101,9 @@ private[cli] object FilmTable:
       .action((s, o) => change(o)(_.copy(shard = s))),
     opt[Range]("frames").valueName("FIRST-LAST")
       .text("render a sequence: the scene's name has %d, or %04d, for the number")
+      .validate: r =>
+        if r.size <= FilmOptions.MostFrames then success
+        else failure(s"--frames: at most ${FilmOptions.MostFrames} frames, found ${r.size}")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
       .text("skip scenes whose images are whole, and of this scene and these options")
@@ -108,7 +114,7 @@ private[cli] object FilmTable:
 
   def merge: Vector[Row] = Vector(
     opt[Unit]("partial")
-      .text("merge although shards are missing or unfinished")
+      .text("merge what there is, without films that are missing, damaged, doubled or foreign")
       .action((_, o) => change(o)(_.copy(partial = true)))
   )
 

@@ -30,6 +30,11 @@ final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) e
     if options.time.exists(_ <= pass.end + perSample * pass.next / 2) then isReached = true
     seen = pass.samples
 
+  /** At the time, if no sample ends any more. */
+  override def isOver(seconds: Double, still: Double): Boolean =
+    if options.time.exists(_ <= seconds) && still > Goal.Patience then isReached = true
+    isReached
+
   /** What is known about the end: the first of the planned samples, the time, and the error. */
   def outlook(progress: Progress): Outlook =
     val perSample = progress.total.toDouble / Math.max(1, planned - earlier)
@@ -59,6 +64,9 @@ final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) e
 object Goal:
   /** Of a time; what ends later was asked for. */
   private val Nearly = 0.9
+
+  /** In seconds; longer than any sound sample takes. */
+  private val Patience = 0.5
 
   /** Fewer samples per pixel say little about an error. */
   val Fewest = 4

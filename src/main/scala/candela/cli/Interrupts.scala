@@ -42,7 +42,8 @@ object Interrupts:
           // Printed first, because a cancelled rendering may end, and print its result, at once.
           err.println(s"${lineEnd}stopping; Ctrl-C again quits and writes nothing")
           cancellation.request()
-      Runtime.getRuntime.addShutdownHook(onShutdown)
+      // During shutdown it fails: the interrupt came before.
+      if Try(Runtime.getRuntime.addShutdownHook(onShutdown)).isFailure then cancellation.request()
       // Fails if Java runs with -Xrs, which reserves signals.
       val previous = Try(Signal.handle(interrupt, onInterrupt)).toOption
       try body

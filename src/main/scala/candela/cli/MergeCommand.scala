@@ -1,9 +1,11 @@
 package candela.cli
 
+import candela.base.{Problem, SceneError, Severity}
 import candela.render.{RenderState, Renderer}
 import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}
 import candela.scenefile.SceneFiles
 
+import scala.collection.mutable
 import scala.util.Using
 
 /** `candela merge`: adds up film files of the shards of a rendering. */
@@ -15,11 +17,8 @@ final class MergeCommand(
 ):
   def run(): ExitCode =
     report.guarded:
-      val films = options.files.map(FilmInput.open(_, report))
+      val films = usable()
       val first = films.head
-      for film <- films.tail; difference <- first.header.difference(film.header) do
-        FilmInput.fail(s"`${film.path}` is of another rendering than `${first.path}`: $difference")
-      checkShards(films)
       val outfiles = OutputFiles.asked(options.outfiles)
       outfiles.check()
       val register = FileRegister()
@@ -38,7 +37,8 @@ final class MergeCommand(
       FilmInput.verify(first, now.copy(count = header.count))
       val shards = films.flatMap(_.header.shards).toSet
       val all = films.map(_.header.done).min
-      val done = if shards.size == header.count then all else all * shards.size / header.count
+      val done =
+        if shards.size == header.count then all else (all.toLong * shards.size / header.count).toInt
       val film = header.copy(shards = shards, done = all)
       write(film, films, outfiles, loaded, saved, done)
 
@@ -72,22 +72,73 @@ final class MergeCommand(
         rendering.copy(samplesDone = done, samplesPerPixel = planned)
       )
 
-  /** Names missing, doubled and unfinished shards. */
-  private def checkShards(films: Vector[FilmFile]): Unit =
+  /** The films that can be merged. With `--partial`, the others are left out with a warning;
+    * otherwise they are errors, all of them.
+    */
+  private def usable(): Vector[FilmFile] =
+    val opened = options.files.map: name =>
+      try Right(FilmInput.open(name, report))
+      catch case e: SceneError => Left(e.problems)
+    val (own, foreign) = ofOneRendering(opened.flatMap(_.toOption))
+    val (single, doubled) = withoutDoubles(own)
+    val bad = opened.flatMap(_.left.toOption).flatten ++ foreign ++ doubled
+    if options.film.partial && single.nonEmpty then
+      report.warnings(
+        bad.map(p =>
+          p.copy(severity = Severity.Warning, message = s"${p.message}; it is left out")
+        ),
+        all = true
+      )
+    else
+      val gaps = if bad.isEmpty && !options.film.partial then missing(single) else Vector.empty
+      val all = bad ++ gaps ++ (if options.film.partial then Vector.empty else unfinished(single))
+      if all.nonEmpty then throw SceneError(all)
+    single
+
+  /** The films of the rendering that most of them are of; and what is wrong with the others. */
+  private def ofOneRendering(films: Vector[FilmFile]): (Vector[FilmFile], Vector[Problem]) =
+    val groups = films.foldLeft(Vector.empty[Vector[FilmFile]]): (groups, film) =>
+      groups.indexWhere(_.head.header.difference(film.header).isEmpty) match
+        case -1 => groups :+ Vector(film)
+        case i => groups.updated(i, groups(i) :+ film)
+    val most = groups.maxByOption(_.size).getOrElse(Vector.empty)
+    val problems =
+      for first <- most.take(1); film <- films; why <- first.header.difference(film.header)
+      yield Problem.general(s"`${film.path}` is of another rendering than `${first.path}`: $why")
+    (most, problems)
+
+  /** One film for each shard: that with the most samples, or the first of equals. */
+  private def withoutDoubles(films: Vector[FilmFile]): (Vector[FilmFile], Vector[Problem]) =
+    val owners = mutable.HashMap.empty[Int, FilmFile]
+    val problems = Vector.newBuilder[Problem]
+    val kept = films.sortBy(-_.header.done).filter: film =>
+      val shards = film.header.shards
+      shards.find(owners.contains) match
+        case None =>
+          owners ++= shards.map(_ -> film)
+          true
+        case Some(shard) =>
+          val both = s"`${owners(shard).path}`, `${film.path}`"
+          problems +=
+            Problem.general(s"shard $shard/${film.header.count} is there twice: $both")
+          false
+    (films.filter(kept.contains), problems.result())
+
+  private def missing(films: Vector[FilmFile]): Vector[Problem] =
     val count = films.head.header.count
-    val owners = films.flatMap(f => f.header.shards.map(_ -> f.path)).groupMap(_._1)(_._2)
-    for (shard, paths) <- owners.toVector.sortBy(_._1) if paths.size > 1 do
-      FilmInput.fail(s"shard $shard/$count is there twice: ${paths.mkString("`", "`, `", "`")}")
-    if !options.film.partial then
-      val missing = (0 until count).filterNot(owners.contains)
-      if missing.nonEmpty then
-        val names = missing.map(i => s"$i/$count").mkString(", ")
-        val many = if missing.size == 1 then s"shard $names is" else s"shards $names are"
-        FilmInput.fail(s"$many missing", "--partial merges the others")
-      for film <- films if films.size > 1 && !film.header.isComplete do
-        val header = film.header
-        FilmInput.fail(
-          s"shard ${header.part} is unfinished, with ${header.done} of ${header.samples} samples " +
-            s"per pixel: `${film.path}`",
-          s"`candela resume ${film.path}` completes it; --partial merges what there is"
-        )
+    val gaps = FilmHeader.missing(films.flatMap(_.header.shards).toSet, count)
+    val names = FilmHeader.named(gaps, count)
+    val isOne = gaps.size == 1 && gaps.forall((first, last) => first == last)
+    val many = if isOne then s"shard $names is" else s"shards $names are"
+    Option.when(gaps.nonEmpty):
+      Problem.general(s"$many missing", Some("--partial merges the others"))
+    .toVector
+
+  private def unfinished(films: Vector[FilmFile]): Vector[Problem] =
+    for film <- films if films.size > 1 && !film.header.isComplete yield
+      val header = film.header
+      Problem.general(
+        s"shard ${header.part} is unfinished, with ${header.done} of ${header.samples} samples " +
+          s"per pixel: `${film.path}`",
+        Some(s"`candela resume ${film.path}` completes it; --partial merges what there is")
+      )

@@ -16,6 +16,8 @@ private[cli] abstract class ChainedObserver(other: Option[PassObserver]) extends
   override final def begins(samples: Int, film: Film): Unit =
     other.foreach(_.begins(samples, film))
   override final def isEnough: Boolean = other.exists(_.isEnough)
+  override final def isOver(seconds: Double, still: Double): Boolean =
+    other.exists(_.isOver(seconds, still))
   override final def seesWaves: Boolean = other.exists(_.seesWaves)
 
   final def passed(pass: Pass, film: Film): Unit =

@@ -2,6 +2,9 @@ package candela.cli
 
 import java.io.{IOException, PrintStream, UncheckedIOException}
 
+import java.nio.channels.ClosedByInterruptException
+import java.nio.file.InvalidPathException
+
 import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos, WriteError}
 import candela.image.ImageError
 import candela.render.RenderFailure
@@ -31,8 +34,15 @@ final class Report(
       case e: SceneError => errors(e.problems)
       case e: ImageError => errors(Vector(Problem.general(e.getMessage)))
       case e: UncheckedIOException => errors(Vector(Problem.general(ioMessage(e.getCause))))
-      case e: IOException => errors(Vector(Problem.general(ioMessage(e))))
-      case e: Throwable => if isMemory(e) then outOfMemory() else bug(e)
+      case e: IOException if !isInterrupt(e) => errors(Vector(Problem.general(ioMessage(e))))
+      case e: InvalidPathException =>
+        errors(Vector(Problem.general(s"`${e.getInput}` is not a valid file name")))
+      case e: Throwable =>
+        if causes(e).exists(_.isInstanceOf[OutOfMemoryError]) then outOfMemory()
+        else if causes(e).exists(_.isInstanceOf[StackOverflowError]) then tooDeep()
+        else if causes(e).exists(isInterrupt) then
+          errors(Vector(Problem.general("the thread of this command was interrupted")))
+        else bug(e)
 
   /** Prints problems, at least one of them an error, in source order, and their count. */
   def errors(problems: Vector[Problem]): ExitCode =
@@ -75,8 +85,17 @@ final class Report(
     case w: WriteError => w.getMessage
     case other => s"${other.getClass.getSimpleName}: ${other.getMessage}"
 
-  private def isMemory(e: Throwable): Boolean =
-    e.isInstanceOf[OutOfMemoryError] || Option(e.getCause).exists(isMemory)
+  /** An exception and its causes. */
+  private def causes(e: Throwable): Vector[Throwable] =
+    Vector.unfold(Option(e))(_.map(c => (c, Option(c.getCause)))).take(Report.MostCauses)
+
+  private def isInterrupt(e: Throwable): Boolean = e match
+    case _: InterruptedException | _: ClosedByInterruptException => true
+    case _ => false
+
+  private def tooDeep(): ExitCode =
+    val message = "the scene is nested too deeply: Java's stack is full"
+    errors(Vector(Problem.general(message, Some("raise the limit of the stack, e.g. by -Xss64m"))))
 
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
@@ -95,6 +114,9 @@ final class Report(
     ExitCode.Bug
 
 object Report:
+  /** Causes may refer to each other. */
+  private val MostCauses = 20
+
   /** Limit for readability. */
   private[cli] val MostErrors = 20
 

@@ -37,6 +37,7 @@ final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int):
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit = write(Set(shard.index), shard.count, state, to)
+      def lose(): Unit = ()
       def finish(): Unit = ()
     Renderer.render(
       plan, threads, cancellation, onProgress, shard = shard, checkpointer = Some(checkpointer)

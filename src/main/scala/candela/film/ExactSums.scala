@@ -5,8 +5,8 @@ import candela.base.{CheckedInput, CheckedOutput, loop}
 import java.math.BigDecimal
 import java.util.concurrent.ConcurrentHashMap
 
-/** Sums of finite numbers without any rounding, so that neither the order of the additions nor
-  * their division among machines matters.
+/** Sums of numbers without any rounding, so that neither the order of the additions nor their
+  * division among machines matters. Numbers that are not finite don't count.
   *
   * A sum is the unevaluated sum of two Doubles: each addition's rounding error is computed and
   * added to the second. A third part, of arbitrary precision, is used only if values differ by
@@ -23,9 +23,11 @@ final class ExactSums(val size: Int):
   def add(at: Int, value: Double): Unit =
     val h = high(at)
     val sum = h + value
-    high(at) = sum
-    val error = ExactSums.error(h, value, sum)
-    if error != 0.0 then addLow(at, error)
+    // Facts of surfaces may be infinite, such as coordinates; they don't count
+    if Math.abs(sum) <= Double.MaxValue then
+      high(at) = sum
+      val error = ExactSums.error(h, value, sum)
+      if error != 0.0 then addLow(at, error)
 
   private def addLow(at: Int, value: Double): Unit =
     val l = low(at)

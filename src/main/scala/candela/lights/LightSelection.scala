@@ -212,7 +212,7 @@ final class FixedSelection(weights: Array[Float], override val describe: String)
 object FixedSelection:
   /** @param scene bounding sphere of all surfaces, which lights at infinity illuminate */
   def byPower(lights: Array[Light], scene: Ball): FixedSelection =
-    val powers = lights.map(l => if l.isSampled then Math.max(0f, l.power(scene)) else 0f)
+    val powers = lights.map(l => if l.isSampled then Discrete.weight(l.power(scene)) else 0f)
     val known = powers.filter(_ > 0f)
     val mean = if known.isEmpty then 1f else known.sum / known.length
     // The power that a portal admits is unknown

@@ -63,6 +63,11 @@ final class PathWeights:
     if hero == 0 then r else if hero == 1 then g else b
 
   def isDead: Boolean = r == 0f && g == 0f && b == 0f
+
+  /** Makes the path's light not a number: its sample is discarded, and counted. */
+  def lose(): Unit = scale(Float.NaN)
+  def isLost: Boolean = r.isNaN
+
   def throughput: Rgb = Rgb(r, g, b)
   def brightest: Float = Math.max(r, Math.max(g, b))
   def lightDensity: Float = (lr + lg + lb) * (1f / 3f)

@@ -27,9 +27,10 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     val unit = ray.direction.length
     val glows = emits && isEmissive
     var scattered = -1f
-    if enter(ray, walk) then
+    if !w.isLost && enter(ray, walk) then
+      var left = VaryingMedium.MostSteps
       var u = first
-      while scattered < 0f && !w.isDead && walk.next() do
+      while scattered < 0f && !w.isDead && !w.isLost && walk.next() do
         val mr = most.r * walk.most * unit
         val mg = most.g * walk.most * unit
         val mb = most.b * walk.most * unit
@@ -45,6 +46,7 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
           else
             w.pass(mr * step, mg * step, mb * step)
             t += step
+            left -= 1
             at(walk, t, point)
             if glows then addGlow(work, mr, mg, mb, unit)
             val chance = unit * w.ofHero(point.scatterR, point.scatterG, point.scatterB) / mh
@@ -55,7 +57,8 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
             else
               collideUnscattered(w, point, mr, mg, mb, unit, 1f - chance)
               if w.brightest < VaryingMedium.Faint then w.gamble(work.random.next(), 0.5f)
-              if w.isDead then t = walk.end
+              if left == 0 then w.lose()
+              if w.isDead || w.isLost then t = walk.end
     w.balance()
     scattered
 
@@ -64,8 +67,9 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
     val walk = work.walk
     val point = work.point
     val unit = ray.direction.length
-    if enter(ray, walk) then
-      while !w.isDead && walk.next() do
+    if !w.isLost && enter(ray, walk) then
+      var left = VaryingMedium.MostSteps
+      while !w.isDead && !w.isLost && walk.next() do
         val mr = most.r * walk.most * unit
         val mg = most.g * walk.most * unit
         val mb = most.b * walk.most * unit
@@ -81,11 +85,13 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
           else
             w.pass(mr * step, mg * step, mb * step)
             t += step
+            left -= 1
             at(walk, t, point)
             collideUnscattered(w, point, mr, mg, mb, unit, 1f)
             if w.brightest < VaryingMedium.Faint * w.lightDensity then
               w.gamble(work.random.next(), 0.5f)
-            if w.isDead then t = walk.end
+            if left == 0 then w.lose()
+            if w.isDead || w.isLost then t = walk.end
 
   private def enter(ray: Ray, walk: MajorantWalk): Boolean =
     walk.enter(toUnit.point(ray.origin), toUnit.vector(ray.direction), ray.tMax, bounds)
@@ -141,3 +147,8 @@ abstract class VaryingMedium(toUnit: Transform, bounds: MajorantGrid, most: Rgb)
 object VaryingMedium:
   /** Transmittance below which Russian roulette applies. */
   private val Faint = 0.02f
+
+  /** Most collisions along a segment. No sound medium is a thousandth as dense where it does not
+    * scatter; with densities of a damaged file, segments would have no end.
+    */
+  private val MostSteps = 1 << 22

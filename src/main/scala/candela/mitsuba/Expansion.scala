@@ -30,6 +30,7 @@ final class Expansion(file: Path, defines: Map[String, String]):
   private val aliases = mutable.HashMap.empty[String, String]
   private val paths = mutable.ArrayBuffer.empty[Path]
   private val sources = mutable.ArrayBuffer(file)
+  private var room = Expansion.MostText
   private val here = Option(file.getParent).getOrElse(Path.of(""))
 
   def result(): Expanded =
@@ -113,6 +114,10 @@ final class Expansion(file: Path, defines: Map[String, String]):
             )
           )
         )
+        room -= value.length
+        if room < 0 then
+          val message = s"values of parameters add up to more than ${Expansion.MostText} characters"
+          throw SceneError(Problem.error(at, message))
         java.util.regex.Matcher.quoteReplacement(value)
     )
 
@@ -123,6 +128,9 @@ object Expansion:
   private val Variable = raw"\$$(\w+)".r
   private val MostIncludes = 15
   private val MostFiles = 10_000
+
+  /** Put in place of names; values of values may be exponentially long. */
+  private val MostText = 20_000_000
 
 /** Names of Mitsuba 0.6, which Mitsuba 3 upgrades in files of a version before 2. */
 private[mitsuba] object OldNames:

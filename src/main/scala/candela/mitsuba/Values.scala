@@ -107,11 +107,15 @@ final class Values(find: String => Path, report: Problem => Unit):
       case _ => fail(e.at, "<spectrum> must have the attribute `value` or `filename`")
 
   def file(name: String, at: SourcePos): Spectrum =
+    def fails() = fail(at, s"can't read the spectrum `$name`", Suggest.file(find(name)))
     val lines =
-      try Files.readString(find(name), java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
+      // Pipes and devices might never end
+      try
+        if Files.exists(find(name)) && !Files.isRegularFile(find(name)) then fails()
+        Files.readString(find(name), java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
       catch
-        case _: java.io.IOException | _: java.nio.file.InvalidPathException =>
-          fail(at, s"can't read the spectrum `$name`", Suggest.file(find(name)))
+        case _: java.io.IOException => fails()
+        case _: java.nio.file.InvalidPathException => fail(at, s"can't read the spectrum `$name`")
     pairs(lines.filterNot(_.trim.startsWith("#")).flatMap(words).toVector, at)
 
   private def pairs(texts: Iterable[String], at: SourcePos): Spectrum =

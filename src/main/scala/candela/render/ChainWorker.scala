@@ -27,6 +27,7 @@ private[render] final class ChainWorker(
     while done < end && queue.goesOn() do
       val some = Math.min(end - done, AtOnce)
       walker.advance(chain, some)
+      beat()
       queue.samplesTaken.add(some)
       done += some
       queue.progress.set(chain, done)

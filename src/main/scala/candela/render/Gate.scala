@@ -10,6 +10,8 @@ private[render] final class Gate:
   def expect(workers: Int): Unit = synchronized:
     working += workers
 
+  private def isStill: Boolean = synchronized(waiting >= working)
+
   def leave(): Unit = synchronized:
     working -= 1
     notifyAll()
@@ -23,13 +25,20 @@ private[render] final class Gate:
     while isClosed do wait()
     waiting -= 1
 
-  /** Runs `body` when all workers wait or have left, and lets them go on. */
-  def closed[A](body: => A): A =
-    synchronized:
-      isClosed = true
-      while waiting < working do wait()
-    try body
+  /** Runs `body` when all workers wait or have left, and lets them go on.
+    *
+    * @param goesOn asked about ten times a second until they do; if not, `body` is left out
+    */
+  def closed(body: => Unit)(goesOn: => Boolean): Unit =
+    isClosed = true
+    try
+      while !isStill && goesOn do synchronized(if waiting < working then wait(Gate.Tick))
+      if isStill then body
     finally
       synchronized:
         isClosed = false
         notifyAll()
+
+private object Gate:
+  /** In milliseconds. */
+  val Tick = 100L

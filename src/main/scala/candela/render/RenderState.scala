@@ -2,6 +2,8 @@ package candela.render
 
 import candela.base.{CheckedInput, CheckedOutput}
 
+import java.io.IOException
+
 /** All that a rendering has computed: which samples, and their sums. A rendering that continues
   * from a saved state ends with the same image, bit for bit, as one that was not interrupted.
   */
@@ -29,7 +31,7 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
 
   /** Continues from a saved state; several that are shards of one rendering add up. */
   def load(from: CheckedInput): Unit =
-    require(from.int() == job.schedule.pieces, "the saved state is of another image")
+    if from.int() != job.schedule.pieces then throw IOException("its state is of another image")
     for i <- 0 until job.schedule.pieces do
       val done = from.long()
       queue.progress.set(i, Math.max(queue.progress.get(i), done))
@@ -51,6 +53,10 @@ abstract class Checkpointer:
 
   /** Called if due, and at the end; no sample is taken meanwhile. */
   def save(state: RenderState): Unit
+
+  /** Called at the end instead of `save`, if some sample did not end in time: the last copy counts.
+    */
+  def lose(): Unit
 
   /** Called after each `save`, while sampling goes on: what may take longer. */
   def finish(): Unit

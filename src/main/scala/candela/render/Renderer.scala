@@ -44,11 +44,25 @@ object Renderer:
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
     def progress() = onProgress(live.progress)
     onStart(live)
-    def tick() =
+    var beats = 0L
+    var lastBeat = started
+    def isMoving() =
+      val now = workers.map(_.beats).sum
+      val hasMoved = now != beats
+      beats = now
+      hasMoved
+    def observe() =
       progress()
-      for k <- checkpointer if k.isDue do
-        queue.paused(k.save(state))
+      if isMoving() then lastBeat = System.nanoTime
+      val still = (System.nanoTime - lastBeat) * 1e-9
+      if passObserver.exists(_.isOver(seconds, still)) then queue.stop()
+    def tick() =
+      observe()
+      for k <- checkpointer if k.isDue && !queue.isStopped do
+        queue.paused(k.save(state))(() => observe())
         k.finish()
+    // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost.
+    def isWorthWaiting() = checkpointer.isDefined && isMoving()
     def isEnough = passObserver.exists(_.isEnough)
     val earlier = state.samplesDone
     passObserver.foreach(_.begins(earlier, job.film))
@@ -56,7 +70,8 @@ object Renderer:
     def run(end: Int): Unit =
       queue.openUntil(end)
       val begin = seconds
-      Workers.run(workers, queue)(() => tick())
+      lastBeat = System.nanoTime
+      Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
       for w <- passObserver if !queue.isStopped do
         val isLast = end >= schedule.waves
         val busy = workers.map(_.seconds)
@@ -78,12 +93,13 @@ object Renderer:
       run(wave)
     progress()
     for k <- checkpointer do
-      k.save(state)
+      if queue.isAbandoned then k.lose() else k.save(state)
       k.finish()
 
     val result = live.rendering
     val hasAll = result.samplesDone >= samplesPerPixel
-    if isEnough || hasAll then result.copy(samplesPerPixel = result.samplesDone) else result
+    val isDone = hasAll || (isEnough && result.samplesDone > 0)
+    if isDone then result.copy(samplesPerPixel = result.samplesDone) else result
 
   /** The image of a saved state, or of several that add up to one.
     *

@@ -102,6 +102,14 @@ abstract class PassObserver:
   /** Whether the image is good enough: the rendering then ends. */
   def isEnough: Boolean = false
 
+  /** Asked about ten times a second: whether the rendering is to end at once, though not all pixels
+    * have the same number of samples.
+    *
+    * @param seconds since the start of rendering, without the observer's time
+    * @param still   seconds since a worker last got on with its work
+    */
+  def isOver(seconds: Double, still: Double): Boolean = false
+
   /** Whether it is also called in between, after each part of which every pixel gets equally many
     * samples, up to 64.
     */

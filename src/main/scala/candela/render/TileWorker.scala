@@ -74,13 +74,14 @@ private[render] final class TileWorker(
     val end = schedule.endSample(wave)
     var begun = false
     sample = Math.max(first, queue.progress.get(tile).toInt)
-    while sample < end && queue.goesOn() do
+    while sample < end && queue.goesOn() && !queue.isAbandoned do
       if takes(tile, sample) then
         if !begun then waveWeight = beginWave(first)
         begun = true
         renderSample(tile)
-      sample += 1
-      queue.progress.set(tile, sample)
+      if !queue.isAbandoned then
+        sample += 1
+        queue.progress.set(tile, sample)
     sample >= end
 
   /** Takes a sample of each pixel of the tile. */
@@ -89,12 +90,14 @@ private[render] final class TileWorker(
     y = tile.y0
     while y < tile.y1 do
       x = tile.x0
-      while x < tile.x1 do
+      while x < tile.x1 && !queue.isAbandoned do
         takeSample()
+        beat()
         x += 1
       y += 1
-    if shares != null then shares.end()
-    queue.samplesTaken.add(tile.pixels)
+    if !queue.isAbandoned then
+      if shares != null then shares.end()
+      queue.samplesTaken.add(tile.pixels)
 
   private def beginTile(number: Int): Unit =
     tile = schedule.tiles(number)
@@ -138,19 +141,23 @@ private[render] final class TileWorker(
       if layerFilm != null then layerFilm.miss(x, y, ownWeight)
     else
       if visible != null then visible.look(ray, sample)
-      val whole = plan.basis.toSrgb(integrator.radiance(ray, sampler))
-      if parts != null && !plan.basis.isSrgb then parts.convert(parts, plan.basis)
-      val radiance =
-        if dimmer != null && parts != null then parts.limit(dimmer, weight) else whole
-      val seen = if weighs then weighed(radiance, weight) else radiance
-      val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
-      if light.isFinite then
-        add(light)
-        if bands != null then addTo(bands, weight)
-        if layerFilm != null && visible != null then
-          if parts != null then develop(parts, radiance, light)
-          layerFilm.add(x, y, light, ownWeight, visible)
-      else refuse()
+      val found = integrator.radiance(ray, sampler)
+      if !queue.isAbandoned then record(found, weight)
+
+  private def record(found: Rgb, weight: Float): Unit =
+    val whole = plan.basis.toSrgb(found)
+    if parts != null && !plan.basis.isSrgb then parts.convert(parts, plan.basis)
+    val radiance =
+      if dimmer != null && parts != null then parts.limit(dimmer, weight) else whole
+    val seen = if weighs then weighed(radiance, weight) else radiance
+    val light = if limit != null && !weighsLast then seen * limit.scale(seen) else seen
+    if light.isFinite then
+      add(light)
+      if bands != null then addTo(bands, weight)
+      if layerFilm != null && visible != null then
+        if parts != null then develop(parts, radiance, light)
+        layerFilm.add(x, y, light, ownWeight, visible)
+    else refuse()
 
   /** Divides `light` as `radiance` is: the camera's weight and the limit scale all parts alike. */
   private def develop(parts: LightParts, radiance: Rgb, light: Rgb): Unit =

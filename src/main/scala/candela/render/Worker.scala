@@ -1,5 +1,7 @@
 package candela.render
 
+import java.util.concurrent.atomic.AtomicLong
+
 /** A worker of one rendering: takes steps from the shared queue, wave by wave, and owns its scratch
   * memory.
   */
@@ -12,6 +14,14 @@ private[render] abstract class Worker(schedule: Schedule, queue: TaskQueue) exte
 
   /** Adds the current position to a failure. */
   protected def failure(cause: Throwable): RenderFailure
+
+  private val moves = AtomicLong()
+
+  /** Counts samples, or paths, for [[beats]]. */
+  protected final def beat(): Unit = moves.lazySet(moves.getPlain + 1)
+
+  /** How often it has got on with its work, as far as other threads have seen. */
+  final def beats: Long = moves.get
 
   private var runNanos = 0L
   @volatile private var current = Worker.Idle

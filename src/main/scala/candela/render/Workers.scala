@@ -22,6 +22,8 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   private val firstFailure = AtomicReference[Option[Throwable]](None)
   val samplesTaken: LongAdder = LongAdder()
   private val gate = Gate()
+  @volatile private var isEnded = false
+  @volatile private var isLeft = false
 
   /** Of each piece, how much is done: samples of a tile, paths of a chain. */
   val progress: AtomicLongArray = AtomicLongArray(schedule.pieces)
@@ -32,15 +34,30 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
     nextStep.set(endStep)
     endStep = wave.toLong * schedule.pieces
 
-  def isStopped: Boolean = cancellation.isRequested || firstFailure.get.isDefined
+  def isStopped: Boolean = isEnded || cancellation.isRequested || firstFailure.get.isDefined
+
+  /** Stops the rendering, as a cancellation does. */
+  def stop(): Unit = isEnded = true
+
+  /** Whether the rendering has ended without waiting for all workers: their samples don't count any
+    * more.
+    */
+  def isAbandoned: Boolean = isLeft
+  def abandon(): Unit = isLeft = true
 
   /** Called by workers wherever they may pause; false if the rendering is stopped. */
   def goesOn(): Boolean =
     gate.pass()
     !isStopped
 
-  /** Runs `body` while all workers pause. */
-  def paused[A](body: => A): A = gate.closed(body)
+  /** Runs `body` while all workers pause; not at all if the rendering is stopped before they do.
+    *
+    * @param onWait called about ten times a second until they do
+    */
+  def paused(body: => Unit)(onWait: () => Unit): Unit =
+    gate.closed(body):
+      onWait()
+      !isStopped
 
   private[render] def begin(workers: Int): Unit = gate.expect(workers)
   private[render] def end(): Unit = gate.leave()
@@ -72,12 +89,13 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
         closedWaves.get > wave - schedule.openWaves)
 
   def finish(piece: Int, wave: Int): Unit =
-    finishedWaves.set(piece, wave + 1)
+    // Counted before the piece's next wave can begin: waves are closed in order
     if limitsWaves then
       val place = wave % schedule.openWaves
       if finishedPieces.incrementAndGet(place) == schedule.pieces then
         finishedPieces.set(place, 0)
         closedWaves.set(wave + 1)
+    finishedWaves.set(piece, wave + 1)
 
 private object TaskQueue:
   /** In nanoseconds; short beside the milliseconds of a step. */
@@ -89,10 +107,21 @@ private[render] object Workers:
   /** Interval of progress reports, in milliseconds. */
   private val Tick = 100L
 
+  /** How long a stopped worker may take to end, in nanoseconds. */
+  private val Patience = 400_000_000L
+
   /** Runs each worker in its own thread. An exception in one stops the others (through the queue)
     * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
+    *
+    * A stopped rendering does not wait for samples that take long: after a while it abandons the
+    * workers, which then end with their sample.
+    *
+    * @param isMoving whether samples have been taken since it was last asked, and are worth waiting
+    *   for
     */
-  def run(workers: Vector[Runnable], queue: TaskQueue)(onTick: () => Unit): Unit =
+  def run(workers: Vector[Runnable], queue: TaskQueue, isMoving: () => Boolean)(
+      onTick: () => Unit
+  ): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>
       val guarded: Runnable = () =>
         try worker.run()
@@ -105,9 +134,19 @@ private[render] object Workers:
     threads.foreach(_.start())
     try
       for thread <- threads do
-        while thread.isAlive do
+        while thread.isAlive && !queue.isStopped do
           thread.join(Tick)
           onTick()
     catch case e: Throwable => queue.fail(e)
-    threads.foreach(_.join())
+    end(threads, queue, isMoving)
     queue.failure.foreach(e => throw e)
+
+  private def end(threads: Vector[Thread], queue: TaskQueue, isMoving: () => Boolean): Unit =
+    var still = System.nanoTime
+    def waits = queue.isStopped && System.nanoTime - still > Patience
+    while threads.exists(_.isAlive) && !waits do
+      threads.find(_.isAlive).foreach(_.join(Tick))
+      if isMoving() then still = System.nanoTime
+    if threads.exists(_.isAlive) then
+      queue.abandon()
+      threads.foreach(_.join(Tick / threads.size + 1))

@@ -122,6 +122,10 @@ final class Discrete(weights: Array[Float]):
   /** Probability with which `sample` returns `index`. */
   def probability(index: Int): Float = cdf(index + 1) - cdf(index)
 
+object Discrete:
+  /** A power as a weight: the powers of lights in boundless scenes are infinite. */
+  def weight(power: Float): Float = if power > 0f then Math.min(power, Float.MaxValue) else 0f
+
 /** Piecewise-constant distribution over [0, 1) with n equal bins; uniform if the function is all
   * zero. Immutable.
   *

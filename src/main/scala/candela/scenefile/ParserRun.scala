@@ -39,6 +39,7 @@ private[scenefile] final class ParserRun(
 
   /** Files being read, innermost first. */
   private var reading = file.toList
+  private var includes = 0
 
   /** An Include found at the end of a parameter list: it is run after the list's statement. */
   private var postponed = Option.empty[() => Unit]
@@ -208,7 +209,8 @@ private[scenefile] final class ParserRun(
         missing(s"can't include `$name`: no such file", Some(help))
       case Some(path) =>
         for why <- circle(path, name) do throw SceneError(Problem.error(nameAt, why))
-        Source.read(path) match
+        countInclude(nameAt)
+        Source.readNamed(path) match
           case Right(source) => within(from, path)(statements(Tokenizer(source, Some(at))))
           case Left(why) => missing(s"can't include `$name`: $why")
 
@@ -240,11 +242,18 @@ private[scenefile] final class ParserRun(
       opened.map((_, file) => file)
 
   private def beginsWithParameter(path: Path, at: SourcePos): Option[(Path, Tokenizer)] =
-    Source.read(path).toOption.flatMap: source =>
+    Source.readNamed(path).toOption.flatMap: source =>
       val file = Tokenizer(source, Some(at))
       val isParameter = file.nextIsText
       if isParameter then file.advance() else source.close()
       Option.when(isParameter)((path, file))
+
+  /** Files that include others several times are read exponentially often. */
+  private def countInclude(at: SourcePos): Unit =
+    includes += 1
+    if includes > ParserRun.MostIncludes then
+      isDone = true
+      throw SceneError(Problem.error(at, s"more than ${ParserRun.MostIncludes} files are included"))
 
   /** Why a file can't be included here. */
   private def circle(path: Path, name: String): Option[String] =
@@ -268,3 +277,6 @@ private[scenefile] final class ParserRun(
 private[scenefile] object ParserRun:
   /** More than any scene needs, and far from a stack overflow. */
   private val DeepestInclude = 200
+
+  /** Counted as often as they are included. */
+  private val MostIncludes = 100_000

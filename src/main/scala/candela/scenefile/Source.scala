@@ -12,6 +12,8 @@ import java.nio.charset.{CharacterCodingException, StandardCharsets}
 import java.nio.file.{Files, NoSuchFileException, Path}
 import java.util.zip.GZIPInputStream
 
+import scala.util.Using
+
 /** The bytes of a file, read sequentially through a sliding window, so files may be of any size.
   *
   * @param name name of the file in messages
@@ -103,6 +105,12 @@ object Source:
         else Right(source)
     catch case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
 
+  /** Opens a file that another one names: a pipe or a device might never end. */
+  def readNamed(path: Path): Either[String, Source] =
+    if Files.exists(path) && !Files.isRegularFile(path) && !Files.isDirectory(path) then
+      Left("it is no regular file, but a pipe or a device")
+    else read(path)
+
   /** Fits the L2 cache of current processors. */
   private val Window = 1 << 17
 
@@ -131,11 +139,20 @@ private object Input:
     try
       if Files.isDirectory(path) then Left("it is a folder")
       else if !Files.isRegularFile(path) && Files.exists(path) then
-        Right(of(Files.readAllBytes(path))) // a pipe can be read only once
+        ofPipe(path) // which can be read only once
       else Right(opened(path))
     catch
       case _: NoSuchFileException => Left("no such file")
       case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
+
+  private def ofPipe(path: Path): Either[String, Input] =
+    val most = Math.min(Runtime.getRuntime.maxMemory / 4, MostFromPipe).toInt
+    Using.resource(Files.newInputStream(path)): in =>
+      val bytes = in.readNBytes(most)
+      if bytes.length < most || in.read() < 0 then Right(of(bytes))
+      else Left(s"more than ${most >> 20} MB come from it; write them to a file")
+
+  private val MostFromPipe = 1L << 30
 
   private def opened(path: Path): Input =
     val size = Files.size(path)

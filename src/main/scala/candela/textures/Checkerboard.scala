@@ -9,7 +9,7 @@ final class CheckerboardFloat(checks: Checks, even: FloatTexture, odd: FloatText
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
     val share = checks.oddShare(at)
-    if share <= 0f then even(at)
+    if share <= 0f || (even eq odd) then even(at)
     else if share >= 1f then odd(at)
     else lerp(share, even(at), odd(at))
 
@@ -17,7 +17,7 @@ final class CheckerboardFloat(checks: Checks, even: FloatTexture, odd: FloatText
 final class CheckerboardRgb(checks: Checks, even: RgbTexture, odd: RgbTexture) extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val share = checks.oddShare(at)
-    if share <= 0f then even(at)
+    if share <= 0f || (even eq odd) then even(at)
     else if share >= 1f then odd(at)
     else even(at) * (1f - share) + odd(at) * share
 

@@ -5,10 +5,13 @@ import candela.geometry.ShadingPoint
 import candela.math.lerp
 
 /** Product of two numbers. The `of` methods of combined textures return the simplest exact
-  * specialisation: combinations of constants become constants.
+  * specialisation: combinations of constants become constants. A texture that is given twice is
+  * evaluated once: chains of such would take exponential time.
   */
 final class ScaledFloat private (a: FloatTexture, b: FloatTexture) extends FloatTexture:
-  def apply(at: ShadingPoint): Float = a(at) * b(at)
+  def apply(at: ShadingPoint): Float =
+    val x = a(at)
+    x * (if b eq a then x else b(at))
 
 object ScaledFloat:
   def of(a: FloatTexture, b: FloatTexture): FloatTexture = (a.constant, b.constant) match
@@ -19,7 +22,9 @@ object ScaledFloat:
 
 /** Product of two colours (pbrt-v2, v3). */
 final class ProductRgb private (a: RgbTexture, b: RgbTexture) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = a(at) * b(at)
+  def apply(at: ShadingPoint): Rgb =
+    val x = a(at)
+    x * (if b eq a then x else b(at))
 
 object ProductRgb:
   def of(a: RgbTexture, b: RgbTexture): RgbTexture = (a.constant, b.constant) match
@@ -41,7 +46,10 @@ object ScaledRgb:
 /** (1 − amount)·a + amount·b. */
 final class MixFloat private (a: FloatTexture, b: FloatTexture, amount: FloatTexture)
     extends FloatTexture:
-  def apply(at: ShadingPoint): Float = lerp(amount(at), a(at), b(at))
+  def apply(at: ShadingPoint): Float =
+    val x = a(at)
+    val y = if b eq a then x else b(at)
+    lerp(if amount eq a then x else if amount eq b then y else amount(at), x, y)
 
 object MixFloat:
   def of(a: FloatTexture, b: FloatTexture, amount: FloatTexture): FloatTexture =
@@ -53,7 +61,9 @@ object MixFloat:
 
 /** (1 − amount)·a + amount·b. */
 final class MixRgb private (a: RgbTexture, b: RgbTexture, amount: FloatTexture) extends RgbTexture:
-  def apply(at: ShadingPoint): Rgb = MixRgb.mix(amount(at), a(at), b(at))
+  def apply(at: ShadingPoint): Rgb =
+    val x = a(at)
+    MixRgb.mix(amount(at), x, if b eq a then x else b(at))
 
 object MixRgb:
   def of(a: RgbTexture, b: RgbTexture, amount: FloatTexture): RgbTexture =

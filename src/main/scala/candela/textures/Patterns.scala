@@ -54,14 +54,16 @@ final class UvColor(mapping: Mapping2D) extends RgbTexture:
 final class DirectionMixFloat(along: FloatTexture, across: FloatTexture, direction: Vec3)
     extends FloatTexture:
   def apply(at: ShadingPoint): Float =
-    lerp(at.geometricNormal absDot direction, across(at), along(at))
+    val x = across(at)
+    lerp(at.geometricNormal absDot direction, x, if along eq across then x else along(at))
 
 /** Interpolates from `across` to `along` by |n·direction|, for the geometric normal n. */
 final class DirectionMixRgb(along: RgbTexture, across: RgbTexture, direction: Vec3)
     extends RgbTexture:
   def apply(at: ShadingPoint): Rgb =
     val amount = at.geometricNormal absDot direction
-    along(at) * amount + across(at) * (1f - amount)
+    val x = along(at)
+    x * amount + (if across eq along then x else across(at)) * (1f - amount)
 
 /** A number as a grey colour. */
 final class GrayTexture(value: FloatTexture) extends RgbTexture:

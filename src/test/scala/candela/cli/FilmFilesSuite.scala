@@ -42,6 +42,38 @@ class FilmFilesSuite extends AnyFunSuite:
         f.run(Vector("merge", "--outfile", f("all.film")) ++ shards.reverse)
         assert(f.bytes("all.film") == f.bytes("one.film"), s"$name, $count shards")
 
+  test("all films that can't be merged are named, or left out on request"):
+    withScene(): f =>
+      for i <- 0 until 4 do
+        f.render("--spp", "4", "--shard", s"$i/4", "--outfile", f(s"$i.film"))
+      f.render("--spp", "4", "--shard", "2/4", "--seed", "5", "--outfile", f("foreign.film"))
+      f.render("--spp", "4", "--shard", "0/4", "--outfile", f("double.film"))
+      val bytes = Files.readAllBytes(Path.of(f("3.film")))
+      val damaged = bytes.updated(bytes.length / 2, (bytes(bytes.length / 2) ^ 1).toByte)
+      val _ = Files.write(Path.of(f("damaged.film")), damaged)
+      val all = Vector("0", "1", "foreign", "double", "damaged", "missing").map(n => f(s"$n.film"))
+      val why = f.fail(Vector("merge", "--outfile", f("x.exr")) ++ all)
+      for name <- Vector("foreign", "double", "damaged", "missing") do
+        assert(why.linesIterator.exists(l => l.startsWith("error") && l.contains(s"$name.film")))
+      f.run(Vector("merge", "--partial", "--outfile", f("some.exr")) ++ all)
+      f.run(Vector("merge", "--partial", f("0.film"), f("1.film"), "--outfile", f("two.exr")))
+      assert(f.bytes("some.exr") == f.bytes("two.exr"))
+
+  test("more frames than can be listed are a wrong option"):
+    withScene(): f =>
+      val words = Vector(f("s%d.pbrt"), "--frames", "1-2147483647", "--outfile", f("o%d.exr"))
+      val (code, captured) = f.captured(words)
+      assert(code == 2)
+      assert(captured.err.contains("--frames: at most 1000000 frames, found 2147483647"))
+
+  test("shards of millions that are missing are summed up"):
+    withScene(): f =>
+      f.render("--spp", "4", "--shard", "7/2147483647", "--outfile", f("7.film"))
+      val why = f.fail(Vector("merge", "--outfile", f("x.exr"), f("7.film"))).linesIterator.next
+      assert(why == "error: shards 0/2147483647 to 6/2147483647, " +
+        "8/2147483647 to 2147483646/2147483647 are missing")
+      f.run(Vector("merge", "--partial", "--outfile", f("x.exr"), f("7.film")))
+
   test("layers are merged, too"):
     withScene(): f =>
       val layers = Vector("--spp", "5", "--aov", Layer.values.map(_.word).mkString(","))
@@ -139,7 +171,7 @@ class FilmFilesSuite extends AnyFunSuite:
       assert(f.bytes("a.exr") == image)
       val other =
         f.fail(Vector(f.scene, "--seed", "1", "--checkpoint", f("a.film"), "--outfile", f("a.exr")))
-      assert(other.contains("is of another rendering: it has options `--seed 1` instead of ``"))
+      assert(other.contains("is of another rendering: it has options `` instead of `--seed 1`"))
 
   test("a scene that has changed is refused, by the name of the file"):
     withScene(): f =>

@@ -25,6 +25,17 @@ class ReportSuite extends AnyFunSuite:
     assert(text.linesIterator.toVector ==
       Vector("a.pbrt:2:5: error: a", "a.pbrt:10:1: error: b", "2 errors"))
 
+  test("full stacks, interrupted threads and impossible names are errors, not bugs"):
+    def caught(e: Throwable): String = report(): r =>
+      assert(r.guarded(throw e) == ExitCode.BadInput)
+    assert(caught(StackOverflowError()).contains("nested too deeply"))
+    val within = RenderFailure(0, 0, 0, StackOverflowError())
+    assert(caught(within).contains("nested too deeply"))
+    for e <- Vector(InterruptedException(), java.nio.channels.ClosedByInterruptException()) do
+      assert(caught(e).contains("was interrupted"))
+    val zero = java.nio.file.InvalidPathException("a\u0000", "zero")
+    assert(caught(zero).contains("is not a valid file name"))
+
   test("colours mark errors and warnings where the terminal has them"):
     val captured = Captured()
     val report = Report(captured.terminal.err, false, false, hasColor = true)
@@ -86,7 +97,7 @@ class ReportSuite extends AnyFunSuite:
     assert(long.contains("\tat candela.cli.ReportSuite"))
 
   test("any other exception is a bug too"):
-    val _ = report()(r => assert(r.guarded(throw StackOverflowError()) == ExitCode.Bug))
+    val _ = report()(r => assert(r.guarded(throw AssertionError()) == ExitCode.Bug))
 
   test("too little memory is no bug, in a worker neither"):
     for e <- Vector(OutOfMemoryError(), RenderFailure(0, 0, 0, OutOfMemoryError())) do

@@ -21,6 +21,11 @@ class ExactSumsSuite extends AnyFunSuite:
     values.foreach(sums.add(0, _))
     sums
 
+  test("what is not finite does not count"):
+    val odd = Vector(Double.PositiveInfinity, Double.NegativeInfinity, Double.NaN, Double.MaxValue)
+    assert(sumOf(Vector(1.0) ++ odd ++ Vector(Double.MaxValue))(0) == Double.MaxValue)
+    assert(sumOf(Vector(1.0) ++ odd.take(3) ++ Vector(2.0))(0) == 3.0)
+
   private def bytes(sums: ExactSums): Vector[Byte] =
     val file = Files.createTempFile("sums", ".bin")
     try

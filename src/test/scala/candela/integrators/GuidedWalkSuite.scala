@@ -152,6 +152,7 @@ private object GuidedWalkSuite:
     def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
     def isDue: Boolean = false
     def save(state: RenderState): Unit = CheckedFile.write(to, "state")(state.save)
+    def lose(): Unit = ()
     def finish(): Unit = ()
 
   /** Of each block of 8 × 8 pixels, in each channel. */

@@ -162,3 +162,28 @@ final class MediumSuite extends AnyFunSuite:
     do
       val m = Tracking.means(medium, from, direction, Float.PositiveInfinity, 200)
       assert(m.passed.isFinite && m.passed.max <= 1f + 1e-5f, (from, m))
+
+  /** A medium that scatters nowhere, with a majorant. */
+  private def empty(majorant: Float): VaryingMedium =
+    new VaryingMedium(toUnit, MajorantGrid.constant(1f), Rgb.gray(majorant)):
+      val phase = isotropic
+      def isEmissive: Boolean = false
+      def isChromatic: Boolean = false
+      def describe: String = "empty"
+      protected def coefficients(x: Float, y: Float, z: Float, out: MediumPoint): Unit =
+        out.setDensity(0f, Rgb.Black, Rgb.Black)
+
+  test("tracking without progress is given up, and its sample is not a number"):
+    def lost(majorant: Float) =
+      val (work, ray) = (MediumWork(), candela.geometry.Ray())
+      work.random.seed(0.25f, 0.5f)
+      work.start(0)
+      ray.set(Vec3(0f, 0f, -2f), Vec3(0f, 0f, 1f), 10f)
+      val _ = empty(majorant).follow(ray, 0.5f, emits = false, work)
+      work.shadow.start(0, 1f)
+      empty(majorant).attenuate(ray, work)
+      (work.weights.isLost, work.shadow.isLost)
+    // A hundred thousand steps are those of very dense clouds
+    assert(lost(1e5f) == (false, false))
+    assert(lost(1e12f) == (true, true))
+    assert(lost(Float.MaxValue) == (true, true))

@@ -66,6 +66,16 @@ class MitsubaSceneSuite extends AnyFunSuite:
         Vector("2:1: shape \"sdfgrid\" is not supported; skipped")
     )
 
+  test("defaults of defaults that grow without bound are refused"):
+    val nested = for i <- 1 to 12 yield s"""<default name="a$i" value="${s"$$a${i - 1} " * 10}"/>"""
+    assert(fatal(s"""<default name="a0" value="1"/>${nested.mkString}""") ==
+      "values of parameters add up to more than 20000000 characters")
+
+  test("a spectrum is not read from a device"):
+    val spectrum = """<spectrum name="radiance" filename="/dev/zero"/>"""
+    val body = s"""<emitter type="constant">$spectrum</emitter>"""
+    assert(problems(body).exists(_.contains("can't read the spectrum `/dev/zero`")))
+
   test("-D replaces a default, and must be a parameter of the scene"):
     val body = "<default name=\"w\" value=\"30\"/><sensor type=\"perspective\">" +
       "<film type=\"hdrfilm\"><integer name=\"width\" value=\"$w\"/></film></sensor>"

@@ -22,6 +22,7 @@ class RenderStateSuite extends AnyFunSuite:
       saved += 1
       if isAlwaysDue then
         copies :+= Files.copy(to, to.resolveSibling(s"${to.getFileName}.$saved"))
+    def lose(): Unit = ()
     def finish(): Unit = ()
 
   private def withFolder[A](body: Path => A): A =

@@ -37,6 +37,19 @@ class IncludeSuite extends AnyFunSuite:
       assert(at.includedFrom.get.file.endsWith("a.pbrt"))
       assert(at.includedFrom.get.includedFrom.get.toString.endsWith("main.pbrt:2:3"))
 
+  test("pipes and devices are not included: they might never end"):
+    val why = intercept[SceneError]:
+      Parser.parseText("test", "WorldBegin Include \"/dev/zero\"", Path.of(""))
+    assert(why.problems.head.message ==
+      "can't include `/dev/zero`: it is no regular file, but a pipe or a device")
+
+  test("files that include the next one twice are read a limited number of times"):
+    val files = (0 to 30).map(i => s"$i.pbrt" -> s"Include \"${i + 1}.pbrt\" " * 2)
+    withFolder((files :+ ("31.pbrt" -> "# end"))*): folder =>
+      val why = intercept[SceneError]:
+        Parser.parseText("test", "WorldBegin Include \"0.pbrt\" WorldEnd", folder)
+      assert(why.problems.exists(_.message == "more than 100000 files are included"))
+
   test("an included file shares the graphics state; an imported one gives its back"):
     withFolder("a.pbrt" -> "Translate 1 0 0 Shape \"in\""): folder =>
       def start(directive: String) =

@@ -117,6 +117,7 @@ object ClusterScaling:
       def restore(state: RenderState): Unit = ()
       def isDue: Boolean = false
       def save(state: RenderState): Unit = write(state, to)
+      def lose(): Unit = ()
       def finish(): Unit = ()
     val begin = cpu()
     Renderer.render(plan, 1, shard = shard, checkpointer = Some(checkpointer)): Unit

@@ -118,24 +118,28 @@ object TranslucentMaterial:
 /** Blend of two materials: `amount` (clamped to [0, 1], per channel) of the first, the rest of the
   * second.
   *
-  * The shading normal of the first material is used for both, as in PBRT 2 and 3.
+  * A blend of a material with itself is that material. The shading normal of the first is used for
+  * both, as in PBRT 2 and 3.
   */
 final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
     extends Material,
       Textured(first, second, amount):
   def bsdf(at: ShadingPoint): Bsdf =
-    val part = amount.albedo(at)
-    val rest = Rgb.White - part
-    val frame = at.frame.toFrame
-    val other = MixedMaterial.scatter(second, at)
-    at.frame.set(frame)
-    Lobes.Builder()
-      .addScaled(MixedMaterial.scatter(first, at), part)
-      .addScaled(other, rest)
-      .result
+    if first eq second then MixedMaterial.scatter(first, at)
+    else
+      val part = amount.albedo(at)
+      val rest = Rgb.White - part
+      val frame = at.frame.toFrame
+      val other = MixedMaterial.scatter(second, at)
+      at.frame.set(frame)
+      Lobes.Builder()
+        .addScaled(MixedMaterial.scatter(first, at), part)
+        .addScaled(other, rest)
+        .result
 
-  override def isPane: Boolean = first.isPane || second.isPane
-  override def isDispersive: Boolean = first.isDispersive || second.isDispersive
+  // Asked once: blends of blends have many parts
+  override val isPane: Boolean = first.isPane || second.isPane
+  override val isDispersive: Boolean = first.isDispersive || second.isDispersive
 
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)

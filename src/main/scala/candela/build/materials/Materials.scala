@@ -8,7 +8,7 @@ import candela.bsdf.composite.Edition
 import candela.bsdf.microfacet.{Roughness, RoughnessModel}
 import candela.build.recipe.*
 import candela.color.{Encoding, Rgb}
-import candela.scenefile.Dialect
+import candela.scenefile.{Declaration, Dialect}
 import candela.textures.{AffineUvMapping, FloatTexture, Mapping2D, MipLevel, Texels, Wrap}
 
 /** Recipes of materials. */
@@ -53,6 +53,12 @@ object Materials:
   /** Material of shapes without one, or with an unsupported one. */
   val default: Material =
     DiffuseMaterial(candela.textures.ConstantRgb(Rgb.gray(0.5f))).folded
+
+  /** Names of the materials that a material may refer to. */
+  def parts(d: Declaration): Vector[String] =
+    val references = Set("namedmaterial1", "namedmaterial2", "materials", "material")
+    if !Set(MixRecipe, TwoSidedRecipe, NestedRecipe).exists(_.name == d.name) then Vector.empty
+    else d.params.filter(p => references(p.name)).flatMap(_.strings)
 
   def build(site: Site): Material =
     all

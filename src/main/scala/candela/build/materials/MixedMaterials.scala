@@ -22,12 +22,14 @@ object MixRecipe
     if site.dialect == Dialect.V4 then
       both() match
         case Vector(a, b) =>
-          mixed(named(b, "materials"), named(a, "materials"), GrayTexture(partOfSecond()))
+          val (one, other) = pair(b, "materials", a, "materials")
+          mixed(one, other, GrayTexture(partOfSecond()))
         case names =>
           site.error(s"`materials` of \"mix\" must be two material names, found ${names.length}")
           Materials.default
     else
-      mixed(named(first(), "namedmaterial1"), named(second(), "namedmaterial2"), part())
+      val (one, other) = pair(first(), "namedmaterial1", second(), "namedmaterial2")
+      mixed(one, other, part())
 
   private def mixed(a: Material, b: Material, amount: RgbTexture)(using site: Site): Material =
     if a.isSubsurface || b.isSubsurface then
@@ -50,10 +52,18 @@ object TwoSidedRecipe
 
   protected def make()(using site: Site): Material = both() match
     case Vector(front, back) =>
-      TwoSidedMaterial(named(front, "materials"), named(back, "materials"))
+      val (one, other) = pair(front, "materials", back, "materials")
+      TwoSidedMaterial(one, other)
     case names =>
       site.error(s"`materials` of \"twosided\" must be two material names, found ${names.length}")
       Materials.default
+
+/** Two named materials, which are one object if they have one name. */
+private def pair(a: String, parameter: String, b: String, other: String)(using
+    Site
+): (Material, Material) =
+  val one = named(a, parameter)
+  (one, if b == a then one else named(b, other))
 
 private def named(name: String, parameter: String)(using site: Site): Material =
   val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)

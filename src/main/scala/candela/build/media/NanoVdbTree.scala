@@ -66,6 +66,7 @@ private[media] object NanoVdbTree:
         throw NanoVdbError(s"its values are of type ${named(kind, Types)}, expected float")
       if use != 0 && use != 2 then
         throw NanoVdbError(s"the grid is a ${named(use, Classes)}, expected a fog volume")
+      NanoVdbChecksum.check(bytes, Level.Upper.size, Level.Lower.size, LeafSize)
       val root = HeaderSize + header.getLong(RootOffset)
       val head = bytes.at(root, RootSize)
       val tiles = head.getInt(24)

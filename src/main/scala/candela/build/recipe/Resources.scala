@@ -43,8 +43,27 @@ final class Resources private (
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
 
-  def define(name: String, texture: FloatTexture): Unit = floats(name) = texture
-  def define(name: String, texture: RgbTexture): Unit = colors(name) = texture
+  // How many textures each evaluates, and how many of them within each other
+  // More would take a millisecond each time; evaluation goes as deep into the stack
+  private val sizes = Compositions(most = 16384, deepest = 4096)
+
+  /** Builds a texture and gives it a name. A texture of too many others is an error. */
+  def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
+    val made = sizes.composed("float", name)(make)(_.isConstant)
+    floats(name) = accepted(name, at, problems)(made, StandIns.number)
+
+  def defineRgb(name: String, at: SourcePos, problems: Findings)(make: => RgbTexture): Unit =
+    val made = sizes.composed("spectrum", name)(make)(_.isConstant)
+    colors(name) = accepted(name, at, problems)(made, StandIns.color(basis))
+
+  private def accepted[A](name: String, at: SourcePos, problems: Findings)(
+      made: Either[String, A],
+      standIn: => A
+  ): A = made match
+    case Right(texture) => texture
+    case Left(why) =>
+      problems.error(at, s"texture `$name` is composed of $why")
+      standIn
 
   /** Returns the texture that a parameter names, or a fallback after reporting a problem. */
   def floatTexture(p: Param, problems: Findings): Option[FloatTexture] =
@@ -66,6 +85,7 @@ final class Resources private (
       problems: Findings
   ): Option[T] =
     val name = p.strings.headOption.getOrElse("")
+    sizes.refer(kind, name)
     in.get(name).orElse {
       val (message, help) =
         if others(name) then
@@ -77,34 +97,64 @@ final class Resources private (
 
 /** Materials by the names that `MakeNamedMaterial` gave them, each built on first use. */
 final class NamedMaterials:
-  private val recipes = mutable.LinkedHashMap.empty[String, () => Material]
+  import NamedMaterials.*
+  private val recipes = mutable.LinkedHashMap.empty[String, Named]
   private val made = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
+  // More lobes would take a millisecond each time
+  private val sizes = Compositions(most = 1024, deepest = 1024)
 
-  def define(name: String, make: () => Material): Unit = recipes(name) = make
+  /** @param parts names of the materials that it refers to */
+  def define(name: String, at: SourcePos, parts: Vector[String], make: () => Material): Unit =
+    recipes(name) = Named(at, parts, make)
 
   /** Returns the named material. An undefined one is reported as missing; one that refers to itself
-    * is an error.
+    * is an error, as is one with too many parts.
     */
   def apply(name: String, at: SourcePos, resources: Resources, problems: Findings): Material =
+    sizes.refer(Kind, name)
     if open(name) then
       problems.error(at, s"material `$name` refers to itself")
       StandIns.material(resources.basis)
+    else if recipes.contains(name) then
+      if !made.contains(name) then build(name, resources, problems)
+      made(name)
     else
       made.getOrElseUpdate(
-        name,
-        recipes.get(name) match
-          case Some(make) =>
-            open += name
-            try make()
-            finally open -= name
-          case None =>
-            problems.unnamed(
-              NameKind.Material,
-              at,
-              s"material `$name` is not defined",
-              StandIns.MagentaSurface,
-              Suggest.help(name, recipes.keys)
-            )
-            StandIns.material(resources.basis)
+        name, {
+          problems.unnamed(
+            NameKind.Material,
+            at,
+            s"material `$name` is not defined",
+            StandIns.MagentaSurface,
+            Suggest.help(name, recipes.keys)
+          )
+          StandIns.material(resources.basis)
+        }
       )
+
+  /** Builds a material after its parts, however deep they are nested. */
+  private def build(name: String, resources: Resources, problems: Findings): Unit =
+    val waiting = mutable.Stack(name)
+    open += name
+    while waiting.nonEmpty do
+      val last = waiting.top
+      val recipe = recipes(last)
+      recipe.parts.find(p => recipes.contains(p) && !made.contains(p) && !open(p)) match
+        case Some(part) =>
+          open += part
+          val _ = waiting.push(part)
+        case None =>
+          val result =
+            try sizes.composed(Kind, last)(recipe.make())(_ => false)
+            finally open -= last
+          made(last) = result match
+            case Right(material) => material
+            case Left(why) =>
+              problems.error(recipe.at, s"material `$last` is composed of $why")
+              StandIns.material(resources.basis)
+          val _ = waiting.pop()
+
+object NamedMaterials:
+  private val Kind = "material"
+  private final case class Named(at: SourcePos, parts: Vector[String], make: () => Material)

@@ -32,11 +32,11 @@ object Textures:
     */
   def define(t: TextureDescription, site: Site): Unit =
     if t.valueType == "float" then
-      val made = floats.build(site).getOrElse(StandIns.number)
-      site.resources.define(t.name, made)
+      site.resources.defineFloat(t.name, site.declaration.at, site.problems):
+        floats.build(site).getOrElse(StandIns.number)
     else
-      val made = colors.build(site).getOrElse(StandIns.color(site.resources.basis))
-      site.resources.define(t.name, made)
+      site.resources.defineRgb(t.name, site.declaration.at, site.problems):
+        colors.build(site).getOrElse(StandIns.color(site.resources.basis))
 
 /** Recipes of unsupported textures, which fall back to 0.5. */
 trait HalfInstead[A] extends Recipe[A]:

@@ -37,6 +37,10 @@ final class Checkpoints(
     isWritten = tried(writer.write(header(state.samplesDone), state))
     pause = since(begin)
 
+  def lose(): Unit =
+    isWritten = tried:
+      throw IOException("a sample did not end in time; the last copy is kept, if there is one")
+
   def finish(): Unit =
     if isWritten then
       val _ = tried(writer.commit())

@@ -1,9 +1,9 @@
 package candela.render.storage
 
-import candela.base.{CheckedFile, NextFile, WholeFile}
+import candela.base.{CheckedFile, NextFile, Problem, SceneError, WholeFile}
 import candela.render.RenderState
 
-import java.io.IOException
+import java.io.{EOFException, IOException}
 import java.nio.file.{Files, Path}
 
 import scala.util.Try
@@ -20,11 +20,19 @@ final class FilmFile private (
     source: Path,
     val damage: Option[String]
 ):
-  /** Adds the saved state to `state`. */
+  /** Adds the saved state to `state`.
+    *
+    * @throws SceneError if it is damaged, or of another image
+    */
   def load(state: RenderState): Unit =
-    CheckedFile.read(source, FilmFile.Mark): in =>
-      val _ = FilmHeader.load(in)
-      state.load(in)
+    try
+      FilmFile.sound:
+        CheckedFile.read(source, FilmFile.Mark): in =>
+          val _ = FilmHeader.load(in)
+          state.load(in)
+    catch
+      case e: IOException =>
+        throw SceneError(Problem.general(s"can't read `$source`: ${FilmFile.reason(e)}"))
 
 object FilmFile:
   private[storage] val Mark = "Candela film 1\n"
@@ -59,8 +67,20 @@ object FilmFile:
     try
       if !Files.exists(path) then Left("no such file")
       else if Files.isDirectory(path) then Left("it is a folder")
-      else Right(CheckedFile.read(path, Mark)(FilmHeader.load))
-    catch case e: IOException => Left(Option(e.getMessage).getOrElse(e.getClass.getSimpleName))
+      else Right(sound(CheckedFile.read(path, Mark)(FilmHeader.load)))
+    catch case e: IOException => Left(reason(e))
+
+  private def reason(e: IOException): String = e match
+    case _: EOFException => "it is damaged: it has fewer values than it says"
+    case other => Option(other.getMessage).getOrElse(other.getClass.getSimpleName)
+
+  /** Numbers that can't be in a film file: its checksum is right, but it was not written by us. */
+  private def sound[A](body: => A): A =
+    try body
+    catch
+      case e: RuntimeException =>
+        val why = String.valueOf(e.getMessage).stripPrefix("requirement failed: ")
+        throw IOException(s"it is damaged: $why", e)
 
 /** Writes a rendering to a film file, again and again, such that a good copy exists at any moment.
   *

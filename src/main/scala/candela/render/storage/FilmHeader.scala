@@ -35,7 +35,7 @@ final case class FilmHeader(
   def isComplete: Boolean = done >= samples
 
   /** `shard 3/16`, or all of several. */
-  def part: String = shards.toVector.sorted.map(i => s"$i/$count").mkString(", ")
+  def part: String = FilmHeader.named(FilmHeader.runs(shards.toVector.sorted), count)
 
   /** The first difference between this rendering and another, in words; the part and the number of
     * samples done may differ.
@@ -81,6 +81,28 @@ final case class FilmHeader(
     shards.toVector.sorted.foreach(to.int)
 
 object FilmHeader:
+  /** Runs of numbers that follow each other: the first and last of each. */
+  private def runs(sorted: Vector[Int]): Vector[(Int, Int)] =
+    sorted.foldLeft(Vector.empty[(Int, Int)]):
+      case (done :+ ((first, last)), n) if n == last + 1 => done :+ (first, n)
+      case (done, n) => done :+ (n, n)
+
+  /** The runs of numbers below `count` that are not in `shards`. */
+  def missing(shards: Set[Int], count: Int): Vector[(Int, Int)] =
+    val ends = -1 +: shards.toVector.sorted :+ count
+    ends.zip(ends.tail).collect { case (a, b) if b > a + 1 => (a + 1, b - 1) }
+
+  /** `3/16, 5/16 to 9/16`; of many runs the first ones. */
+  def named(runs: Vector[(Int, Int)], count: Int): String =
+    val shown = runs.take(MostNamed).map: (first, last) =>
+      if first == last then s"$first/$count"
+      else if last == first + 1 then s"$first/$count, $last/$count"
+      else s"$first/$count to $last/$count"
+    val more = runs.drop(MostNamed).map((first, last) => last.toLong - first + 1).sum
+    shown.mkString(", ") + (if more > 0 then s" and $more more" else "")
+
+  private val MostNamed = 10
+
   private[storage] def load(from: CheckedInput): FilmHeader =
     def texts() = Vector.fill(from.int())(from.text())
     val Vector(version, scene, folder, size) = Vector.fill(4)(from.text()): @unchecked
@@ -88,6 +110,11 @@ object FilmHeader:
     val (samples, done, footprint, count) = (from.int(), from.int(), from.float(), from.int())
     val shards = Vector.fill(from.int())(from.int()).toSet
     val digests = files.grouped(2).map(pair => (pair(0), pair(1))).toVector
+    require(samples > 0 && done >= 0, s"it has $done of $samples samples per pixel")
+    require(
+      count > 0 && shards.nonEmpty && shards.forall(i => i >= 0 && i < count),
+      s"it has ${shards.size} shards of $count"
+    )
     FilmHeader(
       version, scene, folder, words, outfiles, digests, size, samples, done, footprint, shards,
       count

@@ -125,6 +125,60 @@ final class NanoVdbFileSuite extends AnyFunSuite:
     val longer = zipped.patch(16 + 7, Array[Byte](1), 1)
     assert(refusal(longer).startsWith("a ZIP stream is cut short"))
 
+  /** With the checksums of a version, computed as its library does. */
+  private def summed(minor: Int, isFull: Boolean): Array[Byte] =
+    val file = NanoVdb.file(Vector(VdbGrid("density", values)))
+    val body = java.nio.ByteBuffer.wrap(file, 200, file.length - 200).slice()
+      .order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    val _ = body.putInt(16, 32 << 21 | minor << 10)
+    def crc(from: Int, end: Int): Int =
+      val sum = java.util.zip.CRC32()
+      sum.update(body.array, 200 + from, end - from)
+      sum.getValue.toInt
+    def ofAll(sums: Seq[Int], size: Int): Int =
+      val bytes = java.nio.ByteBuffer.allocate(sums.size * size)
+        .order(java.nio.ByteOrder.LITTLE_ENDIAN)
+      for (sum, i) <- sums.zipWithIndex do bytes.putInt(i * size, sum): Unit
+      val all = java.util.zip.CRC32()
+      all.update(bytes.array)
+      all.getValue.toInt
+    val tiles = body.getInt(736 + 24)
+    val head = if minor >= 7 then 736 else 736 + 64 + 32 * tiles
+    val nodes =
+      for
+        (level, size) <- Seq(2 -> 270400, 1 -> 33856, 0 -> 2144)
+        i <- 0 until body.getInt(704 + 4 * level)
+      yield
+        val at = 672 + body.getLong(672 + 8 * level).toInt + i * size
+        crc(at, at + size)
+    val blocks = (body.capacity - head) / 4096
+    val sums = (0 until blocks).map: i =>
+      crc(head + 4096 * i, if i == blocks - 1 then body.capacity else head + 4096 * (i + 1))
+    val tail =
+      if minor < 5 then ofAll(nodes, 8)
+      else if minor == 5 then ofAll(nodes, 4)
+      else ofAll(sums, 4)
+    body.putInt(8, crc(16, head)).putInt(12, if isFull then tail else -1): Unit
+    file
+
+  test("checksums are those of each version, of the head alone or of all"):
+    for minor <- Vector(3, 5, 6, 7); isFull <- Vector(false, true) do
+      val file = summed(minor, isFull)
+      assert(at(grid(file), (0, 0, 0)) == values((0, 0, 0)), s"32.$minor")
+      def changed(place: Int) = file.patch(place, Array((file(place) ^ 1).toByte), 1)
+      // A part of the world's box, and of a leaf's voxels
+      val (head, leaf) = (200 + 570, file.length - 100)
+      assert(refusal(changed(head)).endsWith("the checksum of the grid's head is wrong"))
+      if isFull then
+        assert(refusal(changed(leaf)).endsWith("the checksum of the grid's nodes is wrong"))
+      else assert(read(changed(leaf)).isRight)
+
+  test("a grid without checksums, or with zeros in their place, is read"):
+    val file = summed(3, isFull = true)
+    for none <- Vector(0, -1) do
+      val copy = file.patch(208, Array.fill(8)(none.toByte), 8)
+      assert(read(copy).isRight)
+
   test("damaged files are read or refused, never anything else"):
     val random = Random(3)
     val grids = Vector(VdbGrid("density", Map((0, 0, 0) -> 1f, (0, 0, 130) -> 2f)))
