@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.math.*
-import candela.scenefile.{AnimatedTransform, Dialect, SceneDescription}
+import candela.scenefile.{AnimatedTransform, Dialect, RenderingOrigin, SceneDescription}
 
 /** Motions of shapes, instances and the camera, by the rules of the dialect.
   *
@@ -30,17 +30,12 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
     val AnimatedTransform(start, end) = description.worldToCamera
     Option.when(Motions.moves(description.worldToCamera))(between(start.inverse, end.inverse))
 
-  /** Motion of an instance. pbrt-v4 puts the world's origin at the camera's position half-way, and
-    * takes an instance's translation relative to it.
-    */
+  /** Motion of an instance. pbrt-v4 takes its translation relative to where it renders from. */
   def ofInstance(t: AnimatedTransform): Motion =
     if t.isAnimated && description.dialect == Dialect.V4 then between(t.start, t.end, v4Origin)
     else of(t)
 
-  private lazy val v4Origin: Vec3 =
-    val (startTime, endTime) = description.transformTimes
-    val toWorld = camera.getOrElse(Still(description.worldToCamera.start.inverse))
-    toWorld.transform((startTime + endTime) / 2).point(Vec3.Zero)
+  private lazy val v4Origin: Vec3 = RenderingOrigin.of(description)
 
   private def between(start: Transform, end: Transform, origin: Vec3 = Vec3.Zero): Motion =
     val (startTime, endTime) = description.transformTimes

@@ -88,18 +88,13 @@ private[build] final class SurfaceBuilder(
     for plan <- Shapes.all.build(here).flatten do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
-      if lamp.isDefined || !isNothing(dressed.material) then
-        Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
+      Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&
       (materials.materials(material) eq InterfaceMaterial)
     if is then here.warn("a shape of material \"interface\" gives no light, as in pbrt-v4")
     is
-
-  /** pbrt-v2's volumes have no interfaces, so surfaces without a material are dropped. */
-  private def isNothing(material: Int): Boolean =
-    context.isV2 && (materials.materials(material) eq InterfaceMaterial)
 
   def result(): LitSurfaces =
     val triangles = soup.result(materials.needsTangents, context.resources.hasRelief)

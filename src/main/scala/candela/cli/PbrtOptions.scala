@@ -39,7 +39,11 @@ object PbrtOptions:
     values = Vector("verbose", "error", "fatal")
   )
   private val Space =
-    Ignored("it affects rounding only", values = Vector("camera", "cameraworld", "world"))
+    Ignored(
+      "it affects rounding, and instances that turn: write `Option \"rendercoordsys\"` in the " +
+        "scene",
+      values = Vector("camera", "cameraworld", "world")
+    )
 
   private val all3 = Dialect.values.toSet
   private val fine = Same()

@@ -59,11 +59,15 @@ object Converter:
         val baked = SolidBaking(start.scene, to, files, b).result
         Converted(baked.scene, start.warnings ++ baked.warnings)
       case None => start
-    val done = (loans(own.scene) ++ passes(scene.dialect, to)).foldLeft(solid): (before, pass) =>
+    val leavesV4 = scene.dialect == Dialect.V4 && to != Dialect.V4
+    val started =
+      if leavesV4 then solid.copy(scene = InstanceMotions.fromV4(solid.scene)) else solid
+    val done = (loans(own.scene) ++ passes(scene.dialect, to)).foldLeft(started): (before, pass) =>
       val run = PassRun(pass, before.scene, files, baking, scene.dialect -> to)
       val result = run.result()
       Converted(result, before.warnings ++ run.warnings)
-    val plain = withoutBacks(done)
+    val bounded = withoutBacks(done)
+    val plain = if to == Dialect.V4 then forV4(bounded, scene.dialect) else bounded
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
 
   private def ofMitsuba(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
@@ -90,6 +94,14 @@ object Converter:
       ),
       from.warnings ++ lost
     )
+
+  private def forV4(made: Converted, from: Dialect): Converted =
+    val held = ColorRanges.held(made)
+    val program = s"pbrt-${from.toString.toLowerCase}"
+    if from == Dialect.V4 then held
+    else
+      val spectral = SpectralColors.warning(held.scene, program, SpectralColors.Plain)
+      Converted(InstanceMotions.toV4(held.scene), held.warnings ++ spectral)
 
   /** Declarations of another dialect than the scene's come first: then it is of one dialect. */
   private def loans(scene: SceneDescription): Vector[Pass] =

@@ -14,7 +14,7 @@ private[convert] object MitsubaInV4:
 
   def converted(scene: SceneDescription): Converted =
     val lit = lamps(scene)
-    lit.copy(warnings = lit.warnings ++ SpectralColors.warning(scene))
+    lit.copy(warnings = lit.warnings ++ SpectralColors.warning(scene, "Mitsuba"))
 
   /** pbrt-v4 takes no light from shapes without a material. Glass of index 1 looks the same: rays
     * pass it unscattered.

@@ -8,7 +8,8 @@ import scala.util.Try
 import candela.base.{loop, Problem, SceneError, WholeFile}
 import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
-import candela.scenefile.Param
+import candela.lights.{Picture, PictureLookup}
+import candela.scenefile.{Dialect, Param}
 
 /** Files that accompany an output scene, named by a hash of their content: an existing file of that
   * name is either equal, or not ours to overwrite.
@@ -48,13 +49,37 @@ final class SideFiles(val folder: Path):
   */
 object RewrittenImages:
 
-  /** The image as linear values, times a colour. */
-  def asExr(s: Statement, p: Param, tint: Rgb = Rgb.White): String =
-    val factors = Array(tint.r, tint.g, tint.b)
+  /** The slide of a projector, linear, times a colour. pbrt-v2 and v3 interpolate between its
+    * pixels, v4 does not; so a small image is enlarged, as its own dialect shows it.
+    */
+  def slide(s: Statement, p: Param, lookup: PictureLookup, tint: Rgb = Rgb.White): String =
     written(s, p): image =>
-      val made = image.linear.toRgb
-      loop(made.data.length)(i => made.data(i) *= factors(i % 3))
+      val picture = Picture(lamp(image, name(p), s), lookup)
+      val times = Math.max(1, SlideSize / Math.max(image.width, image.height))
+      val made = Image.rgb(image.width * times, image.height * times)
+      loop(made.width * made.height): i =>
+        val x = (i % made.width + 0.5f) / made.width
+        val y = (i / made.width + 0.5f) / made.height
+        val color = picture(x, y) * tint
+        made.data(3 * i) = color.r
+        made.data(3 * i + 1) = color.g
+        made.data(3 * i + 2) = color.b
       made
+
+  /** The image of a lamp as its dialect shows it: pbrt-v2 and v3 do not decode files of 8 bits, and
+    * v2 reads the rows of TGA files from below.
+    */
+  def lamp(image: Image, name: String, s: Statement): Image =
+    if s.run.pass.from == Dialect.V4 then image.linear.toRgb
+    else
+      val stored = Image(image.width, image.height, image.channelNames, image.data).toRgb
+      val isFromBelow = s.run.ends._1 == Dialect.V2 && name.toLowerCase.endsWith(".tga")
+      if isFromBelow then stored.upsideDown else stored
+
+  private def name(p: Param): String = p.strings.head.replace('\\', '/')
+
+  /** Pixels along the longer side: steps between them are hardly seen. */
+  private val SlideSize = 1024
 
   /** An image of a single pixel. */
   def plain(s: Statement, color: Rgb): String =
@@ -66,7 +91,7 @@ object RewrittenImages:
     Try(!ImageFiles.read(place(s, p)).colorSpace.isSrgb).getOrElse(false)
 
   private def place(s: Statement, p: Param): Path =
-    s.declaration.folder.resolve(p.strings.head.replace('\\', '/'))
+    s.declaration.folder.resolve(name(p))
 
   /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel,
     * in sRGB.

@@ -21,7 +21,8 @@ object SkyImages:
       val path = s.declaration.folder.resolve(name.replace('\\', '/'))
       val isLamp = IesFile.isNamed(name)
       val source =
-        if isLamp then IesFile.read(path).photometry.image else ImageFiles.read(path).linear.toRgb
+        if isLamp then IesFile.read(path).photometry.image
+        else RewrittenImages.lamp(ImageFiles.read(path), name, s)
       val made =
         if isLamp && !toSquare then
           resampled(

@@ -13,23 +13,34 @@ import candela.scenefile.{Declaration, Param, ParamType, SceneDescription}
   */
 private[convert] object SpectralColors:
 
-  /** Names the reflection whose colour differs most, if it does visibly. */
-  def warning(scene: SceneDescription): Option[Problem] =
+  /** Names the reflection whose colour differs most, if it does visibly.
+    *
+    * @param from the program that multiplies three numbers
+    * @param visible the least difference of a channel that is reported
+    */
+  def warning(
+      scene: SceneDescription,
+      from: String,
+      visible: Double = Visible
+  ): Option[Problem] =
     val census = Census()
     val _ = Declarations.map(scene): d =>
       census.add(d)
       d
-    census.worst.filter(_.error > Visible).map: found =>
+    census.worst.filter(_.error > visible).map: found =>
       val percent = Math.round(found.error * 100)
       Problem.warning(
         found.on.at,
-        "pbrt-v4 multiplies spectra, Mitsuba red, green and blue: this colour differs by up to " +
+        s"pbrt-v4 multiplies spectra, $from red, green and blue: this colour differs by up to " +
           s"$percent % of the brightest channel, and by more after several reflections",
         Some(s"in the light of ${found.from.at}").filter(_ => found.from.at != found.on.at)
       )
 
   /** Difference of a channel. */
   private val Visible = 0.005
+
+  /** The same for scenes of pbrt-v2 and v3, most of which are not meant to be exact. */
+  val Plain = 0.02
 
   private final class Seen(val color: ColoredSpectrum, val at: SourcePos)
   private final class Found(val error: Double, val on: Seen, val from: Seen)

@@ -2,6 +2,7 @@ package candela.convert
 
 import candela.base.loop
 import candela.color.Rgb
+import candela.lights.PictureLookup
 import candela.math.{clamp, cos, Pi, radians, Transform, Vec3}
 import candela.scenefile.{Param, ParamType, ShapeDescription}
 
@@ -48,7 +49,8 @@ object ToV3Lights:
     val light = Emission.toV3("I", "power", unknown)
     Step("`filename`, `scale`, `fov`", "`mapname`, `scale`, `fov`"): s =>
       s.addFloat("fov", s.takeNumber("fov", 90f))
-      for p <- s.take("filename") do s.addString("mapname", RewrittenImages.asExr(s, p))(using p.at)
+      for p <- s.take("filename") do
+        s.addString("mapname", RewrittenImages.slide(s, p, PictureLookup.Nearest))(using p.at)
       light.run(s)
 
   val table: Table = Table("LightSource")(

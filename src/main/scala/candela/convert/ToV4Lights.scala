@@ -1,6 +1,7 @@
 package candela.convert
 
 import candela.color.Rgb
+import candela.lights.PictureLookup
 import candela.math.Transform
 import candela.scenefile.{AnimatedTransform, LightDescription}
 
@@ -40,7 +41,9 @@ object ToV4Lights:
       // v4 has no colour besides the image's, and requires an image.
       val tint = if y > 0f && !Values.isGray(factor) then factor * (1f / y) else Rgb.White
       s.take("mapname") match
-        case Some(p) => s.addString("filename", RewrittenImages.asExr(s, p, tint))(using p.at)
+        case Some(p) =>
+          val slide = RewrittenImages.slide(s, p, PictureLookup.SmoothRepeating, tint)
+          s.addString("filename", slide)(using p.at)
         case None => s.addString("filename", RewrittenImages.plain(s, tint))
 
   val table: Table = Table("LightSource")(

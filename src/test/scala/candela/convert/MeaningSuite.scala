@@ -98,7 +98,7 @@ class MeaningSuite extends AnyFunSuite:
     assert(number(glass, "roughness") == 0f)
 
   test("plastic without gloss is diffuse, and nothing is lost"):
-    val world = "Material \"plastic\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [.1 .2 .3] Shape \"sphere\""
+    val world = "Material \"plastic\" \"rgb Ks\" [0 0 0] \"rgb Kd\" [.3 .3 .3] Shape \"sphere\""
     assert(converted(world, Dialect.V3, Dialect.V4).warnings.isEmpty)
 
   test("mixed materials change places, for the amount is the other one's"):

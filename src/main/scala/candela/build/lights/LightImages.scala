@@ -1,6 +1,5 @@
 package candela.build.lights
 
-import candela.base.loop
 import candela.build.recipe.*
 import candela.color.{ColorBasis, Rgb}
 import candela.image.{Image, ImageError}
@@ -51,16 +50,9 @@ private[build] object LightImages:
       site.resources.counting.foreach:
         _.addImage(image.data.length / 3, SpectrumRole.Emission): i =>
           Rgb(image.data(3 * i), image.data(3 * i + 1), image.data(3 * i + 2))
-      rebased(if isFromBelow then upsideDown(image) else image, site.resources.basis)
+      rebased(if isFromBelow then image.upsideDown else image, site.resources.basis)
 
   private def isTga(file: String): Boolean = file.toLowerCase.endsWith(".tga")
-
-  private def upsideDown(image: Image): Image =
-    val row = 3 * image.width
-    val data = new Array[Float](image.data.length)
-    loop(image.height): y =>
-      System.arraycopy(image.data, y * row, data, data.length - (y + 1) * row, row)
-    Image(image.width, image.height, image.channelNames, data)
 
   /** Rows at the poles alone have no area: those between are added. */
   def withEquator(image: Image): Image =

@@ -85,4 +85,6 @@ object NestedRecipe
 /** A medium interface without a surface. */
 final class InterfaceRecipe(name: String, dialects: Set[Dialect])
     extends MaterialRecipe(name, "medium interface without a surface", dialects, bumps = false):
+  /** pbrt-v2 and v3 render unknown materials as their default. */
+  override def isUnknownElsewhere: Boolean = true
   protected def make()(using Site): Material = InterfaceMaterial

@@ -37,6 +37,9 @@ abstract class Recipe[A](
   /** Whether only Mitsuba's scenes have this type: no pbrt reads it. */
   def isMitsubas: Boolean = false
 
+  /** Whether other dialects' scenes don't know it: their pbrt renders something else. */
+  def isUnknownElsewhere: Boolean = false
+
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
 
@@ -104,7 +107,8 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     * @param inMitsubas whether the scene is Mitsuba's
     */
   def find(name: String, dialect: Dialect, inMitsubas: Boolean = false): Option[Recipe[A]] =
-    val candidates = byName.getOrElse(name, Vector.empty).filter(inMitsubas || !_.isMitsubas)
+    val candidates = byName.getOrElse(name, Vector.empty).filter: r =>
+      (inMitsubas || !r.isMitsubas) && (r.dialects(dialect) || !r.isUnknownElsewhere)
     candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
 
   /** Builds the declared type. A substituted type is a warning; an unknown one is an error, or a

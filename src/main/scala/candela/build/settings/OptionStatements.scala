@@ -25,11 +25,12 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
     "file for the MSE against `msereferenceimage` at 1, 2, 4, 8, … samples per pixel",
     shown = "none"
   )("")
-  noMeaning("it affects rounding only")(
-    oneOf("rendercoordsys", "space of ray tracing", Seq("camera", "cameraworld", "world"))(
-      "cameraworld"
-    )
-  )
+  private val space = oneOf(
+    "rendercoordsys",
+    "which point the translations of moving instances are relative to: the world's origin, or " +
+      "the camera",
+    Seq("camera", "cameraworld", "world")
+  )("cameraworld")
   noMeaning("`--aov` and `--report` show what pixels and rendering do")(
     bool("pixelstats", "write statistics images")(false)
   )
@@ -38,6 +39,7 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
   )
 
   protected def make()(using site: Site): Switches =
+    val _ = space() // `Motions` reads it from the description
     val scale = edgeScale.given_()
     for s <- scale if !(s > 0f) do site.error(s"`displacementedgescale` must be above 0, found $s")
     for (one, other) <- Seq(reference -> errors, errors -> reference) do

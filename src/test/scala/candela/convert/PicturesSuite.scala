@@ -1,0 +1,105 @@
+package candela.convert
+
+import java.nio.file.Path
+
+import candela.image.{Image, ImageFiles, Samples}
+import candela.scenefile.*
+import candela.testing.SceneTexts
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Converted scenes look as before, in the program of their new dialect. */
+class PicturesSuite extends AnyFunSuite:
+
+  private def view(dialect: Dialect) =
+    val isV4 = dialect == Dialect.V4
+    val film = if isV4 then "rgb" else "image"
+    "LookAt 3 1 -40 0 0 0 0 1 0 Camera \"perspective\" \"float fov\" 6 \"float shutteropen\" 0 " +
+      s"\"float shutterclose\" 1 Film \"$film\" \"integer xresolution\" 16 " +
+      "\"integer yresolution\" 16 PixelFilter \"box\" Sampler \"halton\" " +
+      "\"integer pixelsamples\" 64 Integrator \"path\" \"integer maxdepth\" 1 WorldBegin\n"
+
+  private def end(dialect: Dialect) = if dialect == Dialect.V4 then "" else "\nWorldEnd"
+
+  private val turning =
+    "LightSource \"distant\" \"point from\" [0 0 -1] \"point to\" [0 0 0] \"rgb L\" [3 3 3]\n" +
+      "ObjectBegin \"o\" Shape \"trianglemesh\" \"integer indices\" [0 1 2 0 2 3] " +
+      "\"point P\" [-1 -.1 0 1 -.1 0 1 .1 0 -1 .1 0] ObjectEnd\n" +
+      "AttributeBegin ActiveTransform StartTime Rotate -60 0 1 0 ActiveTransform EndTime " +
+      "Rotate 60 0 1 0 ActiveTransform All ObjectInstance \"o\" AttributeEnd"
+
+  private def converted(text: String, from: Dialect, to: Dialect, folder: Path = Path.of("")) =
+    Converter.convert(SceneTexts.parse(text, from, folder), to, folder)
+
+  test("instances that turn keep their path: pbrt-v4's is around the camera, v3's is not"):
+    // Of pbrt-v3, and of pbrt-v4 without and with the world as rendering space
+    for
+      (from, to, option, mean) <- Seq(
+        (Dialect.V3, Dialect.V4, "", 0.0076f),
+        (Dialect.V4, Dialect.V3, "", 0.0035f),
+        (Dialect.V4, Dialect.V3, "Option \"rendercoordsys\" \"camera\" ", 0.0035f),
+        (Dialect.V4, Dialect.V3, "Option \"rendercoordsys\" \"world\" ", 0.0076f)
+      )
+    do
+      val text = option + view(from) + turning + end(from)
+      val made = converted(text, from, to)
+      // 16,384 samples of a thin quad
+      for (t, d) <- Seq(text -> from, Descriptions.text(made.scene) -> to) do
+        val found = SceneTexts.mean(t, d).g
+        assert(Math.abs(found - mean) < 0.05f * mean, s"$from, $option as $d: $found")
+
+  test("colours that pbrt-v4 refuses are clamped, with a warning at their place"):
+    val bright = "Material \"diffuse\" \"rgb reflectance\" [1.5 .5 -2] Shape \"sphere\" " +
+      "LightSource \"infinite\" \"rgb L\" [3 -1 2]"
+    val made = converted(view(Dialect.V4) + bright, Dialect.V4, Dialect.V4)
+    assert(Descriptions.text(made.scene).contains("[ 1 0.5 0 ]"))
+    assert(made.scene.lights.head.light.param("L").get.floats.toSeq == Seq(3f, 0f, 2f))
+    assert(made.warnings.count(_.message.contains("pbrt-v4 takes only")) == 2)
+
+  test("a small slide is enlarged, for pbrt-v3 interpolates between its pixels, and v4 does not"):
+    Samples.inFolder: folder =>
+      val data = Array.tabulate(18)(i => (i * 7 % 5) / 4f)
+      ImageFiles.write(folder.resolve("slide.exr"), Image(3, 2, Image.RgbNames, data))
+      for
+        (from, name, to, other) <- Seq(
+          (Dialect.V3, "mapname", Dialect.V4, "filename"),
+          (Dialect.V4, "filename", Dialect.V3, "mapname")
+        )
+      do
+        val light = s"LightSource \"projection\" \"string $name\" \"slide.exr\""
+        val made = converted(view(from) + light + end(from), from, to, folder)
+        val slide = made.scene.lights.head.light.param(other).get.strings.head
+        val image = ImageFiles.read(folder.resolve(slide)).linear.toRgb
+        assert(image.width * 2 == image.height * 3 && image.width > 500)
+        def red(x: Float) =
+          image.data(3 * (image.width * (image.height / 4) + (x * image.width).toInt))
+        // Between the centres of two pixels, and at the third of a pixel
+        val (left, right) = (data(0), data(3))
+        val between = left + (right - left) * 0.25f
+        val expected = if from == Dialect.V3 then between else left
+        // Half a pixel of 1000, and half floats
+        assert(Math.abs(red(0.25f) - expected) < 5e-3f, s"$from: ${red(0.25f)}, $expected")
+
+  test("slides and skies of 8 bits are not decoded in v3, and are as bright in v4"):
+    Samples.inFolder: folder =>
+      val grey = Image(8, 4, Image.RgbNames, Array.fill(96)(0.25f))
+      ImageFiles.write(folder.resolve("grey.png"), grey)
+      for kind <- Seq("projection", "infinite", "goniometric") do
+        val light = s"LightSource \"$kind\" \"string mapname\" \"grey.png\"\nWorldEnd"
+        val made = converted(view(Dialect.V3) + light, Dialect.V3, Dialect.V4, folder)
+        val file = made.scene.lights.head.light.param("filename").get.strings.head
+        val image = ImageFiles.read(folder.resolve(file)).linear.toRgb
+        // 8 bits, then half floats
+        assert(image.data.forall(x => Math.abs(x - 0.537f) < 3e-3f), s"$kind: ${image.data(0)}")
+
+  test("colours that pbrt-v4 shows otherwise, since it multiplies spectra, are named"):
+    def said(kd: String, l: String) =
+      val text = view(Dialect.V3) + s"LightSource \"infinite\" $l\nMaterial \"matte\" $kd " +
+        "Shape \"sphere\"\nWorldEnd"
+      converted(text, Dialect.V3, Dialect.V4).warnings.filter(_.message.contains("spectra"))
+    // pbrt-v3: .7245 .0548 .0158; pbrt-v4: .6661 .0422 .0072
+    val deep = said("\"rgb Kd\" [.8 .2 .1]", "\"xyz L\" [.5 .4 .2]")
+    assert(deep.length == 1 && deep.head.at.exists(_.line == 3), deep)
+    assert(deep.head.message.contains("pbrt-v3 red, green and blue"))
+    assert(said("\"rgb Kd\" [.5 .5 .5]", "\"xyz L\" [.5 .4 .2]").isEmpty)
+    assert(said("\"rgb Kd\" [.6 .5 .4]", "\"rgb L\" [1 .9 .8]").isEmpty)
