@@ -164,11 +164,11 @@ private[cli] object OptionTable extends OptionRows:
           s"(layers ${Denoising.Layers.map(_.word).mkString(" and ")} are added, too)"
       )
       .action((_, o) => o.copy(denoise = true, layers = (o.layers ++ Denoising.Layers).distinct)),
-    opt[String]("film").valueName("gbuffer")
-      .text("add all AOVs of pbrt-v4's gbuffer film")
+    opt[String]("film").valueName("gbuffer|rgba")
+      .text("add all AOVs of pbrt-v4's gbuffer film, or alpha")
       .validate: f =>
-        if f == "gbuffer" then success else failure(s"--film must be gbuffer, found `$f`")
-      .action((_, o) => o.copy(layers = o.layers ++ Layer.gbuffer)),
+        if Layer.films.contains(f) then success else failure(s"`$f` is neither gbuffer nor rgba")
+      .action((f, o) => o.copy(layers = o.layers ++ Layer.films(f))),
     opt[Unit]("store-time")
       .text("store the render time in the image file; equal images are then different files")
       .action((_, o) => o.copy(storeTime = true)),

@@ -3,7 +3,7 @@ package candela.cli
 import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.film.Layer
-import candela.image.{Contents, OutputFormat}
+import candela.image.{Contents, Image, ImageEdits, OutputFormat}
 import candela.render.RenderPlan
 
 import java.nio.file.{InvalidPathException, Path}
@@ -37,6 +37,13 @@ final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
       Problem(Severity.Warning, None, message)
     OutputFiles(paths.take(1) ++ kept, warnings ++ told)
 
+  /** @throws SceneError if no file can store alpha */
+  def checkAlpha(): Unit =
+    val fitting = OutputFormat.all.filter(f => f.keepsAlpha || f.contents == Contents.Channels)
+    if !paths.flatMap(OutputFormat.of).exists(fitting.contains) then
+      val message = s"alpha needs ${OutputFormat.inWords(fitting)} output, found `${paths.head}`"
+      throw SceneError(Problem.general(message))
+
   /** @throws SceneError if no file can store AOVs */
   def checkLayers(): Unit =
     if !paths.flatMap(OutputFormat.of).exists(_.contents == Contents.Channels) then
@@ -53,6 +60,18 @@ object OutputFiles:
   def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
     val guides = Layer.Alpha +: (if denoises then Denoising.Layers else Vector.empty)
     plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
+
+  /** The opacity of each pixel, if it is a layer. */
+  def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
+    val at = image.channelNames.indexOf("A")
+    Option.when(at >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
+      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + at))
+
+  /** What a display format shows, its colours divided by alpha if it keeps that. */
+  def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
+    for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
+      val opaque = Denoising.shown(image)
+      alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
 
   /** Exactly the requested images. */
   def asked(names: Vector[String]): OutputFiles =

@@ -231,7 +231,7 @@ final class RenderCommand(
       facts: Vector[(String, String)]
   ): Vector[Path] = synchronized:
     val development = loaded.plan.development
-    val picture = Denoising.shown(image)
+    val alpha = OutputFiles.alpha(loaded.plan, image)
     val time = Option.when(options.storeTime):
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
     val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++
@@ -240,14 +240,14 @@ final class RenderCommand(
       development.isHalf,
       precisions(loaded.plan),
       options.display,
-      window(loaded.plan)
+      window(loaded.plan),
+      alpha
     )
     def write(path: Path) = Try:
-      if OutputFormat.of(path).exists(_.contents == Contents.Display) then
-        ImageFiles.write(path, picture, about ++ options.display.describe(picture), how)
-      else
-        val legends = loaded.plan.layers.fold(Vector.empty)(_.metadata(image))
-        ImageFiles.write(path, image, about ++ legends, how)
+      val (written, more) = OutputFiles.picture(path, image, alpha) match
+        case Some(picture) => (picture, options.display.describe(picture))
+        case None => (image, loaded.plan.layers.fold(Vector.empty)(_.metadata(image)))
+      ImageFiles.write(path, written, about ++ more, how)
     // Those that can't hold the digest first: what is done is told by the others
     val order = paths.sortBy(Sequence.keepsDigest)
     val attempts = order.map(path => path -> write(path)).sortBy((path, _) => paths.indexOf(path))

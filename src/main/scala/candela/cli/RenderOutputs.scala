@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.film.Layer
 import candela.render.storage.FilmFile
 import candela.scenefile.SceneFiles
 
@@ -42,6 +43,7 @@ private[cli] final class RenderOutputs(
     files.check()
     if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
       files.checkLayers()
+    if options.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
     register.write(Output(files.paths, "image", scene))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
     others(scene, film, plan.errors.map(_.file)).foreach(register.write)

@@ -179,6 +179,9 @@ object Layer:
   val gbuffer: Vector[Layer] =
     Vector(Albedo, Position, Gradient, Normal, ShadingNormal, Uv, Variance, RelativeVariance)
 
+  /** Layers by the name of a film that has them. */
+  val films: Map[String, Vector[Layer]] = Map("gbuffer" -> gbuffer, "rgba" -> Vector(Alpha))
+
   private def rgb(name: String) = Vector("R", "G", "B").map(c => s"$name.$c")
   private def xyz(name: String) = Vector("X", "Y", "Z").map(c => s"$name.$c")
 

@@ -2,6 +2,7 @@ package candela.image
 
 import candela.base.loop
 import candela.color.{Encoding, Srgb}
+import candela.math.clamp
 import candela.sampling.SampleHash
 
 import java.awt.color.ColorSpace
@@ -15,13 +16,18 @@ private[image] object Bitmap:
   if System.getProperty("java.awt.headless") == null then
     val _ = System.setProperty("java.awt.headless", "true")
 
-  /** Luminance alone is written as grey. */
-  def of(image: Image, display: DisplayTransform): BufferedImage =
+  /** Luminance alone is written as grey, but with alpha as three channels. */
+  def of(
+      image: Image,
+      display: DisplayTransform,
+      alpha: Option[Array[Float]] = None
+  ): BufferedImage =
     val shown = display(image)
-    val isGray = shown.indicesOf(Image.RgbNames).isEmpty
+    val isGray = shown.indicesOf(Image.RgbNames).isEmpty && alpha.isEmpty
     val sources = if isGray then Vector(shown.colorChannels.head) else shown.colorChannels
-    val picture = empty(shown.width, shown.height, isGray, display.bits)
-    val codes = new Array[Int](sources.size * shown.width)
+    val picture = empty(shown.width, shown.height, isGray, alpha.isDefined, display.bits)
+    val bands = picture.getRaster.getNumBands
+    val codes = new Array[Int](bands * shown.width)
     val most = ((1 << display.bits) - 1).toFloat
     val dithers = display.dithers && display.bits == 8
     loop(shown.height): y =>
@@ -29,7 +35,9 @@ private[image] object Bitmap:
         loop(sources.size): c =>
           val value = encoded(shown(x, y, sources(c)), shown.encoding)
           val round = if dithers then threshold(x, y, c) else 0.5f
-          codes(x * sources.size + c) = (value * most + round).toInt
+          codes(x * bands + c) = (value * most + round).toInt
+        for a <- alpha do
+          codes(x * bands + 3) = (clamp(a(y * shown.width + x), 0f, 1f) * most + 0.5f).toInt
       picture.getRaster.setPixels(0, y, shown.width, 1, codes)
     picture
 
@@ -46,14 +54,25 @@ private[image] object Bitmap:
   private def threshold(x: Int, y: Int, channel: Int): Float =
     SampleHash.toUnit((SampleHash.pixel(x, y, channel) >>> 32).toInt)
 
-  private def empty(width: Int, height: Int, isGray: Boolean, bits: Int): BufferedImage =
+  private def empty(
+      width: Int,
+      height: Int,
+      isGray: Boolean,
+      hasAlpha: Boolean,
+      bits: Int
+  ): BufferedImage =
     if bits == 8 then
-      val kind = if isGray then BufferedImage.TYPE_BYTE_GRAY else BufferedImage.TYPE_INT_RGB
+      val kind =
+        if isGray then BufferedImage.TYPE_BYTE_GRAY
+        else if hasAlpha then BufferedImage.TYPE_INT_ARGB
+        else BufferedImage.TYPE_INT_RGB
       BufferedImage(width, height, kind)
     else if isGray then BufferedImage(width, height, BufferedImage.TYPE_USHORT_GRAY)
     else
       val space = ColorSpace.getInstance(ColorSpace.CS_sRGB)
       val kind = DataBuffer.TYPE_USHORT
-      val model = ComponentColorModel(space, false, false, Transparency.OPAQUE, kind)
-      val raster = Raster.createInterleavedRaster(kind, width, height, 3, null)
+      val (bands, clarity) =
+        if hasAlpha then (4, Transparency.TRANSLUCENT) else (3, Transparency.OPAQUE)
+      val model = ComponentColorModel(space, hasAlpha, false, clarity, kind)
+      val raster = Raster.createInterleavedRaster(kind, width, height, bands, null)
       BufferedImage(model, raster, false, null)

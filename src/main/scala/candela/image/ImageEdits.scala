@@ -29,6 +29,19 @@ object ImageEdits:
     loop(data.length)(i => if isScaled(i % image.channels) then data(i) *= factor)
     withData(image, data)
 
+  /** Red, green and blue, each pixel divided by its alpha; where that is 0, as they are.
+    *
+    * @throws ImageError if there are no colours
+    */
+  def divided(image: Image, alpha: Array[Float]): Image =
+    val colors = image.colorChannels
+    val data = new Array[Float](3 * alpha.length)
+    loop(data.length): i =>
+      val a = alpha(i / 3)
+      val value = image.data(i / 3 * image.channels + colors(i % 3))
+      data(i) = if a > 0f then value / a else value
+    Image(image.width, image.height, Image.RgbNames, data, image.encoding, image.colorSpace)
+
   /** Pixels with a channel above `most` are scaled down to it: their hue stays. */
   def clamped(image: Image, most: Float): Image =
     val data = image.data.clone

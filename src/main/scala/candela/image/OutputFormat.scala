@@ -21,12 +21,15 @@ enum Contents:
   * @param others  the same of channels by name, where it differs
   * @param display how display formats show linear light
   * @param window  where the image lies in a larger one, of which it is a crop
+  * @param alpha   opacity of each pixel, for display formats that keep it; the colours must have
+  *                been divided by it
   */
 final case class WriteOptions(
     isHalf: Boolean = false,
     others: Map[String, Boolean] = Map.empty,
     display: DisplayTransform = DisplayTransform.Plain,
-    window: Option[ImageWindow] = None
+    window: Option[ImageWindow] = None,
+    alpha: Option[Array[Float]] = None
 )
 
 /** An output file format; all are listed in [[OutputFormat.all]].
@@ -40,6 +43,9 @@ abstract class OutputFormat(val suffix: String, val contents: Contents):
 
   /** Whether its files hold metadata, as plain text. */
   def keepsTexts: Boolean = false
+
+  /** Whether its files show transparency; formats of channels store any. */
+  def keepsAlpha: Boolean = false
 
   /** Whether a file that can be decoded has its last byte, too: decoders are lenient. */
   private[image] def hasEnd(file: Array[Byte]): Boolean = true
@@ -71,7 +77,7 @@ object OutputFormat:
   def listed(contents: Contents*): String =
     inWords(all.filter(f => contents.isEmpty || contents.contains(f.contents)))
 
-  private[image] def inWords(formats: Seq[OutputFormat]): String =
+  def inWords(formats: Seq[OutputFormat]): String =
     val names = formats.map(f => s".${f.suffix}")
     if names.size < 2 then names.mkString
     else s"${names.init.mkString(", ")} or ${names.last}"

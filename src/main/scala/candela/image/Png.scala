@@ -3,17 +3,21 @@ package candela.image
 import java.nio.charset.StandardCharsets.US_ASCII
 import javax.imageio.metadata.{IIOInvalidTreeException, IIOMetadata, IIOMetadataNode}
 
-/** Writes PNG: 8 or 16 bits, sRGB-encoded, values clamped to [0, 1], NaN black. */
+/** Writes PNG: 8 or 16 bits, sRGB-encoded, values clamped to [0, 1], NaN black; with alpha that is
+  * not multiplied into the colours, if there is any.
+  */
 private[image] object Png extends OutputFormat("png", Contents.Display):
   private val NativeFormat = "javax_imageio_png_1.0"
 
   override def keepsTexts: Boolean = true
+  override def keepsAlpha: Boolean = true
 
   private[image] override def hasEnd(file: Array[Byte]): Boolean =
     String(file.takeRight(8).take(4), US_ASCII) == "IEND"
 
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
-    JavaImages.encode("png", Bitmap.of(image, options.display))(describe(_, metadata))
+    val picture = Bitmap.of(image, options.display, options.alpha)
+    JavaImages.encode("png", picture)(describe(_, metadata))
 
   /** Adds the texts as iTXt chunks, and an sRGB chunk. */
   private def describe(chunks: IIOMetadata, texts: Vector[(String, String)]): Unit =

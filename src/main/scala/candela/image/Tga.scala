@@ -2,7 +2,8 @@ package candela.image
 
 import java.nio.{ByteBuffer, ByteOrder}
 
-/** Reads TGA, and writes it, since films of pbrt-v2 and v3 may name it: 24 bits, uncompressed,
+/** Reads TGA, and writes it, since films of pbrt-v2 and v3 may name it: 24 bits, or 32 with alpha,
+  * uncompressed,
   * sRGB-encoded, values clamped to [0, 1], NaN black.
   *
   * Source: Truevision TGA File Format Specification, version 2.0, 1991.
@@ -64,6 +65,8 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
       whole(6) = (count >> 8).toByte
       whole
 
+  override def keepsAlpha: Boolean = true
+
   private[image] override def hasEnd(file: Array[Byte]): Boolean =
     val header = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
     def size(at: Int) = header.getShort(at) & 0xffff
@@ -71,17 +74,21 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
     file(2) != TrueColor || file.length >= HeaderSize + size(12) * size(14) * (file(16) / 8)
 
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
-    val picture = Bitmap.of(image, options.display.copy(bits = 8))
+    val picture = Bitmap.of(image, options.display.copy(bits = 8), options.alpha)
     val (width, height) = (picture.getWidth, picture.getHeight)
     if width > 0xffff || height > 0xffff then
       throw ImageError(s"TGA holds at most 65535×65535 pixels, found $width×$height")
-    val file = ByteBuffer.allocate(HeaderSize + 3 * width * height).order(ByteOrder.LITTLE_ENDIAN)
+    val alphaBits = if options.alpha.isDefined then 8 else 0
+    val depth = 24 + alphaBits
+    val file = ByteBuffer.allocate(HeaderSize + depth / 8 * width * height)
+      .order(ByteOrder.LITTLE_ENDIAN)
     file.put(2, TrueColor.toByte).putShort(12, width.toShort).putShort(14, height.toShort)
-    file.put(16, 24.toByte).put(17, TopLeft.toByte).position(HeaderSize)
+    file.put(16, depth.toByte).put(17, (TopLeft | alphaBits).toByte).position(HeaderSize)
     val bands = picture.getRaster.getNumBands
+    val order = if bands == 4 then Array(2, 1, 0, 3) else Array(bands - 1, bands / 2, 0)
     val row = new Array[Int](width * bands)
     for y <- 0 until height do
       val _ = picture.getRaster.getPixels(0, y, width, 1, row)
-      for x <- 0 until width; band <- Array(bands - 1, bands / 2, 0) do
+      for x <- 0 until width; band <- order do
         val _ = file.put(row(x * bands + band).toByte)
     file.array

@@ -11,7 +11,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     "cropwindow" -> Vector("0,0.5,0.25,1", "0.00001,1,0,1"),
     "aov" -> Vector("depth", "albedo,normal", "depth:half,albedo,normal:float"),
     "light-groups" -> Vector("type", "statement", "key=point_3+spot_4,sky=infinite"),
-    "film" -> Vector("gbuffer"),
+    "film" -> Vector("gbuffer", "rgba"),
     "dialect" -> Vector("v3"),
     "define" -> Vector("spp=16"),
     "keep-going" -> Vector(""),

@@ -90,6 +90,32 @@ class RenderCommandSuite extends AnyFunSuite:
       val (refused, captured) = render("--film", "gbuffer", "--outfile", s"$folder/b.png")
       assert(refused == 1 && captured.err.contains("AOVs need .exr output"))
 
+  test("pictures that keep alpha have colours that are not multiplied by it, others refuse it"):
+    TempFolder.use: folder =>
+      val scene = folder.resolve("s.pbrt")
+      val film = "Film \"rgb\" \"integer xresolution\" 6 \"integer yresolution\" 6"
+      val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30"
+      val lamp = "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] Shape \"sphere\""
+      val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin $lamp")
+      def render(words: String*) =
+        val captured = Captured()
+        (Main.run(scene.toString +: words, captured.terminal), captured)
+      val files = Seq("a.exr", "a.png", "a.tga").map(folder.resolve)
+      assert(render("--aov", "alpha", "--outfile", files.mkString(","))._1 == 0)
+      val Seq(exr, png, tga) = files.map(ImageFiles.read(_).linear): @unchecked
+      assert(Seq(exr, png, tga).forall(_.channelNames == Vector("R", "G", "B", "A")))
+      val alphas = (0 until 36).map(i => exr.data(4 * i + 3))
+      assert(alphas.exists(a => a > 0.1f && a < 0.9f) && alphas.contains(0f))
+      for i <- 0 until 36; picture <- Seq(png, tga) do
+        // Half a code, and that of the half-precision file
+        assert(Math.abs(picture.data(4 * i + 3) - alphas(i)) < 0.6f / 255)
+        val right = if alphas(i) == 0f then 0f else exr.data(4 * i) / alphas(i)
+        assert(Math.abs(picture.data(4 * i) - right) < 0.01f, s"pixel $i")
+      val (short, _) = render("--film", "rgba", "--outfile", s"$folder/b.png")
+      assert(short == 0 && ImageFiles.read(folder.resolve("b.png")).channelNames.contains("A"))
+      val (refused, captured) = render("--aov", "alpha", "--outfile", s"$folder/b.jpg")
+      assert(refused == 1 && captured.err.contains("alpha needs .exr, .png or .tga output"))
+
   test("layers have the precision asked for; identifiers have 32 bits, and a legend"):
     TempFolder.use: folder =>
       val scene = folder.resolve("s.pbrt")

@@ -47,6 +47,19 @@ class PngSuite extends AnyFunSuite:
     val alone = read(Png.write(Image(1, 1, Vector("depth"), Array(1f)), Vector.empty))
     assert(alone.channelNames == Vector("Y") && alone.toImage.data(0) == 1f)
 
+  test("alpha is stored as it is, in 8 or 16 bits, beside encoded colours"):
+    val alpha = Some(Array(0f, 0.25f, 2f))
+    val image = Image(3, 1, Image.RgbNames, Array.tabulate(9)(_ / 8f))
+    for bits <- Seq(8, 16) do
+      val how = WriteOptions(display = DisplayTransform(bits = bits), alpha = alpha)
+      val back = read(Png.write(image, Vector.empty, how)).toImage
+      assert(back.channelNames == Image.RgbNames :+ "A")
+      // Half a code of 8 bits
+      for (value, i) <- Seq(0f, 0.25f, 1f).zipWithIndex do
+        assert(Math.abs(back(i, 0, 3) - value) <= 0.5f / 255, bits)
+        for c <- 0 until 3 do
+          assert(Math.abs(back(i, 0, c) - Srgb.encode(image(i, 0, c))) <= 0.51f / 255, bits)
+
   test("metadata is stored as text"):
     val file = Png.write(Image.rgb(1, 1), Vector("Software" -> "Candela 0.1", "Scene" -> "küche"))
     val plain = String(file, "UTF-8")

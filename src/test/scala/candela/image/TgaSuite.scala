@@ -17,6 +17,12 @@ class TgaSuite extends AnyFunSuite:
         assert(back.bytes.sameElements(codes))
       case other => fail(s"$other")
 
+  test("alpha is a fourth byte"):
+    val how = WriteOptions(alpha = Some(Array(0f, 1f)))
+    val back = StbReader.read(Tga.write(Image.rgb(2, 1), Vector.empty, how))
+    assert(back.channelNames == Image.RgbNames :+ "A")
+    assert(back.toImage.data.toVector == Vector(0f, 0f, 0f, 0f, 0f, 0f, 0f, 1f))
+
   test("gray is written as colour"):
     val back = StbReader.read(Tga.write(Image(2, 1, Vector("Y"), Array(0f, 1f)), Vector.empty))
     assert(back.toImage.data.toVector == Vector(0f, 0f, 0f, 1f, 1f, 1f))
