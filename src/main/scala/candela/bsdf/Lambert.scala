@@ -7,7 +7,7 @@ import candela.textures.{RgbTexture, Textured}
 
 /** Ideal diffuse reflection: constant radiance in the hemisphere of the light.
   *
-  * @param albedo reflected fraction of the power, in [0, 1]
+  * @param albedo reflected fraction of the power, in [0, 1]; Mitsuba's surfaces may add light
   */
 final class Lambert(albedo: Rgb) extends LeanBsdf:
   private val value = albedo * InvPi
@@ -32,6 +32,9 @@ object Lambert:
   /** Scatters nothing. */
   val Black: Lambert = new Lambert(Rgb.Black)
 
-/** [[Lambert]]; `reflectance` is clamped to [0, 1]. */
-final class DiffuseMaterial(reflectance: RgbTexture) extends Material, Textured(reflectance):
-  def bsdf(at: ShadingPoint): Bsdf = Lambert(reflectance.albedo(at))
+/** [[Lambert]]; `reflectance` is at least 0 and, unless `gains`, at most 1. */
+final class DiffuseMaterial(reflectance: RgbTexture, gains: Boolean = false)
+    extends Material,
+      Textured(reflectance):
+  def bsdf(at: ShadingPoint): Bsdf =
+    Lambert(if gains then reflectance.positive(at) else reflectance.albedo(at))

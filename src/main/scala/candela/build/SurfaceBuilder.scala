@@ -132,7 +132,10 @@ private[build] final class SurfaceBuilder(
       case ShapeGeometry.Solid(_, _) if toWorld.isFlat => () // reported before
       case ShapeGeometry.Solid(make, turned) =>
         val facesInwards = isReversed != (isConsistent && isReflected)
-        addSolid(make(toWorld, facesInwards), lamp, isInverted != turned)
+        // Samples of a mirrored lamp that is a cylinder lie on its other side, as in Mitsuba
+        val isOdd = isConsistent && isReflected && lamp.isDefined &&
+          dressed.declared.name == "cylinder"
+        addSolid(make(toWorld, facesInwards != isOdd), lamp, (isInverted != turned) != isOdd)
       case ShapeGeometry.Solids(make, emits) =>
         if lamp.isDefined && !emits then
           val name = dressed.shape.shape.name

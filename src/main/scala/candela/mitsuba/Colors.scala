@@ -141,13 +141,17 @@ final class Colors(session: Session):
   private def flat(x: Double): Spectrum =
     Spectrum(Array(360f, 830f), Array.fill(2)(x.toFloat), Spectrum.Outside.Zero)
 
+  /** Light with positive channels, too, is rendered. */
+  def warnOfNegative(c: Rgb, at: SourcePos): Unit =
+    if Math.min(c.r, Math.min(c.g, c.b)) < 0f && c.max <= 0f then
+      session.warn(at, "negative light, which takes light away in Mitsuba, is not supported")
+
   /** Light of a constant colour, times a factor: of its spectrum, if it has one. pbrt-v4 scales
     * spectra of light to luminance 1.
     */
   def light(name: String, shade: Shade.Constant, at: SourcePos, factor: Float = 1f): Seq[Param] =
     val c = shade.c * factor
-    if Math.min(c.r, Math.min(c.g, c.b)) < 0f && c.max <= 0f then
-      session.warn(at, "negative light, which takes light away in Mitsuba, is not supported")
+    warnOfNegative(c, at)
     shade.light.filter(_ => c.luminance > 0f).fold(Seq(Textures.rgb(name, c, at))): s =>
       val pairs = s.lambda.zip(s.values).flatMap((nm, x) => Array(nm, x))
       Seq(

@@ -123,7 +123,9 @@ final class Emitters(
       val upright = in.transform("to_world") * Transform.scale(-1, -1, 1).get
       light(in, "projection", upright, around, Some(Dialect.V3))((params :+ fov)*)
     colors.shade(in, "irradiance", Rgb.White, Role.Emission) match
-      case Shade.Constant(c, _) => Some(lit(Textures.rgb("I", c * scale, in.at)))
+      case Shade.Constant(c, _) =>
+        colors.warnOfNegative(c * scale, in.at)
+        Some(lit(Textures.rgb("I", c * scale, in.at)))
       case Shade.Textured(t) =>
         for axis <- in.text("fov_axis") if axis != "x" do
           session.warn(in.atOf("fov_axis"), "only x can be the axis beside an image; using x")

@@ -7,7 +7,13 @@ import candela.scenefile.{Declaration, Param}
 final class Integrators(session: Session):
 
   def apply(p: Plugin): Declaration = session.of(p): in =>
-    in.ignore("rr_depth", "emitter_samples", "bsdf_samples", "shading_samples", "block_size",
+    val roulette = in.integer("rr_depth", 5)
+    if roulette < 1 then
+      session.warn(
+        in.atOf("rr_depth"),
+        s"`rr_depth` is $roulette; Mitsuba takes 1 and more only. It is ignored here"
+      )
+    in.ignore("emitter_samples", "bsdf_samples", "shading_samples", "block_size",
       "samples_per_pass", "timeout", "use_nee", "sampling_integrator")
     p.name match
       case "path" | "prb" | "prb_basic" => limited(in, "path", hiding(in)*)
@@ -37,6 +43,11 @@ final class Integrators(session: Session):
   private def limited(in: Asked, name: String, more: Param*): Declaration =
     val depth = in.integer("max_depth", -1)
     val edges = if depth < 0 then Integrators.Unlimited else Math.max(0, depth - 1)
+    if depth < -1 then
+      session.warn(
+        in.atOf("max_depth"),
+        s"`max_depth` is $depth; Mitsuba takes 0 and more, or -1 for no limit, which is used"
+      )
     if depth == 0 then
       session.warn(in.atOf("max_depth"), "paths of depth 0 see nothing; the image is black")
     session.declare(

@@ -102,6 +102,74 @@ class MitsubaRulesSuite extends AnyFunSuite:
     assert(Math.abs(lamp("disk", z) - 0.0418) < 1e-3)
     assert(Math.abs(lamp("disk", x) - lamp("disk", "")) < 0.01)
 
+  test("an instance that mirrors keeps the outside of its shapes, however often it is placed"):
+    def lit(shape: String, mirror: String, copies: Int): Boolean =
+      def instance(more: String) =
+        "<shape type=\"instance\"><ref id=\"g\"/><transform name=\"to_world\">" +
+          s"$mirror$more</transform></shape>"
+      val far = "<translate x=\"200\"/>"
+      val group = s"<shape type=\"shapegroup\" id=\"g\"><shape type=\"$shape\">" +
+        "<bsdf type=\"diffuse\"/></shape></shape>"
+      val lamp = "<emitter type=\"point\"><point name=\"position\" x=\"0\" y=\"0\" z=\"5\"/>" +
+        "</emitter>"
+      means(s"$Path6${sensor()}$group${instance("")}${instance(far) * (copies - 1)}$lamp").head > 0
+    val (x, z, all) = ("<scale x=\"-1\"/>", "<scale z=\"-1\"/>", "<scale value=\"-1\"/>")
+    for copies <- 1 to 2 do
+      for mirror <- Seq("", x, z, all) do
+        assert(lit("sphere", mirror, copies), s"$mirror $copies")
+        // A normal is a covector: it turns with z alone
+        for shape <- Seq("disk", "rectangle") do
+          assert(lit(shape, mirror, copies) == (mirror == "" || mirror == x), s"$shape $mirror")
+
+  test("a mirrored cylinder emits outwards, but samples of its light lie within"):
+    def floor(mirror: String) = means(
+      s"""$Path6${sensor()}<shape type="cylinder"><float name="radius" value=".4"/>
+        <point name="p0" x="-1" y="0" z="-.2"/><point name="p1" x="1" y="0" z="-.2"/>
+        <transform name="to_world">$mirror</transform><emitter type="area"/></shape>
+        <shape type="rectangle"><transform name="to_world"><scale value="9"/><translate z="-1"/>
+        </transform><bsdf type="diffuse"><rgb name="reflectance" value=".5"/></bsdf></shape>"""
+    ).head
+    // The noise of 64 samples per pixel
+    isNear(Vector(floor("")), 0.1932)(0.005)
+    isNear(Vector(floor("<scale x=\"-1\"/>")), 0.178)(0.005)
+
+  test("a diffuse reflectance above 1 adds light"):
+    def wall(reflectance: String) = means(
+      s"""$Path6${sensor()}<shape type="rectangle"><transform name="to_world"><scale value="9"/>
+        </transform><bsdf type="diffuse">$reflectance</bsdf></shape><emitter type="constant"/>"""
+    )
+    val d65 = "<spectrum name=\"reflectance\" type=\"d65\"><float name=\"scale\" value=\"2\"/>"
+    // The noise of 64 samples
+    isNear(wall(s"$d65</spectrum>"), 2, 2, 2)(0.03)
+    isNear(wall(s"$d65<rgb name=\"color\" value=\".1,.2,.6\"/></spectrum>"), .2, .4, 1.2)(0.02)
+
+  test("negative light is a warning with a place, whatever the lamp"):
+    for
+      (kind, name) <- Seq(
+        "point" -> "intensity", "spot" -> "intensity", "directional" -> "irradiance",
+        "constant" -> "radiance", "projector" -> "irradiance", "area" -> "radiance"
+      )
+      colour <- Seq("<rgb name=\"%s\" value=\"-1,-2,0\"/>", "<float name=\"%s\" value=\"-1\"/>")
+    do
+      val lamp = s"<emitter type=\"$kind\">${colour.format(name)}</emitter>"
+      val body = if kind == "area" then s"<shape type=\"sphere\">$lamp</shape>" else lamp
+      inFile(s"${sensor()}$body"): scene =>
+        val told = scene.warnings.filter(_.message.startsWith("negative light"))
+        assert(told.size == 1 && told.head.at.isDefined, lamp)
+
+  test("depths that Mitsuba refuses are warnings with a place"):
+    def warnings(integrator: String, name: String, value: Int) =
+      inFile(
+        s"<integrator type=\"$integrator\"><integer name=\"$name\" value=\"$value\"/>" +
+          s"</integrator>${sensor()}"
+      )(_.warnings.filter(_.message.contains(s"`$name` is $value")))
+    for kind <- Seq("path", "volpath", "ptracer") do
+      for depth <- Seq(-2, -7) do
+        assert(warnings(kind, "max_depth", depth).exists(_.at.isDefined), kind)
+      for depth <- Seq(0, -1) do
+        assert(warnings(kind, "rr_depth", depth).exists(_.at.isDefined), kind)
+      assert(warnings(kind, "max_depth", -1).isEmpty && warnings(kind, "rr_depth", 1).isEmpty)
+
   test("an environment map may have one row or two"):
     for (height, right) <- Seq(1 -> 0.25, 2 -> 0.5) do
       val rows = Array.fill(3)(0.25f) ++ Array.fill(3 * (height - 1))(0.75f)

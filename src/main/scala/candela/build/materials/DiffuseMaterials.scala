@@ -13,7 +13,8 @@ object MatteRecipe
 
 object DiffuseRecipe extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4):
   private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
-  protected def make()(using Site): Material = DiffuseMaterial(reflectance())
+  protected def make()(using site: Site): Material =
+    DiffuseMaterial(reflectance(), gains = site.resources.switches.isMitsubas)
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):
