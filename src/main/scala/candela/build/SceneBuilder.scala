@@ -170,6 +170,9 @@ object SceneBuilder:
       image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&
         FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
+    if usesSampler && !options.preview then
+      for remark <- sampling.remarks do
+        context.problems.warn(context.description.sampler.map(_.at), remark)
     val moves = camera.motion.isDefined || world.moves
     RenderPlan(
       width = image.width,

@@ -95,12 +95,14 @@ private[build] object ImageSetup:
   * @param points    which points the sampler takes, and why
   * @param samples   samples per pixel, if not set by the sampler
   * @param footprint size of a sample's footprint, in pixels
+  * @param remarks   on the number of samples, if the sampler is used
   */
 private[build] final case class SamplingSetup(
     sampler: Sampler,
     points: String,
     samples: Option[Int],
-    footprint: Float
+    footprint: Float,
+    remarks: Vector[String]
 )
 
 private[build] object SamplingSetup:
@@ -120,20 +122,15 @@ private[build] object SamplingSetup:
     val default = context.defaults.sampler
     val asked = context.made(context.description.sampler, Samplers.all, default)(request)
     val chosen = asked.points(options.points)
-    def warn(message: String) =
-      context.problems.warn(context.description.sampler.map(_.at), message)
     val points = if asked.count <= chosen.most then chosen else SamplerPlan.Best
-    if points != chosen then
-      warn(
-        s"\"${chosen.word}\" has at most ${chosen.most} samples per pixel, not ${asked.count}; " +
-          s"using ${points.meaning}"
-      )
     val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
-    if sampler.samplesPerPixel != asked.count then
-      warn(
-        s"\"${points.word}\" takes ${sampler.samplesPerPixel} samples per pixel, the next power " +
-          s"of two, not ${asked.count}"
-      )
+    val replaced = Option.when(points != chosen):
+      s"\"${chosen.word}\" has at most ${chosen.most} samples per pixel, not ${asked.count}; " +
+        s"using ${points.meaning}"
+    // pbrt rounds a scene's own number, too
+    val rounded = Option.when(options.spp.exists(_ != sampler.samplesPerPixel)):
+      s"\"${points.word}\" takes ${sampler.samplesPerPixel} samples per pixel, the next power " +
+        s"of two, not ${asked.count}"
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
@@ -141,7 +138,8 @@ private[build] object SamplingSetup:
       samples,
       if switches.centers then 1f
       else if context.isV4 then Math.max(SharpestV4, density)
-      else density
+      else density,
+      replaced.toVector ++ rounded
     )
 
 /** The placed camera.

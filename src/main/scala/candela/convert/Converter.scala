@@ -52,7 +52,8 @@ object Converter:
     val moved = images.scene
     val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
     val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val start = based.copy(warnings = own.warnings ++ images.warnings ++ based.warnings)
+    val warnings = own.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, to)
+    val start = based.copy(warnings = warnings)
     // v2's and v4's marble are the same
     val solid = baking.filter(_ => Seq(scene.dialect, to).count(_ == Dialect.V3) == 1) match
       case Some(b) =>
@@ -94,6 +95,27 @@ object Converter:
       ),
       from.warnings ++ lost
     )
+
+  /** Integrators without media differ in what they find behind surfaces without a BSDF. */
+  private def interfaces(scene: SceneDescription, to: Dialect): Option[Problem] =
+    val named = scene.namedMaterials.toMap
+    def isOpen(s: ShapeDescription) = s.material match
+      case MaterialRef.Inline(d) => Open(d.name)
+      case MaterialRef.Named(name, _) => named.get(name).exists(d => Open(d.name))
+      case MaterialRef.Default => false
+    val default = if scene.dialect == Dialect.V4 then "volpath" else "path"
+    val integrator = scene.integrator.fold(default)(_.name)
+    for
+      first <- (scene.shapes ++ scene.objects.values.flatten).find(isOpen)
+      if Set(scene.dialect, to) == Set(Dialect.V3, Dialect.V4) && !ThroughMedia(integrator)
+    yield Problem.warning(
+      first.shape.at,
+      s"\"$integrator\" finds other light behind surfaces without a BSDF in pbrt-v3 than in " +
+        "pbrt-v4; \"volpath\" finds the same"
+    )
+
+  private val Open = Set("", "none", "interface")
+  private val ThroughMedia = Set("volpath", "simplevolpath", "bdpt", "mlt")
 
   private def forV4(made: Converted, from: Dialect): Converted =
     val held = ColorRanges.held(made)

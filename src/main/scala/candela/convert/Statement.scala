@@ -102,4 +102,6 @@ final class Statement(val declaration: Declaration, val run: PassRun, rule: Rule
       warn(p.at, s"unknown parameter `${p.name}` of \"$name\"; ignored")
     val (new_, old) = made.toVector.partition(_.at == declaration.at)
     val ordered = old.sortBy(p => (p.at.line, p.at.column)) ++ new_
-    declaration.copy(name = targetName, params = ordered, colorSpace = "srgb")
+    // v2 and v3 have no `Attribute`
+    val written = if run.pass.to == Dialect.V4 then ordered else ordered.map(_.asOwn)
+    declaration.copy(name = targetName, params = written, colorSpace = "srgb")

@@ -88,6 +88,12 @@ final class Param(
   def renamed(other: String, otherType: ParamType): Param =
     Param(otherType, other, at, valuesAt, floats, ints, bools, strings, isDefault, rests = rests)
 
+  /** As written in the declaration itself. */
+  def asOwn: Param =
+    if !isDefault then this
+    else
+      Param(paramType, name, at, valuesAt, floats, ints, bools, strings, false, colorSpace, rests)
+
   /** As given by an `Attribute` statement in a colour space. */
   def asDefault(space: String): Param =
     val own = Option.when(paramType == ParamType.Rgb)(space)

@@ -26,15 +26,14 @@ class FilmLockSuite extends AnyFunSuite:
       assert(TempFolder.names(folder).isEmpty)
       assert(FilmLock.take(film).map(_.close()).isDefined)
 
-  test("a film that is being written is refused by render, resume and merge"):
+  test("a film that is being written is refused by render and resume"):
     withScene: f =>
       f.render("--outfile", f("one.film"))
       val film = Files.readAllBytes(Path.of(f("one.film"))).toVector
       for lock <- FilmLock.take(Path.of(f("one.film"))) do
         val others = Vector(
           Vector(f.scene, "--outfile", f("one.film")),
-          Vector("resume", f("one.film"), "--spp", "8"),
-          Vector("merge", f("one.film"), "--outfile", f("one.film"))
+          Vector("resume", f("one.film"), "--spp", "8")
         )
         for command <- others do
           assert(

@@ -94,7 +94,7 @@ class RenderCommandSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val scene = folder.resolve("s.pbrt")
       val film = "Film \"rgb\" \"integer xresolution\" 6 \"integer yresolution\" 6"
-      val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 30"
+      val camera = "LookAt 0 0 -4  0 0 0  0 1 0 Camera \"perspective\" \"float fov\" 45"
       val lamp = "AreaLightSource \"diffuse\" \"rgb L\" [.5 .5 .5] Shape \"sphere\""
       val _ = Files.writeString(scene, s"$film\n$camera\nWorldBegin $lamp")
       def render(words: String*) =

@@ -58,7 +58,7 @@ object ConverterSuite:
         "v4-defaults-bare v4-defaults-emission v4-defaults-lights v4-defaults-shapes " +
         "v4-depth-of-field v4-dielectric v4-diffuse-transmission v4-environment-map " +
         "v4-filter-gaussian v4-filter-mitchell " +
-        "v4-instances v4-interfaces v4-lights v4-media v4-mirrored-glass v4-motion " +
+        "v4-instances v4-lights v4-media v4-mirrored-glass v4-motion " +
         "v4-panorama v4-realistic v4-simplepath v4-sppm"
     val inV4 =
       "v2-alpha v2-defaults-bare v2-filter-gaussian v2-filter-triangle v2-motion v2-panorama " +
@@ -98,6 +98,7 @@ object ConverterSuite:
       "v4-film" -> 1.05,
       "v4-fog" -> 0.4,
       "v4-force-diffuse" -> 0.2,
+      "v4-interfaces" -> 3.3,
       "v4-layers" -> 0.25,
       "v4-lightpath" -> 0.85,
       "v4-measured" -> 0.35,

@@ -146,8 +146,12 @@ class MitsubaRulesSuite extends AnyFunSuite:
   test("negative light is a warning with a place, whatever the lamp"):
     for
       (kind, name) <- Seq(
-        "point" -> "intensity", "spot" -> "intensity", "directional" -> "irradiance",
-        "constant" -> "radiance", "projector" -> "irradiance", "area" -> "radiance"
+        "point" -> "intensity",
+        "spot" -> "intensity",
+        "directional" -> "irradiance",
+        "constant" -> "radiance",
+        "projector" -> "irradiance",
+        "area" -> "radiance"
       )
       colour <- Seq("<rgb name=\"%s\" value=\"-1,-2,0\"/>", "<float name=\"%s\" value=\"-1\"/>")
     do

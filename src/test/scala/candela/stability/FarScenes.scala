@@ -103,7 +103,7 @@ object FarScenes:
         s"""MakeNamedMedium "h" "string type" "homogeneous" """ +
           s"""$fog\n${translate(p)}\n$sky\n$lamp\n""" +
           s"""MakeNamedMedium "g" "string type" "uniformgrid" $fog $density "point3 p0" """ +
-            s"""[-1.5 -.5 -.5] "point3 p1" [-.2 .5 .8]\n""" +
+          s"""[-1.5 -.5 -.5] "point3 p1" [-.2 .5 .8]\n""" +
           s"$grey4\n${ground(origin)}\nMaterial \"interface\"\n" +
           shape(
             "\"sphere\" \"float radius\" .6",
@@ -117,7 +117,7 @@ object FarScenes:
       p =>
         s"$sky\nMakeNamedMedium \"g\" \"string type\" \"uniformgrid\" $fog $density " +
           s""""point3 p0" [${points(p)(-1.1, -.6, -.5)}] "point3 p1" """ +
-            s"""[${points(p)(.9, .6, .8)}]\n""" +
+          s"""[${points(p)(.9, .6, .8)}]\n""" +
           s"${translate(p)}\n$lamp\n$grey4\n${ground(origin)}\nMaterial \"interface\"\n" +
           shape("\"sphere\" \"float radius\" .9", "MediumInterface \"g\" \"\"")
     ),
@@ -127,9 +127,9 @@ object FarScenes:
       p =>
         lit(p, red, ground(origin)) +
           s"""\nVolume "homogeneous" "color sigma_a" [.2 .3 .4] "color sigma_s" [.6 .5 """ +
-            s""".4] "point p0" [-1.5 -1 -.5] "point p1" [0 1 1]\n""" +
+          s""".4] "point p0" [-1.5 -1 -.5] "point p1" [0 1 1]\n""" +
           s"""Translate ${-p.x} ${-p.y} ${-p.z}\nVolume "volumegrid" "color sigma_a" [.2 """ +
-            s""".3 .4] "color sigma_s" [.6 .5 .4] $density """ +
+          s""".3 .4] "color sigma_s" [.6 .5 .4] $density """ +
           s"\"point p0\" [${points(p)(.1, -1, -.5)}] \"point p1\" [${points(p)(1.6, 1, 1)}]",
       head = "VolumeIntegrator \"single\" \"float stepsize\" .2"
     )
