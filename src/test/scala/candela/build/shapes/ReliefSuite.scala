@@ -54,6 +54,15 @@ class ReliefSuite extends AnyFunSuite:
     assertNear(one, 0.3625f, 0.001f)
     assertNear(shared, 0.3625f, 0.001f)
 
+  test("the normals of pbrt-v3's hyperboloids are those of their line"):
+    val light = sun.replace("3 2 -2", "3 4 -3")
+    val shape = "\"hyperboloid\" \"point p1\" [1.2 0 0] \"point p2\" [.4 1.1 .9]"
+    val world = s"$light Material \"matte\" \"rgb Kd\" [.5 .5 .5]\n" +
+      s"Translate 0 -.3 0 Rotate -90 1 0 0 Shape $shape"
+    val lit = SceneTexts.mean(seen(world).replace("\"float fov\" 20", "\"float fov\" 28")).r
+    // A narrow lit band, whose edges cross pixels
+    assertNear(lit, 0.00913f, 0.03f)
+
   test("hair on pbrt-v3's meshes with normals grows against u"):
     val light = sun.replace("3 2 -2", "3 3 -4")
     def hair(normals: String) = mean(light +
