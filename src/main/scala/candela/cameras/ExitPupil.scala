@@ -101,13 +101,7 @@ object ExitPupil:
       val isNear = x >= exact(0) && x <= exact(1) && y >= exact(2) && y <= exact(3)
       if isNear && !(x >= x0 && x <= x1 && y >= y0 && y <= y1) then
         val radius = (i + 0.5) / SearchPoints * width
-        ray(0) = radius
-        ray(1) = 0
-        ray(2) = 0
-        ray(3) = x - radius
-        ray(4) = y
-        ray(5) = lens.rearZ
-        if lens.fromFilm(ray) > 0 then
+        if passes(lens, ray, radius, x, y) then
           x0 = Math.min(x0, x)
           x1 = Math.max(x1, x)
           y0 = Math.min(y0, y)
@@ -136,6 +130,25 @@ object ExitPupil:
     to(4 * ring + 2) = -top
     to(4 * ring + 3) = top
 
+  /** Does light pass from `radius` on the film through (x, y) on the rear surface?
+    *
+    * @param ray scratch
+    */
+  private def passes(
+      lens: LensSystem,
+      ray: Array[Double],
+      radius: Double,
+      x: Double,
+      y: Double
+  ): Boolean =
+    ray(0) = radius
+    ray(1) = 0
+    ray(2) = 0
+    ray(3) = x - radius
+    ray(4) = y
+    ray(5) = lens.rearZ
+    lens.fromFilm(ray) > 0
+
   /** From x0 to x1, and up to ±top. */
   private final case class Region(x0: Double, x1: Double, top: Double)
 
@@ -158,14 +171,7 @@ object ExitPupil:
   /** Bounds of all rays from `radius` that pass. */
   private def scan(lens: LensSystem, radius: Double, region: Region): Option[Region] =
     val ray = new Array[Double](6)
-    def passes(x: Double, y: Double): Boolean =
-      ray(0) = radius
-      ray(1) = 0
-      ray(2) = 0
-      ray(3) = x - radius
-      ray(4) = y
-      ray(5) = lens.rearZ
-      lens.fromFilm(ray) > 0
+    def passes(x: Double, y: Double): Boolean = this.passes(lens, ray, radius, x, y)
     val dx = (region.x1 - region.x0) / Across
     val dy = region.top / Up
     def rim(inside: Double, outside: Double)(isIn: Double => Boolean): Double =

@@ -99,10 +99,7 @@ object Converter:
   /** Integrators without media differ in what they find behind surfaces without a BSDF. */
   private def interfaces(scene: SceneDescription, to: Dialect): Option[Problem] =
     val named = scene.namedMaterials.toMap
-    def isOpen(s: ShapeDescription) = s.material match
-      case MaterialRef.Inline(d) => Open(d.name)
-      case MaterialRef.Named(name, _) => named.get(name).exists(d => Open(d.name))
-      case MaterialRef.Default => false
+    def isOpen(s: ShapeDescription) = s.material.declared(named).exists(d => Open(d.name))
     val default = if scene.dialect == Dialect.V4 then "volpath" else "path"
     val integrator = scene.integrator.fold(default)(_.name)
     for

@@ -161,11 +161,7 @@ object FromMitsuba:
     def disks(scene: SceneDescription): Unit =
       val named = scene.namedMaterials.toMap
       for s <- (scene.shapes ++ scene.objects.values.flatten) if s.shape.name == "disk" do
-        val material = s.material match
-          case MaterialRef.Inline(d) => Some(d)
-          case MaterialRef.Named(name, _) => named.get(name)
-          case MaterialRef.Default => None
-        if material.exists(_.params.exists(_.paramType == ParamType.Texture)) then
+        if s.material.declared(named).exists(_.params.exists(_.paramType == ParamType.Texture)) then
           warn(s.shape, "textures lie otherwise on pbrt's disks than on Mitsuba's; using pbrt's")
 
     /** pbrt counts what a thin pane transmits as an event, Mitsuba's "volpath" does not. */

@@ -21,10 +21,8 @@ private[convert] object MitsubaInV4:
     */
   private def lamps(scene: SceneDescription): Converted =
     val named = scene.namedMaterials.toMap
-    def isNull(s: ShapeDescription) = s.areaLight.isDefined && (s.material match
-      case MaterialRef.Inline(d) => d.name == "interface"
-      case MaterialRef.Named(name, _) => named.get(name).exists(_.name == "interface")
-      case MaterialRef.Default => false)
+    def isNull(s: ShapeDescription) =
+      s.areaLight.isDefined && s.material.declared(named).exists(_.name == "interface")
     def clear(shapes: Vector[ShapeDescription]) = shapes.map: s =>
       if !isNull(s) then s
       else

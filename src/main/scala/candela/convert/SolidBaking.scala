@@ -39,11 +39,7 @@ final class SolidBaking(
       )
 
   private def baked(s: ShapeDescription): ShapeDescription =
-    val material = s.material match
-      case MaterialRef.Inline(d) => Some(d)
-      case MaterialRef.Named(name, _) => named.get(name)
-      case MaterialRef.Default => None
-    material.filter(_.params.exists(isSolid)).fold(s): d =>
+    s.material.declared(named).filter(_.params.exists(isSolid)).fold(s): d =>
       val params = d.params.map: p =>
         val image = Option.when(isSolid(p))(p.strings.head).flatMap(painted(s, _))
         image.fold(p)(name => p.withStrings(Vector(name)))

@@ -44,7 +44,7 @@ object IesFile:
     private def shown(word: String): String =
       word.take(20).map(c => if c.isControl then '?' else c)
 
-    private def word(what: String): String =
+    private def word(what: => String): String =
       while !words.hasNext do
         line += 1
         if line >= lines.length then
@@ -53,7 +53,7 @@ object IesFile:
         words = lines(line).split("[\\s,;]+").iterator.filter(_.nonEmpty)
       words.next()
 
-    private def number(what: String): Float =
+    private def number(what: => String): Float =
       val found = word(what)
       found.toFloatOption.filter(java.lang.Float.isFinite(_))
         .getOrElse(fail(s"expected $what, found `${shown(found)}`"))
@@ -106,10 +106,7 @@ object IesFile:
       val candelas = new Array[Float](rows * planes)
       var negative = 0
       for i <- candelas.indices do
-        val place = s"candela ${i % rows + 1} of $rows in plane ${i / rows + 1} of $planes"
-        val found = word(place)
-        val x = found.toFloatOption.filter(java.lang.Float.isFinite(_))
-          .getOrElse(fail(s"expected $place, found `${shown(found)}`"))
+        val x = number(s"candela ${i % rows + 1} of $rows in plane ${i / rows + 1} of $planes")
         if x * factor < 0f && negative == 0 then negative = line + 1
         candelas(i) = Math.max(0f, x * factor)
       if negative > 0 then notes += s"$name:$negative: negative candelas are read as 0"

@@ -69,35 +69,38 @@ final class Param(
   /** The triple from the number `i` on. */
   def position(i: Int): Position = Position(number(i), number(i + 1), number(i + 2))
 
-  def renamed(name: String): Param =
+  private def copy(
+      paramType: ParamType = paramType,
+      name: String = name,
+      floats: Array[Float] = floats,
+      strings: Vector[String] = strings,
+      isDefault: Boolean = isDefault,
+      colorSpace: Option[String] = colorSpace,
+      rests: Array[Float] = rests
+  ): Param =
     Param(paramType, name, at, valuesAt, floats, ints, bools, strings, isDefault, colorSpace, rests)
 
-  def withStrings(values: Vector[String]): Param =
-    Param(paramType, name, at, valuesAt, floats, ints, bools, values, isDefault, colorSpace, rests)
+  def renamed(name: String): Param = copy(name = name)
+
+  def withStrings(values: Vector[String]): Param = copy(strings = values)
 
   /** In the colour space of the declaration. */
   def withFloats(values: Array[Float]): Param =
-    Param(paramType, name, at, valuesAt, values, ints, bools, strings, isDefault)
+    copy(floats = values, colorSpace = None, rests = Array.emptyFloatArray)
 
   /** With the first `count` of its numbers. */
-  def first(count: Int): Param =
-    val (f, r) = (floats.take(count), rests.take(count))
-    Param(paramType, name, at, valuesAt, f, ints, bools, strings, isDefault, colorSpace, r)
+  def first(count: Int): Param = copy(floats = floats.take(count), rests = rests.take(count))
 
-  /** With another name and type of numbers. */
+  /** With another name and type of numbers, in the colour space of the declaration. */
   def renamed(other: String, otherType: ParamType): Param =
-    Param(otherType, other, at, valuesAt, floats, ints, bools, strings, isDefault, rests = rests)
+    copy(paramType = otherType, name = other, colorSpace = None)
 
   /** As written in the declaration itself. */
-  def asOwn: Param =
-    if !isDefault then this
-    else
-      Param(paramType, name, at, valuesAt, floats, ints, bools, strings, false, colorSpace, rests)
+  def asOwn: Param = if isDefault then copy(isDefault = false) else this
 
   /** As given by an `Attribute` statement in a colour space. */
   def asDefault(space: String): Param =
-    val own = Option.when(paramType == ParamType.Rgb)(space)
-    Param(paramType, name, at, valuesAt, floats, ints, bools, strings, true, own, rests)
+    copy(isDefault = true, colorSpace = Option.when(paramType == ParamType.Rgb)(space))
 
 object Param:
   def float(name: String, at: SourcePos, values: Float*): Param =

@@ -20,6 +20,12 @@ enum MaterialRef:
   /** `NamedMaterial "name"`, defined in [[SceneDescription.namedMaterials]]. */
   case Named(name: String, at: SourcePos)
 
+  /** Its statement, if there is one. */
+  def declared(named: Map[String, Declaration]): Option[Declaration] = this match
+    case Default => None
+    case Inline(declaration) => Some(declaration)
+    case Named(name, _) => named.get(name)
+
 /** A `Shape` statement with the graphics state that applies to it.
   *
   * @param oneSided whether it is black from behind, unless light passes through it: pbrt has no
