@@ -91,7 +91,7 @@ object Architecture:
     "sun" -> Set("cli"),
     "scalatags" -> Set("report"),
     "ujson" -> Set("report"),
-    "com" -> Set("suite", "watch"),
+    "com" -> Set("suite"),
     "jdk" -> Set("accel.tracing")
   )
   private val language = Set("candela", "java", "javax", "scala")

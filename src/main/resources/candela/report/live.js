@@ -61,6 +61,7 @@ function liveView(size) {
     layer: asked.get("layer") || "", version: -1, points: 0, tiles: [] };
   const pixels = Object.assign(document.createElement("canvas"), { width, height });
   const paper = pixels.getContext("2d"), out = paper.createImageData(width, height);
+  let titles = {}; // of the layers, by name
   let data = null, channels = 3, matrix = null, display = displays(s.curve), asking = null;
 
   function paint() {
@@ -105,7 +106,7 @@ function liveView(size) {
   function readOut() {
     live.dataset.cursor = `${s.x} ${s.y}`;
     if (!(s.x >= 0 && s.x < width && s.y >= 0 && s.y < height)) {
-      readout.textContent = "rest the mouse on a pixel";
+      readout.textContent = Unpointed;
     } else {
       clearTimeout(asking);
       asking = setTimeout(async () => {
@@ -113,9 +114,10 @@ function liveView(size) {
         try {
           const rows = await (await fetch(`pixel?x=${x}&y=${y}`)).json();
           const text = v => (v === null ? "–" : short(v)).padStart(11);
-          const wide = Math.max(18, ...rows.map(r => r.layer.length));
+          const title = r => titles[r.layer] || r.layer;
+          const wide = Math.max(18, ...rows.map(r => title(r).length));
           readout.textContent = `pixel (${x + size.x0}, ${y + size.y0})\n` +
-            rows.map(r => `${r.layer.padEnd(wide)} ${r.values.map(text).join(" ")}`).join("\n");
+            rows.map(r => `${title(r).padEnd(wide)} ${r.values.map(text).join(" ")}`).join("\n");
           live.dataset.pixel = JSON.stringify({ x, y, version: s.version, rows });
         } catch (e) { /* the next state tells that the server has gone */ }
       }, 40);
@@ -130,6 +132,7 @@ function liveView(size) {
     matrix = toSrgb && toSrgb.split(",").map(Number);
     data = new Float32Array(await answer.arrayBuffer());
     s.version = +answer.headers.get("X-Version");
+    byId("waiting").hidden = true;
     paint(); readOut();
     live.dataset.version = s.version;
     live.dataset.mean = data.reduce((a, b) => a + b, 0) / data.length;
@@ -137,12 +140,15 @@ function liveView(size) {
 
   // The image only if there is time for it, or if it was asked for or is the last one
   async function show(state, hasTime) {
-    const select = byId("layer"), names = [...select.options].map(o => o.value);
-    if (names.join() !== state.layers.join()) {
-      select.replaceChildren(...state.layers.map(l => new Option(l, l)));
-      if (!state.layers.includes(s.layer)) s.layer = state.layers[0] || "";
+    const select = byId("layer"), names = state.layers.map(l => l.name);
+    if (names.length && names.join() !== Object.keys(titles).join()) {
+      titles = Object.fromEntries(state.layers.map(l => [l.name, l.title]));
+      select.replaceChildren(...state.layers.map(l =>
+        new Option(l.meaning ? `${l.title}: ${l.meaning}` : l.title, l.name)));
+      if (!names.includes(s.layer)) s.layer = names[0];
       select.value = s.layer;
     }
+    select.disabled = !names.length;
     s.tiles = state.tiles.map(t => [t[0] - size.x0, t[1] - size.y0, t[2] - size.x0, t[3] - size.y0]);
     if (!hasTime && !s.stale) return;
     if (state.version > 0 && (state.version !== s.version || s.stale)) { s.stale = false; await load(state); }
@@ -165,41 +171,19 @@ function liveView(size) {
     return select.options[(select.selectedIndex + by + n) % n].value;
   };
 
-  const view = navigate(canvas, width, height, s, draw);
+  navigate(stage, width, height, s, draw, {
+    isOnly: true,
+    keys: {
+      e: () => set({ ev: Math.min(10, s.ev + 0.5) }), E: () => set({ ev: Math.max(-10, s.ev - 0.5) }),
+      c: () => set({ curve: next(byId("curve")) }), l: () => set({ layer: next(byId("layer")) }),
+      t: () => { byId("showtiles").click(); },
+    },
+  });
   byId("ev").addEventListener("input", e => set({ ev: +e.target.value }));
   byId("curve").addEventListener("change", e => set({ curve: e.target.value }));
   byId("layer").addEventListener("change", e => set({ layer: e.target.value }));
   byId("showtiles").addEventListener("change", draw);
-  byId("whole").addEventListener("click", view.whole);
-
-  function move(dx, dy) {
-    const clamp = (v, n) => Math.min(n - 1, Math.max(0, v));
-    s.x = s.x < 0 ? width >> 1 : clamp(s.x + dx, width);
-    s.y = s.y < 0 ? height >> 1 : clamp(s.y + dy, height);
-    const w = width / s.zoom, h = height / s.zoom;
-    if (s.x < s.left || s.x >= s.left + w) s.left = s.x - w / 2;
-    if (s.y < s.top || s.y >= s.top + h) s.top = s.y - h / 2;
-    view.keepInside(); draw();
-  }
-  const middle = () => s.x >= 0 ? [s.x + 0.5, s.y + 0.5]
-    : [s.left + width / s.zoom / 2, s.top + height / s.zoom / 2];
-  document.addEventListener("keydown", e => {
-    const isField = ["SELECT", "INPUT"].includes(e.target.tagName);
-    if (isField && e.key.startsWith("Arrow") || e.ctrlKey || e.metaKey || e.altKey) return;
-    const far = e.shiftKey ? 10 : 1;
-    const keys = {
-      "+": () => view.zoomAt(...middle(), 1.5), "=": () => view.zoomAt(...middle(), 1.5),
-      "-": () => view.zoomAt(...middle(), 1 / 1.5), "0": view.whole,
-      ArrowLeft: () => move(-far, 0), ArrowRight: () => move(far, 0),
-      ArrowUp: () => move(0, -far), ArrowDown: () => move(0, far),
-      e: () => set({ ev: Math.min(10, s.ev + 0.5) }), E: () => set({ ev: Math.max(-10, s.ev - 0.5) }),
-      c: () => set({ curve: next(byId("curve")) }), l: () => set({ layer: next(byId("layer")) }),
-      t: () => { byId("showtiles").click(); },
-    };
-    if (keys[e.key]) { e.preventDefault(); keys[e.key](); }
-  });
   byId("ev").value = s.ev; byId("curve").value = s.curve;
-  stage.focus({ preventScroll: true });
   return { show, s };
 }
 
@@ -208,21 +192,32 @@ let view = null, run = null, timer = null, polling = false;
 const isOver = state => ["done", "stopped"].includes(state.stage);
 
 function figures(state) {
-  const words = { rendering: "rendering", stopping: "stopping", stopped: "stopped: a partial image",
-    done: "done" };
-  byId("stage").textContent = `${words[state.stage]}${state.saved ? `; saved ${state.saved}` : ""}` +
-    (state.viewers > 1 ? `; ${state.viewers} viewers` : "");
+  const words = { rendering: state.version ? "rendering" : "waiting for the first pass", stopping: "stopping",
+    stopped: "stopped: a partial image", done: "done" };
+  write("stage", `${words[state.stage]}${state.saved ? `; saved ${state.saved}` : ""}` +
+    (state.viewers > 1 ? `; ${state.viewers} viewers` : ""));
   byId("done").style.width = `${100 * state.part}%`;
+  byId("progress").setAttribute("aria-valuenow", Math.round(100 * state.part));
   write("samples", `${state.samples} / ${state.planned}`);
   write("seconds", clock(state.seconds));
   write("left", state.left === null ? "–" : clock(state.left));
   write("rate", metric(state.rate));
   write("error", state.error === null ? "–" : short(state.error));
   byId("stop").disabled = state.stage !== "rendering";
+  const over = isOver(state), hadFocus = ["stop", "keep", "save"].includes(document.activeElement.id);
+  byId("stop").hidden = byId("save").hidden = over;
   byId("keep").hidden = state.keepsOn === null;
+  byId("files").hidden = !over;
+  if (over) {
+    write("files", state.files === null ? "The files are being written."
+      : state.files.length ? `Written: ${state.files.join(", ")}` : "No file was written.");
+    if (!state.version) write("waiting", "there is no image");
+    // Focus must not be lost with a button
+    if (hadFocus) byId("files").focus();
+  }
   byId("keep").setAttribute("aria-pressed", state.keepsOn === true);
   byId("keep").disabled = byId("save").disabled = byId("end").disabled = false;
-  byId("end").hidden = !(isOver(state) && state.stays);
+  byId("end").hidden = !(over && state.stays);
   live.dataset.stage = state.stage;
 }
 
@@ -233,7 +228,7 @@ const Growth = 0.05;
 // A page on the machine that renders takes its processors' time. Scripts get this share of it, images
 // wait for it; what the browser does to show them takes about as long again. The first images are
 // awaited most: for them there are some milliseconds at once.
-const isNear = ["127.0.0.1", "[::1]", "localhost"].includes(location.hostname);
+const isNear = /^(127\..*|\[::1\]|localhost)$/.test(location.hostname);
 const Share = isNear ? 0.006 : 0.1, First = 150;
 let busy = 0; // milliseconds in scripts
 
@@ -253,12 +248,15 @@ async function poll() {
     view ||= liveView(state);
     await view.show(state, isOver(state) || began > (busy - First) / Share);
     busy += performance.now() - began - waited;
-    const end = state.left === null ? Latest : Math.max(Soonest, 1000 * state.left);
+    const isSoon = isOver(state) && state.files === null;
+    const end = isSoon ? Soonest : state.left === null ? Latest : Math.max(Soonest, 1000 * state.left);
     pause = Math.min(Latest, end, Math.max(Soonest, 1000 * Growth * state.seconds));
     live.dataset.lost = "";
   } catch (e) {
-    byId("stage").textContent = isOver(live.dataset) ? `${live.dataset.stage}; the program has ended` : "no connection to the program";
-    for (const b of ["stop", "keep", "save", "end"]) byId(b).disabled = true;
+    const over = isOver(live.dataset);
+    write("stage", over ? `${live.dataset.stage}; the program has ended` : "no connection to the program");
+    for (const b of ["stop", "keep", "save", "end", "layer"]) byId(b).disabled = true;
+    if (over) byId("end").hidden = true;
     live.dataset.lost = "yes";
     pause = 2000;
   }

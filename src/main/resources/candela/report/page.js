@@ -51,6 +51,8 @@ const encode = v => v <= 0.0031308 ? 12.92 * v : 1.055 * Math.pow(v, 1 / 2.4) - 
 const Codes = Uint8ClampedArray.from({ length: 4097 }, (_, i) => 255 * encode(i / 4096));
 const short = v => v === 0 ? "0" : Math.abs(v) >= 1e-3 && Math.abs(v) < 1e5 ? v.toPrecision(4) : v.toExponential(3);
 
+const Unpointed = "point at a pixel, or use arrow keys";
+
 // Per-channel errors; the FLIP map is precomputed by the program.
 const Errors = {
   relmse: (a, b) => { const r = (a - b) / (b + 0.01); return isFinite(r) ? r * r : 0; },
@@ -58,9 +60,12 @@ const Errors = {
   mae: (a, b) => Math.abs(a - b),
 };
 
-// Zoom by wheel, pan by dragging, the pixel under the pointer: s has zoom, left, top, x, y, and held
-// while the pointer is down. `pans` tells whether a drag moves the image; `clicked` is called without one.
-function navigate(canvas, width, height, s, draw, pans = () => true, clicked = () => {}) {
+// Zoom by wheel, buttons and keys, pan by dragging, the pixel under the pointer or moved by arrows: s has
+// zoom, left, top, x, y, and held while the pointer is down. `pans` tells whether a drag moves the image;
+// `clicked` is called without one; `keys` are further ones, by name. `isOnly`: the page has no other
+// picture, and letters need no focus.
+function navigate(stage, width, height, s, draw, { pans = () => true, clicked = () => {}, keys = {}, isOnly }) {
+  const canvas = stage.querySelector("canvas"), hint = stage.querySelector(".hint"), root = stage.parentElement;
   const pixelOf = event => {
     const box = canvas.getBoundingClientRect();
     return [s.left + (event.clientX - box.left) / box.width * width / s.zoom,
@@ -74,6 +79,8 @@ function navigate(canvas, width, height, s, draw, pans = () => true, clicked = (
     const before = s.zoom;
     s.zoom = Math.min(64, Math.max(1, s.zoom * factor));
     s.left = x - (x - s.left) * before / s.zoom; s.top = y - (y - s.top) * before / s.zoom;
+    // A finger moves the page, until there is something to move in the image
+    stage.dataset.zoomed = s.zoom > 1;
     keepInside(); draw();
   };
   canvas.addEventListener("pointerdown", e => {
@@ -97,15 +104,53 @@ function navigate(canvas, width, height, s, draw, pans = () => true, clicked = (
     if (s.held && pans() && !s.held.moved) clicked();
     s.held = null;
   });
+  canvas.addEventListener("pointercancel", () => { s.held = null; });
+  // The wheel is the page's, unless the picture has the focus and can follow, or a key asks for it
+  let hiding = null;
+  const hide = () => { hint.hidden = true; };
   canvas.addEventListener("wheel", e => {
-    e.preventDefault();
-    zoomAt(...pixelOf(e), Math.pow(1.2, -Math.sign(e.deltaY)));
+    const isAsked = e.ctrlKey || e.metaKey, isFocused = document.activeElement === stage;
+    if (isAsked || isFocused && (s.zoom > 1 || e.deltaY < 0)) {
+      e.preventDefault(); hide();
+      zoomAt(...pixelOf(e), Math.pow(1.2, -Math.sign(e.deltaY)));
+    } else if (!isFocused) {
+      hint.hidden = false; clearTimeout(hiding); hiding = setTimeout(hide, 1500);
+    }
   }, { passive: false });
-  const whole = () => { s.zoom = 1; s.left = s.top = 0; draw(); };
+  const whole = () => { s.left = s.top = 0; zoomAt(0, 0, 1 / 64); };
   canvas.addEventListener("dblclick", whole);
+
+  function move(dx, dy) {
+    const clamp = (v, n) => Math.min(n - 1, Math.max(0, v));
+    s.x = s.x < 0 ? width >> 1 : clamp(s.x + dx, width);
+    s.y = s.y < 0 ? height >> 1 : clamp(s.y + dy, height);
+    const w = width / s.zoom, h = height / s.zoom;
+    if (s.x < s.left || s.x >= s.left + w) s.left = s.x - w / 2;
+    if (s.y < s.top || s.y >= s.top + h) s.top = s.y - h / 2;
+    keepInside(); draw();
+  }
+  const middle = () => s.x >= 0 && s.y >= 0 ? [s.x + 0.5, s.y + 0.5]
+    : [s.left + width / s.zoom / 2, s.top + height / s.zoom / 2];
+  const zooms = { in: () => zoomAt(...middle(), 1.5), out: () => zoomAt(...middle(), 1 / 1.5), whole };
+  for (const b of root.querySelectorAll("[data-zoom]")) b.addEventListener("click", zooms[b.dataset.zoom]);
+  document.addEventListener("keydown", e => {
+    const isFocused = document.activeElement === stage;
+    const isMeant = isFocused || isOnly && !e.key.startsWith("Arrow") && e.target.tagName !== "SELECT";
+    if (!isMeant || e.ctrlKey || e.metaKey || e.altKey) return;
+    const far = e.shiftKey ? 10 : 1;
+    const all = {
+      "+": zooms.in, "=": zooms.in, "-": zooms.out, "0": whole,
+      ArrowLeft: () => move(-far, 0), ArrowRight: () => move(far, 0),
+      ArrowUp: () => move(0, -far), ArrowDown: () => move(0, far), ...keys,
+    };
+    if (Object.hasOwn(all, e.key)) { e.preventDefault(); all[e.key](); }
+  });
+  // Values are read out to those who move the cursor by keys
+  const readout = root.querySelector(".readout");
+  stage.addEventListener("focus", () => readout.setAttribute("aria-live", "polite"));
+  stage.addEventListener("blur", () => readout.removeAttribute("aria-live"));
   canvas.width = Math.max(width, Math.min(1600, Math.ceil(1000 / width) * width));
   canvas.height = Math.round(canvas.width * height / width);
-  return { zoomAt, whole, keepInside };
 }
 
 async function viewer(root) {
@@ -200,7 +245,7 @@ async function viewer(root) {
   }
 
   function readOut() {
-    if (!(s.x >= 0 && s.x < width && s.y >= 0 && s.y < height)) { find(".readout").textContent = "rest the mouse on a pixel"; return; }
+    if (!(s.x >= 0 && s.x < width && s.y >= 0 && s.y < height)) { find(".readout").textContent = Unpointed; return; }
     const i = s.y * width + s.x, text = p => [0, 1, 2].map(k => short(p.data[3 * i + k]).padStart(10)).join(" ");
     const lines = [...new Set([pictures[s.a], pictures[s.b]])].map(p => `${p.name.padEnd(24)} ${text(p)}`);
     const a = pictures[s.a];
@@ -219,8 +264,15 @@ async function viewer(root) {
     const box = canvas.getBoundingClientRect();
     if (s.held && s.splits) s.split = Math.min(1, Math.max(0, (e.clientX - box.left) / box.width));
   });
-  navigate(canvas, width, height, s, draw,
-    () => !s.splits, () => { if (s.mode === "flip") { s.flipped = !s.flipped; draw(); } });
+  const flip = () => {
+    if (s.mode === "flip") { s.flipped = !s.flipped; draw(); } else { s.mode = "flip"; repaint(); }
+  };
+  const split = by => { s.split = Math.min(1, Math.max(0, s.split + by)); draw(); };
+  const expose = by => { s.ev = Math.min(6, Math.max(-6, s.ev + by)); ev.value = s.ev; repaint(); };
+  navigate(find(".stage"), width, height, s, draw, {
+    pans: () => !s.splits, clicked: () => { if (s.mode === "flip") flip(); },
+    keys: { ",": () => split(-0.05), ".": () => split(0.05), f: flip, e: () => expose(0.5), E: () => expose(-0.5) },
+  });
 
   for (const key of ["a", "b"]) {
     const select = find(`select.${key}`);
@@ -234,8 +286,8 @@ async function viewer(root) {
   ev.addEventListener("input", () => { s.ev = +ev.value; repaint(); });
   for (const b of root.querySelectorAll(".modes button"))
     b.addEventListener("click", () => {
-      if (b.dataset.mode === "flip" && s.mode === "flip") s.flipped = !s.flipped;
-      s.mode = b.dataset.mode; repaint();
+      if (b.dataset.mode === "flip" && s.mode === "flip") flip();
+      else { s.mode = b.dataset.mode; repaint(); }
     });
   repaint();
 }

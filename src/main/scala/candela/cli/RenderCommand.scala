@@ -168,16 +168,16 @@ final class RenderCommand(
           terminal.err.println(Summary.kept(paths.diff(wanted)))
         summarise(written ++ films, loaded, rendering, writeSeconds)
         goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
-        for path <- reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
-        do
-          if !options.quiet then terminal.out.println(s"wrote $path")
+        val reports =
+          reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
+        for path <- reports if !options.quiet do terminal.out.println(s"wrote $path")
         terminal.out.flush()
         for r <- reference; d <- denoised if !options.quiet do
           terminal.out.println(s"relative MSE  ${d.errors(r)}")
         for kind <- options.thumbnail do
           terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
         terminal.out.flush()
-        watching.foreach(_.await())
+        watching.foreach(_.await(written ++ films ++ reports))
         if written.size < wanted.size || checkpointer.exists(_.failure.nonEmpty) then
           ExitCode.BadInput
         else if !rendering.isComplete then ExitCode.Interrupted

@@ -2,6 +2,7 @@ package candela.cli
 
 import java.io.IOException
 import java.net.UnknownHostException
+import java.nio.file.Path
 
 import candela.base.{Problem, SceneError}
 import candela.image.Image
@@ -68,9 +69,10 @@ final class Watching(
   def end(rendering: Rendering): Unit =
     observer.foreach(_.end(rendering))
 
-  def await(): Unit =
+  /** @param files written by the rendering */
+  def await(files: Vector[Path]): Unit =
     display.foreach(_.await())
-    view.foreach(_.await())
+    view.foreach(_.await(files.map(_.toAbsolutePath.normalize.toString)))
 
   def close(): Unit =
     display.foreach(_.close())

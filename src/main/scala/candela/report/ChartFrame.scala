@@ -18,39 +18,60 @@ object ChartFrame:
   /** Frame of a standalone chart. */
   val Whole: ChartFrame = ChartFrame(760, 460, isWhole = true)
 
-/** Legend of the curves, in rows of `columns` entries. */
-private[report] final class ChartLegend(series: Vector[Series], columns: Int, width: Double):
+  /** For narrow windows: its words can be read on a phone. */
+  val Narrow: ChartFrame = ChartFrame(380, 360, isWhole = true)
+
+/** Legend of the curves and other lines, in rows of `columns` entries.
+  *
+  * @param lines names and CSS classes of the others
+  */
+private[report] final class ChartLegend(
+    series: Vector[Series],
+    lines: Vector[(String, String)],
+    columns: Int,
+    width: Double
+):
   import Svg.*
 
-  val height: Double = 20.0 * ((series.size + columns - 1) / columns)
+  val height: Double = 20.0 * ((series.size + lines.size + columns - 1) / columns)
 
   def at(left: Double, top: Double): Vector[Frag] =
-    series.zipWithIndex.map: (s, i) =>
+    def entry(i: Int, css: String, lineCss: String, name: String, hasDot: Boolean): Frag =
       val x = left + (i % columns) * width / columns
       val y = top + 20 * (i / columns)
-      element("g", "class" -> LogLogChart.cssOf(s))(
-        line(x, y - 4, x + 22, y - 4, "sample"),
-        element("circle", "cx" -> px(x + 11), "cy" -> px(y - 4), "r" -> "4")(),
-        text(x + 28, y, "legend", "start")(s.name)
+      val dot = element("circle", "cx" -> px(x + 11), "cy" -> px(y - 4), "r" -> "4")()
+      element("g", "class" -> css)(
+        line(x, y - 4, x + 22, y - 4, lineCss),
+        scalatags.Text.all.frag(Option.when(hasDot)(dot).toSeq*),
+        text(x + 28, y, "legend", "start")(name)
       )
+    series.zipWithIndex.map((s, i) =>
+      entry(i, LogLogChart.cssOf(s), "sample", s.name, hasDot = true)
+    ) ++ lines.zipWithIndex.map:
+      case ((name, css), i) => entry(series.size + i, "other", css, name, hasDot = false)
 
 /** Grid of small charts with a common legend.
   *
-  * @param words subtitle of the grid
+  * @param words   subtitle of the grid
+  * @param columns one for narrow windows
   */
 private[report] final class ChartGrid(
     title: String,
     words: String,
     series: Vector[Series],
-    panels: Vector[LogLogChart]
+    panels: Vector[LogLogChart],
+    columns: Int = ChartGrid.Columns
 ):
   import ChartGrid.*
   import Svg.*
 
-  private val columns = Math.min(Columns, Math.max(1, panels.size))
-  private val width = Columns * PanelWidth
-  private val legend = ChartLegend(series, LegendColumns, width - 2 * Margin)
-  private val top = 66 + legend.height
+  private val width = columns * PanelWidth
+  private val inner = width - 2 * Margin
+  private val legend = ChartLegend(series, Vector.empty, Math.max(1, (inner / 220).toInt), inner)
+  private val heading = lines(title, inner / TitleLetter)
+  private val subtitle = lines(words, inner / Letter)
+  private val legendTop = 10.0 + 19 * (heading.size + subtitle.size) + 22
+  private val top = legendTop + legend.height
   private val height = top + PanelHeight * ((panels.size + columns - 1) / columns)
 
   def svg: Node = picture(width, height, title)(content*)
@@ -58,20 +79,30 @@ private[report] final class ChartGrid(
   def standalone: String = Svg.standalone(width, height, title)(content)
 
   private def content: Vector[Frag] =
-    val head = Vector(
-      text(Margin, 24, "charttitle", "start")(title),
-      text(Margin, 43, "axis", "start")(words)
-    )
-    val all = panels.zipWithIndex.map: (panel, i) =>
+    val all = heading.map("charttitle" -> _) ++ subtitle.map("axis" -> _)
+    val head = all.zipWithIndex.map:
+      case ((css, words), i) => text(Margin, 24.0 + 19 * i, css, "start")(words)
+    val charts = panels.zipWithIndex.map: (panel, i) =>
       moved((i % columns) * PanelWidth, top + (i / columns) * PanelHeight)(panel.content)
-    head ++ legend.at(Margin, 68) ++ all
+    head ++ legend.at(Margin, legendTop) ++ charts
 
 private[report] object ChartGrid:
-  private val Columns = 3
-  private val LegendColumns = 4
+  val Columns = 3
+
+  // Typical widths of letters
+  private val Letter = 6.2
+  private val TitleLetter = 8.0
+
   private val PanelWidth = 310.0
   private val PanelHeight = 250.0
   private val Margin = 14.0
+
+  /** Words in lines of at most `most` letters. */
+  private def lines(words: String, most: Double): Vector[String] =
+    words.split(' ').foldLeft(Vector.empty[String]): (done, word) =>
+      done.lastOption match
+        case Some(last) if last.length + word.length < most => done.init :+ s"$last $word"
+        case _ => done :+ word
 
   /** Frame of a chart in the grid. */
   def frame(note: String): ChartFrame =

@@ -18,12 +18,14 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
       .filter(m => points.exists(_.errors(m).exists(_ > 0)))
     val charts =
       for m <- metrics; axis <- Vector("seconds", "samples")
-      yield (m.word, m.title, axis, chart(m, axis))
+      yield
+        def shaped(frame: ChartFrame) = chart(m, axis, frame)
+        (m.word, m.title, axis, Page.fitting(shaped(ChartFrame.Whole), shaped(ChartFrame.Narrow)))
     if charts.isEmpty then
       p("No error to plot: zero error, or neither a reference nor a second sample.")
     else Page.charts(charts)
 
-  private def chart(metric: Metric, axis: String): Svg.Node =
+  private def chart(metric: Metric, axis: String, frame: ChartFrame): Svg.Node =
     val marks = points.flatMap: point =>
       point.errors(metric).map: e =>
         val x = if axis == "seconds" then point.seconds else point.samples.toDouble
@@ -33,4 +35,5 @@ private[report] final class ErrorCharts(points: Vector[CurvePoint], isEstimated:
     val label = if axis == "seconds" then "render time (s)" else "samples per pixel"
     val series = Series("this rendering", 0, isThin = false, marks)
     val title = s"${word(metric.title)} over $axis"
-    LogLogChart(title, label, metric.title, Vector(series), LogLogChart.guideOf(metric)).svg
+    val guide = LogLogChart.guideOf(metric)
+    LogLogChart(title, label, metric.title, Vector(series), guide, frame = frame).svg

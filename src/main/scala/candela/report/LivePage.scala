@@ -18,15 +18,24 @@ object LivePage:
   ): String =
     val error = ErrorCharts(Vector.empty, isEstimated).word("relative MSE")
     val subtitle = span(id := "stage", attr("role") := "status", "connecting")
-    Page.html(scene, subtitle, version, Some("live"))(
+    Page.served(scene, subtitle, version, "live")(
       div(
         cls := "choice",
         button(id := "stop", "stop"),
         button(id := "keep", attr("aria-pressed") := "false", "keep on"),
         button(id := "save", "save"),
         button(id := "end", attr("hidden") := "", "end"),
-        span(cls := "bar", attr("role") := "progressbar", i(id := "done"))
+        span(
+          id := "progress",
+          cls := "bar",
+          attr("role") := "progressbar",
+          attr("aria-label") := "rendered",
+          attr("aria-valuemin") := "0",
+          attr("aria-valuemax") := "100",
+          i(id := "done")
+        )
       ),
+      p(id := "files", attr("role") := "status", attr("tabindex") := "-1", attr("hidden") := ""),
       div(
         cls := "tiles",
         Vector("samples" -> "samples per pixel", "left" -> "left", "seconds" -> "rendering") ++
@@ -38,7 +47,7 @@ object LivePage:
         cls := "viewer-live card",
         div(
           cls := "choice",
-          label("layer ", select(id := "layer")),
+          label("layer ", select(id := "layer", disabled, option("no image yet"))),
           label(
             "tone curve ",
             select(
@@ -47,11 +56,14 @@ object LivePage:
             )
           ),
           label("exposure ", exposure, span(id := "evtext")),
-          button(id := "whole", "whole image"),
+          Viewer.zoomButtons,
           label(input(tpe := "checkbox", id := "showtiles", checked), "tiles in progress")
         ),
-        div(cls := "stage", attr("tabindex") := "0", attr("aria-label") := "image", canvas()),
-        div(cls := "readout", attr("aria-live") := "polite"),
+        Viewer.stage(
+          "image: arrows move the pixel cursor, plus and minus zoom",
+          p(id := "waiting", cls := "waiting", "waiting for the first pass")
+        ),
+        div(cls := "readout"),
         p(cls := "soft", keys)
       ),
       tables,
@@ -93,5 +105,6 @@ object LivePage:
     )
 
   private val keys =
-    "Keys: + and − zoom, arrows move the pixel cursor (with Shift by ten), e and E change the " +
-      "exposure, c the tone curve, l the layer, t the tiles, 0 shows the whole image."
+    "Keys: + and − zoom, 0 shows the whole image, e and E change the exposure, c the tone curve, " +
+      "l the layer, t the tiles. On the image, arrows move the pixel cursor (with Shift by ten), " +
+      "and the wheel zooms; with Ctrl it always does."

@@ -12,11 +12,19 @@ enum Stage(val word: String):
   case Stopped extends Stage("stopped")
   case Done extends Stage("done")
 
+/** An image that the live page can show.
+  *
+  * @param name    in the server's addresses
+  * @param title   for readers
+  * @param meaning empty if the title says it
+  */
+final case class LiveLayer(name: String, title: String, meaning: String)
+
 /** What the live page shows beside the image.
   *
   * @param version of the image; changes whenever the image does
   * @param frame   rendered pixels of the full image
-  * @param layers  names of the images that the page can show
+  * @param layers  the images that the page can show
   * @param samples that every pixel has at least, of `planned`
   * @param part    of the work that is done, in [0, 1]
   * @param left    remaining seconds, if known
@@ -26,13 +34,14 @@ enum Stage(val word: String):
   * @param keepsOn whether it goes on beyond the planned samples; None: it can't
   * @param stays   whether the page remains when rendering has ended
   * @param saved   files written on request, most recently
+  * @param files   written at the end; None: not yet
   */
 final case class LiveState(
     run: String,
     version: Int,
     stage: Stage,
     frame: Frame,
-    layers: Vector[String],
+    layers: Vector[LiveLayer],
     samples: Int,
     planned: Int,
     part: Double,
@@ -44,8 +53,11 @@ final case class LiveState(
     viewers: Int,
     keepsOn: Option[Boolean],
     stays: Boolean,
-    saved: Option[String]
-)
+    saved: Option[String],
+    files: Option[Vector[String]]
+):
+  /** Whether nothing will change any more. */
+  def isFinal: Boolean = files.isDefined
 
 /** Formats the live page's data. */
 object LiveData:
@@ -60,7 +72,8 @@ object LiveData:
         "y0" -> s.frame.y0,
         "width" -> (s.frame.x1 - s.frame.x0),
         "height" -> (s.frame.y1 - s.frame.y0),
-        "layers" -> ujson.Arr.from(s.layers),
+        "layers" -> ujson.Arr.from(s.layers.map: l =>
+          ujson.Obj("name" -> l.name, "title" -> l.title, "meaning" -> l.meaning)),
         "samples" -> s.samples,
         "planned" -> s.planned,
         "part" -> s.part,
@@ -74,7 +87,8 @@ object LiveData:
         "viewers" -> s.viewers,
         "keepsOn" -> s.keepsOn.fold(ujson.Null: ujson.Value)(ujson.Bool(_)),
         "stays" -> s.stays,
-        "saved" -> s.saved.fold(ujson.Null: ujson.Value)(ujson.Str(_))
+        "saved" -> s.saved.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
+        "files" -> s.files.fold(ujson.Null: ujson.Value)(ujson.Arr.from(_))
       )
     )
 

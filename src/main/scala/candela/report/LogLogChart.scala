@@ -44,8 +44,25 @@ final class LogLogChart(
   private val drawn = series.map(s => s.copy(marks = s.marks.filter(m => m.x > 0 && m.y > 0)))
   private val marks = drawn.flatMap(_.marks)
   private val width = frame.width
+  private val isNarrow = width < 500
+  private val least = marks.map(_.y).minOption.getOrElse(1.0)
+
+  /** The target, if it is within the chart and not below all curves. */
+  private val shownGoal =
+    val place = LogAxis.around(marks.flatMap(m => Vector(m.y, m.low, m.high)), 1, 0)
+    goal.filter(g => place.at(g) >= 0 && place.at(g) <= place.at(least) + 0.003)
+
+  private val guideLine = guideEnds
+  private val others =
+    guideSlope.filter(_ => guideLine.isDefined).map: slope =>
+      val number = Numbers.fixed(slope, 1).stripSuffix(".0").replace('-', '−')
+      s"independent samples, slope $number" -> "guideline"
+    .toVector ++ shownGoal.map(_ => "target error" -> "goalline")
+
   private val legend =
-    Option.when(frame.isWhole)(ChartLegend(series, 3, width - LeftMargin - RightMargin))
+    Option.when(frame.isWhole)(
+      ChartLegend(series, others, if isNarrow then 1 else 3, width - LeftMargin - RightMargin)
+    )
   private val bottom = frame.height - legend.fold(BareBottom)(_.height + 52)
   private val x = LogAxis.around(marks.map(_.x), LeftMargin, width - RightMargin)
   private val y =
@@ -57,17 +74,17 @@ final class LogLogChart(
 
   /** The contents without the svg element. */
   def content: Vector[Frag] =
-    val words = text(LeftMargin, 22, "charttitle", "start")(title) +:
+    val left = if isNarrow && frame.isWhole then 8.0 else LeftMargin
+    val words = text(left, 22, "charttitle", "start")(title) +:
       frame.note.map(text(LeftMargin, 39, "note", "start")(_)).toVector
     grid ++ goalLine ++ guide ++ drawn.map(curve) ++
       legend.toVector.flatMap(_.at(LeftMargin, bottom + 54)) ++ words
 
   private def goalLine: Vector[Frag] =
-    val (least, most) = (y.at(marks.map(_.y).minOption.getOrElse(1.0)), Top)
-    goal.toVector.map(y.at).filter(h => h <= least + 1 && h >= most).map: h =>
+    shownGoal.toVector.map: g =>
       element("g", "class" -> "goal")(
-        line(LeftMargin, h, width - RightMargin, h, "goalline"),
-        tip(s"target: ${goal.fold("")(Numbers.short)}")
+        line(LeftMargin, y.at(g), width - RightMargin, y.at(g), "goalline"),
+        tip(s"target: ${Numbers.short(g)}")
       )
 
   private def grid: Vector[Frag] =
@@ -94,16 +111,21 @@ final class LogLogChart(
       )(stringFrag(yLabel))
     )
 
-  /** From the first point to the border of the chart. */
+  /** From the first point to the border of the chart, as points (x, y). */
+  private def guideEnds: Option[((Double, Double), (Double, Double))] =
+    for
+      slope <- guideSlope
+      from <- drawn.flatMap(_.marks.headOption).minByOption(_.x)
+      lowest = marks.map(m => Math.min(m.y, m.low)).min
+      lastX = Math.min(marks.map(_.x).max, from.x * Math.pow(lowest / from.y, 1 / slope))
+      if lastX > from.x * 1.01
+    yield ((from.x, from.y), (lastX, from.y * Math.pow(lastX / from.x, slope)))
+
   private def guide: Vector[Frag] =
-    val first = drawn.flatMap(_.marks.headOption).minByOption(_.x)
-    first.toVector.zip(guideSlope).flatMap: (from, slope) =>
-      def at(x: Double) = from.y * Math.pow(x / from.x, slope)
-      val lowest = marks.map(m => Math.min(m.y, m.low)).min
-      val lastX = Math.min(marks.map(_.x).max, from.x * Math.pow(lowest / from.y, 1 / slope))
-      Option.when(lastX > from.x * 1.01):
+    guideLine.toVector.zip(guideSlope).map:
+      case (((x0, y0), (x1, y1)), slope) =>
         element("g", "class" -> "guide")(
-          line(x.at(from.x), y.at(from.y), x.at(lastX), y.at(at(lastX)), "guideline"),
+          line(x.at(x0), y.at(y0), x.at(x1), y.at(y1), "guideline"),
           tip(s"slope ${Numbers.fixed(slope, 1)}: convergence of independent samples")
         )
 

@@ -21,7 +21,13 @@ object RenderPage:
       h2("Pictures"),
       Viewer(r.pictures),
       h2("Timeline"),
-      div(cls := "card chart", Timeline(r.phases, r.passes).svg),
+      div(
+        cls := "card chart",
+        Page.fitting(
+          Timeline(r.phases, r.passes).svg,
+          Timeline(r.phases, r.passes, Timeline.Narrow).svg
+        )
+      ),
       p(cls := "soft", "Render time excludes the measuring of errors."),
       h2("Scene"),
       Page.facts(r.plan),

@@ -11,19 +11,24 @@ object SuiteChart:
     else all(r).standalone
 
   /** Small charts of all scenes; each subtitle names the winner. */
-  private[report] def all(r: SuiteReport): ChartGrid =
+  private[report] def all(r: SuiteReport, columns: Int = ChartGrid.Columns): ChartGrid =
     val legend = r.scenes.flatMap(_.programs).distinctBy(_.name)
       .map(p => Series(p.title, p.color, p.isThin, Vector.empty))
     val panels = r.scenes.map: s =>
       chart(s, s.title, Metric.RelativeMse, "seconds", ChartGrid.frame(winner(s)))
-    ChartGrid(r.title, Words, legend, panels)
+    ChartGrid(r.title, Words, legend, panels, columns)
 
   private val Words =
     "Relative MSE against total time in seconds, both logarithmic: further left is faster, " +
-      "lower is better. Dashed: the target error."
+      "lower is better. Dashed: the target error. Dotted: the slope of independent samples."
 
-  def of(s: SceneResult, metric: Metric, axis: String): LogLogChart =
-    chart(s, s"${s.title}: ${metric.title}", metric, axis, ChartFrame.Whole)
+  def of(
+      s: SceneResult,
+      metric: Metric,
+      axis: String,
+      frame: ChartFrame = ChartFrame.Whole
+  ): LogLogChart =
+    chart(s, s"${s.title}: ${metric.title}", metric, axis, frame)
 
   private def chart(
       s: SceneResult,

@@ -3,7 +3,11 @@ package candela.report
 import scalatags.Text.all.Frag
 
 /** Timeline of a rendering: the phases in one row, the passes of each worker in further rows. */
-private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSpan]):
+private[report] final class Timeline(
+    phases: Vector[Span],
+    passes: Vector[PassSpan],
+    width: Double = Timeline.Width
+):
   import Svg.*
 
   private val workers = passes.headOption.fold(0)(_.workers.size)
@@ -13,10 +17,10 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
   private val renderBegin = phases.find(_.name == "render").fold(0.0)(_.begin)
 
   private def at(seconds: Double): Double =
-    Timeline.LeftMargin + seconds / most * (Timeline.Width - Timeline.LeftMargin - 20)
+    Timeline.LeftMargin + seconds / most * (width - Timeline.LeftMargin - 20)
 
   def svg: Node =
-    picture(Timeline.Width, height, "phases and threads")(
+    picture(width, height, "phases and threads")(
       (axis ++ labels ++ phases.zipWithIndex.map(phase) ++ passes.zipWithIndex.flatMap(pass))*
     )
 
@@ -58,7 +62,8 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
 
   private def axis: Vector[Frag] =
     val step = Math.pow(10, Math.floor(Math.log10(most)))
-    val fine = Vector(step / 5, step / 2, step).find(s => most / s <= 8).getOrElse(step * 2)
+    val fine = Vector(step / 5, step / 2, step).find(s => most / s <= width / 95)
+      .getOrElse(step * 2)
     val bottom = top(rows) + 4
     Iterator.iterate(0.0)(_ + fine).takeWhile(_ <= most * 1.0001).toVector.flatMap: t =>
       Vector(
@@ -68,5 +73,8 @@ private[report] final class Timeline(phases: Vector[Span], passes: Vector[PassSp
 
 private object Timeline:
   val Width = 760.0
+
+  /** For phones. */
+  val Narrow = 380.0
   val LeftMargin = 76.0
   val Row = 30.0

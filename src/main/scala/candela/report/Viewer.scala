@@ -26,19 +26,20 @@ private[report] object Viewer:
         label("B ", select(cls := "b")),
         span(cls := "choice modes", modes(reference.isDefined))
       ),
-      div(
-        cls := "stage",
-        canvas(),
+      stage(
+        "images: arrows move the pixel cursor, plus and minus zoom",
         span(cls := "name left"),
         span(cls := "name right")
       ),
       div(
         cls := "choice",
+        zoomButtons,
         label(
           "exposure ",
           input(
             tpe := "range",
             cls := "ev",
+            value := "0",
             attr("min") := "-6",
             attr("max") := "6",
             step := "0.5"
@@ -48,7 +49,7 @@ private[report] object Viewer:
         span(
           cls := "heat",
           attr("hidden") := "",
-          select(cls := "metric", metrics(shown)),
+          select(cls := "metric", attr("aria-label") := "metric", metrics(shown)),
           " 0",
           span(cls := "scale", style := s"background:linear-gradient(90deg,$gradient)"),
           span(cls := "most"),
@@ -57,14 +58,45 @@ private[report] object Viewer:
         )
       ),
       div(cls := "readout"),
+      p(cls := "soft", keys),
       smaller,
       script(tpe := "application/json", raw(json(shown, reference)))
     )
 
+  /** A picture that takes keys when it has the focus, and the wheel then, too.
+    *
+    * @param words for those who don't see it
+    */
+  def stage(words: String, above: Frag*): Frag =
+    div(
+      cls := "stage",
+      attr("tabindex") := "0",
+      attr("role") := "application",
+      attr("aria-label") := words,
+      canvas(),
+      above,
+      span(cls := "hint", attr("hidden") := "", "click the image, or hold Ctrl or ⌘, to zoom")
+    )
+
+  def zoomButtons: Frag =
+    span(
+      cls := "choice zooms",
+      Vector(("in", "zoom in", "+"), ("out", "zoom out", "−"), ("whole", "", "whole image")).map:
+        (what, words, shown) =>
+          val named = Option.when(words.nonEmpty)(attr("aria-label") := words)
+          button(data("zoom") := what, named, shown)
+    )
+
+  private val keys =
+    "Keys on the image: arrows move the pixel cursor (with Shift by ten), + and − zoom, 0 shows " +
+      "the whole image, comma and full stop move the slider, f flips, e and E change the " +
+      "exposure, and the wheel zooms; with Ctrl it always does."
+
   private def modes(hasReference: Boolean): Vector[Frag] =
     val all = Vector("slider" -> "slider", "flip" -> "flip (click the image)") ++
       Option.when(hasReference)("heat" -> "error of A")
-    all.map((mode, words) => button(data("mode") := mode, words))
+    all.map: (mode, words) =>
+      button(data("mode") := mode, attr("aria-pressed") := "false", words)
 
   private def metrics(shown: Vector[Picture]): Vector[Frag] =
     val all = Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae) ++

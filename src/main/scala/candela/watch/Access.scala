@@ -1,11 +1,14 @@
 package candela.watch
 
-import java.net.InetAddress
+import java.net.{Inet6Address, InetAddress, NetworkInterface}
 import java.security.SecureRandom
 import java.util.HexFormat
 
-/** Who may look at a page: on the loopback address every program of this machine, elsewhere those
-  * who know the token in the link.
+import scala.jdk.CollectionConverters.*
+import scala.util.Try
+
+/** Who may look at a page: on a loopback address every program of this machine, elsewhere those who
+  * know the token in the link.
   */
 final class Access(address: InetAddress, val port: Int):
   private val token: Option[String] =
@@ -18,11 +21,8 @@ final class Access(address: InetAddress, val port: Int):
   val root: String = token.fold("/")(t => s"/$t/")
 
   val link: String =
-    val host =
-      if address.isAnyLocalAddress then InetAddress.getLocalHost.getHostName
-      else if address.getHostAddress.contains(':') then s"[${address.getHostAddress}]"
-      else address.getHostAddress
-    s"http://$host:$port$root"
+    val shown = if address.isAnyLocalAddress then Access.ownAddress else address
+    s"http://${Access.written(shown)}:$port$root"
 
   /** Whether a request may be answered. Pages of other servers can't know the token; without one,
     * they are recognised by the names that their requests give.
@@ -32,9 +32,42 @@ final class Access(address: InetAddress, val port: Int):
     */
   def allows(host: Option[String], origin: Option[String]): Boolean =
     token.isDefined ||
-      (host.exists(h => Access.Loopback(h.stripSuffix(s":$port"))) &&
-        origin.forall(o => host.exists(h => o == s"http://$h")))
+      (host.exists(Access.isLoopback) &&
+        origin.forall(o => host.exists(h => o.equalsIgnoreCase(s"http://$h"))))
 
-object Access:
-  /** Names of this machine. Any other is an attempt to make a browser mistake one for it. */
-  private val Loopback = Set("localhost", "127.0.0.1", "[::1]")
+private object Access:
+
+  /** Whether it names this machine, with any port, as behind a tunnel. Any other name is an attempt
+    * to make a browser mistake another server's page for one of this machine. Addresses are safe:
+    * nobody else can be at them.
+    */
+  private def isLoopback(host: String): Boolean =
+    host.toLowerCase.replaceFirst(":\\d+$", "") match
+      case "localhost" => true
+      case s"[$literal]" if literal.contains(':') =>
+        // With a colon, it is never looked up as a name.
+        Try(InetAddress.getByName(literal)).toOption.exists(_.isLoopbackAddress)
+      case name => name.matches("127(\\.\\d{1,3}){3}")
+
+  /** An address at which other machines may reach this one, if there is one. */
+  private def ownAddress: InetAddress =
+    val all =
+      for
+        network <- Try(NetworkInterface.networkInterfaces.iterator.asScala.toVector)
+          .getOrElse(Vector.empty).sortBy(_.getIndex)
+        if Try(network.isUp && !network.isLoopback).getOrElse(false)
+        address <- network.inetAddresses.iterator.asScala
+        if !address.isLinkLocalAddress
+      yield address
+    all.find(!_.isInstanceOf[Inet6Address]).orElse(all.headOption)
+      .getOrElse(InetAddress.getLoopbackAddress)
+
+  /** As part of a link: `127.0.0.1`, `[fe80::1%25eth0]` (RFC 5952, RFC 6874). */
+  private[watch] def written(address: InetAddress): String =
+    val text = address.getHostAddress
+    if !text.contains(':') then text
+    else
+      val zeros = raw"\b0(?::0)+\b".r.findAllMatchIn(text).toVector
+      val short = zeros.maxByOption(_.matched.length).fold(text): run =>
+        s"${run.before.toString.stripSuffix(":")}::${run.after.toString.stripPrefix(":")}"
+      s"[${short.replace("%", "%25")}]"

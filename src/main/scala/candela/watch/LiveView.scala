@@ -38,6 +38,7 @@ final class LiveView(
   private val ended = CountDownLatch(1)
   private val threads = Background.pool("viewers", MostAnswers)
   @volatile private var saved: Option[String] = None
+  @volatile private var files: Option[Vector[String]] = None
 
   private val actions: Map[String, () => Unit] = Map(
     "stop" -> (() => cancellation.request()),
@@ -62,8 +63,11 @@ final class LiveView(
 
   /** Waits until viewers need the page no longer: until one asks for the end, if the page stays,
     * otherwise a moment, until all have the last image. A cancellation after the end ends it too.
+    *
+    * @param written all files of the rendering
     */
-  def await(): Unit =
+  def await(written: Vector[String]): Unit =
+    files = Some(written)
     if stays then
       val wasRequested = cancellation.isRequested
       while !ended.await(100, TimeUnit.MILLISECONDS) &&
@@ -93,7 +97,7 @@ final class LiveView(
       else if cancellation.isRequested then Stage.Stopping
       else Stage.Rendering,
       Frame(crop.x0, crop.y0, crop.x1, crop.y1),
-      observer.snapshot.fold(Vector.empty)(_.layers),
+      observer.snapshot.fold(Vector.empty)(s => LayerTitles.of(s.layers)),
       rendering.samplesDone,
       rendering.samplesPerPixel,
       part,
@@ -105,7 +109,8 @@ final class LiveView(
       viewers.count,
       observer.keepsOn,
       stays,
-      saved
+      saved,
+      files
     )
 
 object LiveView:

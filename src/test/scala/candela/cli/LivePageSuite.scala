@@ -8,7 +8,8 @@ import candela.testing.{Chromium, OpenPage}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
+import java.util.concurrent.CountDownLatch
 
 /** The live page in a real browser, if there is one. */
 class LivePageSuite extends AnyFunSuite:
@@ -62,6 +63,7 @@ class LivePageSuite extends AnyFunSuite:
           assert(chosen("ev") == "0.5" && painted != first)
           page.press("c", "c")
           assert(chosen("curve") == "filmic")
+          page.value("document.querySelector('.stage').focus()")
           page.press("ArrowRight")
           page.until("document.querySelector('.readout').textContent.startsWith('pixel (4, 2)')")
           page.press("l", "l")
@@ -145,13 +147,67 @@ class LivePageSuite extends AnyFunSuite:
         page.until("document.querySelector('#live').dataset.stage == 'done'")
         val _ = WebClient.get(s"${running.link}state?viewer=other&shown=0")
         page.until("document.getElementById('stage').textContent.includes('viewers')")
-        Files.delete(file)
-        click(page, "save")
-        page.until("document.getElementById('stage').textContent.includes('saved')")
-        assert(Files.exists(file))
+        // What acts on a rendering that is over is gone, and the page says where its image is
+        def isSeen(id: String) = page.value(s"document.getElementById('$id').offsetWidth > 0").bool
+        assert(Vector("stop", "save", "keep", "end").filter(isSeen) == Vector("end"))
+        page.until(s"document.getElementById('files').textContent.startsWith('Written: $file')")
         assert(running.isRunning)
         click(page, "end")
         assert(running.ended == 0)
         page.until("document.querySelector('#live').dataset.lost == 'yes'")
         assert(page.value("document.getElementById('stage').textContent").str ==
           "done; the program has ended")
+        assert(page.value("document.getElementById('files').textContent").str.contains(s"$file"))
+        assert(page.value("document.getElementById('layer').disabled").bool)
+
+  test("before the first pass the page says so; it fits phones, and breaks no policy"):
+    TempFolder.use: folder =>
+      val gate = CountDownLatch(1)
+      val file = folder.resolve("a.exr")
+      val waiting = TinyPlan(spp = 64, filename = file.toString): (where, sampler) =>
+        gate.await()
+        Rgb(sampler.next1D(), 2 * sampler.next1D(), where.x / 40f)
+      val running = Watched(waiting, "--watch", "0", "--watch-after")
+      Chromium.use(browser, running.link): page =>
+        page.until("document.getElementById('stage').textContent == 'waiting for the first pass'")
+        assert(page.value("document.getElementById('waiting').offsetWidth > 0").bool)
+        assert(page.value("document.getElementById('layer').disabled").bool)
+        assert(page.value("document.getElementById('layer').selectedOptions[0].text").str ==
+          "no image yet")
+        for width <- Vector(390, 1440); isDark <- Vector(false, true) do
+          page.resize(width, 900, isDark)
+          assert(!page.overflows, s"$width pixels")
+        gate.countDown()
+        page.until("document.querySelector('#live').dataset.stage == 'done'")
+        page.until("document.getElementById('files').textContent.startsWith('Written')")
+        assert(page.value("document.getElementById('waiting').hidden").bool)
+        val chosen = page.value("document.querySelector('#layer').selectedOptions[0].text").str
+        assert(chosen == "color: the image")
+        page.value("document.querySelector('.stage').focus()")
+        page.press("ArrowRight")
+        page.until("document.querySelector('.readout').textContent.startsWith('pixel (20')")
+        page.resize(390, 900)
+        assert(!page.overflows)
+        assert(page.problems.isEmpty, page.problems.mkString("\n"))
+        click(page, "end")
+        assert(running.ended == 0)
+
+  test("by keyboard alone, everything of the page is reached, in the order in which it is seen"):
+    TempFolder.use: folder =>
+      val running = Watched(plan(1_000_000_000, folder.resolve("a.exr")), "--watch", "0")
+      try
+        Chromium.use(browser, running.link): page =>
+          page.until("[...document.querySelector('#layer').options].length == 2")
+          page.until("document.querySelector('#charts svg')")
+          val order = page.tabbed(12)
+          assert(order == Vector("theme", "stop", "keep", "save", "layer", "curve", "ev") ++
+            Vector("+", "−", "whole image", "showtiles", "stage"))
+          val outline = "getComputedStyle(document.activeElement).outlineStyle"
+          assert(page.value(outline).str == "solid")
+          // Where the wheel zooms now, it scrolled the page before
+          page.value("document.activeElement.blur()")
+          page.wheel(".stage", -100)
+          page.until("!document.querySelector('.hint').hidden")
+      finally
+        val _ = WebClient.post(s"${running.link}stop")
+      assert(running.ended == 130)

@@ -1,8 +1,12 @@
 package candela.cli
 
+import candela.build.BuildOptions
 import candela.color.Rgb
+import candela.film.Layer
 import candela.image.ImageFiles
 import candela.render.{TinyPlan, Where}
+import candela.scenefile.Dialect
+import candela.testing.SceneTexts
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -10,6 +14,8 @@ import java.net.ServerSocket
 import java.nio.file.Path
 import java.nio.{ByteBuffer, ByteOrder}
 import java.util.concurrent.CountDownLatch
+
+import scala.jdk.CollectionConverters.*
 
 /** What the live page's server answers, and what watching does to a rendering: nothing. */
 class WatchingSuite extends AnyFunSuite:
@@ -68,7 +74,7 @@ class WatchingSuite extends AnyFunSuite:
       val late =
         candela.testing.Chromium.eventually("end")(Some(state).filter(_("stage").str == "done"))
       assert(late("version").num > early("version").num && image("color") != first)
-      assert(late("layers").arr.map(_.str) == Seq("color", "noise"))
+      assert(late("layers").arr.map(_("name").str) == Seq("color", "noise"))
       // Means of 16 uniform numbers, times 1, 2 and 0
       val noise = image("noise")
       for (c, scale) <- Vector(0 -> 1, 1 -> 2) do
@@ -116,7 +122,60 @@ class WatchingSuite extends AnyFunSuite:
       val page = WebClient.get(running.link).text
       val addresses = """https?://[^\s"'<]+""".r.findAllIn(page).toSet
       assert(addresses.isEmpty)
-      for word <- Vector("src=", "<link", "@import", "url(") do assert(!page.contains(word), word)
+      val bare = page.replace("<link rel=\"icon\" href=\"data:,\"", "")
+      for word <- Vector("src=", "<link", "@import", "url(") do assert(!bare.contains(word), word)
+      assert(!page.contains("offline") && page.contains("Served by Candela"))
+
+  test("when it is over, the state names the files; layers have names for readers"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val text = s"""Film "image" "integer xresolution" 8 "integer yresolution" 8
+        "string filename" "$file" Camera "perspective" Sampler "random" "integer pixelsamples" 4
+        WorldBegin LightSource "infinite" Translate 0 0 3 Shape "sphere" """
+      val layers = BuildOptions(layers = Vector(Layer.Normal, Layer.Depth, Layer.Uv))
+      val plan = SceneTexts.plan(text, Dialect.V3, layers)
+      val running = Watched(plan, "--watch", "0", "--watch-after")
+      try
+        val state = candela.testing.Chromium.eventually("files"):
+          Some(ujson.read(WebClient.get(s"${running.link}state").text)).filter(!_("files").isNull)
+        val picture = folder.resolve("a.png")
+        assert(state("files").arr.map(_.str) == Seq(file, picture).map(_.toAbsolutePath.toString))
+        val titles = state("layers").arr.map(l => l("name").str -> l("title").str).toMap
+        assert(titles("N") == "normals" && titles("Z") == "depth")
+        assert(titles("u") == "surface parameters: u")
+        val meanings = state("layers").arr.map(l => l("name").str -> l("meaning").str).toMap
+        assert(meanings("Z") == "distance along the ray" && meanings("color") == "the image")
+      finally
+        val _ = WebClient.post(s"${running.link}end")
+      assert(running.ended == 0)
+
+  test("what can only be read is not posted to, what acts is not read; HEAD is silent"):
+    stays("--watch", "0"): (running, _) =>
+      def ask(method: String, name: String) = WebClient.ask(method, s"${running.link}$name")
+      for name <- Vector("stop", "keep", "save", "end"); method <- Vector("GET", "HEAD", "PUT") do
+        val answer = ask(method, name)
+        assert(answer.code == 405 && answer.header("Allow").contains("POST"), s"$method $name")
+      for name <- Vector("", "state", "charts") do
+        assert(ask("POST", name).header("Allow").contains("GET, HEAD"), name)
+        val (get, head) = (ask("GET", name), ask("HEAD", name))
+        assert(head.code == 200 && head.body.isEmpty)
+        assert(get.header("Content-Length").contains(get.body.length.toString))
+        val lengths = Vector(get, head).flatMap(_.header("Content-Length"))
+        // The state's times have more digits or fewer
+        assert(lengths.distinct.size == 1 || name == "state")
+      assert(running.isRunning)
+
+  test("the page may run its own script and style, and nothing else"):
+    stays("--watch", "0"): (running, _) =>
+      val answer = WebClient.get(running.link)
+      val policy = answer.header("Content-Security-Policy").get
+      assert(policy.startsWith("default-src 'none'; ") && policy.contains("frame-ancestors 'none'"))
+      assert(!policy.contains("unsafe"))
+      for (element, source) <- Vector("script" -> "script-src", "style" -> "style-src") do
+        val text = s"(?s)<$element>(.*?)</$element>".r.findFirstMatchIn(answer.text).get.group(1)
+        val sum = java.security.MessageDigest.getInstance("SHA-256").digest(text.getBytes("UTF-8"))
+        val hash = java.util.Base64.getEncoder.encodeToString(sum)
+        assert(policy.contains(s"$source 'sha256-$hash'"), element)
 
   test("pages of other servers can neither read nor stop a rendering"):
     stays("--watch", "0"): (running, _) =>
@@ -136,6 +195,23 @@ class WatchingSuite extends AnyFunSuite:
       assert(WebClient.get(s"$here/").code == 404 && WebClient.get(s"$here/state").code == 404)
       assert(WebClient.post(s"$here/end").code == 404)
       assert(WebClient.get(s"$here/$token/state").code == 200)
+
+  test("a link works as it is printed, whatever the address"):
+    val own = java.net.NetworkInterface.networkInterfaces.iterator.asScala.toVector
+      .flatMap(_.inetAddresses.iterator.asScala)
+      .find(a => !a.isLoopbackAddress && !a.isLinkLocalAddress).map(_.getHostAddress)
+    val all = Vector("127.0.0.1", "127.0.0.5", "127.1.2.3", "localhost", "[::1]", "0.0.0.0", "[::]")
+    for address <- all ++ own.filter(!_.contains(':')) if canBind(address) do
+      stays("--watch", s"$address:0"): (running, _) =>
+        assert(WebClient.get(running.link).code == 200, running.link)
+        val origin = "Origin" -> running.link.split('/').take(3).mkString("/")
+        assert(WebClient.get(s"${running.link}state", origin).code == 200, running.link)
+        assert(!running.link.contains("0.0.0.0") && !running.link.contains("0:0"), running.link)
+
+  /** Whether this machine has the address. */
+  private def canBind(address: String): Boolean =
+    val name = address.stripPrefix("[").stripSuffix("]")
+    scala.util.Try(ServerSocket(0, 1, java.net.InetAddress.getByName(name)).close()).isSuccess
 
   test("a port that is taken is refused if it was asked for"):
     TempFolder.use: folder =>

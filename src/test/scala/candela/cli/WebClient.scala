@@ -15,6 +15,9 @@ object WebClient:
   def post(address: String, headers: (String, String)*): Answer =
     ask(address, headers)(_.POST(HttpRequest.BodyPublishers.noBody))
 
+  def ask(method: String, address: String): Answer =
+    ask(address, Seq.empty)(_.method(method, HttpRequest.BodyPublishers.noBody))
+
   private def ask(address: String, headers: Seq[(String, String)])(
       method: HttpRequest.Builder => HttpRequest.Builder
   ): Answer =

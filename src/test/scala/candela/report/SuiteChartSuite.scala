@@ -39,5 +39,5 @@ class SuiteChartSuite extends AnyFunSuite:
 
   test("the goal is a line across, if it is among the curves"):
     def goals(s: SceneResult) =
-      "class=\"goalline\"".r.findAllIn(SuiteChart.svg(Reports.suite.copy(scenes = Vector(s)))).size
+      "class=\"goal\"".r.findAllIn(SuiteChart.svg(Reports.suite.copy(scenes = Vector(s)))).size
     assert(goals(one) == 1 && goals(one.copy(target = 1e-6)) == 0)

@@ -77,6 +77,18 @@ final class OpenPage(address: URI) extends AutoCloseable:
   private val answers = LinkedBlockingQueue[ujson.Value]()
   private var calls = 0
 
+  private val found = LinkedBlockingQueue[String]()
+
+  private def noted(event: ujson.Value): Unit =
+    val isBad = event("method").str match
+      case "Log.entryAdded" => event("params")("entry")("level").str == "error"
+      case "Runtime.consoleAPICalled" => event("params")("type").str == "error"
+      case method => method == "Runtime.exceptionThrown"
+    if isBad then found.put(event("params").toString)
+
+  /** Errors of its scripts, of what it loads, and against its policy. */
+  def problems: Vector[String] = found.asScala.toVector
+
   private val listener = new WebSocket.Listener:
     private val text = StringBuilder()
     override def onText(
@@ -88,14 +100,55 @@ final class OpenPage(address: URI) extends AutoCloseable:
       if last then
         val message = ujson.read(text.toString)
         text.clear()
-        if message.obj.contains("id") then answers.put(message)
+        if message.obj.contains("id") then answers.put(message) else noted(message)
       s.request(1)
       null
 
   private val socket =
     HttpClient.newHttpClient.newWebSocketBuilder.buildAsync(address, listener).join()
 
+  for domain <- Vector("Log", "Runtime") do call(s"$domain.enable"): Unit
+
   def close(): Unit = socket.abort()
+
+  /** Shows it in a window of this size, light or dark. */
+  def resize(width: Int, height: Int, isDark: Boolean = false): Unit =
+    val _ = call(
+      "Emulation.setDeviceMetricsOverride",
+      "width" -> width,
+      "height" -> height,
+      "deviceScaleFactor" -> 1,
+      "mobile" -> false
+    )
+    val scheme = if isDark then "dark" else "light"
+    val feature = ujson.Obj("name" -> "prefers-color-scheme", "value" -> scheme)
+    val _ = call("Emulation.setEmulatedMedia", "features" -> ujson.Arr(feature))
+
+  /** Whether it is wider than the window. */
+  def overflows: Boolean =
+    value("document.documentElement.scrollWidth > document.documentElement.clientWidth").bool
+
+  /** The elements that Tab comes to, from the beginning, by id, class or text. */
+  def tabbed(most: Int): Vector[String] =
+    val _ = value("document.activeElement.blur()")
+    Vector.fill(most):
+      press("Tab")
+      value("(e => e === document.body ? '' : e.id || (e.tagName === 'BUTTON' ? e.textContent : " +
+        "e.className) || e.tagName)(document.activeElement)").str
+
+  /** Turns the mouse wheel in the middle of an element. */
+  def wheel(selector: String, down: Int, modifiers: Int = 0): Unit =
+    val box = value(s"(b => [b.x + b.width / 2, b.y + b.height / 2])" +
+      s"(document.querySelector('$selector').getBoundingClientRect())").arr
+    val _ = call(
+      "Input.dispatchMouseEvent",
+      "type" -> "mouseWheel",
+      "x" -> box(0),
+      "y" -> box(1),
+      "deltaX" -> 0,
+      "deltaY" -> down,
+      "modifiers" -> modifiers
+    )
 
   private def call(method: String, parameters: (String, ujson.Value)*): ujson.Value =
     calls += 1
@@ -128,12 +181,17 @@ final class OpenPage(address: URI) extends AutoCloseable:
   def press(key: String, text: String = ""): Unit =
     for kind <- Vector("keyDown", "keyUp") do
       val typed = Option.when(text.nonEmpty && kind == "keyDown")("text" -> ujson.Str(text))
+      val code = OpenPage.codes.get(key).map("windowsVirtualKeyCode" -> ujson.Num(_))
       val _ = call(
         "Input.dispatchKeyEvent",
-        (Vector[(String, ujson.Value)]("type" -> kind, "key" -> key) ++ typed)*
+        (Vector[(String, ujson.Value)]("type" -> kind, "key" -> key) ++ typed ++ code)*
       )
 
   /** The visible part of the page, as JPEG. */
   def screenshot(): Array[Byte] =
     val answer = call("Page.captureScreenshot", "format" -> "jpeg", "quality" -> 85)
     Base64.getDecoder.decode(answer("data").str)
+
+private object OpenPage:
+  /** Of keys that do something to the browser itself. */
+  private val codes = Map("Tab" -> 9.0, "Enter" -> 13.0)
