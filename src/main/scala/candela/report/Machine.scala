@@ -19,6 +19,11 @@ final case class Machine(
     java: String,
     load: Option[Double]
 ):
+  /** What to say if it had other things to do than to be measured. */
+  def business: Option[String] = load.filter(_ >= Machine.Busy).map: l =>
+    s"the machine was busy when measuring began (load ${Numbers.fixed(l, 2)} on $cores hardware " +
+      "threads): times are too long"
+
   def rows: Vector[(String, String)] = Vector(
     "processor" -> processor,
     "hardware threads" -> cores.toString,
@@ -28,6 +33,9 @@ final case class Machine(
   ) ++ load.map(l => "load at the start" -> "%.2f".formatLocal(_root_.java.util.Locale.ROOT, l))
 
 object Machine:
+
+  /** Load that falsifies times: half a processor is busy. */
+  private val Busy = 0.5
 
   def here(): Machine =
     def property(name: String) = System.getProperty(name, "?")

@@ -22,6 +22,10 @@ private[report] object Numbers:
 
   def fixed(value: Double, digits: Int): String = s"%.${digits}f".formatLocal(Locale.ROOT, value)
 
+  /** Of a share: `0.3 %`, `23 %`. */
+  def percentage(share: Double): String =
+    s"${fixed(100 * share, if share < 0.0995 then 1 else 0)} %"
+
   /** The estimate with half the interval's width, if known. */
   def plusMinus(i: Interval, number: Double => String): String =
     if i.isKnown then s"${number(i.estimate)} ± ${number((i.high - i.low) / 2)}"

@@ -12,11 +12,13 @@ object SuitePage:
   def html(r: SuiteReport, hasPictures: Boolean = true): String =
     val when = s"${r.begun} on ${r.machine.processor}, ${r.machine.cores} hardware threads"
     Page.html(r.title, when, r.version)(
+      warnings(r),
       h2("Time to target"),
       p(
         "Seconds from program start until the relative MSE reaches the second column, including " +
-          "start-up, parsing and scene construction. Bold: best of the scene; " +
-          "–: not reached; blank: not run."
+          "start-up, parsing and scene construction. The target is the suite's, or the error " +
+          "that half of the programs reach; variants of a program count once, by the first. " +
+          "Bold: best of the scene; –: not reached; blank: not run; ⚠: measured on a busy machine."
       ),
       overview(r)("relative MSE", s => Some(Numbers.tick(s.target))): (s, p) =>
         p.curve.secondsUntil(s.target).map(t => (t, s"${Numbers.short(t)} s")),
@@ -29,7 +31,12 @@ object SuitePage:
         overview(r)("seconds", _.equalTime.map(Numbers.short)): (s, p) =>
           s.errorAtEqualTime(p).map(e => (e, Numbers.short(e)))
       )),
-      Option.when(r.scenes.sizeIs > 1)(div(cls := "card chart", SuiteChart.all(r).svg)),
+      Option.when(r.scenes.sizeIs > 1)(
+        div(
+          cls := "card chart",
+          Page.fitting(SuiteChart.all(r).svg, SuiteChart.all(r, columns = 1).svg)
+        )
+      ),
       r.scenes.map(scene(_, hasPictures)),
       h2("Method"),
       method(r),
@@ -39,6 +46,15 @@ object SuitePage:
       h3("Commands"),
       Page.facts(commands(r))
     )
+
+  private def warnings(r: SuiteReport): Option[Frag] =
+    val all = r.machine.business.toVector ++ r.disturbances
+    Option.when(all.nonEmpty):
+      div(
+        cls := "warning",
+        attr("role") := "note",
+        all.map(words => p(s"⚠ ${words.head.toUpper}${words.tail}."))
+      )
 
   /** A row for each scene, a column for each program.
     *
@@ -51,23 +67,27 @@ object SuitePage:
     val programs = r.scenes.flatMap(_.programs.map(p => (p.name, p.title))).distinct
     val head = Vector("scene", keys) ++ programs.map(_._2)
     val rows = r.scenes.map: s =>
-      val figures = s.programs.map(p => p.name -> figure(s, p)).toMap
-      val best = figures.values.flatten.map(_._1).minOption
+      val figures = s.programs.map(p => p.name -> (figure(s, p), p.isDisturbed)).toMap
+      val best = figures.values.flatMap(_._1).map(_._1).minOption
       val cells = programs.map: (name, _) =>
         figures.get(name) match
           case None => td()
-          case Some(None) => td("–")
-          case Some(Some((number, text))) =>
-            td(Option.when(best.contains(number))(cls := "best"), text)
+          case Some((None, _)) => td("–")
+          case Some((Some((number, text)), isDisturbed)) =>
+            val mark = Option.when(isDisturbed || r.machine.business.isDefined)(" ⚠")
+            td(Option.when(best.contains(number))(cls := "best"), text, mark)
       tr(td(s.title), td(key(s).getOrElse("–")), cells)
-    div(cls := "scroll", table(thead(tr(head.map(th(_)))), tbody(rows)))
+    Page.scrolling(head, rows)
 
   private def scene(s: SceneResult, hasPictures: Boolean): Frag =
     val charts =
       for
         metric <- Vector(Metric.RelativeMse, Metric.Mse, Metric.Mae, Metric.Flip)
         axis <- Vector("seconds", "samples")
-      yield (metric.word, metric.title, axis, SuiteChart.of(s, metric, axis).svg)
+      yield
+        def shaped(frame: ChartFrame) = SuiteChart.of(s, metric, axis, frame).svg
+        val both = Page.fitting(shaped(ChartFrame.Whole), shaped(ChartFrame.Narrow))
+        (metric.word, metric.title, axis, both)
     val pictures = s.programs.map(p => Picture(p.title, p.picture)) :+
       Picture(
         if s.referenceName.isDefined then "reference" else "mean of all",
@@ -86,9 +106,11 @@ object SuitePage:
           "of relative MSE against samples: −1 for independent samples, 0 where bias (or the " +
           s"reference's noise) dominates. First image: the whole process, with one sample per " +
           "pixel, median over seeds. Peak memory: resident, of all runs the largest. " +
+          "Other programs: share of the processors that they took during the runs. " +
           s.referenceName.fold(
-            "No reference: errors are the variance between the seeds, which reveals no bias; " +
-              "mean ratios are those to the mean of the longest renderings of all programs."
+            "No reference: errors are the variance between the seeds, which reveals no bias. " +
+              "They and the mean ratios are relative to the mean of the longest renderings of " +
+              s"${s.makers.mkString(" and ")}; variants of a program count once."
           )(name => s"Reference: $name.")
       ),
       Option.when(hasPictures)(frag(h3("Images"), Viewer(pictures)))
@@ -96,7 +118,7 @@ object SuitePage:
 
   private val Head = Vector("program", "samples", "seconds", "relative MSE", "FLIP") ++
     Vector("mean ratio R, G, B", "slope", "efficiency", "seconds to target") ++
-    Vector("first image, s", "peak memory, MB")
+    Vector("first image, s", "peak memory, MB", "other programs")
 
   private def row(s: SceneResult, p: ProgramResult): Vector[Frag] =
     val last = p.curve.points.last
@@ -111,7 +133,8 @@ object SuitePage:
       p.curve.efficiency.fold("–")(range),
       p.curve.secondsUntil(s.target).fold("–")(Numbers.short),
       p.firstImage.fold("–")(Numbers.short),
-      p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0))
+      p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0)),
+      p.others.fold("–")(Numbers.percentage) + (if p.isDisturbed then " ⚠" else "")
     ).map(stringFrag)
 
   private def range(i: Interval): String =

@@ -9,6 +9,7 @@ import candela.measure.{Interval, MeasuredCurve, MeasuredPoint, Metric}
   * @param isThin whether its curve is dashed, beside another program of the same colour
   * @param picture image of the longest run with the first seed
   * @param firstImage seconds until it has written an image of one sample per pixel, a median
+  * @param others share of the processors that other programs took during its runs, if known
   */
 final case class ProgramResult(
     name: String,
@@ -18,13 +19,20 @@ final case class ProgramResult(
     command: String,
     curve: MeasuredCurve,
     picture: Image,
-    firstImage: Option[Double] = None
-)
+    firstImage: Option[Double] = None,
+    others: Option[Double] = None
+):
+  def isDisturbed: Boolean = others.exists(_ >= ProgramResult.Disturbing)
+
+object ProgramResult:
+  /** Share of the processors whose loss is worth a warning. */
+  private val Disturbing = 0.05
 
 /** Results of all programs on one scene, against the named reference, or of seeds against each
-  * other: the reference is then the mean of the longest renderings.
+  * other: the reference is then the mean of the longest renderings of some programs.
   *
   * @param target the relative MSE to reach
+  * @param makers titles of these programs
   */
 final case class SceneResult(
     name: String,
@@ -33,7 +41,8 @@ final case class SceneResult(
     reference: Image,
     referenceName: Option[String],
     target: Double,
-    programs: Vector[ProgramResult]
+    programs: Vector[ProgramResult],
+    makers: Vector[String] = Vector.empty
 ):
   /** The longest time, in seconds, for which all programs' errors are known. */
   val equalTime: Option[Double] =
@@ -58,7 +67,12 @@ final case class SuiteReport(
     seeds: Int,
     scenes: Vector[SceneResult],
     leftOut: Vector[(String, String)]
-)
+):
+  /** Where other programs took much of the machine, in words. */
+  def disturbances: Vector[String] = scenes.flatMap: s =>
+    for p <- s.programs if p.isDisturbed; share <- p.others
+    yield s"other programs took ${Numbers.percentage(share)} of the processors during the runs " +
+      s"of ${p.title} on ${s.title}: times are too long"
 
 /** Machine-readable results: JSON with all runs, and CSV with one line per run. */
 object SuiteData:
@@ -95,6 +109,7 @@ object SuiteData:
   private def scene(s: SceneResult): ujson.Obj = ujson.Obj(
     "name" -> s.name,
     "reference" -> s.referenceName.fold(ujson.Null: ujson.Value)(ujson.Str(_)),
+    "makers" -> ujson.Arr.from(s.makers),
     "target" -> RenderData.number(s.target),
     "equalTime" -> s.equalTime.fold(ujson.Null: ujson.Value)(RenderData.number),
     "programs" -> ujson.Arr.from(s.programs.map(program(s, _)))
@@ -109,6 +124,7 @@ object SuiteData:
     "efficiency" -> known(p.curve.efficiency),
     "firstImage" -> p.firstImage.fold(ujson.Null: ujson.Value)(RenderData.number),
     "memory" -> p.curve.memory.fold(ujson.Null: ujson.Value)(m => RenderData.number(m.toDouble)),
+    "others" -> p.others.fold(ujson.Null: ujson.Value)(RenderData.number),
     "meanRatio" -> ujson.Arr.from(p.curve.meanRatio.map(RenderData.number)),
     "secondsToTarget" ->
       p.curve.secondsUntil(s.target).fold(ujson.Null: ujson.Value)(RenderData.number),

@@ -21,6 +21,9 @@ private[suite] abstract class Judge:
   /** What the images are compared with; there are results. */
   def reference: Image
 
+  /** The programs of whose images the reference is the mean; none if it was given. */
+  def voters: Vector[Program] = Vector.empty
+
   protected final def result(
       job: Job,
       seconds: Double,
@@ -40,8 +43,11 @@ private[suite] final class ReferenceJudge(val reference: Image) extends Judge:
 
   def results: Vector[Result] = all
 
-/** Compares the images of several seeds with each other. Each waits in a file for the last seed. */
-private[suite] final class SeedJudge(scratch: Path) extends Judge:
+/** Compares the images of several seeds with each other. Each waits in a file for the last seed.
+  *
+  * @param suite decides which programs make the reference
+  */
+private[suite] final class SeedJudge(suite: Suite, scratch: Path) extends Judge:
   private final case class Kept(job: Job, seconds: Double, memory: Option[Long], file: Path):
     def image: Image = ImageFiles.read(file).toRgb
 
@@ -77,13 +83,21 @@ private[suite] final class SeedJudge(scratch: Path) extends Judge:
       val byJob = errors.map((k, e) => k.job -> e).toMap
       kept.flatMap(k => byJob.get(k.job).map(result(k.job, k.seconds, k.memory, _)))
 
-  /** The mean of the longest renderings, of all programs alike. */
+  /** The mean of the longest renderings of one program of each family, all alike: more variants of
+    * a program must not make it more right.
+    */
   def reference: Image = pooled.getOrElse:
     val image = pool
     pooled = Some(image)
     image
 
-  private def pool: Image =
+  override def voters: Vector[Program] = suite.voters(longest.contains)
+
+  private def longest: Map[Program, Vector[Kept]] =
     val points = sets.filter(_.head.job.isPoint)
-    val longest = points.groupBy(_.head.job.entry).values.map(_.maxBy(_.head.job.samples))
-    SeedNoise.mean(longest.toVector.map(set => SeedNoise.mean(set.map(_.image))))
+    points.groupBy(_.head.job.entry.program).map: (program, all) =>
+      program -> all.maxBy(_.head.job.samples)
+
+  private def pool: Image =
+    val all = longest
+    SeedNoise.mean(voters.map(program => SeedNoise.mean(all(program).map(_.image))))

@@ -21,6 +21,7 @@ final case class Edit(find: Regex, replacement: String)
   * @param needs environment variables that locate it
   * @param isThin whether its curve is dashed, beside another one of the same colour
   * @param layer layer of its images that is compared, instead of the colours
+  * @param ownFamily name of its family; by default, programs of the same command are one
   */
 final case class Program(
     name: String,
@@ -33,8 +34,12 @@ final case class Program(
     color: Int,
     isThin: Boolean,
     needs: Vector[String] = Vector.empty,
-    layer: Option[String] = None
+    layer: Option[String] = None,
+    ownFamily: Option[String] = None
 ):
+  /** Variants of a program are a family: together they count once. */
+  def family: String = ownFamily.orElse(command.headOption).getOrElse(name)
+
   /** This program itself, which can denoise. */
   def isSelf: Boolean = command.headOption.contains("{candela}")
 
@@ -85,6 +90,10 @@ final case class Suite(
     seeds: Int,
     timeout: Double
 ):
+  /** One program of each family, the first among those that are `present`. */
+  def voters(present: Program => Boolean): Vector[Program] =
+    programs.filter(present).distinctBy(_.family)
+
   /** With each program that can denoise twice: without and with it. */
   def withDenoised: Suite =
     val able = programs.filter(_.isSelf).map(_.name).toSet

@@ -29,7 +29,7 @@ object SuiteFile:
   private val suiteKeys = Set("title", "samples", "seconds", "seeds", "timeout") ++
     Set("programs", "scenes")
   private val programKeys = Set("title", "command", "reads", "threads", "edits", "seeded") ++
-    Set("color", "thin", "needs", "layer")
+    Set("color", "thin", "needs", "layer", "family")
   private val sceneKeys = Set("title", "note", "files", "reference", "samples", "seconds") ++
     Set("target", "programs", "needs")
 
@@ -71,7 +71,8 @@ object SuiteFile:
       if c.hasPath("color") then c.getInt("color") else index,
       c.hasPath("thin") && c.getBoolean("thin"),
       if c.hasPath("needs") then texts(c, "needs") else Vector.empty,
-      Option.when(c.hasPath("layer"))(c.getString("layer"))
+      Option.when(c.hasPath("layer"))(c.getString("layer")),
+      Option.when(c.hasPath("family"))(c.getString("family"))
     )
 
   private def edit(c: Config): Edit = Edit(c.getString("find").r, c.getString("replace"))

@@ -46,7 +46,10 @@ object SuiteResults:
         scenes,
         runner.omissions
       )
-    report(runner.run(results => publish(report(results))))
+    machine.business.foreach(words => say(s"warning: $words"))
+    val results = report(runner.run(results => publish(report(results))))
+    results.disturbances.foreach(words => say(s"warning: $words"))
+    results
 
   private def sceneResult(
       scene: SuiteScene,
@@ -59,17 +62,21 @@ object SuiteResults:
     val programs = suite.programs.flatMap: program =>
       byEntry.collectFirst { case (entry, all) if entry.program == program => entry -> all }
         .map((entry, all) => programResult(entry, all, runner, names))
+    val (reference, makers) = runner.reference(scene)
+    val voters = suite.voters(p => programs.exists(_.name == p.name)).map(_.name)
+    val least = programs.filter(p => voters.contains(p.name)).map(_.curve.least)
     SceneResult(
       scene.name,
       scene.title,
       scene.note,
-      runner.reference(scene),
+      reference,
       scene.reference.map(_.getFileName.toString),
-      scene.target.getOrElse(reachable(programs.map(_.curve.least))),
-      programs
+      scene.target.getOrElse(reachable(least)),
+      programs,
+      makers.map(_.title)
     )
 
-  /** Error that at least half of the programs reach. */
+  /** Error that at least half of them reach. */
   private[suite] def reachable(least: Vector[Double]): Double =
     val target = least.sorted.apply(least.size / 2)
     // Rounded up to two digits, for legibility.
@@ -97,5 +104,6 @@ object SuiteResults:
         program.edits.map(e => s"; /${e.find}/ → ${e.replacement}").mkString,
       MeasuredCurve(kept, times),
       runner.picture(entry),
-      Option.when(first.nonEmpty)(Interval.median(first))
+      Option.when(first.nonEmpty)(Interval.median(first)),
+      runner.others(entry)
     )

@@ -61,6 +61,7 @@ final class SuiteRunner(
   private val copies = SceneCopy(scratch)
   private val leftOut = Vector.newBuilder[(String, String)]
   private val pictures = scala.collection.mutable.Map.empty[Entry, (Job, Image)]
+  private val shares = scala.collection.mutable.Map.empty[Entry, Vector[(Double, Double)]]
   private val judges = scala.collection.mutable.Map.empty[SuiteScene, Judge]
 
   private var waiting = Vector.empty[SuiteScene]
@@ -76,8 +77,13 @@ final class SuiteRunner(
   /** Image of the longest rendering with the first seed. */
   private[suite] def picture(entry: Entry): Image = pictures(entry)._2
 
-  /** What the scene's images were compared with. */
-  private[suite] def reference(scene: SuiteScene): Image = judges(scene).reference
+  /** What the scene's images were compared with, and the programs that made it. */
+  private[suite] def reference(scene: SuiteScene): (Image, Vector[Program]) =
+    (judges(scene).reference, judges(scene).voters)
+
+  /** Share of the processors that other programs took during the runs, where the system tells. */
+  private[suite] def others(entry: Entry): Option[Double] =
+    shares.get(entry).map(all => all.map((t, share) => t * share).sum / all.map(_._1).sum)
 
   /** @param afterScene receives the results so far after each scene */
   private[suite] def run(afterScene: Vector[Result] => Unit): Vector[Result] =
@@ -97,7 +103,7 @@ final class SuiteRunner(
       all
 
   private def ofScene(scene: SuiteScene, entries: Vector[Entry]): Vector[Result] =
-    val judge = scene.reference.fold[Judge](SeedJudge(scratch)): file =>
+    val judge = scene.reference.fold[Judge](SeedJudge(suite, scratch)): file =>
       ReferenceJudge(ImageFiles.read(file).toRgb)
     judges(scene) = judge
     val plans = entries.flatMap(planned(_, judge))
@@ -204,7 +210,10 @@ final class SuiteRunner(
     val Entry(program, scene, _) = job.entry
     val out = scratch.resolve("out.exr")
     val name = s"${scene.title}, ${program.title}, ${job.samples} spp"
-    commands.run(words(job, out), out, suite.timeout) match
+    val before = ProcessorTimes.now
+    val outcome = commands.run(words(job, out), out, suite.timeout)
+    val share = before.flatMap(_.othersSince)
+    outcome match
       case Outcome.Cancelled => None
       case Outcome.Failed(why) =>
         forecast.ended(job, None)
@@ -216,6 +225,8 @@ final class SuiteRunner(
           val error = judge.take(job, seconds, memory, image)
           val counted = if job.step == Job.WarmUp then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
+          for s <- share if job.isPoint do
+            shares(job.entry) = shares.getOrElse(job.entry, Vector.empty) :+ (seconds, s)
           say(f"$name%-48s $counted%-8s $seconds%8.2f s  $error  " + forecast.words)
           keep(job, image)
           Some(seconds)

@@ -11,7 +11,8 @@ class PagesSuite extends AnyFunSuite:
       // The name of the language of vector graphics is no address that is fetched.
       val addresses = """https?://[^\s"'<]+""".r.findAllIn(page).toSet
       assert(addresses == Set("http://www.w3.org/2000/svg"), name)
-      for word <- Vector("src=", "<link", "@import", "url(") do assert(!page.contains(word), name)
+      val bare = page.replace("<link rel=\"icon\" href=\"data:,\"", "")
+      for word <- Vector("src=", "<link", "@import", "url(") do assert(!bare.contains(word), name)
 
   test("names can't break a page"):
     val page = pages.head._2
@@ -52,3 +53,22 @@ class PagesSuite extends AnyFunSuite:
     assert(suite("scenes")(0)("equalTime").num == 8)
     assert(Math.abs(fast("errorAtEqualTime").num - 0.075) < 1e-9)
     assert(SuiteData.csv(Reports.suite).linesIterator.size == 1 + 2 * 9)
+
+  test("every line of a chart has its name in the legend"):
+    def legend(page: String) =
+      raw"""class="legend"[^>]*>([^<]*)<""".r.findAllMatchIn(page).map(_.group(1)).toSet
+    val guide = "independent samples, slope −1"
+    assert(Set(guide, "this rendering").subsetOf(legend(pages.head._2)))
+    assert(Set(guide, "target error", "The fast").subsetOf(legend(pages(1)._2)))
+
+  test("a busy machine is warned of, on top and at each time"):
+    val one = Reports.suite.scenes.head
+    val disturbed = one.programs.head.copy(others = Some(0.23))
+    val scene = one.copy(programs = disturbed +: one.programs.tail)
+    val busy = SuitePage.html(Reports.suite.copy(scenes = Vector(scene)))
+    val words = "Other programs took 23 % of the processors during the runs of The fast on A box"
+    assert(busy.contains(words) && busy.contains(">3.000 s ⚠</td>") && busy.contains("23 % ⚠"))
+    val loaded = Reports.machine.copy(load = Some(1.92))
+    val page = SuitePage.html(Reports.suite.copy(machine = loaded))
+    assert(page.contains("The machine was busy when measuring began (load 1.92 on 2"))
+    assert(!pages(1)._2.contains("class=\"warning\"") && !pages(1)._2.contains(" ⚠<"))

@@ -15,6 +15,8 @@ class JudgeSuite extends AnyFunSuite:
     val scene =
       SuiteScene("s", "S", "", Map.empty, None, None, None, None, Vector.empty)
     Entry(program, scene, folder)
+  private val suite =
+    Suite("T", Vector(entry.program), Vector(entry.scene), Work.Samples(Vector(1)), 3, 1)
 
   private def gray(value: Float, width: Int = 4): Image =
     val image = Image.rgb(width, 3)
@@ -25,7 +27,7 @@ class JudgeSuite extends AnyFunSuite:
     judge.take(Job(entry, step, 1, seed), 1.0, None, image): Unit
 
   test("there are no results before a point of the curve has enough seeds"):
-    val judge = SeedJudge(folder)
+    val judge = SeedJudge(suite, folder)
     for seed <- 1 to 3 do take(judge, Job.FirstImage, seed, gray(seed.toFloat))
     for seed <- 1 to 2 do take(judge, 0, seed, gray(seed.toFloat))
     assert(judge.results.isEmpty)
@@ -33,9 +35,20 @@ class JudgeSuite extends AnyFunSuite:
     assert(judge.results.size == 6)
 
   test("an image of another size than the first is an error, and not counted"):
-    val judge = SeedJudge(folder)
+    val judge = SeedJudge(suite, folder)
     take(judge, Job.WarmUp, 1, gray(1f))
     for seed <- 1 to 3 do take(judge, 0, seed, gray(seed.toFloat))
     val error = intercept[ImageError](take(judge, 0, 4, gray(1f, width = 5)))
     assert(error.getMessage.contains("5×3 and 4×3"))
     assert(judge.results.size == 3)
+
+  test("variants of a program make the reference no more theirs: each family counts once"):
+    def other(name: String, family: String) =
+      entry.copy(program = entry.program.copy(name = name, title = name, ownFamily = Some(family)))
+    val entries = Vector(other("a", "one"), other("a-2", "one"), other("b", "two"))
+    val judge = SeedJudge(suite.copy(programs = entries.map(_.program)), folder)
+    for (e, value) <- entries.zip(Vector(1f, 1f, 4f)); seed <- 1 to 3 do
+      judge.take(Job(e, 0, 1, seed), 1.0, None, gray(value)): Unit
+    // The mean of all three would be 2
+    assert(judge.reference(0, 0, 0) == 2.5f)
+    assert(judge.voters.map(_.name) == Vector("a", "b"))

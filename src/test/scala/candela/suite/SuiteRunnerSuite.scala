@@ -143,7 +143,8 @@ class SuiteRunnerSuite extends AnyFunSuite:
     inFolder: folder =>
       def seeded(name: String) = program(name, s"cp $folder/$name-{seed}.exr {out}")
       val still = program("still", "cp {scene} {out}").copy(isSeeded = false)
-      val report = unjudged(folder, 3, seeded("one"), seeded("two"), still)
+      val two = seeded("two").copy(ownFamily = Some("another"))
+      val report = unjudged(folder, 3, seeded("one"), two, still)
       val scene = report.scenes.head
       assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-3)
       assert(scene.programs.map(_.name) == Vector("one", "two"))
@@ -158,7 +159,8 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val why = "it has no seeds: without a reference, its noise is unknown"
       assert(report.leftOut == Vector("still on Flat" -> why))
       val page = SuitePage.html(report)
-      assert(page.contains("variance between the seeds") && page.contains("mean of all"))
+      for words <- Seq("variance between the seeds", "renderings of one and two") do
+        assert(page.contains(words))
 
   test("a scene whose images have no finite pixel is left out"):
     inFolder: folder =>
@@ -318,6 +320,29 @@ class SuiteRunnerSuite extends AnyFunSuite:
       assert(Files.readString(copy.resolveSibling("mesh.ply")) == "ply")
       assert(Files.readString(scene).endsWith(" 8"))
       assert(SceneCopy(folder).of(scene, Vector.empty, identity) == scene)
+
+  test("variants of a program vote once about the target"):
+    inFolder: folder =>
+      for (name, value) <- Seq("good" -> 0.6f, "better" -> 0.55f, "poor" -> 0.75f) do
+        flat(folder.resolve(s"$name.exr"), value): Unit
+      def made(name: String, family: String) =
+        program(name, s"cp $folder/$name.exr {out}").copy(ownFamily = Some(family))
+      val all = Vector(made("good", "one"), made("better", "one"), made("poor", "two"))
+      val (report, _) = run(folder, all*)
+      // Half of two families is one more than the best; of three programs it was the second best
+      val worst = report.scenes.head.programs.last.curve.least
+      assert(report.scenes.head.target >= worst)
+
+  test("what others take of the processors is told"):
+    val machine = "cpu  100 0 50 800 10 5 5 30 0 0\ncpu0 1 2 3"
+    val process = "7 (a (b) c) S 1 1 1 0 -1 4 5 6 7 8 20 10 3 2 20 0"
+    val before = ProcessorTimes.of(machine, process)
+    assert(before == ProcessorTimes(1000, 190, 35))
+    // Of 100 ticks, 60 were busy: 50 of our programs
+    assert(before.othersUntil(ProcessorTimes(1100, 250, 85)).contains(0.1))
+    assert(before.othersUntil(before).isEmpty)
+    // Children are counted when they end: less than nothing is nothing
+    assert(before.othersUntil(ProcessorTimes(1100, 200, 100)).contains(0.0))
 
   test("the target is what half of the programs reach, rounded up to two digits"):
     assert(Math.abs(SuiteResults.reachable(Vector(0.0123, 0.5, 0.001)) - 0.013) < 1e-12)
