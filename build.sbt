@@ -168,7 +168,7 @@ def program = Def.task {
   val make = FileFunction.cached(streams.value.cacheDirectory / "program") { _ =>
     IO.delete(folder)
     val (natives, classes) = jars.partition(_.getName.contains("-natives-"))
-    ProgramJar.write(classes, folder / "candela.jar")
+    ProgramJar.write(classes, folder / "candela.jar", Some("candela.cli.Main"))
     ProgramJar.unpackNatives(natives, folder / "natives").toSet + (folder / "candela.jar")
   }
   val files = make(jars.toSet)

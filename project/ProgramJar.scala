@@ -33,7 +33,9 @@ object ProgramJar {
       out.closeEntry()
     }
     try {
-      val main = mainClass.fold("")(c => s"Main-Class: $c\n")
+      // What the launcher passes as options, as far as a jar can ask for it
+      val asked = "Add-Exports: java.base/jdk.internal.module\nEnable-Native-Access: ALL-UNNAMED\n"
+      val main = mainClass.fold("")(c => s"Main-Class: $c\n$asked")
       val manifest = s"Manifest-Version: 1.0\n${main}Multi-Release: true\n\n"
       put(JarFile.MANIFEST_NAME, manifest.getBytes("UTF-8"))
       for (jar <- jars; (name, bytes) <- entries(jar)) name match {

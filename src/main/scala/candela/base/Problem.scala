@@ -13,9 +13,16 @@ final case class SourcePos(
 ):
   override def toString: String = s"$file:$line:$column"
 
+  /** None if it is nowhere. */
+  private[base] def known: Option[SourcePos] = Option.when(this != SourcePos.Nowhere)(this)
+
   /** Lines and columns, from the main file inwards. */
   private[base] def path: List[(Int, Int)] =
     includedFrom.fold(Nil)(_.path) :+ (line, column)
+
+object SourcePos:
+  /** Of what no file contains. */
+  val Nowhere: SourcePos = SourcePos("", 0, 0)
 
 enum Severity:
   case Warning, Error
@@ -45,16 +52,16 @@ object Problem:
     placed.sortBy(_.at.map(_.path)) ++ others
 
   def error(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Error, Some(at), line(message), help.map(line))
+    Problem(Severity.Error, at.known, line(message), help.map(line))
 
   def warning(at: SourcePos, message: String, help: Option[String] = None): Problem =
-    Problem(Severity.Warning, Some(at), line(message), help.map(line))
+    Problem(Severity.Warning, at.known, line(message), help.map(line))
 
   /** `text` as a single printable line, whatever names it contains: no control characters, and at
     * most a few terminal lines long.
     */
   private def line(text: String): String =
-    val shown = text.map(c => if c.isControl then '?' else c)
+    val shown = Visible.line(text)
     if shown.length <= Longest then shown
     else s"${shown.take(Longest - 100)} … ${shown.takeRight(90)}"
 
@@ -74,7 +81,7 @@ object Problem:
   ): Problem =
     val (severity, text) =
       if keepGoing then (Severity.Warning, s"$message; $standIn") else (Severity.Error, message)
-    Problem(severity, Some(at), line(text), help.map(line), standIn = Some(standIn))
+    Problem(severity, at.known, line(text), help.map(line), standIn = Some(standIn))
 
   /** An error without a position in a scene file, e.g. an output folder that can't be written. */
   def general(message: String, help: Option[String] = None): Problem =

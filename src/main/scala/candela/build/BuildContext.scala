@@ -54,10 +54,14 @@ private[build] final class BuildContext(
 
   /** A statement that the file does not contain. */
   def unwritten(category: String, name: String): Declaration =
-    Declaration(category, name, Vector.empty, BuildContext.NoPlace, BuildContext.NoFolder)
+    Declaration(category, name, Vector.empty, start, BuildContext.NoFolder)
+
+  /** Where a statement is; of one that the file does not contain, where that begins. */
+  def placeOf(statement: Option[Declaration]): SourcePos = statement.fold(start)(_.at)
+
+  private def start: SourcePos = BuildContext.start(description)
 
 private[build] object BuildContext:
-  val NoPlace: SourcePos = SourcePos("", 0, 0)
   private val NoFolder = Path.of("")
 
   def apply(whole: SceneDescription, options: BuildOptions): BuildContext =
@@ -69,7 +73,7 @@ private[build] object BuildContext:
     val problems = Findings(options.keepGoing, description.lost, description.errors)
     if isBlind then
       problems.warn(
-        whole.camera.fold(NoPlace)(_.at),
+        whole.camera.fold(start(whole))(_.at),
         "the camera's transform is singular; the image shows the background only, as in pbrt-v4"
       )
     val origin = RenderOrigin.of(description)
@@ -90,6 +94,10 @@ private[build] object BuildContext:
     val plain = context(Switches())
     val statement = plain.unwritten("Option", "").copy(params = description.options)
     context(options.switches.over(OptionRecipe.build(plain.site(statement))))
+
+  /** The start of the scene's file, if it has one. */
+  private def start(scene: SceneDescription): SourcePos =
+    scene.sources.headOption.fold(SourcePos.Nowhere)(file => SourcePos(file.toString, 1, 1))
 
   /** What a camera without a place sees. */
   private def background(scene: SceneDescription): SceneDescription =

@@ -26,7 +26,7 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
 
   private def place =
     val description = context.description
-    description.integrator.orElse(description.renderer).fold(BuildContext.NoPlace)(_.at)
+    context.placeOf(description.integrator.orElse(description.renderer))
 
 private[build] object FireflyLimits:
   /** What `--explain` says, if anything is done. */

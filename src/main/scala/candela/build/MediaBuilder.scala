@@ -49,7 +49,7 @@ private[build] final class MediaBuilder(
 
   /** Index of the camera's medium; −1: none. */
   private val camera: Int =
-    val at = description.camera.fold(BuildContext.NoPlace)(_.at)
+    val at = context.placeOf(description.camera)
     index(description.cameraMedium, at)
 
   /** The media on both sides of a shape. */

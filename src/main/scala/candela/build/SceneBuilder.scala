@@ -81,9 +81,9 @@ object SceneBuilder:
     val crop = image.crop(integrator.window, options)
     if crop.pixels > MostPixels then
       context.problems.error(
-        context.description.film.fold(BuildContext.NoPlace)(_.at),
+        context.placeOf(context.description.film),
         s"can't render ${crop.width}×${crop.height} pixels at once",
-        Some("give the film a crop window, or render parts of it with --crop")
+        Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
     Hierarchies.expect(samples, options.pool)
@@ -99,7 +99,9 @@ object SceneBuilder:
         Option.when(image.layers.exists(_.isLight) || dimsLight(options))(options.lightGroups)
       ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
-    if !options.preview then FireflyLimits(context, options.fireflies).check(world.method)
+    if !options.preview then
+      FireflyLimits(context, options.fireflies).check(world.method)
+      IdleSettings(context, options).check(world)
     context.problems.stopAtErrors()
     val made = plan(context, options, image, crop, integrator, sampling, camera, world)
     (made, context.problems.result)
@@ -136,7 +138,7 @@ object SceneBuilder:
       val divided = image.layers.filter(_.dividesLight)
       if divided.nonEmpty && !method.dividesLight then
         context.problems.error(
-          description.integrator.orElse(description.renderer).fold(BuildContext.NoPlace)(_.at),
+          context.placeOf(description.integrator.orElse(description.renderer)),
           s"this integrator does not divide light: AOVs ${divided.map(_.word).mkString(", ")} " +
             "need \"path\" or \"volpath\""
         )
@@ -215,7 +217,8 @@ object SceneBuilder:
       bands = bands,
       isCentered = switches.centers,
       errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
-      fireflies = if options.preview then Fireflies.Kept else options.fireflies
+      fireflies = if options.preview then Fireflies.Kept else options.fireflies,
+      lights = world.scene.lights.length
     )
 
   /** What is said of guiding, if it was asked for. */

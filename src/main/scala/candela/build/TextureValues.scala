@@ -36,8 +36,8 @@ object TextureValues:
     val p = Param(
       ParamType.Texture,
       "",
-      SourcePos("", 0, 0),
-      SourcePos("", 0, 0),
+      SourcePos.Nowhere,
+      SourcePos.Nowhere,
       strings = Vector(name)
     )
     val resources: Resources = context.resources

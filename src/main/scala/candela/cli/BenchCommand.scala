@@ -41,7 +41,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
       if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
 
   private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
-    val say: String => Unit = if options.quiet then _ => () else terminal.err.println
+    val say: String => Unit = if options.quiet then _ => () else terminal.err.println(_)
     SuiteResults.of(
       suite,
       self,

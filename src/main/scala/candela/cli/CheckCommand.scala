@@ -35,17 +35,20 @@ final class CheckCommand(
     val loaded = loader.load(scene, options)
     report.warnings(loaded.warnings, all = options.verbose)
     if loaded.warnings.nonEmpty then warned += 1
-    if !options.quiet then
-      terminal.out.println(s"$scene: ${contents(loaded)}")
-      if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.out)
-      terminal.out.flush()
+    if !options.quiet then terminal.out.println(s"$scene: ${contents(loaded)}")
+    if options.explain || (options.verbose && !options.quiet) then
+      Explanation.print(loaded.plan, terminal.out)
+    terminal.out.flush()
     ExitCode.Done
 
   private def contents(loaded: LoadedScene): String =
     val d = loaded.description
     val crop = loaded.plan.crop
     val shapes = d.shapes.size + d.objects.values.map(_.size).sum
-    val lights = d.lights.size + d.shapes.count(_.areaLight.nonEmpty)
+    // Each triangle of a shape that emits light may be one
+    val statements = d.lights.size + d.shapes.count(_.areaLight.nonEmpty)
+    val lights = loaded.plan.lights
+    val of = if statements > 0 && lights > statements then s" (of $statements in the file)" else ""
     val counted = Vector(
       shapes -> "shape",
       d.instances.size -> "instance",
@@ -53,6 +56,7 @@ final class CheckCommand(
       d.textures.size -> "texture",
       loaded.warnings.distinct.size -> "warning",
       loaded.standIns -> "placeholder"
-    ).collect { case (n, noun) if n > 0 => Figures.count(n, noun) }
+    ).collect:
+      case (n, noun) if n > 0 => Figures.count(n, noun) + (if noun == "light" then of else "")
     val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
     (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")

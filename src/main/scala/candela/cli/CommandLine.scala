@@ -2,7 +2,7 @@ package candela.cli
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
-import candela.base.Suggest
+import candela.base.{Suggest, Version}
 import candela.build.{ColorMode, LightGrouping}
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
@@ -12,16 +12,62 @@ import candela.image.DisplayTransform
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
 
+import java.nio.file.{Files, Path}
+
 /** Parses a command line to [[Options]], or to the text to print instead. */
 object CommandLine:
 
-  /** Text to print instead of running a command. */
-  final case class Answer(out: String, err: String, code: ExitCode)
+  /** Lines to print instead of running a command; those of errors go to standard error. */
+  final case class Answer(lines: Vector[String], code: ExitCode):
+    def out: String = if code == ExitCode.Done then text else ""
+    def err: String = if code == ExitCode.Done then "" else text
+    private def text = lines.map(_ + "\n").mkString
 
-  def parse(args: Seq[String]): Either[Answer, Options] =
-    translated(args) match
-      case Left(instead) => Left(Answer("", s"error: $instead\n", ExitCode.BadUsage))
-      case Right(words, notes) => parseOurs(words).map(o => progressive(o).copy(notes = notes))
+  /** @param columns width of the help, in characters */
+  def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
+    asked(args, HelpText(columns)) match
+      case Some(answer) => Left(answer)
+      case None =>
+        translated(args) match
+          case Left(instead) => Left(refusal(Vector(instead), Command.Render))
+          case Right(words, notes) => parseOurs(words).map: o =>
+              progressive(o).copy(notes = notes ++ IdleOptions.of(o))
+
+  /** What needs no options: help, the version, and a word that is nearly a command. */
+  private def asked(args: Seq[String], help: HelpText): Option[Answer] =
+    def told(command: Option[Command]) = Answer(command.fold(help.overview)(help.of), ExitCode.Done)
+    val first = args.headOption.getOrElse("")
+    val named = commandOf(first)
+    def mistyped(word: String) =
+      val near = Suggest.nearest(word, Command.values.map(_.word) ++ Vector("help", "version"))
+      near.map(n => usage(Vector(s"`$word` is no command; did you mean `$n`?"), "candela help"))
+    if args.exists(HelpWords) then Some(told(named))
+    else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
+      Some(Answer(Vector(s"candela ${Version.current}"), ExitCode.Done))
+    else if first == "help" then
+      args.lift(1) match
+        case None => Some(told(None))
+        case Some(word) =>
+          commandOf(word).map(c => told(Some(c))).orElse(mistyped(word)).orElse:
+            Some(usage(Vector(s"`$word` is no command"), "candela help"))
+    else if named.isEmpty && isWord(first) then mistyped(first)
+    else None
+
+  private def commandOf(word: String): Option[Command] = Command.values.find(_.word == word)
+
+  /** Whether a word is neither an option nor a file. */
+  private def isWord(word: String): Boolean =
+    word.nonEmpty && word.forall(c => c >= 'a' && c <= 'z') && !Files.exists(Path.of(word))
+
+  private val HelpWords = Set("--help", "-help", "-h", "-?")
+  private val VersionWords = Set("--version", "-version", "-V")
+
+  /** Errors, and where to read more. */
+  private def usage(errors: Vector[String], more: String): Answer =
+    Answer(errors.map(e => s"error: $e") :+ s" `$more` says more", ExitCode.BadUsage)
+
+  private def refusal(errors: Vector[String], command: Command): Answer =
+    usage(errors, s"candela help ${command.word}")
 
   /** Where the number of samples is not known in advance, points must not depend on it. */
   private def progressive(o: Options): Options =
@@ -43,29 +89,20 @@ object CommandLine:
         (words, found.notes)
 
   private def parseOurs(args: Seq[String]): Either[Answer, Options] =
+    val all = withCommand(args)
     val (options, effects) =
-      val words = FilmOptions.withValues(joined(withCommand(args)))
-      OParser.runParser(OptionTable.table, words, Options(), setup)
-    val out = effects.collect { case OEffect.DisplayToOut(text) => text }
+      OParser.runParser(CommandTable.table, FilmOptions.withValues(joined(all)), Options(), setup)
     val errors = effects.collect:
-      case OEffect.ReportError(text) => s"error: ${explained(text, args)}"
-      case OEffect.ReportWarning(text) => s"warning: $text"
-      case OEffect.DisplayToErr(text) => text
-    val asked = effects.exists:
-      case OEffect.Terminate(state) => state.isRight
-      case _ => false
-    options match
-      case Some(understood) if !asked => Right(understood)
-      // A request for help overrides other errors.
-      case _ if asked => Left(Answer(lines(out), "", ExitCode.Done))
-      case _ => Left(Answer(lines(out), lines(errors), ExitCode.BadUsage))
+      case OEffect.ReportError(text) => text
+    val command = commandOf(all.head).getOrElse(Command.Render)
+    options.toRight(refusal(UsageErrors.explained(errors.toVector, command), command))
 
-  private val setup: OParserSetup = new DefaultOParserSetup {}
+  private val setup: OParserSetup = new DefaultOParserSetup:
+    override def showUsageOnError: Option[Boolean] = Some(false)
 
   /** Inserts the default command, `render`, if none is named. */
   private def withCommand(args: Seq[String]): Seq[String] =
-    val words = Command.values.map(_.word) ++ Seq("--help", "--version")
-    if args.headOption.exists(words.contains) then args else Command.Render.word +: args
+    if args.headOption.flatMap(commandOf).isDefined then args else Command.Render.word +: args
 
   /** Options whose value may be missing are joined with it: what follows may be a scene. */
   private def joined(args: Seq[String]): Seq[String] =
@@ -77,18 +114,6 @@ object CommandLine:
       // As Mitsuba's command line has it; scopt would split the word into short options
       case (s"-D$definition", rest) if definition.contains('=') => "--define" :: definition :: rest
       case (word, rest) => word :: rest
-
-  private def lines(texts: List[String]): String = texts.map(_ + "\n").mkString
-
-  /** Suggests the command's nearest option for an unknown one. */
-  private def explained(error: String, args: Seq[String]): String = error match
-    case s"Unknown option $option" =>
-      val command = withCommand(args).head
-      val known = "help" +: OptionTable.names(command)
-      val name = option.dropWhile(_ == '-').takeWhile(c => c != '=' && c != ':')
-      val help = Suggest.nearest(name, known).fold("")(k => s"; did you mean `--$k`?")
-      s"`candela $command` has no option `$option`$help"
-    case other => other
 
 enum Command(val word: String):
   case Render extends Command("render")

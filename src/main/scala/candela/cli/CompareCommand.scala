@@ -72,7 +72,7 @@ final class CompareCommand(options: Options, terminal: Terminal, report: Report)
     for file <- set.missing do terminal.err.println(s"$file: no reference in $references")
     val comparisons =
       set.pairs.map((image, reference) => image -> Comparison(pairOf(image, reference)))
-    terminal.out.print(ReferenceSet.table(comparisons).map(_ + "\n").mkString)
+    ReferenceSet.table(comparisons).foreach(terminal.out.println)
     val codes = comparisons.map((image, c) => judge(c, s"${image.getFileName}: "))
     val unknown = if set.missing.isEmpty then ExitCode.Done else ExitCode.BadInput
     codes.foldLeft(unknown)(_ worseOf _)

@@ -6,7 +6,7 @@ import candela.convert.{Baking, Converter, SceneText, SideFiles}
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}
 
-import java.io.{BufferedWriter, OutputStream, OutputStreamWriter}
+import java.io.{BufferedWriter, OutputStreamWriter, Writer}
 import java.nio.channels.Channels
 import java.nio.charset.StandardCharsets
 import java.nio.file.Path
@@ -36,9 +36,10 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
       out match
         case Some(path) =>
           WholeFile.write(path): channel =>
-            write(converted.scene, Channels.newOutputStream(channel))
+            val stream = Channels.newOutputStream(channel)
+            write(converted.scene, OutputStreamWriter(stream, StandardCharsets.UTF_8))
           if !options.quiet then terminal.out.println(s"wrote $path  ${summary(to, warnings)}")
-        case None => write(converted.scene, terminal.out)
+        case None => write(converted.scene, terminal.data)
       terminal.out.flush()
     ExitCode.Done
 
@@ -51,9 +52,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     if warnings.isEmpty then dialect
     else s"$dialect, ${Figures.count(warnings.size, "warning")}"
 
-  private def write(scene: SceneDescription, to: OutputStream): Unit =
-    val encoder = OutputStreamWriter(to, StandardCharsets.UTF_8)
-    val writer = BufferedWriter(encoder, 1 << 16)
+  private def write(scene: SceneDescription, to: Writer): Unit =
+    val writer = BufferedWriter(to, 1 << 16)
     SceneText.write(scene, writer)
     writer.flush()
 

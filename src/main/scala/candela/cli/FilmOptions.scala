@@ -93,7 +93,7 @@ private[cli] object FilmTable:
       .text("save the rendering every 60 s, by default beside the image; see resume")
       .validate: f =>
         if f.isEmpty || FilmOptions.isFilm(f) then success
-        else failure(s"--checkpoint needs a name that ends with .film, found `$f`")
+        else failure(s"--checkpoint must be a name that ends with .film, found `$f`")
       .action((f, o) => change(o)(_.copy(checkpoint = Some(f)))),
     every,
     opt[Shard]("shard").valueName("I/N")
@@ -103,7 +103,8 @@ private[cli] object FilmTable:
       .text("render a sequence: the scene's name has %d, or %04d, for the number")
       .validate: r =>
         if r.size <= FilmOptions.MostFrames then success
-        else failure(s"--frames: at most ${FilmOptions.MostFrames} frames, found ${r.size}")
+        else
+          failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `${r.size}`")
       .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
     opt[Unit]("skip-done")
       .text("skip scenes whose images are whole, and of this scene and these options")
@@ -122,7 +123,7 @@ private[cli] object FilmTable:
   def problem(o: Options): Option[String] =
     val films = o.outfiles.filter(FilmOptions.isFilm)
     val film = o.film
-    if films.size > 1 then Some("a single .film file can be written")
+    if films.size > 1 then Some("--outfile must name at most one .film file, found several")
     else if !film.shard.isWhole && (films.isEmpty || o.outfiles.size > 1) then
       Some("--shard needs --outfile FILE.film, and nothing else")
     else if films.nonEmpty && film.checkpoint.isDefined then
@@ -132,7 +133,7 @@ private[cli] object FilmTable:
     else if film.frames.isDefined && o.files.size != 1 then
       Some("--frames needs a single scene name, with %d for the number")
     else if film.frames.isDefined && !(o.files ++ o.outfiles).forall(Sequence.hasNumber) then
-      Some("--frames: write %d, or %04d, for the number in the names of scene and output files")
+      Some("--frames needs %d, or %04d, for the number in the names of scene and output files")
     else if !film.shard.isWhole && (film.time.isDefined || film.error.isDefined) then
       Some("--shard can't end by --time or --error: all shards need the same samples")
     else None

@@ -26,6 +26,8 @@ final class ImageCommand(options: Options, terminal: Terminal, report: Report):
       ImageWindow(c.x0, c.y0, whole.width, whole.height)
     val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
     for out <- outputs.paths do
+      if OutputFormat.of(out).exists(_.contents != Contents.Channels) then
+        ImageFiles.colored(path, made): Unit
       val shown =
         if OutputFormat.of(out).exists(_.contents == Contents.Display) then
           options.display.describe(made)

@@ -1,21 +1,53 @@
 package candela.cli
 
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
 
-import candela.base.loop
+import scala.util.Using
+
+import candela.base.{ForeignFile, ForeignKind, loop}
 import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
+import candela.render.storage.FilmHeader
 
-/** `candela info`: prints size, channels, metadata and statistics of images. */
+/** `candela info`: prints size, channels, metadata and statistics of images, and what saved
+  * renderings are.
+  */
 final class InfoCommand(options: Options, terminal: Terminal, report: Report):
 
   def run(): ExitCode = report.guarded:
     val several = options.files.size > 1
     for (name, i) <- options.files.zipWithIndex do
-      if several then terminal.out.println((if i > 0 then "\n" else "") + name)
+      if several && i > 0 then terminal.out.println()
+      if several then terminal.out.println(name)
       val path = OutputFiles.path(name)
-      lines(path, ImageFiles.load(path)).foreach(terminal.out.println)
+      val found =
+        if isFilm(path) then described(FilmInput.open(name, report).header)
+        else lines(path, ImageFiles.load(path))
+      found.foreach(terminal.out.println)
     terminal.out.flush()
     ExitCode.Done
+
+  private def isFilm(path: Path): Boolean =
+    Files.isRegularFile(path) && Using.resource(Files.newInputStream(path)): in =>
+      ForeignFile.of(path, in.readNBytes(ForeignFile.Head)).exists(_.kind == ForeignKind.Film)
+
+  private def described(film: FilmHeader): Vector[String] =
+    val samples = s"${film.done} of ${film.samples} per pixel"
+    val about = Vector(
+      "scene" -> film.scene,
+      "size" -> film.size,
+      "samples" -> (if film.isComplete then s"$samples: complete" else samples)
+    ) ++ Option.when(film.count > 1)("part" -> film.part) ++
+      Option.when(film.words.nonEmpty)("options" -> film.words.mkString(" ")) ++
+      Option.when(film.outfiles.nonEmpty)("images" -> film.outfiles.mkString(", ")) ++
+      Vector(
+        "files" -> s"${film.files.size} of the scene",
+        "written by" -> s"Candela ${film.version}"
+      )
+    table(about)
+
+  private def table(about: Vector[(String, String)]): Vector[String] =
+    val width = about.map(_._1.length).max.max(12)
+    about.map((name, text) => s"${name.padTo(width, ' ')}  $text")
 
   private def lines(path: Path, stored: StoredImage): Vector[String] =
     val bits = stored match
@@ -27,9 +59,7 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       "channels" -> s"${stored.channelNames.mkString(", ")}, $bits, $encoding",
       "primaries" -> stored.colorSpace.name
     ) ++ ImageFiles.facts(path)
-    val width = about.map(_._1.length).max.max(12)
-    about.map((name, text) => s"${name.padTo(width, ' ')}  $text") ++
-      InfoCommand.statistics(stored.toImage.linear)
+    table(about) ++ InfoCommand.statistics(stored.toImage.linear)
 
 object InfoCommand:
 

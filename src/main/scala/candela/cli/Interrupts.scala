@@ -23,12 +23,12 @@ object Interrupts:
 
   /** @param isInteractive whether the terminal echoes `^C` on the line */
   def fromSignals(err: PrintStream, isInteractive: Boolean): Interrupts =
-    Signals(err, if isInteractive then "\n" else "")
+    Signals(err, isInteractive)
 
   /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
     * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
     */
-  private final class Signals(err: PrintStream, lineEnd: String) extends Interrupts:
+  private final class Signals(err: PrintStream, echoes: Boolean) extends Interrupts:
     private val interrupt = Signal("INT")
 
     def during[A](cancellation: Cancellation)(body: => A): A =
@@ -40,7 +40,8 @@ object Interrupts:
         if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
         else
           // Printed first, because a cancelled rendering may end, and print its result, at once.
-          err.println(s"${lineEnd}stopping; Ctrl-C again quits and writes nothing")
+          if echoes then err.println()
+          err.println("stopping; Ctrl-C again quits and writes nothing")
           cancellation.request()
       // During shutdown it fails: the interrupt came before.
       if Try(Runtime.getRuntime.addShutdownHook(onShutdown)).isFailure then cancellation.request()

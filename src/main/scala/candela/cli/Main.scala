@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.Problem
+import candela.image.Natives
 
 import java.io.{IOException, PrintStream}
 
@@ -8,6 +9,7 @@ import java.io.{IOException, PrintStream}
 object Main:
 
   def main(args: Array[String]): Unit =
+    Natives.find()
     val code = run(args.toVector, Terminal.ofProcess)
     System.err.flush()
     System.exit(code)
@@ -21,15 +23,21 @@ object Main:
       terminal: Terminal,
       loader: SceneLoader = SceneLoader.FromFile
   ): Int =
-    val code = CommandLine.parse(args) match
+    val code = CommandLine.parse(args, terminal.columns) match
       case Left(answer) =>
-        terminal.out.print(answer.out)
-        terminal.err.print(answer.err)
+        val isHelp = answer.code == ExitCode.Done
+        answer.lines.foreach((if isHelp then terminal.out else terminal.err).println(_))
         answer.code
       case Right(options) =>
-        val canKeepGoing = OptionTable.names(options.command.word).contains("keep-going")
-        val report =
-          Report(terminal.err, options.quiet, options.verbose, canKeepGoing, terminal.hasColor)
+        val known = OptionTable.names(options.command.word)
+        val report = Report(
+          terminal.err,
+          options.quiet,
+          options.verbose,
+          known.contains("keep-going"),
+          terminal.hasColor,
+          known.contains("verbose")
+        )
         if !options.quiet then
           for note <- options.notes do terminal.err.println(s"warning: $note")
         options.command match
@@ -54,7 +62,7 @@ object Main:
   private def lost(failure: IOException, terminal: Terminal): ExitCode =
     if failure.getMessage != "Broken pipe" then
       val message = s"can't write to standard output: ${failure.getMessage}"
-      terminal.err.println(ProblemText.format(Problem.general(message), terminal.hasColor))
+      ProblemText.print(Problem.general(message), terminal.err, terminal.hasColor)
     ExitCode.BadInput
 
 /** Result of a run, from best to worst; `number` is the process's exit code. */

@@ -1,6 +1,5 @@
 package candela.cli
 
-import candela.base.Version
 import candela.build.{ColorMode, LightGrouping}
 import candela.convert.Baking
 import candela.film.Layer
@@ -10,10 +9,10 @@ import candela.watch.{TevDisplay, WatchAddress}
 
 import scopt.{OParser, Read}
 
-/** All commands and their options, one row each, for parsing, validation and help. */
+/** The options of all commands, one row each, for parsing, validation and help. */
 private[cli] object OptionTable extends OptionRows:
   private val b = OParser.builder[Options]
-  import b.{arg, checkConfig, cmd, failure, head, help, note, opt, programName, success, version}
+  import b.{failure, opt, success}
 
   private given Read[Dialect] = Read.reads: text =>
     Dialect.values
@@ -67,12 +66,6 @@ private[cli] object OptionTable extends OptionRows:
       .find(_.toString.equalsIgnoreCase(text))
       .getOrElse(throw IllegalArgumentException("expected auto, rgb or spectral"))
 
-  private def file(name: String, text: String): OParser[String, Options] =
-    arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
-
-  private def scenes: Row =
-    file("scene.pbrt...", "scene files; each is rendered or checked by itself").unbounded()
-
   // Options of several commands are methods: scopt gives a row one parent.
   private def dialect(text: String): Row =
     opt[Dialect]("dialect").valueName("v2|v3|v4").text(text)
@@ -86,7 +79,10 @@ private[cli] object OptionTable extends OptionRows:
     .action((_, o) => o.copy(keepGoing = true))
 
   private def defines: Row = opt[String]('D', "define").unbounded().valueName("NAME=VALUE")
-    .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE").action((d, o) => o.defining(d))
+    .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE")
+    .validate: d =>
+      if d.indexOf('=') > 0 then success else failure(s"--define must be NAME=VALUE, found `$d`")
+    .action((d, o) => o.defining(d))
 
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
     .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
@@ -120,7 +116,7 @@ private[cli] object OptionTable extends OptionRows:
   private def layers: String = Layer.values.map(_.word).mkString(", ")
 
   private val renderOptions: Vector[Row] = Vector(
-    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     threads,
@@ -167,7 +163,8 @@ private[cli] object OptionTable extends OptionRows:
     opt[String]("film").valueName("gbuffer|rgba")
       .text("add all AOVs of pbrt-v4's gbuffer film, or alpha")
       .validate: f =>
-        if Layer.films.contains(f) then success else failure(s"`$f` is neither gbuffer nor rgba")
+        if Layer.films.contains(f) then success
+        else failure(s"--film must be gbuffer or rgba, found `$f`")
       .action((f, o) => o.copy(layers = o.layers ++ Layer.films(f))),
     opt[Unit]("store-time")
       .text("store the render time in the image file; equal images are then different files")
@@ -209,7 +206,7 @@ private[cli] object OptionTable extends OptionRows:
   ) ++ FilmTable.resume ++ Vector(quiet, verbose(", and the time of each phase"))
 
   private val mergeOptions: Vector[Row] = Vector(
-    opt[Seq[String]]("outfile").required().unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
       .text(s"output image, ${OutputFormat.listed()}; or .film: the film of all")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
   ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
@@ -229,7 +226,7 @@ private[cli] object OptionTable extends OptionRows:
     opt[Unit]("markdown")
       .text("print the whole reference as a Markdown page")
       .action((_, o) => o.copy(markdown = true)),
-    opt[String]("outfile").valueName("FILE")
+    opt[String]('o', "outfile").valueName("FILE")
       .text("where to write the page (default: standard output)")
       .action((f, o) => o.copy(outfiles = Vector(f)))
   )
@@ -238,7 +235,7 @@ private[cli] object OptionTable extends OptionRows:
     opt[Dialect]("to").valueName("v4|v3")
       .text("target dialect (default: the scene's own, which reformats it)")
       .action((d, o) => o.copy(to = Some(d))),
-    opt[String]("outfile").valueName("FILE")
+    opt[String]('o', "outfile").valueName("FILE")
       .text("output scene (default: standard output); its images and meshes go beside it")
       .action((f, o) => o.copy(outfiles = Vector(f))),
     opt[Int]("to-ply").valueName("N")
@@ -261,7 +258,7 @@ private[cli] object OptionTable extends OptionRows:
   )
 
   private val viewOptions: Vector[Row] = Vector[Row](
-    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text(s"picture to write, ${OutputFormat.listed(Contents.Display)} (default: the terminal)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     opt[Int]("columns").valueName("N")
@@ -272,7 +269,7 @@ private[cli] object OptionTable extends OptionRows:
   ) ++ DisplayTable.options
 
   private val previewOptions: Vector[Row] = Vector[Row](
-    opt[Seq[String]]("outfile").unbounded().valueName("FILE[,FILE]")
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
       .text("picture to write (default: the scene's name with -preview.png, in this folder)")
       .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
     threads,
@@ -288,113 +285,22 @@ private[cli] object OptionTable extends OptionRows:
 
   private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
 
+  /** Rows of a command. */
+  def of(command: Command): Vector[Row] = command match
+    case Command.Render => renderOptions
+    case Command.Resume => resumeOptions
+    case Command.Merge => mergeOptions
+    case Command.Check => checkOptions
+    case Command.Compare => CompareTable.options
+    case Command.Bench => benchOptions
+    case Command.Describe => describeOptions
+    case Command.Convert => convertOptions
+    case Command.View => viewOptions
+    case Command.Preview => previewOptions
+    case Command.Image => imageOptions
+    case Command.Average => averageOptions
+    case Command.Info => Vector.empty
+
   /** Long option names of a command, without dashes. */
   def names(command: String): Vector[String] =
-    val rows = Command.values.find(_.word == command) match
-      case Some(Command.Render) => renderOptions
-      case Some(Command.Resume) => resumeOptions
-      case Some(Command.Merge) => mergeOptions
-      case Some(Command.Check) => checkOptions
-      case Some(Command.Compare) => CompareTable.options
-      case Some(Command.Bench) => benchOptions
-      case Some(Command.Describe) => describeOptions
-      case Some(Command.Convert) => convertOptions
-      case Some(Command.View) => viewOptions
-      case Some(Command.Preview) => previewOptions
-      case Some(Command.Image) => imageOptions
-      case Some(Command.Average) => averageOptions
-      case Some(Command.Info) => Vector.empty
-      case None => Vector.empty
-    rows.flatMap(_.toList).map(_.name)
-
-  private def command(c: Command, text: String)(rows: Vector[Row]): Row =
-    cmd(c.word).text(text).action((_, o) => o.copy(command = c)).children(rows*)
-
-  val table: Row = OParser.sequence(
-    programName("candela"),
-    head("candela", Version.current),
-    help("help").text("print this help"),
-    version("version").text("print the version"),
-    note(""),
-    command(Command.Render, "render scenes (the default command)")(
-      scenes +: renderOptions
-    ),
-    note(""),
-    command(Command.Resume, "continue a saved rendering, or add samples")(
-      file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it") +:
-        resumeOptions
-    ),
-    note(""),
-    command(Command.Merge, "make an image of shards, or of a saved rendering")(
-      file("film.film...", "film files of all shards of a rendering").unbounded() +: mergeOptions
-    ),
-    note(""),
-    command(Command.Check, "parse and build scenes, and report errors")(scenes +: checkOptions),
-    note(""),
-    command(Command.Compare, "measure the error of an image against a reference")(
-      Vector(
-        file("image", "an image, or a folder of images"),
-        file("reference", "its reference, or a folder of references by the same names")
-      ) ++ CompareTable.options
-    ),
-    note(""),
-    command(Command.Bench, "measure error against time, for several renderers")(
-      file("suite.conf", "the suite, or a folder of scenes with references") +: benchOptions
-    ),
-    note(""),
-    command(Command.Describe, "print the scene reference: types, parameters, defaults")(
-      file("[category] [type]", "what to describe").optional().unbounded() +: describeOptions
-    ),
-    note(""),
-    command(Command.Convert, "convert a scene to another dialect")(
-      file("scene.pbrt", "the scene to convert") +: convertOptions
-    ),
-    note(""),
-    command(Command.Preview, "show scenes within seconds: small, shaded by a headlight")(
-      file("scene.pbrt...", "scene files").unbounded() +: previewOptions
-    ),
-    note(""),
-    command(Command.View, "show images, or write them as a picture; several: a contact sheet")(
-      file("image...", "images in any readable format").unbounded() +: viewOptions
-    ),
-    note(""),
-    command(Command.Image, "convert an image: format, size, range, primaries, environment map")(
-      file("image", "an image in any readable format") +: imageOptions
-    ),
-    note(""),
-    command(Command.Average, "average images of one size, such as renderings with several seeds")(
-      file("image...", "images with the same channels").unbounded() +: averageOptions
-    ),
-    note(""),
-    command(Command.Info, "print size, channels, metadata and statistics of images")(
-      Vector(file("image...", "images in any readable format").unbounded())
-    ),
-    note("""
-      |Without --outfile the scene's Film names the image, and a preview is written next to it:
-      |what --outfile x.exr,x.png does.
-      |Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits immediately.
-      |Film files (.film) save renderings: --checkpoint, resume, --shard, merge.
-      |Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted.
-      |""".stripMargin.stripTrailing),
-    checkConfig: o =>
-      if Set(Command.Render, Command.Preview)(o.command) && o.outfiles.nonEmpty && o.files.size > 1
-      then
-        failure("--outfile needs a single scene, found several")
-      else if SwitchTable.problem(o).isDefined then failure(SwitchTable.problem(o).mkString)
-      else if o.command == Command.Render && o.reports.nonEmpty && o.files.size > 1 then
-        failure("--report needs a single scene, found several")
-      else if o.columns.isDefined && o.files.size < 2 then
-        failure("--columns needs several images")
-      else if o.command == Command.Render && FilmTable.problem(o).isDefined then
-        failure(FilmTable.problem(o).mkString)
-      else if o.command == Command.Render && ClusterTable.problem(o).isDefined then
-        failure(ClusterTable.problem(o).mkString)
-      else if o.command == Command.Render && o.reference.nonEmpty && o.reports.isEmpty &&
-        o.watch.isEmpty && !o.denoise
-      then failure("--reference needs --report FILE, --watch or --denoise")
-      else if o.isWatched && o.files.size > 1 then
-        val name = if o.watch.isDefined then "watch" else "display-server"
-        failure(s"--$name needs a single scene, found several")
-      else if o.watchAfter && o.watch.isEmpty then failure("--watch-after needs --watch")
-      else success
-  )
+    Command.values.find(_.word == command).toVector.flatMap(of).flatMap(_.toList).map(_.name)

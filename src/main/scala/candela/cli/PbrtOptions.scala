@@ -143,13 +143,13 @@ object PbrtOptions:
             case Same(_) if !known.takesValue => words += s"--${known.name}"
             case Same(_) => words ++= Vector(s"--${known.name}", value.mkString(","))
             case Ignored(_, _, values) if values.nonEmpty && !value.exists(values.contains) =>
-              val found = value.headOption.fold("nothing")(v => s"`$v`")
-              problem =
-                Some(s"`--${known.name}` takes ${values.mkString(", ")}, found $found")
+              val found = value.headOption.fold("but has no value")(v => s"found `$v`")
+              val all = s"${values.init.mkString(", ")} or ${values.last}"
+              problem = Some(s"--${known.name} must be $all, $found")
             case Ignored(reason, isTold, _) =>
-              if isTold then notes += s"`--${known.name}` has no effect: $reason"
+              if isTold then notes += s"--${known.name} has no effect: $reason"
             case Refused(instead) =>
-              problem = Some(s"`--${known.name}` is an option of pbrt; here, $instead")
+              problem = Some(s"--${known.name} is an option of pbrt; here, $instead")
             case As("convert", others*) =>
               command = Some("convert")
               words ++= others

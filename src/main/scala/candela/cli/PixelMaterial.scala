@@ -6,14 +6,12 @@ import candela.geometry.Ray
 import candela.math.Vec3
 import candela.render.RenderPlan
 
-import java.io.PrintStream
-
 /** `candela render --pixelmaterial x,y`: prints what the centre of a pixel shows. */
 private[cli] object PixelMaterial:
   /** The layers that a plan needs for it. */
   val Layers: Vector[Layer] = Vector(Layer.CryptoObject, Layer.CryptoMaterial)
 
-  def run(plan: RenderPlan, x: Int, y: Int, out: PrintStream): ExitCode =
+  def run(plan: RenderPlan, x: Int, y: Int, out: Printer): ExitCode =
     if x >= plan.width || y >= plan.height then
       val size = s"${plan.width}x${plan.height}"
       throw SceneError(Problem.general(s"--pixelmaterial $x,$y is outside the image: $size"))

@@ -2,14 +2,13 @@ package candela.cli
 
 import candela.render.Progress
 
-import java.io.PrintStream
 import java.util.Locale
 
 /** Progress of a rendering: one redrawn line on a terminal, occasional lines in a log.
   *
   * No library's progress bar: those support terminals only, and a log must get no carriage returns.
   */
-final class ProgressLine(err: PrintStream, isInteractive: Boolean):
+final class ProgressLine(err: Printer, isInteractive: Boolean):
   import ProgressLine.*
 
   private var shownAt = 0.0
@@ -23,14 +22,14 @@ final class ProgressLine(err: PrintStream, isInteractive: Boolean):
   /** Clears the line for subsequent output. */
   def finish(): Unit =
     if shownLength > 0 then
-      err.print("\r" + " " * shownLength + "\r")
+      err.control("\r" + " " * shownLength + "\r")
       err.flush()
       shownLength = 0
 
   private def redraw(progress: Progress, outlook: Option[Outlook]): Unit =
     if progress.seconds - shownAt >= RedrawSeconds then
       val text = bar(progress, outlook)
-      err.print("\r" + text.padTo(shownLength, ' '))
+      err.control("\r" + text.padTo(shownLength, ' '))
       err.flush()
       shownAt = progress.seconds
       shownLength = text.length

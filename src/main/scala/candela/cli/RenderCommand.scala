@@ -1,6 +1,5 @@
 package candela.cli
 
-import java.io.PrintStream
 import java.nio.file.{Files, Path}
 
 import scala.util.{Failure, Success, Try}
@@ -167,7 +166,8 @@ final class RenderCommand(
         if wanted.size < paths.size && !options.quiet then
           terminal.err.println(Summary.kept(paths.diff(wanted)))
         summarise(written ++ films, loaded, rendering, writeSeconds)
-        goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
+        // A preview has neither goals nor options of its own to reach them
+        if !options.preview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
         val reports =
           reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
         for path <- reports if !options.quiet do terminal.out.println(s"wrote $path")
@@ -175,7 +175,8 @@ final class RenderCommand(
         for r <- reference; d <- denoised if !options.quiet do
           terminal.out.println(s"relative MSE  ${d.errors(r)}")
         for kind <- options.thumbnail do
-          terminal.out.print(Thumbnail.of(Denoising.shown(image), options.display, kind, terminal))
+          val shown = Denoising.shown(image)
+          terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await(written ++ films ++ reports))
         if written.size < wanted.size || checkpointer.exists(_.failure.nonEmpty) then
@@ -318,13 +319,13 @@ final class RenderCommand(
 
 /** Prints the features of a plan, one line each: the choices that the builder made. */
 object Explanation:
-  def print(plan: RenderPlan, to: PrintStream): Unit =
+  def print(plan: RenderPlan, to: Printer): Unit =
     val width = plan.features.map(_._1.length).maxOption.getOrElse(0)
     for (what, value) <- plan.features do to.println(s"  ${what.padTo(width, ' ')}  $value")
 
 /** `candela render --pixel x,y --sample n --debug`: traces one sample and logs its path. */
 private[cli] object PixelTrace:
-  def run(plan: RenderPlan, options: Options, out: PrintStream): ExitCode =
+  def run(plan: RenderPlan, options: Options, out: Printer): ExitCode =
     val (x, y) = options.pixel.getOrElse((0, 0))
     val crop = plan.crop
     if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then

@@ -1,25 +1,27 @@
 package candela.cli
 
-import java.io.{IOException, PrintStream, UncheckedIOException}
+import java.io.{IOException, UncheckedIOException}
 
 import java.nio.channels.ClosedByInterruptException
-import java.nio.file.InvalidPathException
+import java.nio.file.{FileSystemException, InvalidPathException}
 
-import candela.base.{Excerpt, Problem, SceneError, Severity, SourcePos, WriteError}
-import candela.image.ImageError
+import candela.base.{Excerpt, IoReason, Problem, SceneError, Severity, SourcePos, Visible}
+import candela.image.{ImageError, Natives}
 import candela.render.RenderFailure
 
 /** Turns problems into text and exit codes; no other class does.
   *
   * @param canKeepGoing whether the command has the option `--keep-going`
+  * @param canTellMore  whether the command has the option `--verbose`
   * @param hasColor     whether `err` shows colours
   */
 final class Report(
-    err: PrintStream,
+    err: Printer,
     isQuiet: Boolean,
     isVerbose: Boolean,
     canKeepGoing: Boolean = true,
-    hasColor: Boolean = false
+    hasColor: Boolean = false,
+    canTellMore: Boolean = true
 ):
 
   private var errorCount = 0
@@ -42,7 +44,9 @@ final class Report(
         else if causes(e).exists(_.isInstanceOf[StackOverflowError]) then tooDeep()
         else if causes(e).exists(isInterrupt) then
           errors(Vector(Problem.general("the thread of this command was interrupted")))
-        else bug(e)
+        else
+          causes(e).flatMap(Natives.missing).headOption.fold(bug(e)): (what, help) =>
+            errors(Vector(Problem.general(what, Some(help))))
 
   /** Prints problems, at least one of them an error, in source order, and their count. */
   def errors(problems: Vector[Problem]): ExitCode =
@@ -79,11 +83,12 @@ final class Report(
     if places > 1 then
       err.println(s" and at ${Figures.count(places - 1, "more position")}; --verbose shows all")
 
-  private def print(problem: Problem): Unit = err.println(ProblemText.format(problem, hasColor))
+  private def print(problem: Problem): Unit = ProblemText.print(problem, err, hasColor)
 
+  /** With the name of the file, if it is known. */
   private def ioMessage(e: IOException): String = e match
-    case w: WriteError => w.getMessage
-    case other => s"${other.getClass.getSimpleName}: ${other.getMessage}"
+    case f: FileSystemException if f.getFile != null => s"can't read `${f.getFile}`: ${IoReason(f)}"
+    case other => IoReason(other)
 
   /** An exception and its causes. */
   private def causes(e: Throwable): Vector[Throwable] =
@@ -109,8 +114,10 @@ final class Report(
       case f: RenderFailure => (s" at pixel (${f.x}, ${f.y}), sample ${f.sample}", f.getCause)
       case other => ("", other)
     err.println(s"error: this is a bug in Candela: $cause$place")
-    if isVerbose then cause.printStackTrace(err)
-    else err.println(" please report it with the scene; --verbose prints the stack trace")
+    if isVerbose || !canTellMore then cause.printStackTrace(err)
+    if !isVerbose then
+      val more = if canTellMore then "; --verbose prints the stack trace" else ""
+      err.println(s" please report it with its input$more")
     ExitCode.Bug
 
 object Report:
@@ -143,23 +150,39 @@ object ProblemText:
   private val Yellow = "33"
 
   /** The problem as lines, without a final line end. */
-  def format(p: Problem, hasColor: Boolean = false): String =
-    val isError = p.severity == Severity.Error
-    val word = if isError then "error" else "warning"
-    val severity =
-      if hasColor then s"\u001b[1;${if isError then Red else Yellow}m$word\u001b[0m" else word
-    val head = p.at.fold("")(at => s"$at: ") + s"$severity: ${p.message}"
+  def format(p: Problem): String =
+    (s"${place(p)}${severity(p)}: ${p.message}" +: below(p)).mkString("\n")
+
+  /** Prints the problem.
+    *
+    * @param hasColor whether the terminal shows colours
+    */
+  def print(p: Problem, to: Printer, hasColor: Boolean): Unit =
+    val color = if p.severity == Severity.Error then Red else Yellow
+    if hasColor then to.println(place(p), severity(p), color, s": ${p.message}")
+    else to.println(s"${place(p)}${severity(p)}: ${p.message}")
+    below(p).foreach(to.println(_))
+
+  private def place(p: Problem): String = p.at.fold("")(at => s"$at: ")
+
+  private def severity(p: Problem): String =
+    if p.severity == Severity.Error then "error" else "warning"
+
+  /** All lines after the first. */
+  private def below(p: Problem): Vector[String] =
     val shown = p.at.zip(p.excerpt).toVector.flatMap(excerpt)
-    val help = p.help.map(h => s" $h")
-    (Vector(head) ++ shown ++ help ++ p.at.toVector.flatMap(includes)).mkString("\n")
+    shown ++ p.help.map(h => s" $h") ++ p.at.toVector.flatMap(includes)
 
   private def excerpt(at: SourcePos, text: String): Vector[String] =
     val number = at.line.toString
     val before = Excerpt.caret(text, at.column) - 1
-    // Keeps tabs, so the caret lines up at any tab width.
+    // Keeps tabs, so the caret lines up at any tab width. What is shown of a control character may
+    // be longer than one.
     val characters = text.codePoints.limit(before).toArray
-    val shift = characters.map(c => if c == '\t' then '\t' else ' ').mkString
-    Vector(s" $number | $text", s" ${" " * number.length} | ${shift.padTo(before, ' ')}^")
+    val missing = " " * (before - characters.length).max(0)
+    val shown = Visible.line(String(characters, 0, characters.length)).codePoints.toArray
+    val shift = shown.map(c => if c == '\t' then '\t' else ' ').mkString
+    Vector(s" $number | $text", s" ${" " * number.length} | $shift$missing^")
 
   private def includes(at: SourcePos): Vector[String] =
     Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))

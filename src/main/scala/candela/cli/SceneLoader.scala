@@ -47,6 +47,7 @@ object SceneLoader:
 
   /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
   def readable(file: Path, options: Options): SceneDescription =
+    for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
     if MitsubaScene.isNamed(file) then
       MitsubaScene.readable(file, options.defines, options.keepGoing)
     else if options.defines.nonEmpty then

@@ -2,31 +2,40 @@ package candela.cli
 
 import java.io.{
   BufferedOutputStream, Console, FileDescriptor, FileOutputStream, FilterOutputStream, IOException,
-  PrintStream
+  OutputStreamWriter, PrintStream, Writer
 }
-import java.nio.charset.Charset
+import java.nio.charset.{Charset, StandardCharsets}
 import java.nio.file.{Files, Path}
 
 import scala.util.Try
 
 /** Output streams of a run, and its interrupts.
   *
-  * @param out results
-  * @param err problems and progress
+  * @param stdout results
+  * @param stderr problems and progress
   * @param isInteractive whether a line on `err` can be redrawn
   * @param columns text width, in characters
   * @param environment variables of the process
   * @param lost why output was lost, if it is known
+  * @param isSeen whether results are shown by a terminal, instead of going to a file or program
   */
 final class Terminal(
-    val out: PrintStream,
-    val err: PrintStream,
+    stdout: PrintStream,
+    stderr: PrintStream,
     val isInteractive: Boolean,
     val interrupts: Interrupts,
     val columns: Int = Terminal.UsualColumns,
     val environment: Map[String, String] = Map.empty,
-    lost: () => Option[IOException] = () => None
+    lost: () => Option[IOException] = () => None,
+    isSeen: Boolean = false
 ):
+  val out: Printer = Printer(stdout)
+  val err: Printer = Printer(stderr)
+
+  /** Where a command writes text that is data for other programs: as it is, except to terminals. */
+  def data: Writer =
+    if isSeen then PrintingWriter(out) else OutputStreamWriter(out, StandardCharsets.UTF_8)
+
   /** Why some of the output could not be written, if so. */
   def failure: Option[IOException] =
     Option.when(out.checkError())(lost().getOrElse(IOException("it is closed")))
@@ -48,7 +57,8 @@ object Terminal:
       interrupts,
       columns,
       sys.env,
-      () => out.failure
+      () => out.failure,
+      isAttached || isDevice(1, "/dev/pts/") || isDevice(1, "/dev/tty")
     )
 
   /** Standard output that remembers why it can't be written: a PrintStream tells only that. */
@@ -75,7 +85,7 @@ object Terminal:
       .flatMap(name => Try(Charset.forName(name)).toOption)
       .getOrElse(Charset.defaultCharset)
 
-  private val UsualColumns = 80
+  private[cli] val UsualColumns = 80
 
   /** Width from the shell's COLUMNS, else from the terminal, else the usual one. */
   private def columns: Int =
@@ -92,14 +102,20 @@ object Terminal:
   .toOption
 
   private def isInteractive: Boolean =
-    val attached = Option(System.console()).exists: console =>
-      // Since JDK 22 a console may exist without a terminal; `isTerminal` tells them apart.
-      val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
-      isTerminal.fold(_ => true, java.lang.Boolean.TRUE.equals)
     val isDumb = sys.env.get("TERM").contains("dumb")
-    attached && !isDumb && !errIsRedirected
+    isAttached && !isDumb && !errIsRedirected
+
+  /** Whether input comes from a terminal, and output goes to it. */
+  private def isAttached: Boolean = Option(System.console()).exists: console =>
+    // Since JDK 22 a console may exist without a terminal; `isTerminal` tells them apart.
+    val isTerminal = Try(classOf[Console].getMethod("isTerminal").invoke(console))
+    isTerminal.fold(_ => true, java.lang.Boolean.TRUE.equals)
 
   /** System.console ignores stderr; /proc, where it exists, has its target. */
-  private def errIsRedirected: Boolean =
-    Try(Files.readSymbolicLink(Path.of("/proc/self/fd/2")))
-      .fold(_ => false, target => !target.startsWith("/dev"))
+  private def errIsRedirected: Boolean = target(2).exists(!_.startsWith("/dev"))
+
+  private def isDevice(stream: Int, name: String): Boolean =
+    target(stream).exists(_.toString.startsWith(name))
+
+  private def target(stream: Int): Option[Path] =
+    Try(Files.readSymbolicLink(Path.of(s"/proc/self/fd/$stream"))).toOption

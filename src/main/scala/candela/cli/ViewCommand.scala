@@ -17,7 +17,8 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
     for path <- outputs.paths if !OutputFormat.of(path).exists(_.contents == Contents.Display) do
       val pictures = OutputFormat.listed(Contents.Display)
       throw SceneError(Problem.general(s"`view` writes $pictures, found `$path`"))
-    val images = options.files.map(OutputFiles.path).map(path => path -> ImageFiles.read(path))
+    val images = options.files.map(OutputFiles.path).map: path =>
+      path -> ImageFiles.colored(path, ImageFiles.read(path))
     images match
       case Vector((path, image)) =>
         write(outputs.paths, image, display, ("image" -> path.toString) +: display.describe(image))
@@ -41,5 +42,5 @@ final class ViewCommand(options: Options, terminal: Terminal, report: Report):
         terminal.out.println(s"wrote $path  ${picture.width}x${picture.height}")
     if paths.isEmpty || options.thumbnail.isDefined then
       val kind = options.thumbnail.getOrElse(ThumbnailKind.Auto)
-      terminal.out.print(Thumbnail.of(picture, how, kind, terminal))
+      terminal.out.control(Thumbnail.of(picture, how, kind, terminal))
     terminal.out.flush()

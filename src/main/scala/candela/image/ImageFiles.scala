@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{FileName, WholeFile, WriteError}
+import candela.base.{FileName, ForeignFile, IoReason, WholeFile, WriteError}
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -32,12 +32,22 @@ object ImageFiles:
       try Files.readAllBytes(path)
       catch
         case _: NoSuchFileException => throw ImageError(s"$path: there is no such file")
-        case e: IOException => throw ImageError(s"$path: can't be read: ${reason(e)}")
+        case e: IOException => throw ImageError(s"$path: can't be read: ${IoReason(e)}")
         case _: OutOfMemoryError => throw ImageError(s"$path: a file of 2 GB or more")
-    try decode(bytes, FileName.suffix(path))
+    try decode(bytes, path)
     catch
       case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
       case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
+
+  /** The image of a file, which must have colours.
+    *
+    * @throws ImageError if it has none
+    */
+  def colored[I <: StoredImage](path: Path, image: I): I =
+    try
+      val _ = image.colorChannels
+      image
+    catch case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
 
   /** What an image file says of itself: its coding, windows and texts. Only EXR files do. */
   def facts(path: Path): Vector[(String, String)] =
@@ -60,17 +70,20 @@ object ImageFiles:
         val bytes = Files.readAllBytes(path)
         val holds = !format.keepsTexts || String(bytes, ISO_8859_1).contains(text)
         holds && {
-          val _ = decode(bytes, FileName.suffix(path))
+          val _ = decode(bytes, path)
           format.hasEnd(bytes)
         }
       catch case _: ImageError | _: IOException | _: OutOfMemoryError => false
+
+  private val Scenes = Set("pbrt", "xml")
 
   private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
 
   /** The file's signature overrides its extension, which may be wrong: none of the signatures can
     * begin a valid TGA file, the only format without one.
     */
-  private def decode(bytes: Array[Byte], extension: String): StoredImage =
+  private def decode(bytes: Array[Byte], path: Path): StoredImage =
+    val extension = FileName.suffix(path)
     def begins(mark: Int*) =
       bytes.length >= mark.size && mark.indices.forall(i => (bytes(i) & 0xff) == mark(i))
     def beginsWith(mark: String) = begins(mark.map(_.toInt)*)
@@ -83,9 +96,17 @@ object ImageFiles:
     else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || StbMarks.exists(beginsWith) then
       StbReader.read(bytes)
     else if extension == "tga" then Tga.read(bytes)
-    else if readable.contains(extension) then
-      throw ImageError(s"not a valid .$extension file: it begins with other bytes")
-    else throw ImageError(s"unknown format; $Readable")
+    else
+      val other = ForeignFile.of(path, bytes)
+      throw ImageError(
+        if readable.contains(extension) then
+          val found = other.fold("it begins with other bytes")(o => s"it is ${o.what}")
+          s"not a valid .$extension file: $found"
+        else
+          val what = other.map(_.what).orElse(Option.when(Scenes(extension))("a scene"))
+          val found = what.fold("unknown format")(w => s"it is $w, not an image")
+          s"$found; $Readable"
+      )
 
   /** Writes in the format of the file's extension.
     *
@@ -118,8 +139,3 @@ object ImageFiles:
 
   /** Signatures of BMP, GIF and PSD. */
   private val StbMarks = Vector("BM", "GIF8", "8BPS")
-
-  private def reason(e: IOException): String =
-    e.getClass.getSimpleName.stripSuffix("Exception") match
-      case "AccessDenied" => "access denied"
-      case _ => Option(e.getMessage).getOrElse(e.getClass.getSimpleName)

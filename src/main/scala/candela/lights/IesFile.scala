@@ -1,5 +1,7 @@
 package candela.lights
 
+import candela.base.IoReason
+
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
@@ -23,7 +25,7 @@ object IesFile:
   def read(path: Path): IesLamp =
     val text =
       try String(Files.readAllBytes(path), ISO_8859_1)
-      catch case e: IOException => throw IesError(s"$path: can't be read: ${e.getMessage}")
+      catch case e: IOException => throw IesError(s"$path: can't be read: ${IoReason(e)}")
     parse(path.toString, text)
 
   /** @param name of the file, for messages */
@@ -42,7 +44,7 @@ object IesFile:
     private def fail(message: String): Nothing = throw IesError(s"$name:${line + 1}: $message")
 
     private def shown(word: String): String =
-      word.take(20).map(c => if c.isControl then '?' else c)
+      word.take(20)
 
     private def word(what: => String): String =
       while !words.hasNext do

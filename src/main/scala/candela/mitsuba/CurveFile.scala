@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{IoReason, SourcePos}
 import candela.math.{Position, Transform, Vec3, lerp}
 import candela.scenefile.{Param, ParamType}
 
@@ -57,7 +57,7 @@ object CurveFile:
     def fail(why: String) = Values.fail(at, s"can't read the curves `${path.getFileName}`: $why")
     val lines =
       try Files.readAllLines(path, StandardCharsets.ISO_8859_1).asScala
-      catch case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
+      catch case e: IOException => fail(IoReason(e))
     val curves = Vector.newBuilder[(Vector[Position], Vector[Float])]
     val points = ArrayBuffer.empty[Position]
     val radii = ArrayBuffer.empty[Float]

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Problem, SceneError, SourcePos}
+import candela.base.{IoReason, Problem, SceneError, SourcePos}
 
 import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
 import java.nio.charset.{CharacterCodingException, Charset}
@@ -49,7 +49,7 @@ object XmlFile:
         val at = SourcePos(name, 1, 1, includedFrom)
         throw SceneError(Problem.error(at, s"malformed XML: ${message(e)}"))
       case e: IOException =>
-        val why = s"can't read `$name`: ${Option(e.getMessage).getOrElse(e)}"
+        val why = s"can't read `$name`: ${IoReason(e)}"
         throw SceneError(includedFrom.fold(Problem.general(why))(Problem.error(_, why)))
 
   /** Decoded here, as the JDK's parser prints what it can't decode. The encoding is that of the

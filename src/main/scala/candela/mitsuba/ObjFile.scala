@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, loop, RestBuffer, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, IoReason, loop, RestBuffer, SourcePos}
 
 import java.io.IOException
 import java.nio.ByteBuffer
@@ -20,7 +20,7 @@ object ObjFile:
     try new ObjReader(MappedFile.read(path), path.toString, at).read(flipped)
     catch
       case e: IOException =>
-        Values.fail(at, s"can't read the mesh `$path`: ${Option(e.getMessage).getOrElse(e)}")
+        Values.fail(at, s"can't read the mesh `$path`: ${IoReason(e)}")
 
 private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
   private val p, n, t = FloatBuffer()

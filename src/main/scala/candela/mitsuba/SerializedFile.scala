@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, RestBuffer, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, IoReason, RestBuffer, SourcePos}
 
 import java.io.{ByteArrayInputStream, EOFException, IOException, InputStream}
 import java.nio.{ByteBuffer, ByteOrder}
@@ -28,8 +28,7 @@ object SerializedFile:
       file.position(from + 4).get(bytes): Unit
       new SerializedReader(bytes, version, fail).read()
     catch
-      case _: EOFException => fail("it ends too early")
-      case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
+      case e: IOException => fail(IoReason(e))
 
   private val Magic: Short = 0x041c
 

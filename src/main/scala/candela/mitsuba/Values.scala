@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.base.{IoReason, Problem, SceneError, SourcePos, Suggest}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
 
@@ -107,16 +107,24 @@ final class Values(find: String => Path, report: Problem => Unit):
       case _ => fail(e.at, "<spectrum> must have the attribute `value` or `filename`")
 
   def file(name: String, at: SourcePos): Spectrum =
-    def fails() = fail(at, s"can't read the spectrum `$name`", Suggest.file(find(name)))
+    def fails(why: String) =
+      fail(at, s"can't read the spectrum `$name`: $why", Suggest.file(find(name)))
     val lines =
       // Pipes and devices might never end
       try
-        if Files.exists(find(name)) && !Files.isRegularFile(find(name)) then fails()
+        if Files.exists(find(name)) && !Files.isRegularFile(find(name)) then
+          fails("it is no regular file")
         Files.readString(find(name), java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
       catch
-        case _: java.io.IOException => fails()
+        case e: java.io.IOException => fails(IoReason(e))
         case _: java.nio.file.InvalidPathException => fail(at, s"can't read the spectrum `$name`")
-    pairs(lines.filterNot(_.trim.startsWith("#")).flatMap(words).toVector, at)
+    val texts = lines.filterNot(_.trim.startsWith("#")).flatMap(words).toVector
+    for odd <- texts.find(_.toDoubleOption.isEmpty) do
+      fail(at, s"spectrum `$name`: expected a number, found `${odd.take(20)}`")
+    try pairs(texts, at)
+    catch
+      case e: SceneError => throw SceneError(e.problems.map: p =>
+          p.copy(message = s"spectrum `$name`: ${p.message}"))
 
   private def pairs(texts: Iterable[String], at: SourcePos): Spectrum =
     val xs = texts.map(number(_, at)).toVector

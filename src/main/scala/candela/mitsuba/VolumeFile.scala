@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SourcePos, loop}
+import candela.base.{IoReason, loop, SourcePos}
 
 import java.io.IOException
 import java.nio.ByteOrder
@@ -27,7 +27,7 @@ private[mitsuba] object VolumeFile:
     def fail(why: String) = Values.fail(at, s"can't read the volume `${path.getFileName}`: $why")
     val bytes =
       try MappedFile.read(path)
-      catch case e: IOException => fail(Option(e.getMessage).getOrElse(e.toString))
+      catch case e: IOException => fail(IoReason(e))
     val in = bytes.order(ByteOrder.LITTLE_ENDIAN)
     if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then
       fail("it does not begin with VOL")

@@ -28,6 +28,7 @@ import candela.scene.SurfaceNames
   * @param isCentered        whether all samples are at the pixel centre
   * @param errors            where to write errors while rendering, if anywhere
   * @param fireflies         what is done about them; limited light is divided by its way
+  * @param lights            number of lights
   */
 final class RenderPlan(
     val width: Int,
@@ -50,7 +51,8 @@ final class RenderPlan(
     val bands: Option[SpectralBands] = None,
     val isCentered: Boolean = false,
     val errors: Option[ErrorFile] = None,
-    val fireflies: Fireflies = Fireflies.Kept
+    val fireflies: Fireflies = Fireflies.Kept,
+    val lights: Int = 0
 ):
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =

@@ -1,5 +1,7 @@
 package candela.scenefile
 
+import candela.base.{ForeignFile, IoReason}
+
 import java.io.{
   BufferedInputStream,
   ByteArrayInputStream,
@@ -9,7 +11,7 @@ import java.io.{
 }
 import java.nio.ByteBuffer
 import java.nio.charset.{CharacterCodingException, StandardCharsets}
-import java.nio.file.{Files, NoSuchFileException, Path}
+import java.nio.file.{Files, Path}
 import java.util.zip.GZIPInputStream
 
 import scala.util.Using
@@ -103,13 +105,19 @@ object Source:
           source.close()
           Left("encoded as UTF-16; save it as UTF-8")
         else Right(source)
-    catch case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
+    catch case e: IOException => Left(IoReason(e))
 
   /** Opens a file that another one names: a pipe or a device might never end. */
   def readNamed(path: Path): Either[String, Source] =
     if Files.exists(path) && !Files.isRegularFile(path) && !Files.isDirectory(path) then
       Left("it is no regular file, but a pipe or a device")
-    else read(path)
+    else
+      read(path).flatMap: source =>
+        ForeignFile.of(path, source.window.take(Math.min(source.end, ForeignFile.Head))) match
+          case None => Right(source)
+          case Some(found) =>
+            source.close()
+            Left(s"it is ${found.what}, not a scene")
 
   /** Fits the L2 cache of current processors. */
   private val Window = 1 << 17
@@ -142,8 +150,7 @@ private object Input:
         ofPipe(path) // which can be read only once
       else Right(opened(path))
     catch
-      case _: NoSuchFileException => Left("no such file")
-      case e: IOException => Left(Option(e.getMessage).getOrElse(e.toString))
+      case e: IOException => Left(IoReason(e))
 
   private def ofPipe(path: Path): Either[String, Input] =
     val most = Math.min(Runtime.getRuntime.maxMemory / 4, MostFromPipe).toInt

@@ -3,7 +3,7 @@ package candela.scenefile
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{FloatBuffer, IntBuffer, Problem, RestBuffer, SceneError, SourcePos}
+import candela.base.{FloatBuffer, IntBuffer, IoReason, Problem, RestBuffer, SceneError, SourcePos}
 
 /** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
   * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.
@@ -244,8 +244,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
           next = source.limit
           start = next
           kind = Token.End
-          val why = Option(e.getMessage).getOrElse(e.toString)
-          throw SceneError(Problem.error(here, s"can't read further: $why"))
+          throw SceneError(Problem.error(here, s"can't read further: ${IoReason(e)}"))
       start = 0
       next -= from
       lineStart -= from

@@ -108,18 +108,36 @@ class CommandLineSuite extends AnyFunSuite:
 
   private val refused = Vector(
     "" -> "scene.pbrt",
-    "--quiet" -> "scene.pbrt",
+    "--quiet" -> "`candela render` needs a file: scene.pbrt...",
+    "--spp" -> "--spp needs a value: N",
+    "--spp= a.pbrt" -> "--spp needs a value: N",
+    "-o" -> "--outfile needs a value: FILE[,FILE]",
+    "--spp 4 --spp 8 a.pbrt" -> "--spp is given twice",
+    "--quiet --quiet a.pbrt" -> "--quiet is given twice",
+    "-j 2 --nthreads 2 a.pbrt" -> "--nthreads is given twice",
+    "--seed 99999999999 a.pbrt" -> "--seed must be between -2147483648 and 2147483647, found `999",
+    "--tonemap filmik a.pbrt" -> "found `filmik`; did you mean `filmic`?",
+    "--aov albdo a.pbrt" -> "found `albdo`; did you mean `albedo`?",
+    "--film gbufer a.pbrt" -> "--film must be gbuffer or rgba, found `gbufer`",
+    "--define x a.xml" -> "--define must be NAME=VALUE, found `x`",
+    "preview --spp 4 a.pbrt" ->
+      "`candela preview` has no option `--spp`; `render` and `resume` have it",
+    "merge a.film" -> "`candela merge` needs --outfile FILE[,FILE]",
+    "rneder a.pbrt" -> "`rneder` is no command; did you mean `render`?",
+    "hlep" -> "`hlep` is no command; did you mean `help`?",
+    "help rendr" -> "`rendr` is no command; did you mean `render`?",
+    "help nothing" -> "`nothing` is no command",
     "--spp 0 a.pbrt" -> "--spp must be at least 1, found `0`",
-    "--spp many a.pbrt" -> "--spp",
+    "--spp many a.pbrt" -> "--spp must be a number, found `many`",
     "--nthreads 0 a.pbrt" -> "--nthreads must be at least 1, found `0`",
-    "--cropwindow 0.5,0.5,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
-    "--cropwindow 0,1,0 a.pbrt" -> "expected x0,x1,y0,y1",
-    "--cropwindow 0,2,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
-    "--cropwindow 0,NaN,0,1 a.pbrt" -> "expected x0,x1,y0,y1",
-    "--dialect v5 a.pbrt" -> "expected v2, v3 or v4",
-    "--light-groups types a.pbrt" -> "expected statement, type, or names",
-    "--light-groups key=a,b a.pbrt" -> "expected statement, type, or names",
-    "--light-groups my-key=a a.pbrt" -> "expected statement, type, or names",
+    "--cropwindow 0.5,0.5,0,1 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
+    "--cropwindow 0,1,0 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
+    "--cropwindow 0,2,0,1 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
+    "--cropwindow 0,NaN,0,1 a.pbrt" -> "--cropwindow must be x0,x1,y0,y1",
+    "--dialect v5 a.pbrt" -> "--dialect must be v2, v3 or v4, found `v5`",
+    "--light-groups types a.pbrt" -> "--light-groups must be statement, type, or names",
+    "--light-groups key=a,b a.pbrt" -> "--light-groups must be statement, type, or names",
+    "--light-groups my-key=a a.pbrt" -> "--light-groups must be statement, type, or names",
     "--sp 4 a.pbrt" -> "`candela render` has no option `--sp`; did you mean `--spp`?",
     "--outfle=x.exr a.pbrt" -> "did you mean `--outfile`?",
     "-outfle x.exr a.pbrt" -> "did you mean `--outfile`?",
@@ -129,39 +147,66 @@ class CommandLineSuite extends AnyFunSuite:
     "--report x.html a.pbrt b.pbrt" -> "--report needs a single scene",
     "--reference x.exr a.pbrt" -> "--reference needs --report",
     "--watch a.pbrt b.pbrt" -> "--watch needs a single scene",
-    "--watch=no a.pbrt" -> "expected PORT or ADDRESS:PORT",
+    "--watch=no a.pbrt" -> "--watch must be PORT or ADDRESS:PORT",
     "--watch-after a.pbrt" -> "--watch-after needs --watch",
-    "--display-server localhost: a.pbrt" -> "expected HOST:PORT",
+    "--display-server localhost: a.pbrt" -> "--display-server must be HOST:PORT",
     "--display-server x a.pbrt b.pbrt" -> "--display-server needs a single scene",
     "bench s.conf --seeds 0" -> "--seeds must be at least 1, found `0`",
     "compare a.exr" -> "reference",
-    "compare a.exr b.exr c.exr" -> "c.exr",
+    "compare a.exr b.exr c.exr" -> "takes image and reference, found `c.exr`, too",
     "compare --max-relmse -1 a.exr b.exr" -> "--max-relmse must be at least 0, found `-1.0`",
-    "compare --crop 1,2,3 a.exr b.exr" -> "expected x0,x1,y0,y1 in pixels",
-    "compare --heatmap-metric psnr a.exr b.exr" -> "expected one of mse, rmse, mae, relmse, flip"
+    "compare --crop 1,2,3 a.exr b.exr" -> "--crop must be x0,x1,y0,y1 in pixels",
+    "compare --heatmap-metric psnr a.exr b.exr" ->
+      "--heatmap-metric must be one of mse, rmse, mae, relmse, flip"
   )
 
   for (line, message) <- refused do
     test(s"`$line` is bad usage: $message"):
       val answer = parse(line).left.toOption.get
       assert(answer.code == ExitCode.BadUsage)
-      assert(answer.err.contains(message))
+      assert(answer.err.contains(message), answer.err)
       assert(answer.err.linesIterator.next().startsWith("error: "))
       assert(answer.out.isEmpty)
 
   test("an option that resembles none gets no suggestion"):
     assert(!parse("--xyzzy a.pbrt").left.toOption.get.err.contains("did you mean"))
 
-  test("--help lists every command and option, wherever it stands"):
-    val words = Vector("render", "check", "compare", "bench", "--outfile", "--nthreads", "--spp") ++
-      Vector("--seed", "--quick", "--quiet", "--verbose", "--cropwindow", "--explain") ++
-      Vector("--dialect", "--max-relmse", "--help", "--version", "Exit codes")
-    for line <- Vector("--help", "render --help", "check --help", "a.pbrt --help") do
-      val answer = parse(line).left.toOption.get
-      assert(answer.code == ExitCode.Done)
-      assert(answer.err.isEmpty)
-      for word <- words do assert(answer.out.contains(word), s"$word in `$line`")
+  private def help(line: String, columns: Int = 80): Vector[String] =
+    val answer = CommandLine.parse(line.split(' ').toVector, columns).left.toOption.get
+    assert(answer.code == ExitCode.Done && answer.err.isEmpty, line)
+    answer.lines
+
+  test("--help lists every command, and says how to see their options"):
+    for line <- Vector("--help", "-h", "help", "a.pbrt --help", "-help", "--quick -h") do
+      val text = help(line).mkString("\n")
+      for c <- Command.values do assert(text.contains(s"\n  ${c.word} "), s"${c.word} in `$line`")
+      assert(text.contains("`candela help COMMAND`") && text.contains("Exit codes"))
+
+  test("help of a command, asked for in any way, has its options and no others"):
+    for c <- Command.values do
+      val text = help(s"${c.word} --help")
+      assert(text.head.startsWith(s"usage: candela ${c.word}"))
+      for line <- Vector(s"help ${c.word}", s"${c.word} -h", s"${c.word} x --help") do
+        assert(help(line) == text, line)
+      val listed = text.flatMap("^  (?:-\\w, )?--([a-z-]+)".r.findFirstMatchIn(_)).map(_.group(1))
+      assert(listed.toSet == OptionTable.names(c.word).toSet + "help", c.word)
+
+  test("help fits the terminal"):
+    val lines = "help" +: Command.values.toVector.map(c => s"help ${c.word}")
+    for columns <- Vector(80, 60); line <- lines do
+      val tooLong = help(line, columns).filter(_.length > columns)
+      assert(tooLong.isEmpty, line)
+
+  test("-o is --outfile"):
+    for line <- Vector("-o x.exr a.pbrt", "a.pbrt -o x.exr") do
+      assert(parse(line) == Right(one.copy(outfiles = Vector("x.exr"))))
+    assert(parse("merge a.film -o x.exr").toOption.get.outfiles == Vector("x.exr"))
 
   test("--version prints name and version"):
-    val answer = parse("--version").left.toOption.get
-    assert(answer == CommandLine.Answer(s"candela ${Version.current}\n", "", ExitCode.Done))
+    for line <- Vector("--version", "version", "-V") do
+      val answer = parse(line).left.toOption.get
+      assert(answer.out == s"candela ${Version.current}\n" && answer.code == ExitCode.Done)
+
+  test("a file of a command's name, or nearly, is a file"):
+    assert(parse("render version") == Right(one.copy(files = Vector("version"))))
+    assert(parse("viw.pbrt") == Right(one.copy(files = Vector("viw.pbrt"))))

@@ -64,7 +64,7 @@ class FilmFilesSuite extends AnyFunSuite:
       val words = Vector(f("s%d.pbrt"), "--frames", "1-2147483647", "--outfile", f("o%d.exr"))
       val (code, captured) = f.captured(words)
       assert(code == 2)
-      assert(captured.err.contains("--frames: at most 1000000 frames, found 2147483647"))
+      assert(captured.err.contains("--frames must be at most 1000000 frames, found `2147483647`"))
 
   test("shards of millions that are missing are summed up"):
     withScene(): f =>
@@ -239,12 +239,12 @@ class FilmFilesSuite extends AnyFunSuite:
         "2/2",
         "--outfile",
         "a.film"
-      ).contains("expected i/n with 0 <= i < n"))
+      ).contains("must be i/n with 0 <= i < n"))
       assert(usage(
         "--frames",
         "1-2"
-      ).startsWith("error: --frames: write %d, or %04d, for the number"))
-      assert(usage("--checkpoint-every", "soon").contains("expected a duration, e.g. 90s"))
+      ).startsWith("error: --frames needs %d, or %04d, for the number"))
+      assert(usage("--checkpoint-every", "soon").contains("must be a duration, e.g. 90s"))
       assert(usage("--checkpoint", "--outfile", "a.film").contains("omit --checkpoint"))
 
 private object FilmFilesSuite:

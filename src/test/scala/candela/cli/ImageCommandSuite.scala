@@ -87,7 +87,7 @@ class ImageCommandSuite extends AnyFunSuite:
     assert(refusal(sky, "--crop", "0,100,0,10").contains(s"$sky: window x 0 to 100"))
     assert(refusal(sky, "--channels", "Q").contains(s"$sky: no channel Q, only R, G, B"))
     assert(refusal(sky, "--environment", "latlong").contains("square, found 64x32 pixels"))
-    assert(refusal(sky, "--resize", "0").contains("expected WIDTHxHEIGHT"))
+    assert(refusal(sky, "--resize", "0").contains("must be WIDTHxHEIGHT"))
     assert(refusal(sky, "--scale", "0").contains("--scale must be above 0"))
     assert(refusal("nowhere.exr").contains("nowhere.exr: there is no such file"))
 

@@ -69,7 +69,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
     "--write-partial-images a.pbrt" -> one.copy(partialImages = true),
     "--wavefront --render-coord-sys world --log-level error --logtostderr a.pbrt" -> one,
     "--gpu a.pbrt" -> one.copy(notes =
-      Vector("`--gpu` has no effect: the image is the same; it is rendered by processors")
+      Vector("--gpu has no effect: the image is the same; it is rendered by processors")
     ),
     "--toply a.pbrt" -> one.copy(command = Command.Convert, toPly = Some(1)),
     "render --toply a.pbrt" -> one.copy(command = Command.Convert, toPly = Some(1)),
@@ -83,16 +83,16 @@ final class PbrtOptionsSuite extends AnyFunSuite:
       assert(options(line) == meant)
 
   private val refused = Vector(
-    "--interactive a.pbrt" -> "`--interactive` is an option of pbrt; here, --watch shows the image",
+    "--interactive a.pbrt" -> "--interactive is an option of pbrt; here, --watch shows the image",
     "--fullscreen a.pbrt" -> "--watch",
     "--debugstart 1,2 a.pbrt" -> "--pixel x,y --sample N --debug",
     "--pixelstats a.pbrt" -> "--aov variance",
-    "--render-coord-sys eye a.pbrt" -> "takes camera, cameraworld, world, found `eye`",
-    "--log-level=loud a.pbrt" -> "takes verbose, error, fatal, found `loud`",
-    "--log-level" -> "takes verbose, error, fatal, found nothing",
+    "--render-coord-sys eye a.pbrt" -> "must be camera, cameraworld or world, found `eye`",
+    "--log-level=loud a.pbrt" -> "must be verbose, error or fatal, found `loud`",
+    "--log-level" -> "must be verbose, error or fatal, but has no value",
     "--mse-reference-out e.txt a.pbrt" -> "must be given together",
     "--pixel 1,2 --cropwindow 0,1,0,1 a.pbrt" -> "only one of",
-    "--pixelbounds 3,3,0,1 a.pbrt" -> "expected x0,x1,y0,y1 with x0 < x1",
+    "--pixelbounds 3,3,0,1 a.pbrt" -> "must be x0,x1,y0,y1 with x0 < x1",
     "--displacement-edge-scale 0 a.pbrt" -> "must be above 0",
     "--debug a.pbrt" -> "--debug needs --pixel x,y"
   )
@@ -108,7 +108,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
       val captured = Captured()
       val _ = Main.run(words, captured.terminal)
       captured.err
-    assert(err("--gpu", "none.pbrt").contains("warning: `--gpu` has no effect"))
+    assert(err("--gpu", "none.pbrt").contains("warning: --gpu has no effect"))
     assert(!err("--gpu", "--quiet", "none.pbrt").contains("--gpu"))
 
   test("options of other commands are their own"):

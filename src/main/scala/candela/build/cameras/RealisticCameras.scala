@@ -1,5 +1,7 @@
 package candela.build.cameras
 
+import candela.base.IoReason
+
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
@@ -126,7 +128,7 @@ private[build] object LensFile:
   /** Returns the surfaces, in metres, or an error message. */
   def read(path: Path): Either[String, Vector[LensSurface]] =
     try surfaces(Files.readString(path, ISO_8859_1))
-    catch case e: IOException => Left(s"I/O error: ${e.getMessage}")
+    catch case e: IOException => Left(IoReason(e))
 
   private[build] def surfaces(text: String): Either[String, Vector[LensSurface]] =
     val lines = text.linesIterator.map(_.takeWhile(_ != '#').trim).zipWithIndex

@@ -69,9 +69,10 @@ private[build] object LightImages:
       else Image(image.width, image.height, image.channelNames, image.data)
     try
       val rgb = linear.toRgb
-      if rgb.data.forall(java.lang.Float.isFinite(_)) then Some(rgb)
+      // Sums of brighter pixels overflow
+      if rgb.data.forall(x => Math.abs(x) < Brightest) then Some(rgb)
       else
-        fail("the image of a light has pixels that are NaN or infinite")
+        fail("the image of a light has pixels that are NaN, infinite, or above 1e30")
         None
     catch
       case e: ImageError =>
@@ -101,3 +102,5 @@ private[build] object LightImages:
   def conversion(using site: Site): Option[Rgb => Rgb] =
     val basis = site.resources.basis
     Option.when(basis.isSpectral)(basis.lookUpLight)
+
+  private val Brightest = 1e30f

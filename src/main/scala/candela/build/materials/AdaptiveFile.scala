@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.IoReason
+
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
@@ -133,7 +135,7 @@ private[build] object TensorFile:
   def read(path: Path): Either[String, Map[String, Tensor]] =
     try Right(fields(ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)))
     catch
-      case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
+      case e: java.io.IOException => Left(IoReason(e))
       case _: java.nio.BufferUnderflowException => Left("unexpected end of file")
       case e: Malformed => Left(e.getMessage)
 

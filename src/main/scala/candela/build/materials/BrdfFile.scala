@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.IoReason
+
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 
@@ -20,7 +22,7 @@ private[build] object BrdfFile:
   def read(path: Path): Either[String, MeasuredBsdf] =
     val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
     try if isText then scattered(path) else table(path)
-    catch case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
+    catch case e: java.io.IOException => Left(IoReason(e))
 
   private def scattered(path: Path): Either[String, MeasuredBsdf] =
     val words = Files

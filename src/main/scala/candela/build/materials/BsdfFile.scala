@@ -1,5 +1,7 @@
 package candela.build.materials
 
+import candela.base.IoReason
+
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.ISO_8859_1
 import java.nio.file.{Files, Path}
@@ -27,7 +29,7 @@ private[build] object BsdfFile:
       val size = Files.size(path)
       if size > Int.MaxValue then Left(s"size must be below 2 GiB, found $size bytes")
       else parse(Files.readAllBytes(path))
-    catch case e: java.io.IOException => Left(s"I/O error: ${e.getMessage}")
+    catch case e: java.io.IOException => Left(IoReason(e))
 
   def parse(bytes: Array[Byte]): Either[String, FourierTable] =
     val in = ByteBuffer.wrap(bytes).order(ByteOrder.LITTLE_ENDIAN)

@@ -1,5 +1,7 @@
 package candela.build.media
 
+import candela.base.IoReason
+
 import java.io.IOException
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.UTF_8
@@ -53,7 +55,7 @@ object NanoVdbFile:
           case others => Left(others.map(_.name))
     catch
       case e: IOException =>
-        throw NanoVdbError(Option(e.getMessage).getOrElse(e.getClass.getSimpleName))
+        throw NanoVdbError(IoReason(e))
       case _: OutOfMemoryError => throw NanoVdbError("not enough memory for its voxels")
 
   /** A grid's place in the file. */

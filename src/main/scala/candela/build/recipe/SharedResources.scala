@@ -93,7 +93,7 @@ final class SharedResources(
   private def load(path: Path): Either[String, StoredImage] = synchronized:
     images.getOrElseUpdate(
       path.toAbsolutePath.normalize,
-      try Right(ImageFiles.load(path))
+      try Right(ImageFiles.colored(path, ImageFiles.load(path)))
       catch case e: ImageError => Left(e.getMessage)
     )
 

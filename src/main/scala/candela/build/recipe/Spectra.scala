@@ -1,11 +1,12 @@
 package candela.build.recipe
 
+import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.Files
+import java.nio.file.{Files, Path}
 
 import scala.util.Try
 
-import candela.base.Suggest
+import candela.base.{IoReason, Suggest}
 import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum, Upsampling}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
@@ -180,15 +181,22 @@ object Spectra:
         )
         None
       else
-        val text = Files.readAllLines(file, ISO_8859_1).toArray(Array.empty[String])
-        val words = text.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
-        val numbers = words.flatMap(_.toFloatOption)
-        if numbers.length != words.length || numbers.length % 2 != 0 then
-          val message = s"spectrum file `$name` must contain pairs of wavelength and value"
-          site.problems.missing(p.valuesAt, message, standIn)
-          None
-        else pairs(numbers, p, site)
+        numbers(file, name) match
+          case Right(found) => pairs(found, p, site)
+          case Left(why) =>
+            site.problems.missing(p.valuesAt, why, standIn)
+            None
     }
+
+  /** Pairs of wavelength and value, or why there are none. */
+  private def numbers(file: Path, name: String): Either[String, Array[Float]] =
+    try
+      val lines = Files.readAllLines(file, ISO_8859_1).toArray(Array.empty[String])
+      val words = lines.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
+      val found = words.flatMap(_.toFloatOption)
+      if found.length == words.length && found.length % 2 == 0 then Right(found)
+      else Left(s"spectrum file `$name` must contain pairs of wavelength and value")
+    catch case e: IOException => Left(s"can't read the spectrum file `$name`: ${IoReason(e)}")
 
 /** Value of a parameter: a uniform spectrum or a colour texture. */
 enum SpectrumSource:

@@ -4,7 +4,7 @@ import java.io.IOException
 import java.nio.file.Path
 
 import candela.base.{
-  FloatBuffer, IntBuffer, loop, Problem, RestBuffer, SceneError, Severity, SourcePos
+  FloatBuffer, IntBuffer, IoReason, loop, Problem, RestBuffer, SceneError, Severity, SourcePos
 }
 import candela.math.{Position, Transform}
 import candela.scenefile.Source
@@ -88,8 +88,7 @@ object PlyFile:
       PlyReader(header, PlyNumbers.of(source, header, fail), keepQuads, keepsAll, fail).read()
     catch
       case e: IOException =>
-        val why = Option(e.getMessage).getOrElse(e.toString)
-        throw problem(at, s"can't read the mesh `${source.name}`: $why")
+        throw problem(at, s"can't read the mesh `${source.name}`: ${IoReason(e)}")
     finally source.close()
 
   /** Finds the line of an offset by reading the file again. */

@@ -1,6 +1,6 @@
 package candela.render.storage
 
-import candela.base.{CheckedFile, NextFile, Problem, SceneError, WholeFile}
+import candela.base.{CheckedFile, IoReason, NextFile, Problem, SceneError, WholeFile}
 import candela.render.RenderState
 
 import java.io.{EOFException, IOException}
@@ -72,7 +72,7 @@ object FilmFile:
 
   private def reason(e: IOException): String = e match
     case _: EOFException => "it is damaged: it has fewer values than it says"
-    case other => Option(other.getMessage).getOrElse(other.getClass.getSimpleName)
+    case other => IoReason(other)
 
   /** Numbers that can't be in a film file: its checksum is right, but it was not written by us. */
   private def sound[A](body: => A): A =

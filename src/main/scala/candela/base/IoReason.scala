@@ -1,0 +1,26 @@
+package candela.base
+
+import java.io.{EOFException, IOException}
+import java.nio.charset.CharacterCodingException
+import java.nio.file.*
+import java.util.zip.ZipException
+
+/** Why a file can't be read, in words and without its name. */
+object IoReason:
+
+  def apply(e: IOException): String = e match
+    case w: WriteError => w.getMessage
+    case _: EOFException => Early
+    case z: ZipException => packed(Option(z.getMessage).getOrElse(""))
+    case _: CharacterCodingException => "it is not text in its encoding"
+    case _: NoSuchFileException => "no such file"
+    case _: AccessDeniedException => "no read permission"
+    case _: FileSystemLoopException => "its links are a circle"
+    case f: FileSystemException => Option(f.getReason).getOrElse("the file system refuses it")
+    case other => Option(other.getMessage).filter(_.nonEmpty).getOrElse("reading fails")
+
+  private val Early = "it ends too early"
+
+  /** Of zlib's and Java's messages, few say more. */
+  private def packed(message: String): String =
+    if message.contains("end of ZLIB") then Early else "its compression is damaged"

@@ -1,0 +1,43 @@
+package candela.build
+
+import candela.base.SourcePos
+import candela.build.sampling.PointChoice
+import candela.guiding.GuidingMode
+import candela.render.RenderMethod
+
+/** Warns of options of the command line that the scene's integrator does not heed. */
+private[build] final class IdleSettings(context: BuildContext, options: BuildOptions):
+
+  def check(world: World): Unit =
+    val method = world.method
+    val isGuided = method match
+      case RenderMethod.Guided(_, _, _) => true
+      case _ => false
+    idle("guiding", options.switches.guiding != GuidingMode.Off && !isGuided):
+      if context.isV2 && context.description.volumes.nonEmpty then
+        "paths among pbrt-v2's volumes are not guided"
+      else s"$integrator is not guided; \"path\" and \"volpath\" are"
+    val takesNone = !method.takesCameraSamples
+    val chains = s"the Markov chains of $integrator take no points of a sampler"
+    val isNamed = options.points match
+      case PointChoice.Named(_) => true
+      case _ => false
+    idle("sampler", takesNone && isNamed)(chains)
+    idle("disable-pixel-jitter", takesNone && options.switches.centers)(chains)
+    idle("disable-wavelength-jitter", options.switches.oneColorSet && !world.color.isSpectral):
+      "colours are three numbers here; --color spectral takes wavelengths"
+    val isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||
+      context.description.objects.values.exists(_.exists(_.shape.param("displacement").isDefined))
+    idle("displacement-edge-scale", options.switches.edgeScale.isDefined && !isDisplaced):
+      "no mesh is displaced"
+
+  private def idle(option: String, isSo: Boolean)(why: => String): Unit =
+    if isSo then context.problems.warn(place, s"--$option has no effect: $why")
+
+  private def integrator: String =
+    val described = context.description.renderer.filter(_.name == "metropolis")
+      .orElse(context.description.integrator)
+    s"\"${described.fold(context.defaults.integrator)(_.name)}\""
+
+  private def place: Option[SourcePos] =
+    context.description.renderer.orElse(context.description.integrator).map(_.at)

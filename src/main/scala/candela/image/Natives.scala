@@ -1,0 +1,51 @@
+package candela.image
+
+import java.nio.file.{Files, Path}
+import java.util.Locale
+
+import scala.util.Try
+
+/** The native libraries of LWJGL, by which images are read and written. */
+object Natives:
+
+  /** Finds them beside the program's jar, for who starts that by itself; before their first use. */
+  def find(): Unit =
+    if sys.props.get(Place).isEmpty then
+      for jar <- programsJar; folder <- beside(jar) do
+        val _ = System.setProperty(Place, folder.toString)
+
+  /** The folder of the libraries that come with a jar. */
+  private[image] def beside(jar: Path): Option[Path] =
+    Option(jar.getParent).map(_.resolve("natives").resolve(platform)).filter(Files.isDirectory(_))
+
+  private def programsJar: Option[Path] =
+    Try(Path.of(getClass.getProtectionDomain.getCodeSource.getLocation.toURI)).toOption
+      .filter(_.toString.endsWith(".jar"))
+
+  /** As their folders are called. */
+  private[image] def platform: String =
+    def property(name: String) = sys.props.getOrElse(name, "").toLowerCase(Locale.ROOT)
+    val system = property("os.name") match
+      case s"mac$_" => "macos"
+      case s"windows$_" => "windows"
+      case _ => "linux"
+    val processor = if Set("aarch64", "arm64")(property("os.arch")) then "arm64" else "x64"
+    s"$system-$processor"
+
+  /** What is missing, and what to do, if that is why `e` was thrown. */
+  def missing(e: Throwable): Option[(String, String)] = e match
+    case l: LinkageError if isOfLwjgl(l) =>
+      val place = sys.props.getOrElse(Place, s"lib/natives/$platform")
+      Some((
+        s"the native libraries that read and write images are missing: LWJGL's, for $platform",
+        s"start the program by bin/candela, or java -D$Place=FOLDER -jar candela.jar, where " +
+          s"FOLDER is $place of the whole program"
+      ))
+    case _ => None
+
+  private def isOfLwjgl(e: LinkageError): Boolean =
+    (String.valueOf(e.getMessage) +: e.getStackTrace.take(Frames).map(_.getClassName))
+      .exists(_.contains("lwjgl"))
+
+  private val Place = "org.lwjgl.librarypath"
+  private val Frames = 20

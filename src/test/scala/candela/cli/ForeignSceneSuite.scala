@@ -1,0 +1,89 @@
+package candela.cli
+
+import candela.image.{Image, ImageFiles}
+
+import java.io.ByteArrayOutputStream
+import java.nio.file.{Files, Path}
+import java.util.zip.GZIPOutputStream
+
+import org.scalatest.funsuite.AnyFunSuite
+
+/** Files that are no scenes, where scenes are expected. */
+class ForeignSceneSuite extends AnyFunSuite:
+
+  private val commands = Vector("render", "check", "convert", "preview")
+
+  private def refusal(words: String*): Vector[String] =
+    val (code, captured) = Captured.run(words*)
+    assert(code == ExitCode.BadInput.number && captured.out.isEmpty)
+    captured.err.linesIterator.toVector
+
+  test("an image in place of a scene is named, with the command that shows it"):
+    TempFolder.use: folder =>
+      val image = Image.rgb(4, 4)
+      for (name, what) <- Vector("a.exr" -> "an OpenEXR image", "a.png" -> "a PNG image") do
+        val file = s"$folder/$name"
+        ImageFiles.write(Path.of(file), image)
+        for command <- commands do
+          assert(refusal(command, file) == Vector(
+            s"error: `$file` is $what, not a scene",
+            s" `candela view $file` shows it"
+          ))
+
+  test("meshes and models in place of scenes are named, also if packed or by a wrong suffix"):
+    TempFolder.use: folder =>
+      val ply = "ply\nformat ascii 1.0\nend_header\n".getBytes
+      val packed = ByteArrayOutputStream()
+      val gzip = GZIPOutputStream(packed)
+      gzip.write(ply)
+      gzip.close()
+      for (name, bytes) <- Vector("a.ply" -> ply, "a.ply.gz" -> packed.toByteArray, "b.pbrt" -> ply)
+      do
+        val file = Files.write(folder.resolve(name), bytes)
+        assert(refusal("check", s"$file").head == s"error: `$file` is a PLY mesh, not a scene")
+      val model = Files.writeString(folder.resolve("a.gltf"), "{\"asset\": {}}")
+      val lines = refusal(s"$model")
+      assert(lines(0).endsWith("is a glTF model, not a scene") && lines(1).contains("export it"))
+      val mitsuba = Files.writeString(folder.resolve("m.pbrt"), "<scene version=\"3.0.0\"></scene>")
+      assert(refusal(s"$mitsuba")(1) == " its name must end with .xml")
+
+  test("a packed scene is a scene"):
+    TempFolder.use: folder =>
+      val packed = ByteArrayOutputStream()
+      val gzip = GZIPOutputStream(packed)
+      gzip.write("Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n".getBytes)
+      gzip.close()
+      val file = Files.write(folder.resolve("a.pbrt.gz"), packed.toByteArray)
+      assert(Captured.run("check", s"$file")._1 == 0)
+
+  test("a saved rendering in place of a scene is named, and info tells of it"):
+    TempFolder.use: folder =>
+      val text = "Film \"image\" \"integer xresolution\" 2 \"integer yresolution\" 3\n" +
+        "Sampler \"random\" \"integer pixelsamples\" 4\n" +
+        "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+      val scene = Files.writeString(folder.resolve("a.pbrt"), text)
+      val film = s"$folder/a.film"
+      assert(Captured.run(s"$scene", "-o", film, "--seed", "7", "--quiet")._1 == 0)
+      for command <- commands do
+        val lines = refusal(command, film)
+        assert(lines(0) == s"error: `$film` is a saved rendering, not a scene")
+        assert(lines(1).contains(s"`candela resume $film`") && lines(1).contains("candela info"))
+      val (code, captured) = Captured.run("info", film)
+      assert(code == 0, captured.err)
+      val facts = captured.out.linesIterator.map(_.split(" {2,}", 2)).map(w => w(0) -> w(1)).toMap
+      assert(facts("scene") == s"$scene" && facts("samples") == "4 of 4 per pixel: complete")
+      assert(facts("size").startsWith("2x3") && facts("options") == "--seed 7")
+
+  test("an included file that is no scene is named where it is included"):
+    TempFolder.use: folder =>
+      ImageFiles.write(folder.resolve("a.exr"), Image.rgb(4, 4))
+      val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin\nInclude \"a.exr\"\n")
+      val lines = refusal("check", s"$scene")
+      assert(lines.head ==
+        s"$scene:2:9: error: can't include `a.exr`: it is an OpenEXR image, not a scene")
+
+  test("a scene in place of an image is named"):
+    TempFolder.use: folder =>
+      val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin\n")
+      for command <- Vector("view", "info") do
+        assert(refusal(command, s"$scene").head.startsWith(s"error: $scene: it is a scene"))
