@@ -66,8 +66,11 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
       gaveUp = progress.gaveUp
     )
 
-  /** Called when sample number `sample` begins, and no path of an earlier pass is on its way. */
-  def begin(sample: Int): Unit =
+  /** Called when sample number `sample` begins, and no path of an earlier pass is on its way.
+    *
+    * @param moves called again and again where a pass ends and much is learnt
+    */
+  def begin(sample: Int, moves: () => Unit = () => ()): Unit =
     if isOver(current, sample) then
       val all = synchronized:
         val was = current
@@ -76,7 +79,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
         learning
       // Else others have just ended the pass
       if all != null then
-        all.help()
+        all.help(moves)
         synchronized:
           if isOver(current, sample) then take(all.growth, sample)
 

@@ -11,12 +11,17 @@ private[guiding] final class GuideLearning(prepare: => GuideGrowth):
   private val next = AtomicInteger()
   private lazy val left = CountDownLatch(growth.regions)
 
-  /** Fits regions until all are fitted. */
-  def help(): Unit =
+  /** Fits regions until all are fitted.
+    *
+    * @param moves called after each region: fitting may take longer than a stopped rendering waits
+    *   for workers that do nothing
+    */
+  def help(moves: () => Unit): Unit =
     val fit = growth.newFit()
     var region = next.getAndIncrement()
     while region < growth.regions do
       try growth.grow(region, fit)
       finally left.countDown()
+      moves()
       region = next.getAndIncrement()
     left.await()

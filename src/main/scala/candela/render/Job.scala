@@ -77,12 +77,12 @@ private[render] object Job:
     (tiles.film, worker)
 
   /** Begins waves of samples, with their weights. */
-  private def begin(guide: Guide): Int => Float = sample =>
-    guide.begin(sample)
+  private def begin(guide: Guide): TileWorker.BeginWave = (sample, moves) =>
+    guide.begin(sample, moves)
     guide.weight
 
   /** Begins waves of a pass; all samples count the same. */
-  private def begin(integrator: PassIntegrator): Int => Float = pass =>
+  private def begin(integrator: PassIntegrator): TileWorker.BeginWave = (pass, _) =>
     integrator.begin(pass)
     1f
 
@@ -134,7 +134,7 @@ private[render] object Job:
     def worker(
         integrator: Integrator,
         queue: TaskQueue,
-        beginWave: Int => Float = _ => 1f
+        beginWave: TileWorker.BeginWave = TileWorker.Unweighted
     ): TileWorker =
       TileWorker(
         plan, schedule, queue, film, layers, filterSampler.copy(), integrator, takes, beginWave

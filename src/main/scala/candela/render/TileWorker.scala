@@ -8,8 +8,8 @@ import candela.integrators.Integrator
 /** Renders tiles, pixel by pixel.
   *
   * @param takes     whether to take this sample of this tile
-  * @param beginWave receives the first sample number of each wave of a tile, returns the weight of
-  *   its samples
+  * @param beginWave receives the first sample number of each wave of a tile, and what to call while
+  *   it works; returns the weight of the wave's samples
   */
 private[render] final class TileWorker(
     plan: RenderPlan,
@@ -20,9 +20,10 @@ private[render] final class TileWorker(
     filterSampler: FilterSampler,
     integrator: Integrator,
     takes: (Int, Int) => Boolean,
-    beginWave: Int => Float = _ => 1f
+    beginWave: TileWorker.BeginWave = TileWorker.Unweighted
 ) extends Worker(schedule, queue):
   private val camera = plan.camera
+  private val getsOn = () => beat()
   private val sampler = plan.sampler.copy()
   private val planned = sampler.samplesPerPixel
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
@@ -62,7 +63,7 @@ private[render] final class TileWorker(
     this.x = x
     this.y = y
     this.sample = sample
-    waveWeight = beginWave(sample)
+    waveWeight = beginWave(sample, getsOn)
     beginTile(0)
     takeSample()
     if shares != null then shares.end()
@@ -76,7 +77,7 @@ private[render] final class TileWorker(
     sample = Math.max(first, queue.progress.get(tile).toInt)
     while sample < end && queue.goesOn() && !queue.isAbandoned do
       if takes(tile, sample) then
-        if !begun then waveWeight = beginWave(first)
+        if !begun then waveWeight = beginWave(first, getsOn)
         begun = true
         renderSample(tile)
       if !queue.isAbandoned then
@@ -195,7 +196,11 @@ private[render] final class TileWorker(
       refusedMaterial = integrator.lastMaterial
     refusedCount += 1
 
-private object TileWorker:
+private[render] object TileWorker:
+  type BeginWave = (Int, () => Unit) => Float
+
+  val Unweighted: BeginWave = (_, _) => 1f
+
   // Distances in pixels: beyond a tile, and prime to most sizes of images
   val ShiftX = 37
   val ShiftY = 101

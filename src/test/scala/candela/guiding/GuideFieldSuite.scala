@@ -195,7 +195,7 @@ private object GuideFieldSuite:
     val costs = Array.fill(old.regions)(EventCost)
     val learning =
       GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all, costs, PathCost))
-    learning.help()
+    learning.help(() => ())
     learning.growth
 
   def region(p: Vec3, n: Vec3): Int = GuideMixture().region(learnt, p, GuideField.side(n))
