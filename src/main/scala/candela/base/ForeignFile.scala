@@ -1,7 +1,9 @@
 package candela.base
 
 import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.Path
+import java.nio.file.{Files, Path}
+
+import scala.util.Using
 
 /** What can be done with a file that is no scene. */
 enum ForeignKind:
@@ -19,6 +21,12 @@ object ForeignFile:
 
   /** Bytes that suffice. */
   val Head = 512
+
+  /** Of a file that is not packed. */
+  def of(path: Path): Option[ForeignFile] =
+    Option.when(Files.isRegularFile(path)):
+      Using.resource(Files.newInputStream(path))(in => of(path, in.readNBytes(Head)))
+    .flatten
 
   /** @param start the first bytes, unpacked */
   def of(path: Path, start: Array[Byte]): Option[ForeignFile] =

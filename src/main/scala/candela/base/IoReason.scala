@@ -16,8 +16,13 @@ object IoReason:
     case _: NoSuchFileException => "no such file"
     case _: AccessDeniedException => "no read permission"
     case _: FileSystemLoopException => "its links are a circle"
-    case f: FileSystemException => Option(f.getReason).getOrElse("the file system refuses it")
-    case other => Option(other.getMessage).filter(_.nonEmpty).getOrElse("reading fails")
+    case f: FileSystemException =>
+      Option(f.getReason).map(folder).getOrElse("the file system refuses it")
+    case other => Option(other.getMessage).filter(_.nonEmpty).fold("reading fails")(folder)
+
+  /** In our words, if it is one. */
+  private def folder(why: String): String =
+    if why.endsWith("Is a directory") then "it is a folder" else why
 
   private val Early = "it ends too early"
 

@@ -9,7 +9,7 @@ import scala.util.Using
 
 import scopt.OParser
 
-import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
+import candela.base.{FileName, ForeignFile, ForeignKind, Problem, SceneError, Version, WholeFile}
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
@@ -60,8 +60,16 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
   private def read(source: Path): Suite =
     if Files.isDirectory(source) then
       SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
-    else if Files.isRegularFile(source) then SuiteFile.read(source)
+    else if Files.isRegularFile(source) then
+      for other <- notSuite(source) do
+        val help = "a suite is a .conf file, or a folder of scenes with references"
+        throw SceneError(Problem.general(s"`$source` is $other, not a suite", Some(help)))
+      SuiteFile.read(source)
     else throw SceneError(Problem.general(s"no such suite: `$source`"))
+
+  private def notSuite(file: Path): Option[String] =
+    if Set("pbrt", "xml")(FileName.suffix(file)) then Some("a scene")
+    else ForeignFile.of(file).filter(_.kind != ForeignKind.Suite).map(_.what)
 
   private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
 

@@ -2,7 +2,7 @@ package candela.cli
 
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
-import candela.base.{Suggest, Version}
+import candela.base.{Problem, Suggest, Version}
 import candela.build.{ColorMode, LightGrouping}
 import candela.build.recipe.Switches
 import candela.build.sampling.PointChoice
@@ -17,11 +17,11 @@ import java.nio.file.{Files, Path}
 /** Parses a command line to [[Options]], or to the text to print instead. */
 object CommandLine:
 
-  /** Lines to print instead of running a command; those of errors go to standard error. */
-  final case class Answer(lines: Vector[String], code: ExitCode):
-    def out: String = if code == ExitCode.Done then text else ""
-    def err: String = if code == ExitCode.Done then "" else text
-    private def text = lines.map(_ + "\n").mkString
+  /** What to print instead of running a command: lines that were asked for, or errors. */
+  final case class Answer(lines: Vector[String], problems: Vector[Problem] = Vector.empty):
+    def code: ExitCode = if problems.isEmpty then ExitCode.Done else ExitCode.BadUsage
+    def out: String = lines.map(_ + "\n").mkString
+    def err: String = problems.map(ProblemText.format(_) + "\n").mkString
 
   /** @param columns width of the help, in characters */
   def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
@@ -35,7 +35,7 @@ object CommandLine:
 
   /** What needs no options: help, the version, and a word that is nearly a command. */
   private def asked(args: Seq[String], help: HelpText): Option[Answer] =
-    def told(command: Option[Command]) = Answer(command.fold(help.overview)(help.of), ExitCode.Done)
+    def told(command: Option[Command]) = Answer(command.fold(help.overview)(help.of))
     val first = args.headOption.getOrElse("")
     val named = commandOf(first)
     def mistyped(word: String) =
@@ -43,7 +43,7 @@ object CommandLine:
       near.map(n => usage(Vector(s"`$word` is no command; did you mean `$n`?"), "candela help"))
     if args.exists(HelpWords) then Some(told(named))
     else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
-      Some(Answer(Vector(s"candela ${Version.current}"), ExitCode.Done))
+      Some(Answer(Vector(s"candela ${Version.current}")))
     else if first == "help" then
       args.lift(1) match
         case None => Some(told(None))
@@ -64,7 +64,8 @@ object CommandLine:
 
   /** Errors, and where to read more. */
   private def usage(errors: Vector[String], more: String): Answer =
-    Answer(errors.map(e => s"error: $e") :+ s" `$more` says more", ExitCode.BadUsage)
+    val last = Problem.general(errors.last, Some(s"`$more` says more"))
+    Answer(Vector.empty, errors.init.map(Problem.general(_)) :+ last)
 
   private def refusal(errors: Vector[String], command: Command): Answer =
     usage(errors, s"candela help ${command.word}")

@@ -1,8 +1,6 @@
 package candela.cli
 
-import java.nio.file.{Files, Path}
-
-import scala.util.Using
+import java.nio.file.Path
 
 import candela.base.{ForeignFile, ForeignKind, loop}
 import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
@@ -27,8 +25,7 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
     ExitCode.Done
 
   private def isFilm(path: Path): Boolean =
-    Files.isRegularFile(path) && Using.resource(Files.newInputStream(path)): in =>
-      ForeignFile.of(path, in.readNBytes(ForeignFile.Head)).exists(_.kind == ForeignKind.Film)
+    ForeignFile.of(path).exists(_.kind == ForeignKind.Film)
 
   private def described(film: FilmHeader): Vector[String] =
     val samples = s"${film.done} of ${film.samples} per pixel"

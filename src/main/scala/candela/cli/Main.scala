@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.Problem
+import candela.base.{Problem, Severity}
 import candela.image.Natives
 
 import java.io.{IOException, PrintStream}
@@ -25,8 +25,8 @@ object Main:
   ): Int =
     val code = CommandLine.parse(args, terminal.columns) match
       case Left(answer) =>
-        val isHelp = answer.code == ExitCode.Done
-        answer.lines.foreach((if isHelp then terminal.out else terminal.err).println(_))
+        answer.lines.foreach(terminal.out.println(_))
+        answer.problems.foreach(ProblemText.print(_, terminal.err, terminal.hasColor))
         answer.code
       case Right(options) =>
         val known = OptionTable.names(options.command.word)
@@ -39,7 +39,9 @@ object Main:
           known.contains("verbose")
         )
         if !options.quiet then
-          for note <- options.notes do terminal.err.println(s"warning: $note")
+          for note <- options.notes do
+            val warning = Problem(Severity.Warning, None, note)
+            ProblemText.print(warning, terminal.err, terminal.hasColor)
         options.command match
           case Command.Render if options.cluster.master.isDefined =>
             ClusterCommand(options, terminal, report, loader).run()

@@ -1,7 +1,9 @@
 package candela.image
 
+import java.io.{OutputStream, PrintStream}
 import java.nio.file.{Files, Path}
 import java.util.Locale
+import java.util.function.Supplier
 
 import scala.util.Try
 
@@ -10,9 +12,15 @@ object Natives:
 
   /** Finds them beside the program's jar, for who starts that by itself; before their first use. */
   def find(): Unit =
+    quieten()
     if sys.props.get(Place).isEmpty then
       for jar <- programsJar; folder <- beside(jar) do
         val _ = System.setProperty(Place, folder.toString)
+
+  /** LWJGL's own advice on missing libraries is for programmers. */
+  private def quieten(): Unit =
+    if sys.props.get("org.lwjgl.util.Debug").isEmpty && sys.props.get(Stream).isEmpty then
+      val _ = System.setProperty(Stream, classOf[NoStream].getName)
 
   /** The folder of the libraries that come with a jar. */
   private[image] def beside(jar: Path): Option[Path] =
@@ -48,4 +56,9 @@ object Natives:
       .exists(_.contains("lwjgl"))
 
   private val Place = "org.lwjgl.librarypath"
+  private val Stream = "org.lwjgl.util.DebugStream"
   private val Frames = 20
+
+/** What LWJGL prints is lost. */
+final class NoStream extends Supplier[PrintStream]:
+  def get(): PrintStream = PrintStream(OutputStream.nullOutputStream())

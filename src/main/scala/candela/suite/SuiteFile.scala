@@ -22,7 +22,10 @@ object SuiteFile:
       val file = path.toAbsolutePath
       suite(ConfigFactory.parseFile(file.toFile, options).resolve(), file.getParent)
     catch
-      case e: ConfigException => throw wrong(s"$path: ${e.getMessage.linesIterator.next()}")
+      case e: ConfigException =>
+        // Some of its messages begin with the file
+        val why = e.getMessage.linesIterator.next().stripPrefix(s"${path.toAbsolutePath}: ")
+        throw wrong(s"$path: $why")
       case e: PatternSyntaxException =>
         throw wrong(s"$path: invalid regular expression: ${e.getMessage.linesIterator.next()}")
 

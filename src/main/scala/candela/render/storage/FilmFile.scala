@@ -1,6 +1,8 @@
 package candela.render.storage
 
-import candela.base.{CheckedFile, IoReason, NextFile, Problem, SceneError, WholeFile}
+import candela.base.{
+  CheckedFile, ForeignFile, ForeignKind, IoReason, NextFile, Problem, SceneError, WholeFile
+}
 import candela.render.RenderState
 
 import java.io.{EOFException, IOException}
@@ -67,7 +69,10 @@ object FilmFile:
     try
       if !Files.exists(path) then Left("no such file")
       else if Files.isDirectory(path) then Left("it is a folder")
-      else Right(sound(CheckedFile.read(path, Mark)(FilmHeader.load)))
+      else
+        ForeignFile.of(path).filter(_.kind != ForeignKind.Film) match
+          case Some(other) => Left(s"it is ${other.what}, not a saved rendering")
+          case None => Right(sound(CheckedFile.read(path, Mark)(FilmHeader.load)))
     catch case e: IOException => Left(reason(e))
 
   private def reason(e: IOException): String = e match

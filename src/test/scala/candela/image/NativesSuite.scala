@@ -1,0 +1,25 @@
+package candela.image
+
+import java.nio.file.Files
+
+import candela.cli.TempFolder
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class NativesSuite extends AnyFunSuite:
+
+  test("native libraries are found beside the program's jar"):
+    TempFolder.use: folder =>
+      val jar = folder.resolve("candela.jar")
+      assert(Natives.beside(jar).isEmpty)
+      val place = Files.createDirectories(folder.resolve("natives").resolve(Natives.platform))
+      assert(Natives.beside(jar) == Some(place))
+
+  test("missing libraries are told, other errors are not taken for them"):
+    val missing = UnsatisfiedLinkError("Failed to locate library: liblwjgl.so")
+    val (what, help) = Natives.missing(missing).get
+    assert(what.contains("native libraries") && help.contains("org.lwjgl.librarypath=FOLDER"))
+    val later = NoClassDefFoundError("Could not initialize class org.lwjgl.stb.STBImage")
+    assert(Natives.missing(later).isDefined)
+    assert(Natives.missing(NoClassDefFoundError("candela/Foo")).isEmpty)
+    assert(Natives.missing(RuntimeException("lwjgl")).isEmpty)
