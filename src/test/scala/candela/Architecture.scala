@@ -179,6 +179,20 @@ object Architecture:
     code(sources.filterNot(s => writers(s.path))): (_, line) =>
       write.findFirstIn(line).map(what => s"only WholeFile may write files, but here is `$what`")
 
+  private val read = (raw"\bFiles\.\w+|\bFileChannel\.open\b|" +
+    raw"\b(?:FileInputStream|FileReader|FileImageInputStream|RandomAccessFile)\b|" +
+    raw"\bjava\.io\.File\b|\.toFile\b|\bSource\.fromFile\b|" +
+    raw"\bInputFile\.(?:asked|again)\b|\bImageFiles\.read\b").r
+
+  /** What scenes name is opened through one door, which can be closed. */
+  def reads(sources: Vector[SourceText]): Vector[String] =
+    val ofScenes = bridge.toSet ++ Set("scenefile", "mitsuba", "convert", "lights")
+    // Excerpts are of files that were read, and side files are written
+    val exempt = Set("scenefile/Excerpts.scala", "convert/SideFiles.scala")
+    code(sources.filterNot(s => exempt(s.path))): (home, line) =>
+      read.findFirstIn(line).filter(_ => ofScenes(home)).map: what =>
+        s"only SceneFolder may open what a scene names, but here is `$what`"
+
   private val definition =
     (raw"^(?:(?:private|protected)(?:\[\w+\])? |final |abstract |sealed |case |" +
       raw"opaque )*(?:class|object|trait|enum|type) (\w+)").r

@@ -35,6 +35,9 @@ class ArchitectureSuite extends AnyFunSuite:
   test("only WholeFile writes files"):
     holds(Architecture.writes(main))
 
+  test("only SceneFolder opens the files that a scene names"):
+    holds(Architecture.reads(main))
+
   test("no class of build has the name of one of the runtime"):
     holds(Architecture.names(main))
 
@@ -238,6 +241,25 @@ class ArchitectureSuite extends AnyFunSuite:
         "FileOutputStream(FileDescriptor.out)"
       )
     do assert(Architecture.writes(planted("cli/Reporting.scala", line)).isEmpty, line)
+
+  test("files opened beside the scene's folder are found"):
+    val bad = Vector(
+      "Files.readAllBytes(path)",
+      "if Files.exists(path) then 1",
+      "FileChannel.open(path, StandardOpenOption.READ)",
+      "new java.io.File(name)",
+      "java.io.FileInputStream(name)",
+      "scala.io.Source.fromFile(name)",
+      "ImageFiles.read(path)",
+      "Source.read(InputFile.asked(path))"
+    )
+    for line <- bad; home <- Vector("build/recipe", "mitsuba", "scenefile", "convert", "lights") do
+      val found = Architecture.reads(planted(s"$home/A.scala", line))
+      val rule = s"$home/A.scala:1: only SceneFolder may open what a scene names, but here is"
+      assert(found.size == 1 && found.head.startsWith(rule), s"$line in $home: $found")
+    for line <- Vector("ImageFiles.load(file)", "folder.find(name, at)", "SceneFiles.of(scene)") do
+      assert(Architecture.reads(planted("build/recipe/A.scala", line)).isEmpty, line)
+    assert(Architecture.reads(planted("cli/A.scala", bad.head)).isEmpty)
 
   test("long files and long lines are found, counting characters and not bytes"):
     val exact = Vector.fill(Architecture.MaxLines)("π" * Architecture.MaxColumns)

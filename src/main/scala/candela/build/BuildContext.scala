@@ -1,9 +1,8 @@
 package candela.build
 
-import java.nio.file.Path
 import java.util.IdentityHashMap
 
-import candela.base.SourcePos
+import candela.base.{SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.settings.OptionRecipe
@@ -54,7 +53,7 @@ private[build] final class BuildContext(
 
   /** A statement that the file does not contain. */
   def unwritten(category: String, name: String): Declaration =
-    Declaration(category, name, Vector.empty, start, BuildContext.NoFolder)
+    Declaration(category, name, Vector.empty, start, SceneFolder.Nowhere)
 
   /** Where a statement is; of one that the file does not contain, where that begins. */
   def placeOf(statement: Option[Declaration]): SourcePos = statement.fold(start)(_.at)
@@ -62,7 +61,6 @@ private[build] final class BuildContext(
   private def start: SourcePos = BuildContext.start(description)
 
 private[build] object BuildContext:
-  private val NoFolder = Path.of("")
 
   def apply(whole: SceneDescription, options: BuildOptions): BuildContext =
     val isBlind = whole.dialect == Dialect.V4 && whole.worldToCamera.start.isFlat
@@ -89,10 +87,13 @@ private[build] object BuildContext:
           unfiltered = asked.unfiltered || isMitsubas,
           origin = origin.at
         )
-      val resources = new Resources(basis, options.pool, options.seed, mayBeSpectral, switches)
+      val allowance = description.folder.allowance
+      val resources =
+        new Resources(basis, options.pool, options.seed, mayBeSpectral, switches, allowance)
       new BuildContext(there, origin, resources, problems)
     val plain = context(Switches())
-    val statement = plain.unwritten("Option", "").copy(params = description.options)
+    val statement = plain.unwritten("Option", "")
+      .copy(params = description.options, folder = description.folder)
     context(options.switches.over(OptionRecipe.build(plain.site(statement))))
 
   /** The start of the scene's file, if it has one. */

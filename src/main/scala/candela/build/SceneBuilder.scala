@@ -1,7 +1,7 @@
 package candela.build
 
 import candela.accel.tracing.Hierarchies
-import candela.base.{Parallel, Problem}
+import candela.base.{Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.build.recipe.Switches
@@ -85,6 +85,7 @@ object SceneBuilder:
         s"can't render ${crop.width}×${crop.height} pixels at once",
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
+    checkLimits(context, image, crop, sampling)
     val samples = crop.pixels * sampling.sampler.samplesPerPixel
     Hierarchies.expect(samples, options.pool)
     val world =
@@ -105,6 +106,31 @@ object SceneBuilder:
     context.problems.stopAtErrors()
     val made = plan(context, options, image, crop, integrator, sampling, camera, world)
     (made, context.problems.result)
+
+  /** What a film and its samples need, and how long paths are.
+    *
+    * @throws Refusal if that is more than allowed
+    */
+  private def checkLimits(
+      context: BuildContext,
+      image: ImageSetup,
+      crop: PixelBounds,
+      sampling: SamplingSetup
+  ): Unit =
+    val (allowance, scene) = (context.resources.allowance, context.description)
+    val pixels = crop.pixels * (1L + image.layers.size)
+    allowance.check(Limit.Pixels, pixels, scene.film.map(_.at)):
+      val layers = if image.layers.isEmpty then "" else s" in ${1 + image.layers.size} layers"
+      s"an image of ${crop.width}×${crop.height} pixels$layers"
+    val samples = sampling.sampler.samplesPerPixel
+    allowance.check(Limit.Samples, samples, scene.sampler.map(_.at)):
+      s"$samples samples per pixel"
+    for
+      d <- Vector(scene.integrator, scene.renderer, scene.volumeIntegrator).flatten
+      p <- d.param("maxdepth")
+      depth <- p.ints
+    do
+      allowance.check(Limit.Depth, depth, Some(p.valuesAt))(s"paths of $depth scattering events")
 
   /** The integrator; v2's renderers may override it. */
   private def integratorPlan(context: BuildContext): IntegratorPlan =

@@ -1,9 +1,8 @@
 package candela.build
 
-import java.nio.file.Path
-
 import scala.util.Try
 
+import candela.base.SceneFolder
 import candela.build.shapes.PlyFile
 import candela.math.{Position, Transform}
 import candela.scenefile.{Declaration, Param, SceneDescription, ShapeDescription}
@@ -61,8 +60,8 @@ private[build] object SceneSurvey:
     val w = p.number(i + 3)
     Position(p.number(i) / w, p.number(i + 1) / w, p.number(i + 2) / w)
 
-  private def vertices(folder: Path, name: String): Vector[Position] =
-    Try(PlyFile.begin(folder.resolve(name.replace('\\', '/')), FewVertices)).toOption.fold(
+  private def vertices(folder: SceneFolder, name: String): Vector[Position] =
+    folder.glance(name).flatMap(file => Try(PlyFile.begin(file, FewVertices)).toOption).fold(
       Vector.empty
     )(p => Vector.tabulate(p.length / 3)(i => Position(p(3 * i), p(3 * i + 1), p(3 * i + 2))))
 

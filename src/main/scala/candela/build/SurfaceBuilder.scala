@@ -88,7 +88,10 @@ private[build] final class SurfaceBuilder(
     for plan <- Shapes.all.build(here).flatten do
       val lamp = dressed.shape.areaLight.filter(context.emission(_).isDefined)
         .filter(_ => !isUnlit(dressed.material, here))
+      val before = soup.triangleCount + solids.size
       Placement(dressed, here, plan, lamp, toWorld).place(plan.geometry)
+      val made = soup.triangleCount + solids.size - before
+      context.resources.allowance.countShapes(made, Some(declared.at))
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&

@@ -62,6 +62,8 @@ private[build] final class WorldBuilder(
   def build(footprints: => Footprints): World =
     defineTextures(context)
     val uses = ObjectUses(description, context.origin.at, problems)
+    for l <- description.lights.headOption do
+      context.resources.allowance.countShapes(description.lights.size, Some(l.light.at))
     val media = MediaBuilder(context, integrator)
     val shapes = uses.world ++ uses.shared.flatMap(_.shapes)
     val materials = MaterialTable.of(context, integrator, media, shapes)
@@ -182,6 +184,8 @@ private[build] final class WorldBuilder(
     val plan = asked.getOrElse(BvhRecipe.accelerator(context.resources))
     def accelerate(primitives: Primitives): Accelerator = plan(primitives, samples)
     val places = uses.zipWithIndex.flatMap((use, o) => use.places.map(o -> _))
+    for i <- description.instances.headOption do
+      context.resources.allowance.countShapes(places.size, Some(i.at))
     val accelerators = objects.map(o => accelerate(o.primitives()))
     val instances = Instances.of(accelerators.toArray, places, shutter.open, shutter.close)
     Structure(world, Instanced(objects.toArray, instances), accelerate(world.primitives(instances)))

@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.base.{SceneError, Severity}
+
 /** `candela check`: parses and builds scenes, prints their contents, and reports problems. */
 final class CheckCommand(
     options: Options,
@@ -32,7 +34,10 @@ final class CheckCommand(
     terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
   private def check(scene: String): ExitCode =
-    val loaded = loader.load(scene, options)
+    val read = loader.load(scene, options)
+    val film = FilmName.problem(read.description)
+    for p <- film if p.severity == Severity.Error do throw SceneError(read.warnings :+ p)
+    val loaded = read.copy(warnings = read.warnings ++ film)
     report.warnings(loaded.warnings, all = options.verbose)
     if loaded.warnings.nonEmpty then warned += 1
     if !options.quiet then terminal.out.println(s"$scene: ${contents(loaded)}")

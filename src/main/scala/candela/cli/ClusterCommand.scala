@@ -97,6 +97,7 @@ private[cli] final class ClusterCommand(
       progress.update(Progress(now, samplesAsked, seconds))
 
   private def finish(submitted: Submitted): ExitCode =
+    terminal.interrupts.checkTime()
     val folder = Files.createTempDirectory("candela-films")
     try
       val (films, shards) = ShardRenderer.distinct(submitted.run.films(folder))

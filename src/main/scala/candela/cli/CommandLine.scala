@@ -171,6 +171,7 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param bench options of `bench`
   * @param compare options of `compare`
   * @param image options of `image` and `average`
+  * @param limits what scenes may do
   */
 final case class Options(
     command: Command = Command.Render,
@@ -222,7 +223,8 @@ final case class Options(
     pbrtOptions: Boolean = false,
     to: Option[Dialect] = None,
     toPly: Option[Int] = None,
-    bake: Option[Int] = None
+    bake: Option[Int] = None,
+    limits: LimitOptions = LimitOptions()
 ):
   /** With a parameter of a Mitsuba scene, given as NAME=VALUE. */
   def defining(text: String): Options =

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, WholeFile}
+import candela.base.{Problem, SceneError, Severity, WholeFile}
 import candela.build.TextureValues
 import candela.convert.{Baking, Converter, SceneText, SideFiles}
 import candela.mitsuba.MitsubaScene
@@ -14,10 +14,16 @@ import java.nio.file.Path
 /** `candela convert`: writes a scene in another dialect, or reformats it in its own. */
 final class ConvertCommand(options: Options, terminal: Terminal, report: Report):
 
-  def run(): ExitCode = report.guarded:
+  def run(): ExitCode = report.guarded(SceneLoader.refusing(convert()))
+
+  private def convert(): ExitCode =
     val out = options.outfiles.headOption.map(OutputFiles.path)
     val output = Output(out.toVector, "scene", options.files.head)
     val register = FileRegister()
+    val folder =
+      if out.isEmpty && options.limits.sandbox then folderOf(OutputFiles.path(options.files.head))
+      else out.fold(Path.of(""))(folderOf)
+    if options.limits.sandbox then register.confine(Vector(folder))
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
     val scene =
@@ -25,14 +31,18 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)
-    val folder = out.flatMap(f => Option(f.getParent)).getOrElse(Path.of(""))
+    val film = FilmName.problem(scene)
+    for p <- film if p.severity == Severity.Error do throw SceneError(p)
     val to = options.to.getOrElse(scene.dialect)
-    val files = SideFiles(folder)
+    val files = SideFiles(
+      folder,
+      side => register.check(Output(Vector(side), "side file", options.files.head))
+    )
     files.completing:
       val baking = options.bake.map(Baking(_, TextureValues.last(_).map(f => f(_, _, _))))
       val converted = Converter.convert(scene, to, files, options.toPly.orElse(meshSize), baking)
       val warnings = Excerpts.fill(converted.warnings)
-      report.warnings(scene.warnings ++ warnings, all = options.verbose)
+      report.warnings(scene.warnings ++ film ++ warnings, all = options.verbose)
       out match
         case Some(path) =>
           WholeFile.write(path): channel =>
@@ -42,6 +52,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
         case None => write(converted.scene, terminal.data)
       terminal.out.flush()
     ExitCode.Done
+
+  private def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
 
   /** Meshes of Mitsuba scenes come from files, and go to files. */
   private def meshSize: Option[Int] =

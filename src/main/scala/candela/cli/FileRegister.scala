@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, WholeFile}
+import candela.base.{Problem, SceneError, SourcePos, WholeFile}
 import candela.render.storage.FilmFile
 
 import java.nio.file.attribute.BasicFileAttributes
@@ -14,13 +14,15 @@ import scala.util.Try
   * @param of     the input they belong to
   * @param option that names them
   * @param beside what is written with them, such as previous copies
+  * @param at     the parameter that names them, if a scene does
   */
 private[cli] final case class Output(
     files: Vector[Path],
     kind: String,
     of: String,
     option: String = "outfile",
-    beside: Vector[Path] = Vector.empty
+    beside: Vector[Path] = Vector.empty,
+    at: Option[SourcePos] = None
 )
 
 /** What a run reads and writes. The one place where outputs are checked, before the work begins:
@@ -30,6 +32,11 @@ private[cli] final class FileRegister:
   import FileRegister.*
   private var inputs = Set.empty[AnyRef]
   private var outputs = Map.empty[Path, Output]
+  private var room = Option.empty[Vector[Path]]
+
+  /** From now on, files can be written in these folders only, or below them. */
+  def confine(folders: Vector[Path]): Unit =
+    room = Some(folders.flatMap(f => Try(f.toAbsolutePath.toRealPath()).toOption))
 
   def read(files: Iterable[Path]): Unit = inputs ++= files.flatMap(identities)
 
@@ -40,12 +47,22 @@ private[cli] final class FileRegister:
     * @throws SceneError if one can't be
     */
   def check(output: Output): Unit =
-    def problem(file: Path) = obstacle(file).orElse(Option.when(hasRead(file)):
+    def isInput(file: Path) = Option.when(hasRead(file)):
       val help = s"choose another name with --${output.option} FILE"
-      Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help)))
+      Problem.general(s"`$file` is an input file; refusing to overwrite it", Some(help))
+    def problem(file: Path) = outside(file, output).orElse(obstacle(file)).orElse(isInput(file))
     val problems = output.files.flatMap(problem)
     if problems.nonEmpty then throw SceneError(problems)
     for first <- output.beside.flatMap(problem).headOption do throw SceneError(first)
+
+  private def outside(file: Path, output: Output): Option[Problem] =
+    for
+      folders <- room
+      if !place(file).exists(there => folders.exists(there.startsWith(_)))
+      message = s"expected a place for the ${output.kind} in the folder of the image, found `$file`"
+    yield
+      val help = Some("--sandbox lets files be written in that of --outfile or of the scene only")
+      output.at.fold(Problem.general(message, help))(Problem.error(_, message, help))
 
   /** Notes files that will be written.
     *

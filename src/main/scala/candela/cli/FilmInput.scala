@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Version}
+import candela.base.{Problem, SceneError, SceneFolder, Version}
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
@@ -31,7 +31,12 @@ private[cli] object FilmInput:
     * @param now options of this command
     */
   def options(film: FilmFile, now: Options): Options =
-    options(film.header, at(film, film.header.scene)).copy(
+    val scene = at(film, film.header.scene)
+    if now.limits.sandbox then
+      val folder = SceneFolder.of(film.path, isConfined = true)
+      val _ = SceneLoader.refusing(folder.scene(OutputFiles.path(scene)))
+    options(film.header, scene).copy(
+      limits = now.limits,
       threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,
@@ -40,8 +45,10 @@ private[cli] object FilmInput:
 
   /** The options of a rendering, with its scene as found here. */
   def options(header: FilmHeader, scene: String): Options =
-    CommandLine.parse(Command.Render.word +: header.words :+ scene)
-      .getOrElse(fail(s"the film of `$scene` has unknown options: ${header.words}"))
+    CommandLine.parse(Command.Render.word +: header.words :+ scene).toOption
+      // Of a forged film, they might be any
+      .filter(o => FilmHeaders.words(o) == header.words && o.files == Vector(scene))
+      .getOrElse(fail(s"the film of `$scene` has unknown options: ${header.words.mkString(" ")}"))
       .copy(spp = Some(header.samples))
 
   /** A file named by the rendering, as found from here. */

@@ -54,12 +54,15 @@ private[cli] object FilmTable:
   private final case class Seconds(value: Double)
 
   private given Read[Seconds] = Read.reads: text =>
+    seconds(text).map(Seconds(_)).getOrElse:
+      throw IllegalArgumentException("expected a duration, e.g. 90s, 10m or 2h")
+
+  /** Seconds of a duration. */
+  private[cli] def seconds(text: String): Option[Double] =
     val unit = text.takeRight(1)
     val scale = Map("s" -> 1.0, "m" -> 60.0, "h" -> 3600.0).get(unit)
     val number = if scale.isDefined then text.dropRight(1) else text
-    val seconds = number.toDoubleOption.map(_ * scale.getOrElse(1.0))
-    seconds.filter(s => s > 0 && s < 1e9).map(Seconds(_)).getOrElse:
-      throw IllegalArgumentException("expected a duration, e.g. 90s, 10m or 2h")
+    number.toDoubleOption.map(_ * scale.getOrElse(1.0)).filter(s => s > 0 && s < 1e9)
 
   private given Read[Shard] = Read.reads: text =>
     text.split("/", -1).map(_.trim.toIntOption) match
@@ -111,13 +114,13 @@ private[cli] object FilmTable:
       .action((_, o) => change(o)(_.copy(skipDone = true)))
   ) ++ goals
 
-  def resume: Vector[Row] = every +: goals
+  def resume: Vector[Row] = (every +: goals) ++ LimitTable.options
 
   def merge: Vector[Row] = Vector(
     opt[Unit]("partial")
       .text("merge what there is, without films that are missing, damaged, doubled or foreign")
       .action((_, o) => change(o)(_.copy(partial = true)))
-  )
+  ) ++ LimitTable.options
 
   /** What is wrong with the options of `render`, if anything. */
   def problem(o: Options): Option[String] =

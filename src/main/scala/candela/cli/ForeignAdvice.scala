@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.base.{ForeignFile, ForeignKind, Problem}
+import candela.base.{ForeignFile, ForeignKind, InputFile, Problem}
 import candela.scenefile.Source
 
 import java.nio.file.{Files, Path}
@@ -13,7 +13,8 @@ private[cli] object ForeignAdvice:
   def problem(file: Path): Option[Problem] =
     // A pipe can be read only once
     for
-      source <- Option.when(Files.isRegularFile(file))(Source.read(file)).flatMap(_.toOption)
+      source <- Option.when(Files.isRegularFile(file))(Source.read(InputFile.asked(file)))
+        .flatMap(_.toOption)
       found <- recognised(file, source)
     yield Problem.general(s"`$file` is ${found.what}, not a scene", advice(found.kind, file))
 

@@ -2,7 +2,7 @@ package candela.cli
 
 import java.nio.file.Path
 
-import candela.base.{ForeignFile, ForeignKind, loop}
+import candela.base.{ForeignFile, ForeignKind, InputFile, loop}
 import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
 import candela.render.storage.FilmHeader
 
@@ -19,7 +19,7 @@ final class InfoCommand(options: Options, terminal: Terminal, report: Report):
       val path = OutputFiles.path(name)
       val found =
         if isFilm(path) then described(FilmInput.open(name, report).header)
-        else lines(path, ImageFiles.load(path))
+        else lines(path, ImageFiles.load(InputFile.asked(path)))
       found.foreach(terminal.out.println)
     terminal.out.flush()
     ExitCode.Done

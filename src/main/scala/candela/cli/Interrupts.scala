@@ -15,6 +15,12 @@ abstract class Interrupts:
   /** Runs `body`; an interrupt meanwhile requests `cancellation`. */
   def during[A](cancellation: Cancellation)(body: => A): A
 
+  /** @throws SceneError if the time of the run is over */
+  def checkTime(): Unit = ()
+
+  /** Ends the process at once, if it is ours. */
+  def quit(code: ExitCode): Unit = ()
+
 object Interrupts:
 
   /** For embedding: the host program handles Ctrl-C. */
@@ -30,6 +36,8 @@ object Interrupts:
     */
   private final class Signals(err: PrintStream, echoes: Boolean) extends Interrupts:
     private val interrupt = Signal("INT")
+
+    override def quit(code: ExitCode): Unit = Runtime.getRuntime.halt(code.number)
 
     def during[A](cancellation: Cancellation)(body: => A): A =
       val ended = CountDownLatch(1)

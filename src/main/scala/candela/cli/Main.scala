@@ -28,37 +28,39 @@ object Main:
         answer.lines.foreach(terminal.out.println(_))
         answer.problems.foreach(ProblemText.print(_, terminal.err, terminal.hasColor))
         answer.code
-      case Right(options) =>
-        val known = OptionTable.names(options.command.word)
-        val report = Report(
-          terminal.err,
-          options.quiet,
-          options.verbose,
-          known.contains("keep-going"),
-          terminal.hasColor,
-          known.contains("verbose")
-        )
-        if !options.quiet then
-          for note <- options.notes do
-            val warning = Problem(Severity.Warning, None, note)
-            ProblemText.print(warning, terminal.err, terminal.hasColor)
-        options.command match
-          case Command.Render if options.cluster.master.isDefined =>
-            ClusterCommand(options, terminal, report, loader).run()
-          case Command.Render => RenderCommand(options, terminal, report, loader).run()
-          case Command.Resume => ResumeCommand(options, terminal, report, loader).run()
-          case Command.Merge => MergeCommand(options, terminal, report, loader).run()
-          case Command.Check => CheckCommand(options, terminal, report, loader).run()
-          case Command.Compare => CompareCommand(options, terminal, report).run()
-          case Command.Bench => BenchCommand(options, terminal, report).run()
-          case Command.Describe => DescribeCommand(options, terminal, report).run()
-          case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
-          case Command.View => ViewCommand(options, terminal, report).run()
-          case Command.Image => ImageCommand(options, terminal, report).run()
-          case Command.Average => AverageCommand(options, terminal, report).run()
-          case Command.Info => InfoCommand(options, terminal, report).run()
-          case Command.Convert => ConvertCommand(options, terminal, report).run()
+      case Right(options) => TimeLimit.during(options, terminal)(execute(_, _, loader))
     terminal.failure.fold(code)(lost(_, terminal).worseOf(code)).number
+
+  private def execute(options: Options, terminal: Terminal, loader: SceneLoader): ExitCode =
+    val known = OptionTable.names(options.command.word)
+    val report = Report(
+      terminal.err,
+      options.quiet,
+      options.verbose,
+      known.contains("keep-going"),
+      terminal.hasColor,
+      known.contains("verbose")
+    )
+    if !options.quiet then
+      for note <- options.notes do
+        val warning = Problem(Severity.Warning, None, note)
+        ProblemText.print(warning, terminal.err, terminal.hasColor)
+    options.command match
+      case Command.Render if options.cluster.master.isDefined =>
+        ClusterCommand(options, terminal, report, loader).run()
+      case Command.Render => RenderCommand(options, terminal, report, loader).run()
+      case Command.Resume => ResumeCommand(options, terminal, report, loader).run()
+      case Command.Merge => MergeCommand(options, terminal, report, loader).run()
+      case Command.Check => CheckCommand(options, terminal, report, loader).run()
+      case Command.Compare => CompareCommand(options, terminal, report).run()
+      case Command.Bench => BenchCommand(options, terminal, report).run()
+      case Command.Describe => DescribeCommand(options, terminal, report).run()
+      case Command.Preview => PreviewCommand(options, terminal, report, loader).run()
+      case Command.View => ViewCommand(options, terminal, report).run()
+      case Command.Image => ImageCommand(options, terminal, report).run()
+      case Command.Average => AverageCommand(options, terminal, report).run()
+      case Command.Info => InfoCommand(options, terminal, report).run()
+      case Command.Convert => ConvertCommand(options, terminal, report).run()
 
   /** Nobody wants to hear of output that its reader did not want, such as `head`. */
   private def lost(failure: IOException, terminal: Terminal): ExitCode =

@@ -22,6 +22,9 @@ final class MergeCommand(
       val outfiles = OutputFiles.asked(options.outfiles)
       outfiles.check()
       val register = FileRegister()
+      if options.limits.sandbox then
+        val folders = options.outfiles.map(OutputFiles.path).map(_.toAbsolutePath.getParent)
+        register.confine(folders.distinct)
       register.read(films.flatMap(f => Vector(f.path, FilmFile.previous(f.path))))
       val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path).toVector
       val outputs = Output(outfiles.paths, "image", first.path.toString) +:

@@ -198,7 +198,7 @@ private[cli] object OptionTable extends OptionRows:
     quiet,
     verbose(", the time of each phase, and what --explain prints")
   ) ++ PointTable.render ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++
-    ClusterTable.options ++ DisplayTable.options
+    ClusterTable.options ++ DisplayTable.options ++ LimitTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,
@@ -214,7 +214,7 @@ private[cli] object OptionTable extends OptionRows:
   private val checkOptions: Vector[Row] =
     Vector(
       parsedAs, defines, keepGoing, color, explain, quiet, verbose(", and what --explain prints")
-    )
+    ) ++ LimitTable.options
 
   private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
 
@@ -255,7 +255,7 @@ private[cli] object OptionTable extends OptionRows:
     defines,
     quiet,
     verbose("")
-  )
+  ) ++ LimitTable.options
 
   private val viewOptions: Vector[Row] = Vector[Row](
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
@@ -279,7 +279,7 @@ private[cli] object OptionTable extends OptionRows:
     explain,
     quiet,
     verbose("")
-  ) ++ DisplayTable.options
+  ) ++ DisplayTable.options ++ LimitTable.options
 
   private val imageOptions: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
 

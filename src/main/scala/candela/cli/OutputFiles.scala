@@ -82,22 +82,28 @@ object OutputFiles:
     * write pbrt's `pbrt.exr`.
     */
   def ofScene(scene: String, loaded: LoadedScene): OutputFiles =
-    val film = loaded.description.film
-    val isNamed = film.exists(_.params.exists(_.name == "filename"))
-    if isNamed || loaded.plan.filename != FilmRecipe.DefaultFile then ofFilm(loaded.plan.filename)
+    val description = loaded.description
+    // A confined scene writes where it reads
+    val folder = if description.folder.isConfined then description.folder.path else Path.of("")
+    val isNamed = description.film.exists(_.params.exists(_.name == "filename"))
+    if isNamed || loaded.plan.filename != FilmRecipe.DefaultFile then
+      val problem = FilmName.problem(description)
+      for p <- problem if p.severity == Severity.Error do throw SceneError(p)
+      val files = ofFilm(loaded.plan.filename, folder)
+      files.copy(warnings = problem.toVector ++ files.warnings)
     else
       val file = path(scene).getFileName
       val stem = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
-      val files = ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}")
+      val files = ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}", folder)
       val message = s"`$scene` names no image file; writing `${files.paths.head}`"
       files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
 
-  /** The file named by the scene's Film, relative to the current folder, plus a preview if its
-    * format can't be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by
+  /** The file named by the scene's Film, relative to a folder, plus a preview if its format can't
+    * be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by
     * the default.
     */
-  def ofFilm(filename: String): OutputFiles =
-    val named = path(filename)
+  def ofFilm(filename: String, folder: Path = Path.of("")): OutputFiles =
+    val named = folder.resolve(path(filename))
     OutputFormat.of(named) match
       case Some(format) if format.contents == Contents.Display =>
         OutputFiles(Vector(named), Vector.empty)

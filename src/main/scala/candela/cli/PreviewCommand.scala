@@ -30,7 +30,13 @@ final class PreviewCommand(
       files = Vector(scene),
       outfiles =
         if options.outfiles.nonEmpty then options.outfiles
-        else Vector(s"${FileName.stem(picture)}-preview.${OutputFormat.preview.suffix}"),
+        else
+          val name = s"${FileName.stem(picture)}-preview.${OutputFormat.preview.suffix}"
+          val isConfined = options.limits.sandbox
+          Vector(
+            if isConfined then OutputFiles.path(scene).resolveSibling(name).toString else name
+          )
+      ,
       preview = true,
       keepGoing = true,
       spp = Some(Samples),

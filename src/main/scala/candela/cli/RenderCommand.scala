@@ -151,6 +151,7 @@ final class RenderCommand(
                 watching.foreach(_.start(live))
             )
           finally progress.finish()
+        if !rendering.isComplete then terminal.interrupts.checkTime()
         watching.foreach(_.end(rendering))
         val started = System.nanoTime
         val facts = about.filter((name, _) => name != Sequence.Digest || rendering.isComplete)
@@ -168,9 +169,8 @@ final class RenderCommand(
         summarise(written ++ films, loaded, rendering, writeSeconds)
         // A preview has neither goals nor options of its own to reach them
         if !options.preview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
-        val reports =
-          reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
-        for path <- reports if !options.quiet do terminal.out.println(s"wrote $path")
+        val pages = reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
+        for path <- pages if !options.quiet do terminal.out.println(s"wrote $path")
         terminal.out.flush()
         for r <- reference; d <- denoised if !options.quiet do
           terminal.out.println(s"relative MSE  ${d.errors(r)}")
@@ -178,7 +178,7 @@ final class RenderCommand(
           val shown = Denoising.shown(image)
           terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
         terminal.out.flush()
-        watching.foreach(_.await(written ++ films ++ reports))
+        watching.foreach(_.await(written ++ films ++ pages))
         if written.size < wanted.size || checkpointer.exists(_.failure.nonEmpty) then
           ExitCode.BadInput
         else if !rendering.isComplete then ExitCode.Interrupted

@@ -20,6 +20,7 @@ private[cli] final class RenderOutputs(
     */
   def check(scene: String, outfiles: Vector[String]): Unit =
     val images = OutputFiles.asked(outfiles)
+    if options.limits.sandbox then register.confine(folders(scene, outfiles))
     images.check()
     register.read((scene +: (options.reference ++ options.switches.reference).toVector)
       .map(OutputFiles.path))
@@ -44,10 +45,17 @@ private[cli] final class RenderOutputs(
     if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
       files.checkLayers()
     if options.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
-    register.write(Output(files.paths, "image", scene))
+    val at = if outfiles.isEmpty then FilmName.place(loaded.description) else None
+    register.write(Output(files.paths, "image", scene, at = at))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
     others(scene, film, plan.errors.map(_.file)).foreach(register.write)
     files.paths
+
+  /** Where a sandbox lets files be written. */
+  private def folders(scene: String, outfiles: Vector[String]): Vector[Path] =
+    val beside = resumed.map(_.path).toVector ++ outfiles.map(OutputFiles.path)
+    val all = if beside.isEmpty then Vector(OutputFiles.path(scene)) else beside
+    all.map(file => Option(file.getParent).getOrElse(Path.of(""))).distinct
 
   private def others(scene: String, film: Option[Path], errors: Option[String]) =
     val named = if options.film.checkpoint.isDefined then "checkpoint" else "outfile"

@@ -1,11 +1,11 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError, Severity, Suggest}
+import candela.base.{Problem, Refusal, SceneError, Severity, Suggest}
 import candela.build.{BuildOptions, DialectChoice, LightGrouping, SceneBuilder}
 import candela.film.PixelBounds
 import candela.mitsuba.MitsubaScene
 import candela.render.{RenderPlan, ThreadPool}
-import candela.scenefile.{Parser, SceneDescription}
+import candela.scenefile.{Excerpts, Parser, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
@@ -35,7 +35,7 @@ abstract class SceneLoader:
 object SceneLoader:
 
   object FromFile extends SceneLoader:
-    def load(scene: String, options: Options): LoadedScene =
+    def load(scene: String, options: Options): LoadedScene = refusing:
       val file = existing(scene)
       val started = System.nanoTime
       val description = readable(file, options)
@@ -45,16 +45,23 @@ object SceneLoader:
       val all = description.warnings ++ warnings
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
 
+  /** Makes an error of what a scene must not do. */
+  def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
+
   /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
   def readable(file: Path, options: Options): SceneDescription =
+    val folder = options.limits.folder(file)
+    // What is not to be read is not looked at either
+    if folder.isConfined then folder.scene(file): Unit
     for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
     if MitsubaScene.isNamed(file) then
-      MitsubaScene.readable(file, options.defines, options.keepGoing)
+      MitsubaScene.readable(file, options.defines, options.keepGoing, Some(folder))
     else if options.defines.nonEmpty then
       val help = "-D sets parameters of Mitsuba's XML files"
       throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
     else
-      val read = Parser.readable(file, options.dialect, options.keepGoing, options.world)
+      val within = Some(folder)
+      val read = Parser.readable(file, options.dialect, options.keepGoing, options.world, within)
       val scene = DialectChoice.of(read, options.dialect)
       if !scene.isFollowed || options.command == Command.Render then scene
       else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))

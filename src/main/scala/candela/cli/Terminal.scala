@@ -40,6 +40,10 @@ final class Terminal(
   def failure: Option[IOException] =
     Option.when(out.checkError())(lost().getOrElse(IOException("it is closed")))
 
+  /** The same streams with other interrupts. */
+  private[cli] def interruptedBy(other: Interrupts): Terminal =
+    Terminal(out, err, isInteractive, other, columns, environment, lost)
+
   /** Whether `err` shows colours. Source: "NO_COLOR", no-color.org. */
   def hasColor: Boolean = isInteractive && environment.getOrElse("NO_COLOR", "").isEmpty
 

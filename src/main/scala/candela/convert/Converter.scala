@@ -1,6 +1,6 @@
 package candela.convert
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.Path
 
 import scala.collection.mutable
 
@@ -183,12 +183,13 @@ final class FileNames(to: Path):
   private val target = to.toAbsolutePath.normalize
 
   def moved(d: Declaration): Declaration =
-    val from = d.folder.toAbsolutePath.normalize
-    if from == target || !d.params.exists(FileNames.isFile(d, _)) then d.copy(folder = to)
+    val from = d.folder.path.toAbsolutePath.normalize
+    val there = d.folder.at(to)
+    if from == target || !d.params.exists(FileNames.isFile(d, _)) then d.copy(folder = there)
     else
       val params = d.params.map: p =>
         if FileNames.isFile(d, p) then p.withStrings(p.strings.map(name(from, _))) else p
-      d.copy(params = params, folder = to)
+      d.copy(params = params, folder = there)
 
   private def name(from: Path, written: String): String =
     try
@@ -215,6 +216,4 @@ object FileNames:
   private def isNoWord(p: Param, d: Declaration): Boolean =
     p.name != "aperture" || p.strings.exists(exists(d, _))
 
-  private def exists(d: Declaration, name: String): Boolean =
-    try name.nonEmpty && Files.isRegularFile(d.folder.resolve(name.replace('\\', '/')))
-    catch case _: InvalidPathException => false
+  private def exists(d: Declaration, name: String): Boolean = d.folder.belonging(name).nonEmpty

@@ -1,11 +1,9 @@
 package candela.convert
 
-import java.nio.file.Path
-
 import scala.collection.mutable
 import scala.util.Try
 
-import candela.base.{Problem, loop}
+import candela.base.{Problem, SceneFolder, loop}
 import candela.bsdf.Fresnel
 import candela.color.Rgb
 import candela.image.ImageFiles
@@ -126,8 +124,8 @@ object FromMitsuba:
     /** pbrt's field of view is the shorter side's, not the width's. */
     private def projection(d: Declaration): Declaration =
       warn(d, "pbrt's projected images get darker to their sides, Mitsuba's do not")
-      val sizes = d.param("mapname").map(p => d.folder.resolve(p.strings.head))
-        .flatMap(file => Try(ImageFiles.read(file)).toOption).map(i => i.width.toFloat / i.height)
+      val sizes = d.param("mapname").flatMap(p => d.folder.find(p.strings.head, Some(p.valuesAt)))
+        .flatMap(file => Try(ImageFiles.load(file)).toOption).map(i => i.width.toFloat / i.height)
       val narrow = Math.max(1f, sizes.getOrElse(1f))
       d.copy(params = d.params.map: p =>
         if p.name != "fov" then p
@@ -203,7 +201,7 @@ object FromMitsuba:
         "scale",
         Vector(Param.texture("tex", p.at, p.strings.head), Param.float("scale", p.at, factor)),
         p.at,
-        Path.of("")
+        SceneFolder.Nowhere
       )
       added.getOrElseUpdate(
         name,

@@ -1,9 +1,9 @@
 package candela.convert
 
-import java.io.{BufferedInputStream, IOException}
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.io.IOException
 
-import candela.scenefile.{Declaration, ParamType}
+import candela.base.InputFile
+import candela.scenefile.{Declaration, Param, ParamType}
 
 /** Properties of meshes. */
 object Meshes:
@@ -12,19 +12,17 @@ object Meshes:
   def hasNormals(shape: Declaration): Boolean = shape.name match
     case "trianglemesh" | "bilinearmesh" => shape.param("N").exists(_.floats.nonEmpty)
     case "loopsubdiv" => true // of the limit surface
-    case "plymesh" => shape.param("filename").exists(p => plyHasNormals(shape, p.strings.head))
+    case "plymesh" => shape.param("filename").exists(plyHasNormals(shape, _))
     case _ => false
 
-  private def plyHasNormals(shape: Declaration, name: String): Boolean =
-    try
-      val path = shape.folder.resolve(name.replace('\\', '/'))
-      Files.isRegularFile(path) && header(path).exists(_.matches("property \\S+ nx"))
-    catch case _: InvalidPathException => false
+  private def plyHasNormals(shape: Declaration, p: Param): Boolean =
+    shape.folder.find(p.strings.head, Some(p.valuesAt))
+      .exists(header(_).exists(_.matches("property \\S+ nx")))
 
-  private def header(path: Path): Vector[String] =
+  private def header(file: InputFile): Vector[String] =
     try
-      val raw = BufferedInputStream(Files.newInputStream(path))
-      val in = if path.toString.endsWith(".gz") then java.util.zip.GZIPInputStream(raw) else raw
+      val raw = file.stream()
+      val in = if file.toString.endsWith(".gz") then java.util.zip.GZIPInputStream(raw) else raw
       try
         val text = String(in.readNBytes(LongestHeader), "ISO-8859-1")
         text.linesIterator.map(_.trim).takeWhile(_ != "end_header").toVector

@@ -1,10 +1,8 @@
 package candela.convert
 
-import java.nio.file.Path
-
 import scala.collection.mutable
 
-import candela.base.Problem
+import candela.base.{Problem, SceneFolder}
 import candela.scenefile.{
   Declaration, MaterialRef, Param, ParamType, SceneDescription, ShapeDescription
 }
@@ -52,7 +50,7 @@ private[convert] object MitsubaInV4:
   /** pbrt-v4 decodes all 8-bit files but PNG as sRGB. */
   def images(scene: SceneDescription, files: SideFiles): Converted =
     val problems = Vector.newBuilder[Problem]
-    val made = mutable.HashMap.empty[(Path, String), String]
+    val made = mutable.HashMap.empty[(SceneFolder, String), String]
     def isMisread(d: Declaration, p: Param) =
       val isRaw = p.name == "normalmap" || p.name == "filename" && d.category == "Texture" &&
         d.param("encoding").exists(_.strings.contains("linear"))

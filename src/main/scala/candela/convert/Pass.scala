@@ -99,7 +99,7 @@ final class PassRun(
     val placeOfNone = scene.camera.fold(SourcePos("", 0, 0))(_.at)
     def option(category: String, given_ : Option[Declaration]): Option[Declaration] =
       val silent = pass.defaults.get(category).map: name =>
-        Declaration(category, name, Vector.empty, placeOfNone, java.nio.file.Path.of(""))
+        Declaration(category, name, Vector.empty, placeOfNone, candela.base.SceneFolder.Nowhere)
       given_.orElse(silent).flatMap(convert(_, category))
     val media =
       scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d)))

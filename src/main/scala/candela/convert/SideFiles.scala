@@ -1,11 +1,11 @@
 package candela.convert
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.{Files, Path}
 import java.security.MessageDigest
 
 import scala.util.Try
 
-import candela.base.{loop, Problem, SceneError, WholeFile}
+import candela.base.{InputFile, loop, Problem, SceneError, SceneFolder, WholeFile}
 import candela.color.{Encoding, Rgb}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.lights.{Picture, PictureLookup}
@@ -13,8 +13,10 @@ import candela.scenefile.{Dialect, Param}
 
 /** Files that accompany an output scene, named by a hash of their content: an existing file of that
   * name is either equal, or not ours to overwrite.
+  *
+  * @param check called with each file before it is written
   */
-final class SideFiles(val folder: Path):
+final class SideFiles(val folder: Path, check: Path => Unit = _ => ()):
   private var created = Vector.empty[Path]
 
   /** Writes the bytes to a file atomically; returns its name. */
@@ -23,6 +25,7 @@ final class SideFiles(val folder: Path):
     val name = s"$kind-${hash.take(8).map(b => f"$b%02x").mkString}.$extension"
     val path = folder.resolve(name)
     if !Files.exists(path) then
+      check(path)
       WholeFile.write(path, bytes)
       created :+= path
     else if !java.util.Arrays.equals(Files.readAllBytes(path), bytes) then
@@ -88,10 +91,19 @@ object RewrittenImages:
 
   /** Whether v3, which takes all colours for sRGB, would misread the image. */
   def hasOtherPrimaries(s: Statement, p: Param): Boolean =
-    Try(!ImageFiles.read(place(s, p)).colorSpace.isSrgb).getOrElse(false)
+    Try(!ImageFiles.load(file(s, p)).toImage.colorSpace.isSrgb).getOrElse(false)
 
-  private def place(s: Statement, p: Param): Path =
-    s.declaration.folder.resolve(name(p))
+  /** The file that a parameter names.
+    *
+    * @throws ImageError if there is none
+    */
+  def file(s: Statement, p: Param): InputFile = file(s.declaration.folder, p)
+
+  private def file(folder: SceneFolder, p: Param): InputFile =
+    folder.find(p.strings.head, Some(p.valuesAt)).getOrElse:
+      if SceneFolder.isName(p.strings.head) then
+        throw ImageError(s"${folder.path.resolve(name(p))}: there is no such file")
+      else throw ImageError("the name is not valid")
 
   /** The image with `change` applied to its stored values (8 bits: 0 to 1) and their channel,
     * in sRGB.
@@ -109,19 +121,17 @@ object RewrittenImages:
   /** The stored values as linear ones, unless the file is PNG, for which scenes name the encoding,
     * or linear as it is: name of the file, or why it can't be read.
     */
-  def raw(folder: Path, p: Param, files: SideFiles): Either[String, String] =
+  def raw(folder: SceneFolder, p: Param, files: SideFiles): Either[String, String] =
     val name = p.strings.head
     if name.toLowerCase.endsWith(".png") then Right(name)
     else
       try
-        val image = ImageFiles.read(folder.resolve(name.replace('\\', '/')))
+        val image = ImageFiles.load(file(folder, p)).toImage
         Right(
           if image.encoding == Encoding.Linear then name
           else files.add("image", "exr", ImageFiles.exr(plain(image)))
         )
-      catch
-        case e: ImageError => Left(e.getMessage)
-        case _: InvalidPathException => Left("the name is not valid")
+      catch case e: ImageError => Left(e.getMessage)
 
   private def plain(i: Image): Image = Image(i.width, i.height, i.channelNames, i.data)
 
@@ -132,8 +142,6 @@ object RewrittenImages:
       s.warn(p.at, s"can't read the image, leaving it unchanged: $why")
       name
     try
-      val image = ImageFiles.read(place(s, p))
+      val image = ImageFiles.load(file(s, p)).toImage
       s.run.files.add("image", "exr", ImageFiles.exr(change(image)))
-    catch
-      case e: ImageError => failed(e.getMessage)
-      case e: InvalidPathException => failed(e.getReason)
+    catch case e: ImageError => failed(e.getMessage)

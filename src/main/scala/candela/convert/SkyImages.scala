@@ -1,7 +1,5 @@
 package candela.convert
 
-import java.nio.file.InvalidPathException
-
 import candela.base.loop
 import candela.color.Rgb
 import candela.image.{Image, ImageError, ImageFiles}
@@ -18,11 +16,11 @@ object SkyImages:
   def converted(p: Param, s: Statement, toSquare: Boolean, tint: Rgb): Option[String] =
     val name = p.strings.head
     try
-      val path = s.declaration.folder.resolve(name.replace('\\', '/'))
+      val file = RewrittenImages.file(s, p)
       val isLamp = IesFile.isNamed(name)
       val source =
-        if isLamp then IesFile.read(path).photometry.image
-        else RewrittenImages.lamp(ImageFiles.read(path), name, s)
+        if isLamp then IesFile.read(file).photometry.image
+        else RewrittenImages.lamp(ImageFiles.load(file).toImage, name, s)
       val made =
         if isLamp && !toSquare then
           resampled(
@@ -45,9 +43,6 @@ object SkyImages:
     catch
       case e: (ImageError | IesError) =>
         s.warn(p.at, s"can't convert the image, ignoring it: ${e.getMessage}")
-        None
-      case _: InvalidPathException =>
-        s.warn(p.at, s"`$name` is not a valid file name; ignored")
         None
 
   /** Each pixel averages the source over the pixel's directions.

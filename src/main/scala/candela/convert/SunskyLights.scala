@@ -43,7 +43,8 @@ private[convert] object SunskyLights:
       def light(name: String, params: Param*) =
         l.copy(light =
           Declaration(
-            "LightSource", name, params.toVector, d.at, files.folder, dialect = Some(Dialect.V4)
+            "LightSource", name, params.toVector, d.at, d.folder.at(files.folder),
+            dialect = Some(Dialect.V4)
           )
         )
       val map = Option.when(sky > 0f):

@@ -1,7 +1,5 @@
 package candela.convert
 
-import java.nio.file.{Files, InvalidPathException}
-
 import candela.color.{Colorimetry, NamedSpectra, Rgb, Spectrum}
 import candela.color.Colorimetry.White
 import candela.scenefile.*
@@ -76,17 +74,14 @@ final class Values(from: Dialect, to: Dialect, warn: (Param, String) => Unit):
       case None => of(p.floats)
       case Some(name) =>
         NamedSpectra(name).orElse:
-          val read = numbersOf(name, d).flatMap(of)
+          val read = numbersOf(p, d).flatMap(of)
           if read.isEmpty then warn(p, s"no such spectrum: `$name`; ignoring `${p.name}`")
           read
 
-  private def numbersOf(name: String, d: Declaration): Option[Array[Float]] =
-    val file =
-      try Some(d.folder.resolve(name.replace('\\', '/'))).filter(Files.isRegularFile(_))
-      catch case _: InvalidPathException => None
-    file.map: path =>
-      val lines = Files.readString(path, java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
-      lines.flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+")).flatMap(_.toFloatOption).toArray
+  private def numbersOf(p: Param, d: Declaration): Option[Array[Float]] =
+    d.folder.find(p.strings.head, Some(p.valuesAt)).map: file =>
+      val words = file.lines().flatMap(_.takeWhile(_ != '#').trim.split("[\\s,]+"))
+      words.flatMap(_.toFloatOption).toArray
 
 object Values:
   /** Parameters with values outside [0, 1], though colours. */

@@ -1,6 +1,6 @@
 package candela.image
 
-import candela.base.{FileName, ForeignFile, IoReason, WholeFile, WriteError}
+import candela.base.{FileName, ForeignFile, InputFile, IoReason, WholeFile, WriteError}
 
 import java.io.IOException
 import java.nio.charset.StandardCharsets.ISO_8859_1
@@ -24,20 +24,27 @@ object ImageFiles:
   /** The image as Floats. Images of 8 and 16 bits are in [0, 1] and marked as sRGB-encoded;
     * `linear` decodes them.
     */
-  def read(path: Path): Image = load(path).toImage
+  def read(path: Path): Image = load(InputFile.asked(path)).toImage
 
-  /** The image as compact as in its file: 8 bits stay 8 bits. */
-  def load(path: Path): StoredImage =
+  /** The image as compact as in its file: 8 bits stay 8 bits.
+    *
+    * @param admit receives width and height, before there are pixels where the format tells
+    */
+  def load(file: InputFile, admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
     val bytes =
-      try Files.readAllBytes(path)
+      try file.bytes()
       catch
-        case _: NoSuchFileException => throw ImageError(s"$path: there is no such file")
-        case e: IOException => throw ImageError(s"$path: can't be read: ${IoReason(e)}")
-        case _: OutOfMemoryError => throw ImageError(s"$path: a file of 2 GB or more")
-    try decode(bytes, path)
+        case _: NoSuchFileException => throw ImageError(s"$file: there is no such file")
+        case e: IOException => throw ImageError(s"$file: can't be read: ${IoReason(e)}")
+        case _: OutOfMemoryError => throw ImageError(s"$file: a file of 2 GB or more")
+    try
+      for (width, height) <- sizeOf(bytes) do admit(width, height)
+      val image = decode(bytes, file.path)
+      admit(image.width, image.height)
+      image
     catch
-      case e: ImageError => throw ImageError(s"$path: ${e.getMessage}")
-      case _: OutOfMemoryError => throw ImageError(s"$path: not enough memory for its pixels")
+      case e: ImageError => throw ImageError(s"$file: ${e.getMessage}")
+      case _: OutOfMemoryError => throw ImageError(s"$file: not enough memory for its pixels")
 
   /** The image of a file, which must have colours.
     *
@@ -55,13 +62,13 @@ object ImageFiles:
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
 
   /** What pbrt-v4 makes of the file, if it is another image. */
-  def remark(path: Path): Option[String] =
-    def start = Using.resource(Files.newInputStream(path))(_.readNBytes(1 << 16))
-    val found = FileName.suffix(path) match
+  def remark(file: InputFile): Option[String] =
+    def start = Using.resource(file.stream())(_.readNBytes(1 << 16))
+    val found = FileName.suffix(file.path) match
       case "tga" => Tga.remark(start)
       case "ppm" | "pgm" | "pbm" | "pnm" => Pnm.remark(start)
       case _ => None
-    found.map(text => s"$path: $text")
+    found.map(text => s"$file: $text")
 
   /** Whether the file is a whole image whose metadata contain the text, if its format has any. */
   def isWhole(path: Path, text: String): Boolean =
@@ -76,6 +83,15 @@ object ImageFiles:
       catch case _: ImageError | _: IOException | _: OutOfMemoryError => false
 
   private val Scenes = Set("pbrt", "xml")
+
+  /** Width and height of files that may have many pixels in few bytes. */
+  private def sizeOf(bytes: Array[Byte]): Option[(Int, Int)] =
+    if bytes.startsWith(ExrMark) then
+      ExrHeader.parts(bytes).headOption.map(part => (part.width, part.height))
+    else if bytes.startsWith("qoif".getBytes) && bytes.length > 12 then
+      val header = java.nio.ByteBuffer.wrap(bytes)
+      Some((header.getInt(4), header.getInt(8)))
+    else StbReader.size(bytes)
 
   private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
 

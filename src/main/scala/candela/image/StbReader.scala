@@ -25,6 +25,18 @@ private[image] object StbReader:
       MemoryUtil.memFree(native)
       stack.close()
 
+  /** Width and height, without decoding; None if it is none of these formats. */
+  def size(file: Array[Byte]): Option[(Int, Int)] =
+    val stack = MemoryStack.stackPush()
+    val native = MemoryUtil.memAlloc(file.length)
+    try
+      native.put(file).flip()
+      val (w, h, c) = (stack.mallocInt(1), stack.mallocInt(1), stack.mallocInt(1))
+      Option.when(STBImage.stbi_info_from_memory(native, w, h, c))((w.get(0), Math.abs(h.get(0))))
+    finally
+      MemoryUtil.memFree(native)
+      stack.close()
+
   private def decode(file: ByteBuffer, w: IntBuffer, h: IntBuffer, c: IntBuffer): StoredImage =
     if !STBImage.stbi_info_from_memory(file, w, h, c) then failed()
     // That of a BMP is negative if its rows go from top to bottom

@@ -119,7 +119,7 @@ final class Colors(session: Session):
 
   private def irregular(in: Asked): Spectrum =
     in.text("filename") match
-      case Some(name) => Values(session.spectrum, session.report).file(name, in.at)
+      case Some(name) => session.values.file(name, in.at)
       case None =>
         val (lambda, values) = (list(in, "wavelengths"), list(in, "values"))
         if lambda.size != values.size then

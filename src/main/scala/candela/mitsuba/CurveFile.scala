@@ -1,15 +1,12 @@
 package candela.mitsuba
 
-import candela.base.{IoReason, SourcePos}
+import candela.base.{InputFile, IoReason, SourcePos}
 import candela.math.{Position, Transform, Vec3, lerp}
 import candela.scenefile.{Param, ParamType}
 
 import java.io.IOException
-import java.nio.charset.StandardCharsets
-import java.nio.file.{Files, Path}
 
 import scala.collection.mutable.ArrayBuffer
-import scala.jdk.CollectionConverters.*
 
 /** Control points of a curve, with the radius at each.
   *
@@ -53,10 +50,11 @@ object CurveFile:
   private val Far = 1e15f
 
   /** @param least control points of a curve */
-  def read(path: Path, least: Int, at: SourcePos): Vector[CurvePoints] =
-    def fail(why: String) = Values.fail(at, s"can't read the curves `${path.getFileName}`: $why")
+  def read(file: InputFile, least: Int, at: SourcePos): Vector[CurvePoints] =
+    def fail(why: String) =
+      Values.fail(at, s"can't read the curves `${file.path.getFileName}`: $why")
     val lines =
-      try Files.readAllLines(path, StandardCharsets.ISO_8859_1).asScala
+      try file.lines()
       catch case e: IOException => fail(IoReason(e))
     val curves = Vector.newBuilder[(Vector[Position], Vector[Float])]
     val points = ArrayBuffer.empty[Position]
@@ -75,7 +73,8 @@ object CurveFile:
         if words.length != 4 || numbers.length != 4 || numbers.exists(Math.abs(_) > Far) ||
           numbers(3) < 0f
         then
-          fail(s"line ${i + 1} must have x, y, z and a radius, found `${line.trim.take(60)}`")
+          val found = file.quoted(line.trim.take(60))
+          fail(s"line ${i + 1} must have x, y, z and a radius, found $found")
         points += Position(words(0).toDouble, words(1).toDouble, words(2).toDouble)
         radii += numbers(3)
     finish(lines.size + 1)

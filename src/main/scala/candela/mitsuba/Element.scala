@@ -1,11 +1,10 @@
 package candela.mitsuba
 
-import candela.base.{IoReason, Problem, SceneError, SourcePos}
+import candela.base.{InputFile, IoReason, Problem, SceneError, SourcePos}
 
 import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
 import java.nio.charset.{CharacterCodingException, Charset}
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
-import java.nio.file.{Files, Path}
 import javax.xml.stream.{Location, XMLInputFactory, XMLStreamException, XMLStreamReader}
 
 import scala.collection.mutable.ArrayBuffer
@@ -30,12 +29,12 @@ object XmlFile:
     *
     * @param includedFrom the element that includes the file
     */
-  def read(file: Path, includedFrom: Option[SourcePos]): Element =
+  def read(file: InputFile, includedFrom: Option[SourcePos]): Element =
     val name = file.toString
     def place(l: Location) =
       SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
     try
-      Using.resource(Files.newInputStream(file)): in =>
+      Using.resource(file.stream()): in =>
         val reader = factory.createXMLStreamReader(text(in))
         try Document(reader, place).root()
         finally reader.close()

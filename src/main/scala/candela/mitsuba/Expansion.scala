@@ -1,8 +1,8 @@
 package candela.mitsuba
 
-import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.base.{InputFile, Limit, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.Path
 
 import scala.collection.mutable
 
@@ -22,28 +22,31 @@ final class Expanded(
 
 /** Expands one scene file.
   *
+  * @param folder  its folder
   * @param defines values of `$name` that override those of `default`
   */
-final class Expansion(file: Path, defines: Map[String, String]):
+final class Expansion(file: Path, folder: SceneFolder, defines: Map[String, String]):
   private val values = mutable.HashMap.from(defines)
   private val used = mutable.HashSet.empty[String]
   private val aliases = mutable.HashMap.empty[String, String]
   private val paths = mutable.ArrayBuffer.empty[Path]
   private val sources = mutable.ArrayBuffer(file)
   private var room = Expansion.MostText
-  private val here = Option(file.getParent).getOrElse(Path.of(""))
 
   def result(): Expanded =
-    val elements = contents(XmlFile.read(file, None), List(file))
+    val main = folder.scene(file)
+    val elements = contents(XmlFile.read(main, None), List(main))
     val unused = defines.keySet -- used
     if unused.nonEmpty then
       val name = unused.min
       val help = Suggest.help(name, values.keySet.toSet -- unused)
       throw SceneError(Problem.general(s"the scene has no parameter `$$$name`", help))
-    Expanded(elements, aliases.toMap, paths.toVector :+ here, sources.toVector)
+    Expanded(elements, aliases.toMap, folders, sources.toVector)
+
+  private def folders: Vector[Path] = paths.toVector :+ folder.path
 
   /** @param files files being read, innermost first */
-  private def contents(root: Element, files: List[Path]): Vector[Element] =
+  private def contents(root: Element, files: List[InputFile]): Vector[Element] =
     if root.tag != "scene" then fail(root, s"expected <scene>, found <${root.tag}>")
     val isOld = root("version").flatMap(_.takeWhile(_ != '.').toIntOption).exists(_ < 2)
     root.children.flatMap: child =>
@@ -57,7 +60,9 @@ final class Expansion(file: Path, defines: Map[String, String]):
         case "include" => included(substituted(child), files)
         case "path" =>
           val e = substituted(child)
-          paths += resolved(e, required(e, "value"))
+          val name = required(e, "value")
+          if !SceneFolder.isName(name) then fail(e, s"`$name` is not a valid file name")
+          paths ++= folder.existing(folders, name, Some(e.at)).map(_.path)
           Vector.empty
         case "alias" =>
           val e = substituted(child)
@@ -66,26 +71,35 @@ final class Expansion(file: Path, defines: Map[String, String]):
         case _ =>
           Vector(if isOld then OldNames.upgraded(substituted(child)) else substituted(child))
 
-  private def included(e: Element, files: List[Path]): Vector[Element] =
+  private def included(e: Element, files: List[InputFile]): Vector[Element] =
     val name = required(e, "filename")
-    val path = resolved(e, name)
-    if files.exists(f => f.toAbsolutePath.normalize == path.toAbsolutePath.normalize) then
-      fail(e, s"`$name` includes itself")
+    if !SceneFolder.isName(name) then fail(e, s"`$name` is not a valid file name")
+    val file = folder.existing(folders, name, Some(e.at)).filter(_.isRegular).getOrElse:
+      fail(e, s"no such file: `$name`", folder.suggestion(name))
+    folder.allowance.check(Limit.Depth, files.size, Some(e.at)):
+      s"includes are nested ${files.size} deep"
+    if files.exists(_.isSame(file)) then fail(e, s"`$name` includes itself")
     else if files.size > Expansion.MostIncludes then
       fail(e, s"more than ${Expansion.MostIncludes} files include each other")
     else if sources.size > Expansion.MostFiles then
       fail(e, s"more than ${Expansion.MostFiles} files are included")
-    else if !Files.isRegularFile(path) then
-      fail(e, s"no such file: `$name`", Suggest.file(path))
-    sources += path
-    contents(XmlFile.read(path, Some(e.at)), path :: files)
+    sources += file.path
+    contents(root(file, e), file :: files)
 
-  private def resolved(e: Element, name: String): Path =
-    try
-      val folders = paths.toVector :+ here
-      folders.map(_.resolve(name.replace('\\', '/'))).find(Files.exists(_))
-        .getOrElse(here.resolve(name.replace('\\', '/')))
-    catch case _: InvalidPathException => fail(e, s"`$name` is not a valid file name")
+  /** What is outside of the scene's folder may be none of its, and is not shown if it is no scene.
+    */
+  private def root(file: InputFile, include: Element): Element =
+    def failed() = fail(
+      include,
+      s"can't include `$file`: it is no scene: expected <scene>, found what is not shown here, " +
+        "as it is outside of the scene's folder"
+    )
+    if file.isShown then XmlFile.read(file, Some(include.at))
+    else
+      val root =
+        try XmlFile.read(file, Some(include.at))
+        catch case _: SceneError => failed()
+      if root.tag == "scene" then root else failed()
 
   private def required(e: Element, attribute: String): String =
     e(attribute).getOrElse(fail(e, s"<${e.tag}> must have the attribute `$attribute`"))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SourcePos
+import candela.base.{Limit, SourcePos}
 import candela.scenefile.{Declaration, Param}
 
 /** Translates integrators. */
@@ -42,7 +42,7 @@ final class Integrators(session: Session):
   /** Mitsuba counts the edges of a path, pbrt the surfaces between. */
   private def limited(in: Asked, name: String, more: Param*): Declaration =
     val depth = in.integer("max_depth", -1)
-    val edges = if depth < 0 then Integrators.Unlimited else Math.max(0, depth - 1)
+    val edges = if depth < 0 then Integrators.unlimited(session) else Math.max(0, depth - 1)
     if depth < -1 then
       session.warn(
         in.atOf("max_depth"),
@@ -72,5 +72,7 @@ object Integrators:
   /** Russian roulette ends paths long before. */
   private val Unlimited = 10_000
 
+  private def unlimited(session: Session) = session.allowance.most(Limit.Depth, Unlimited)
+
   def default(session: Session, at: SourcePos): Declaration =
-    session.declare("Integrator", "path", at, Seq(Param.int("maxdepth", at, Unlimited)))
+    session.declare("Integrator", "path", at, Seq(Param.int("maxdepth", at, unlimited(session))))

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{FileName, SceneError, Severity, SourcePos}
+import candela.base.{FileName, SceneError, SceneFolder, Severity, SourcePos}
 import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
 
 import java.nio.file.Path
@@ -15,12 +15,18 @@ object MitsubaScene:
     *
     * @param defines   values of `$name` in the file
     * @param keepGoing if true, replaces missing files
+    * @param within    the scene's folder, if it is confined or has limits
     * @throws SceneError if the file contains no scene at all
     */
-  def readable(file: Path, defines: Map[String, String], keepGoing: Boolean): SceneDescription =
-    val folder = Option(file.getParent).getOrElse(Path.of(""))
+  def readable(
+      file: Path,
+      defines: Map[String, String],
+      keepGoing: Boolean,
+      within: Option[SceneFolder] = None
+  ): SceneDescription =
+    val folder = within.getOrElse(SceneFolder.of(file))
     val expanded =
-      try Expansion(file, defines).result()
+      try Expansion(file, folder, defines).result()
       catch case e: SceneError => throw SceneError(Excerpts.fill(e.problems))
     val session = Session(expanded, folder, keepGoing)
     val scene = Translation(session, file).result()
@@ -28,7 +34,8 @@ object MitsubaScene:
     scene.copy(
       warnings = warnings,
       errors = errors,
-      sources = expanded.sources ++ session.read
+      sources = expanded.sources ++ session.read,
+      folder = folder
     )
 
 private final class Translation(session: Session, file: Path):

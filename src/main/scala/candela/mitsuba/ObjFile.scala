@@ -1,10 +1,9 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, IoReason, loop, RestBuffer, SourcePos}
+import candela.base.{FloatBuffer, InputFile, IntBuffer, IoReason, loop, RestBuffer, SourcePos}
 
 import java.io.IOException
 import java.nio.ByteBuffer
-import java.nio.file.Path
 
 import scala.collection.mutable
 
@@ -16,13 +15,13 @@ object ObjFile:
   /** @param flipped whether v in the file has its origin at the bottom of images
     * @param at      position of the reference in the scene
     */
-  def read(path: Path, flipped: Boolean, at: SourcePos): Mesh =
-    try new ObjReader(MappedFile.read(path), path.toString, at).read(flipped)
+  def read(file: InputFile, flipped: Boolean, at: SourcePos): Mesh =
+    try new ObjReader(file.map(), file, at).read(flipped)
     catch
       case e: IOException =>
-        Values.fail(at, s"can't read the mesh `$path`: ${IoReason(e)}")
+        Values.fail(at, s"can't read the mesh `$file`: ${IoReason(e)}")
 
-private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
+private final class ObjReader(in: ByteBuffer, file: InputFile, at: SourcePos):
   private val p, n, t = FloatBuffer()
   private val positions, normals, uvs = FloatBuffer()
   private val indices = IntBuffer()
@@ -37,7 +36,7 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
   private var hasNormals, hasUvs = true
   private val token = StringBuilder()
 
-  private def fail(why: String): Nothing = Values.fail(at, s"mesh `$name`, line $line: $why")
+  private def fail(why: String): Nothing = Values.fail(at, s"mesh `$file`, line $line: $why")
 
   def read(flipped: Boolean): Mesh =
     while in.hasRemaining do
@@ -84,8 +83,8 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
   private def numbers(to: FloatBuffer, count: Int): Unit =
     loop(count): _ =>
       val text = word()
-      val x = text.toFloatOption.getOrElse(fail(s"expected a number, found `$text`"))
-      if !x.isFinite then fail(s"expected a finite number, found `$text`")
+      val x = text.toFloatOption.getOrElse(fail(s"expected a number, found ${file.quoted(text)}"))
+      if !x.isFinite then fail(s"expected a finite number, found ${file.quoted(text)}")
       if (to eq p) && RestBuffer.isCoarse(x) then missing.note(p.length, text.toDouble, x)
       to += x
 
@@ -101,18 +100,21 @@ private final class ObjReader(in: ByteBuffer, name: String, at: SourcePos):
       last = next
       text = word()
 
+  private def cornerless(text: String): String =
+    s"expected a face's corner, found ${file.quoted(text)}"
+
   /** `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or back from the last. */
   private def corner(text: String): Int =
     val parts = text.split('/')
     def index(i: Int, count: Int): Int =
       if i >= parts.length || parts(i).isEmpty then -1
       else
-        val k = parts(i).toIntOption.getOrElse(fail(s"expected a face's corner, found `$text`"))
+        val k = parts(i).toIntOption.getOrElse(fail(cornerless(text)))
         val found = if k < 0 then count + k else k - 1
         if found < 0 || found >= count then fail(s"the index $k is not one of 1 to $count")
         found
     val key = (index(0, p.length / 3), index(1, t.length / 2), index(2, n.length / 3))
-    if key._1 < 0 then fail(s"expected a face's corner, found `$text`")
+    if key._1 < 0 then fail(cornerless(text))
     corners.getOrElseUpdate(
       key, {
         val (vertex, uv, normal) = key

@@ -1,10 +1,9 @@
 package candela.mitsuba
 
-import candela.base.{FloatBuffer, IntBuffer, IoReason, RestBuffer, SourcePos}
+import candela.base.{FloatBuffer, InputFile, IntBuffer, IoReason, RestBuffer, SourcePos}
 
 import java.io.{ByteArrayInputStream, EOFException, IOException, InputStream}
 import java.nio.{ByteBuffer, ByteOrder}
-import java.nio.file.Path
 import java.util.zip.InflaterInputStream
 
 /** Reads Mitsuba's `.serialized` meshes, versions 3 and 4.
@@ -16,17 +15,17 @@ object SerializedFile:
   /** @param index which of the meshes
     * @param at    position of the reference in the scene
     */
-  def read(path: Path, index: Int, at: SourcePos): Mesh =
-    def fail(why: String) = Values.fail(at, s"can't read the mesh `$path`: $why")
+  def read(from: InputFile, index: Int, at: SourcePos): Mesh =
+    def fail(why: String) = Values.fail(at, s"can't read the mesh `$from`: $why")
     try
-      val file = MappedFile.read(path).order(ByteOrder.LITTLE_ENDIAN)
+      val file = from.map().order(ByteOrder.LITTLE_ENDIAN)
       if file.limit() < 8 || file.getShort(0) != Magic then fail("it is not a serialized mesh")
       val version = file.getShort(2).toInt
       if version != 3 && version != 4 then fail(s"version $version is not known")
-      val (from, to) = place(file, index, if version == 4 then 8 else 4, fail)
-      val bytes = new Array[Byte](to - from - 4)
-      file.position(from + 4).get(bytes): Unit
-      new SerializedReader(bytes, version, fail).read()
+      val (start, end) = place(file, index, if version == 4 then 8 else 4, fail)
+      val bytes = new Array[Byte](end - start - 4)
+      file.position(start + 4).get(bytes): Unit
+      new SerializedReader(bytes, version, from.unpacks, fail).read()
     catch
       case e: IOException => fail(IoReason(e))
 
@@ -47,7 +46,12 @@ object SerializedFile:
     if from < 0 || to - from < 4 || to > table then fail("its list of meshes is damaged")
     (from.toInt, to.toInt)
 
-private final class SerializedReader(bytes: Array[Byte], version: Int, fail: String => Nothing):
+private final class SerializedReader(
+    bytes: Array[Byte],
+    version: Int,
+    unpacks: Long => Unit,
+    fail: String => Nothing
+):
   private val in: InputStream = InflaterInputStream(ByteArrayInputStream(bytes))
   private val buffer = ByteBuffer.allocate(1 << 15).order(ByteOrder.LITTLE_ENDIAN).flip()
 
@@ -60,6 +64,7 @@ private final class SerializedReader(bytes: Array[Byte], version: Int, fail: Str
     val size = vertices.toLong * perVertex * (if isDouble then 8 else 4) + triangles * 12L
     if size > SerializedReader.Free && size > bytes.length * SerializedReader.MostPacked then
       fail(s"it claims $vertices vertices and $triangles triangles, more than it can hold")
+    unpacks(size)
     val rests = RestBuffer()
     def values(n: Long, isThere: Boolean, missing: RestBuffer | Null = null) =
       val made = FloatBuffer()

@@ -1,23 +1,29 @@
 package candela.mitsuba
 
-import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.base.{Allowance, InputFile, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 import candela.scenefile.{Declaration, Dialect, Param, Problems}
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.Path
 
 import scala.collection.mutable
 
 /** State of translating one scene: its objects by id, the folders of its files, and the problems
   * found so far.
   */
-final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
+final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean):
   private val problems = Problems()
   private val files = mutable.LinkedHashSet.empty[Path]
   private val seen = mutable.LinkedHashSet.empty[Problem]
 
+  /** Reads values of elements. */
+  val values: Values = Values(
+    (name, at) => found(name, at).map(noted),
+    name => folder.suggestion(name),
+    report
+  )
+
   /** Objects of the scene, in order. */
   val objects: Vector[Property] =
-    val values = Values(spectrum, report)
     expanded.elements.flatMap: e =>
       if e.tag == "ref" then None
       else values.plugin(e).map(p => Property(e("name").getOrElse(""), Value.Nested(p), e.at))
@@ -47,6 +53,9 @@ final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
 
   def found: Vector[Problem] = problems.result()
 
+  /** How much the scene may use. */
+  def allowance: Allowance = folder.allowance
+
   /** Files read so far, other than XML. */
   def read: Vector[Path] = files.toVector
 
@@ -64,35 +73,31 @@ final class Session(expanded: Expanded, folder: Path, keepGoing: Boolean):
       )
     there
 
-  /** Path of a file, in the first folder that has it. */
-  def find(name: String): Path =
-    val plain = name.replace('\\', '/')
-    expanded.folders.map(_.resolve(plain)).find(Files.isRegularFile(_))
-      .getOrElse(folder.resolve(plain))
+  /** A file, in the first folder that has it. */
+  private def found(name: String, at: SourcePos): Option[InputFile] =
+    folder.find(name, Some(at), expanded.folders)
 
-  /** Path of a file of numbers, which becomes part of the scene if it exists. */
-  def spectrum(name: String): Path =
-    val path = find(name)
-    if Files.isRegularFile(path) then files += path
-    path
+  /** The file, which becomes part of the scene. */
+  private def noted(file: InputFile): InputFile =
+    files += file.path
+    file
 
   /** An existing file, which becomes part of the scene. */
-  def file(name: String, at: SourcePos, standIn: String): Option[Path] =
-    try
-      val path = find(name)
-      val exists = Files.isRegularFile(path)
-      if exists then files += path
-      else missing(at, s"no such file: `$name`", standIn, Suggest.file(path))
-      Option.when(exists)(path)
-    catch
-      case _: InvalidPathException =>
-        missing(at, s"`$name` is not a valid file name", standIn, None)
-        None
+  def file(name: String, at: SourcePos, standIn: String): Option[InputFile] =
+    if !SceneFolder.isName(name) then
+      missing(at, s"`$name` is not a valid file name", standIn, None)
+      None
+    else
+      val there = found(name, at).map(noted)
+      if there.isEmpty then
+        missing(at, s"no such file: `$name`", standIn, folder.suggestion(name))
+      there
 
   /** The name of a file for a parameter, relative to the folder of the scene. */
-  def named(path: Path): String =
-    try folder.toAbsolutePath.relativize(path.toAbsolutePath).toString.replace('\\', '/')
-    catch case _: IllegalArgumentException => path.toString
+  def named(file: InputFile): String =
+    val (from, to) = (folder.path.toAbsolutePath, file.path.toAbsolutePath)
+    try from.relativize(to).toString.replace('\\', '/')
+    catch case _: IllegalArgumentException => file.toString
 
   def declare(
       category: String,

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.loop
+import candela.base.{InputFile, loop}
 import candela.build.shapes.PlyFile
 import candela.math.Transform
 import candela.scenefile.*
@@ -116,8 +116,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
           in.at,
           "textures by u and v are not supported beside a mesh_attribute; they lie elsewhere"
         )
-      fileOf(in).map(path =>
-        MeshAttributes(PlyFile.read(path, Some(in.at), keepsAll = true))
+      fileOf(in).map(file =>
+        MeshAttributes(PlyFile.read(file, Some(in.at), keepsAll = true))
       )
 
   private def form(in: Asked, attributes: Option[MeshAttributes]): Option[Form] =
@@ -158,8 +158,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
         mesh(in, toWorld, isFlipped)(ObjFile.read(_, isUp, in.at))
       case "ply" =>
         val isUp = in.flag("flip_tex_coords", false)
-        mesh(in, toWorld, isFlipped, attributes): path =>
-          val ply = PlyFile.read(path, Some(in.at))
+        mesh(in, toWorld, isFlipped, attributes): file =>
+          val ply = PlyFile.read(file, Some(in.at))
           if isUp then loop(ply.uvs.length / 2)(i => ply.uvs(2 * i + 1) = 1 - ply.uvs(2 * i + 1))
           Mesh(ply.positions, ply.normals, ply.uvs, ply.indices, ply.rests)
       case "serialized" =>
@@ -190,12 +190,12 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
       isFlipped: Boolean,
       attributes: Option[MeshAttributes] = None
   )(
-      read: java.nio.file.Path => Mesh
+      read: InputFile => Mesh
   ): Option[Form] =
     in.ignore("optimize_meshes", "use_inverse_transform", "is_alembic")
-    fileOf(in).map(path => meshForm(in, read(path), isFlipped, toWorld, attributes))
+    fileOf(in).map(file => meshForm(in, read(file), isFlipped, toWorld, attributes))
 
-  private def fileOf(in: Asked): Option[java.nio.file.Path] = in.text("filename") match
+  private def fileOf(in: Asked): Option[InputFile] = in.text("filename") match
     case None =>
       session.error(in.at, s"${in.plugin.shown} must have a `filename`")
       None
@@ -203,8 +203,8 @@ final class Shapes(session: Session, surfaces: Surfaces, emitters: Emitters, med
 
   private def read(in: Asked, least: Int): Option[Vector[CurvePoints]] =
     val toWorld = in.transform("to_world")
-    fileOf(in).map(path =>
-      CurvePoints.placed(CurveFile.read(path, least, in.atOf("filename")), toWorld)
+    fileOf(in).map(file =>
+      CurvePoints.placed(CurveFile.read(file, least, in.atOf("filename")), toWorld)
     )
 
   private def curves(in: Asked, least: Int, isFlipped: Boolean)(

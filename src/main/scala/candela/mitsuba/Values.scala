@@ -1,19 +1,22 @@
 package candela.mitsuba
 
-import candela.base.{IoReason, Problem, SceneError, SourcePos, Suggest}
+import candela.base.{InputFile, IoReason, Problem, SceneError, SceneFolder, SourcePos, Suggest}
 import candela.color.{Rgb, Spectrum}
 import candela.math.Transform
-
-import java.nio.file.{Files, Path}
 
 import scala.util.Try
 
 /** Turns elements into objects and values.
   *
-  * @param find   the path of a file
-  * @param report receives errors; the property or object is then left out
+  * @param find    the file of a name
+  * @param suggest a name like that of a missing file
+  * @param report  receives errors; the property or object is then left out
   */
-final class Values(find: String => Path, report: Problem => Unit):
+final class Values(
+    find: (String, SourcePos) => Option[InputFile],
+    suggest: String => Option[String],
+    report: Problem => Unit
+):
   import Values.*
 
   /** The object of an element; children with errors are left out. */
@@ -108,27 +111,22 @@ final class Values(find: String => Path, report: Problem => Unit):
 
   def file(name: String, at: SourcePos): Spectrum =
     def fails(why: String) =
-      fail(at, s"can't read the spectrum `$name`: $why", Suggest.file(find(name)))
+      fail(at, s"can't read the spectrum `$name`: $why", suggest(name))
+    if !SceneFolder.isName(name) then fail(at, s"can't read the spectrum `$name`")
+    val file = find(name, at).getOrElse(fails("no such file"))
     val lines =
-      // Pipes and devices might never end
-      try
-        if Files.exists(find(name)) && !Files.isRegularFile(find(name)) then
-          fails("it is no regular file")
-        Files.readString(find(name), java.nio.charset.StandardCharsets.ISO_8859_1).linesIterator
-      catch
-        case e: java.io.IOException => fails(IoReason(e))
-        case _: java.nio.file.InvalidPathException => fail(at, s"can't read the spectrum `$name`")
-    val texts = lines.filterNot(_.trim.startsWith("#")).flatMap(words).toVector
+      try file.lines()
+      catch case e: java.io.IOException => fails(IoReason(e))
+    val texts = lines.filterNot(_.trim.startsWith("#")).flatMap(words)
     for odd <- texts.find(_.toDoubleOption.isEmpty) do
-      fail(at, s"spectrum `$name`: expected a number, found `${odd.take(20)}`")
+      fail(at, s"spectrum `$name`: expected a number, found ${file.quoted(odd.take(20))}")
     try pairs(texts, at)
     catch
       case e: SceneError => throw SceneError(e.problems.map: p =>
           p.copy(message = s"spectrum `$name`: ${p.message}"))
 
   private def pairs(texts: Iterable[String], at: SourcePos): Spectrum =
-    val xs = texts.map(number(_, at)).toVector
-    Values.spectrum(xs, at)
+    Values.spectrum(texts.map(number(_, at)).toVector, at)
 
 object Values:
   /** Elements that are objects. */

@@ -1,10 +1,9 @@
 package candela.mitsuba
 
-import candela.base.{IoReason, loop, SourcePos}
+import candela.base.{InputFile, IoReason, loop, SourcePos}
 
 import java.io.IOException
 import java.nio.ByteOrder
-import java.nio.file.Path
 
 /** A grid of one or three channels.
   *
@@ -23,10 +22,11 @@ private[mitsuba] final class VolumeFile(
 private[mitsuba] object VolumeFile:
   private val Header = 48
 
-  def read(path: Path, at: SourcePos): VolumeFile =
-    def fail(why: String) = Values.fail(at, s"can't read the volume `${path.getFileName}`: $why")
+  def read(file: InputFile, at: SourcePos): VolumeFile =
+    def fail(why: String) =
+      Values.fail(at, s"can't read the volume `${file.path.getFileName}`: $why")
     val bytes =
-      try MappedFile.read(path)
+      try file.map()
       catch case e: IOException => fail(IoReason(e))
     val in = bytes.order(ByteOrder.LITTLE_ENDIAN)
     if in.remaining < Header || in.get() != 'V' || in.get() != 'O' || in.get() != 'L' then

@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.SourcePos
+import candela.base.{SceneFolder, SourcePos}
 import candela.math.Position
 
 /** The three published scene formats; v1 files read as v2. */
@@ -136,7 +136,7 @@ final case class Declaration(
     name: String,
     params: Vector[Param],
     at: SourcePos,
-    folder: java.nio.file.Path,
+    folder: SceneFolder,
     colorSpace: String = "srgb",
     dialect: Option[Dialect] = None
 ):

@@ -1,9 +1,8 @@
 package candela.scenefile
 
 import java.io.IOException
-import java.nio.file.{InvalidPathException, Path}
 
-import candela.base.{Excerpt, Problem, SourcePos}
+import candela.base.{Excerpt, InputFile, Problem, SourcePos}
 
 /** Adds source excerpts to problems. */
 object Excerpts:
@@ -22,8 +21,7 @@ object Excerpts:
   private def key(at: SourcePos): (String, Int, Int) = (at.file, at.line, at.column)
 
   def read(name: String): Option[Source] =
-    try Source.read(Path.of(name)).toOption
-    catch case _: InvalidPathException => None
+    InputFile.again(name).flatMap(Source.read(_).toOption)
 
   /** Reads the file once for all positions. */
   private def excerpts(source: Source, places: Vector[SourcePos]) =

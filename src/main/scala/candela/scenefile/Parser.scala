@@ -2,7 +2,7 @@ package candela.scenefile
 
 import java.nio.file.Path
 
-import candela.base.{Problem, SceneError}
+import candela.base.{InputFile, Problem, SceneError, SceneFolder}
 
 /** Parses scene files. */
 object Parser:
@@ -18,16 +18,20 @@ object Parser:
     *
     * @param keepGoing if true, skips missing include files
     * @param world which of the file's worlds, from 0: v2's and v3's files may have several
+    * @param within the scene's folder, if it is confined or has limits
     * @throws SceneError if the file contains no scene at all
     */
   def readable(
       file: Path,
       dialect: Option[Dialect],
       keepGoing: Boolean,
-      world: Int = 0
+      world: Int = 0,
+      within: Option[SceneFolder] = None
   ): SceneDescription =
-    Source.read(file) match
-      case Right(source) => read(source, folderOf(file), Some(file), dialect, keepGoing, world)
+    val folder = within.getOrElse(SceneFolder.of(file))
+    val opened = folder.scene(file)
+    Source.read(opened) match
+      case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world)
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
@@ -44,19 +48,18 @@ object Parser:
       keepGoing: Boolean = false,
       world: Int = 0
   ): SceneDescription =
-    whole(read(Source.fromText(name, text), folder, None, dialect, keepGoing, world))
+    val here = SceneFolder(folder)
+    whole(read(Source.fromText(name, text), here, None, dialect, keepGoing, world))
 
   /** The scene, if it has no errors. */
   def whole(scene: SceneDescription): SceneDescription =
     if scene.errors.isEmpty then scene
     else throw SceneError(scene.errors ++ scene.warnings)
 
-  private[scenefile] def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
-
   private def read(
       source: Source,
-      folder: Path,
-      file: Option[Path],
+      folder: SceneFolder,
+      file: Option[InputFile],
       dialect: Option[Dialect],
       keepGoing: Boolean,
       world: Int
@@ -66,6 +69,7 @@ object Parser:
       case Left(better) =>
         val once = source.again.getOrElse:
           throw SceneError(Problem.general(s"can't read `${source.name}` a second time"))
+        folder.allowance.readAgain()
         attempt(once, folder, file, Some(better), keepGoing, world).toOption.get
 
   /** The scene; or the dialect to parse it with again: the few statements that v4 treats
@@ -73,8 +77,8 @@ object Parser:
     */
   private def attempt(
       source: Source,
-      folder: Path,
-      file: Option[Path],
+      folder: SceneFolder,
+      file: Option[InputFile],
       dialect: Option[Dialect],
       keepGoing: Boolean,
       world: Int

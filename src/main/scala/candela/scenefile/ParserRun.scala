@@ -1,31 +1,34 @@
 package candela.scenefile
 
-import java.nio.file.{Files, InvalidPathException, Path}
+import java.nio.file.Path
 
-import candela.base.{Problem, SceneError, Severity, SourcePos, Suggest}
+import candela.base.{
+  InputFile, Limit, Problem, SceneError, SceneFolder, Severity, SourcePos, Suggest
+}
 
 /** One pass over a scene file.
   *
-  * @param file path of `source`, if it is a file
+  * @param file that of `source`, if it is one
   * @param dialect decides the meaning of statements that differ between dialects
   * @param keepGoing if true, skips missing include files
   * @param world which of the file's worlds to read, from 0
   */
 private[scenefile] final class ParserRun(
     source: Source,
-    folder: Path,
-    file: Option[Path],
+    folder: SceneFolder,
+    file: Option[InputFile],
     dialect: Dialect,
     keepGoing: Boolean,
     world: Int
 ):
   private val evidence = DialectGuess()
   private val problems = Problems()
-  private val parameters = Parameters(evidence, problems.add, continuation, () => isV4)
-  private var scene = SceneWriter(folder, evidence, () => isV4, problems.add)
+  private val doubts = DoubtfulFiles(problems.add)
+  private val parameters = Parameters(evidence, doubts.add, continuation, () => isV4)
+  private var scene = SceneWriter(folder, evidence, () => isV4, doubts.add)
   private val misplaced = Problems()
 
-  private var sources = file.toVector
+  private var sources = file.map(_.path).toVector
   private var lost = Set.empty[NameKind]
 
   /** Whether the rest of the file is ignored. */
@@ -99,8 +102,13 @@ private[scenefile] final class ParserRun(
     statementsFromHere(in)
 
   private def statementsFromHere(in: Tokenizer): Unit =
+    def goesOn = !isDone && !problems.isFull && !doubts.areJustified(in.source.name)
     try
-      while !isDone && !problems.isFull && in.current != Token.End do attempt(in)(statement(in))
+      while goesOn && in.current != Token.End do
+        attempt(in):
+          statement(in)
+          doubts.dispel(in.source.name)
+      if goesOn then doubts.dispel(in.source.name)
     finally in.source.close()
 
   /** Runs `body`; after an error, skips to the next apparent directive. */
@@ -108,7 +116,7 @@ private[scenefile] final class ParserRun(
     try body
     catch
       case e: SceneError =>
-        e.problems.foreach(problems.add)
+        e.problems.foreach(doubts.add)
         skipToDirective(in)
 
   private def skipToDirective(in: Tokenizer): Unit =
@@ -138,11 +146,11 @@ private[scenefile] final class ParserRun(
     misplaced.clear()
     lost = Set.empty
     val before = scene
-    scene = SceneWriter(folder, evidence, () => isV4, problems.add)
+    scene = SceneWriter(folder, evidence, () => isV4, doubts.add)
     if evidence.dialect == Dialect.V2 then scene.keepSettings(before)
 
   private def run(directive: Directive, at: SourcePos, in: Tokenizer): Unit =
-    val arguments = Arguments(directive, at, in, parameters, problems.add, include(in))
+    val arguments = Arguments(directive, at, in, parameters, doubts.add, include(in))
     try losing(directive.name)(directive.run(arguments, scene))
     catch
       case e: SceneError =>
@@ -200,25 +208,25 @@ private[scenefile] final class ParserRun(
       problems.add(problem)
       // Skips the parameters that continue the missing file's last statement.
       val _ = parameters.list(from)
-    resolve(name) match
+    resolve(name, nameAt) match
       case None =>
-        val folders = (folder :: reading.headOption.map(Parser.folderOf).toList).distinct
         val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
-        val near = folders.flatMap(f => Suggest.file(f.resolve(name))).headOption
+        val near = folders.flatMap(f => folder.at(f).suggestion(name)).headOption
         val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
         missing(s"can't include `$name`: no such file", Some(help))
-      case Some(path) =>
-        for why <- circle(path, name) do throw SceneError(Problem.error(nameAt, why))
+      case Some(file) =>
+        for why <- circle(file, name) do throw SceneError(Problem.error(nameAt, why))
         countInclude(nameAt)
-        Source.readNamed(path) match
-          case Right(source) => within(from, path)(statements(Tokenizer(source, Some(at))))
+        Source.readNamed(file) match
+          case Right(source) => within(from, file)(statements(Tokenizer(source, Some(at))))
           case Left(why) => missing(s"can't include `$name`: $why")
 
-  /** Runs `body`, which reads the file at `path`. */
-  private def within(from: Tokenizer, path: Path)(body: => Unit): Unit =
-    if !sources.contains(path) then sources :+= path
+  /** Runs `body`, which reads the file. */
+  private def within(from: Tokenizer, file: InputFile)(body: => Unit): Unit =
+    if !sources.contains(file.path) then sources :+= file.path
+    if !file.isShown then doubts.raise(file.toString)
     val outer = reading
-    reading = path :: outer
+    reading = file :: outer
     try parameters.within(from)(body)
     finally reading = outer
 
@@ -234,31 +242,35 @@ private[scenefile] final class ParserRun(
       from.advance()
       val (name, nameAt) = (from.text, from.at)
       from.advance()
-      val opened = resolve(name).filter(circle(_, name).isEmpty).flatMap(beginsWithParameter(_, at))
+      val opened = resolve(name, nameAt).filter(circle(_, name).isEmpty)
+        .flatMap(beginsWithParameter(_, at))
       postponed = Some: () =>
         opened match
-          case Some((path, file)) => within(from, path)(statementsFromHere(file))
+          case Some((file, text)) => within(from, file)(statementsFromHere(text))
           case None => include(from)(name, nameAt, at)
-      opened.map((_, file) => file)
+      opened.map((_, text) => text)
 
-  private def beginsWithParameter(path: Path, at: SourcePos): Option[(Path, Tokenizer)] =
-    Source.readNamed(path).toOption.flatMap: source =>
-      val file = Tokenizer(source, Some(at))
-      val isParameter = file.nextIsText
-      if isParameter then file.advance() else source.close()
-      Option.when(isParameter)((path, file))
+  private def beginsWithParameter(file: InputFile, at: SourcePos): Option[(InputFile, Tokenizer)] =
+    Source.readNamed(file).toOption.flatMap: source =>
+      if !file.isShown then doubts.raise(file.toString)
+      val text = Tokenizer(source, Some(at))
+      val isParameter = text.nextIsText
+      if isParameter then text.advance() else source.close()
+      Option.when(isParameter)((file, text))
 
   /** Files that include others several times are read exponentially often. */
   private def countInclude(at: SourcePos): Unit =
+    folder.allowance.check(Limit.Depth, reading.size, Some(at)):
+      s"includes are nested ${reading.size} deep"
     includes += 1
     if includes > ParserRun.MostIncludes then
       isDone = true
       throw SceneError(Problem.error(at, s"more than ${ParserRun.MostIncludes} files are included"))
 
   /** Why a file can't be included here. */
-  private def circle(path: Path, name: String): Option[String] =
-    if reading.exists(Files.isSameFile(_, path)) then
-      val chain = reading.takeWhile(!Files.isSameFile(_, path)).reverse
+  private def circle(file: InputFile, name: String): Option[String] =
+    if reading.exists(_.isSame(file)) then
+      val chain = reading.takeWhile(!_.isSame(file)).reverse
       Some(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
     else
       Option.when(reading.size > ParserRun.DeepestInclude):
@@ -267,12 +279,11 @@ private[scenefile] final class ParserRun(
   /** Resolves against the scene's folder, as in all three renderers; else against the including
     * file's.
     */
-  private def resolve(name: String): Option[Path] =
-    try
-      val candidates =
-        folder.resolve(name) :: reading.headOption.map(Parser.folderOf(_).resolve(name)).toList
-      candidates.find(Files.exists(_))
-    catch case _: InvalidPathException => None
+  private def resolve(name: String, at: SourcePos): Option[InputFile] =
+    folder.existing(folders, name, Some(at))
+
+  private def folders: List[Path] =
+    (folder.path :: reading.headOption.map(f => SceneFolder.of(f.path).path).toList).distinct
 
 private[scenefile] object ParserRun:
   /** More than any scene needs, and far from a stack overflow. */

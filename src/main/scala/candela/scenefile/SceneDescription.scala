@@ -1,6 +1,6 @@
 package candela.scenefile
 
-import candela.base.{Problem, SourcePos}
+import candela.base.{Problem, SceneFolder, SourcePos}
 import candela.math.Transform
 
 import java.nio.file.Path
@@ -97,6 +97,7 @@ final case class TextureDescription(
   * @param clues what the dialect was estimated from; see [[DialectGuess]]
   * @param dialectReason why it is that dialect, for the user
   * @param isFollowed whether the file has another world, another image, after this one
+  * @param folder the folder of the scene file, through which its files are opened
   */
 final case class SceneDescription(
     dialect: Dialect,
@@ -127,7 +128,8 @@ final case class SceneDescription(
     isMitsubas: Boolean = false,
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = "",
-    isFollowed: Boolean = false
+    isFollowed: Boolean = false,
+    folder: SceneFolder = SceneFolder.Nowhere
 ):
   /** Whether the camera sees no lamps and no sky. */
   def hidesEmitters: Boolean =

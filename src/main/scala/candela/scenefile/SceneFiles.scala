@@ -1,8 +1,6 @@
 package candela.scenefile
 
-import java.nio.file.{Files, Path}
-
-import scala.util.Try
+import java.nio.file.Path
 
 /** The files that a scene consists of. */
 object SceneFiles:
@@ -18,7 +16,7 @@ object SceneFiles:
         text <- param.strings
       yield (declaration.folder, text)
     // Distinct, because thousands of shapes may have the same texture
-    val named = texts.distinct.flatMap(file)
+    val named = texts.distinct.flatMap((folder, text) => folder.belonging(text))
     (scene.sources ++ named).distinctBy(_.toAbsolutePath.normalize)
 
   private def declarations(s: SceneDescription): Vector[Declaration] =
@@ -32,7 +30,3 @@ object SceneFiles:
       shapes.flatMap(_.areaLight).distinct ++
       (s.lights ++ s.volumes).map(_.light) ++
       s.media.map(_.medium)
-
-  private def file(folder: Path, name: String): Option[Path] =
-    Option.when(name.nonEmpty)(name).flatMap: text =>
-      Try(folder.resolve(text.replace('\\', '/'))).toOption.filter(Files.isRegularFile(_))

@@ -1,10 +1,9 @@
 package candela.scenefile
 
-import java.nio.file.Path
 import scala.collection.immutable.VectorMap
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError, SourcePos, Suggest}
+import candela.base.{Problem, SceneError, SceneFolder, SourcePos, Suggest}
 import candela.math.Transform
 
 /** Executes statements: maintains the graphics state and collects the description.
@@ -14,7 +13,7 @@ import candela.math.Transform
   * @param problem receives errors and warnings that don't abort the statement
   */
 final class SceneWriter(
-    folder: Path,
+    folder: SceneFolder,
     evidence: DialectGuess,
     isV4: () => Boolean,
     problem: Problem => Unit
@@ -28,7 +27,7 @@ final class SceneWriter(
   private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
   private val objectNames = mutable.HashMap.empty[String, String]
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
-  private var result = SceneDescription(Dialect.V4)
+  private var result = SceneDescription(Dialect.V4, folder = folder)
 
   val blocks: Blocks = Blocks(isV4, problem)
 

@@ -1,17 +1,10 @@
 package candela.scenefile
 
-import candela.base.{ForeignFile, IoReason}
+import candela.base.{ForeignFile, InputFile, IoReason}
 
-import java.io.{
-  BufferedInputStream,
-  ByteArrayInputStream,
-  FilterInputStream,
-  InputStream,
-  IOException
-}
+import java.io.{ByteArrayInputStream, FilterInputStream, InputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.charset.{CharacterCodingException, StandardCharsets}
-import java.nio.file.{Files, Path}
 import java.util.zip.GZIPInputStream
 
 import scala.util.Using
@@ -97,27 +90,24 @@ object Source:
     Source(name, text.getBytes(StandardCharsets.UTF_8))
 
   /** Opens a file, decompressing gzip; or returns why it can't. */
-  def read(path: Path): Either[String, Source] =
+  def read(file: InputFile): Either[String, Source] =
     try
-      Input.open(path).flatMap: input =>
-        val source = new Source(path.toString, input.mostLeft.min(Window - 1L).toInt + 1, input)
+      Input.open(file).flatMap: input =>
+        val source = new Source(file.toString, input.mostLeft.min(Window - 1L).toInt + 1, input)
         if source.begins(0xff, 0xfe) || source.begins(0xfe, 0xff) then
           source.close()
           Left("encoded as UTF-16; save it as UTF-8")
         else Right(source)
     catch case e: IOException => Left(IoReason(e))
 
-  /** Opens a file that another one names: a pipe or a device might never end. */
-  def readNamed(path: Path): Either[String, Source] =
-    if Files.exists(path) && !Files.isRegularFile(path) && !Files.isDirectory(path) then
-      Left("it is no regular file, but a pipe or a device")
-    else
-      read(path).flatMap: source =>
-        ForeignFile.of(path, source.window.take(Math.min(source.end, ForeignFile.Head))) match
-          case None => Right(source)
-          case Some(found) =>
-            source.close()
-            Left(s"it is ${found.what}, not a scene")
+  /** Opens a file that another one includes. */
+  def readNamed(file: InputFile): Either[String, Source] =
+    read(file).flatMap: source =>
+      ForeignFile.of(file.path, source.window.take(Math.min(source.end, ForeignFile.Head))) match
+        case None => Right(source)
+        case Some(found) =>
+          source.close()
+          Left(s"it is ${found.what}, not a scene")
 
   /** Fits the L2 cache of current processors. */
   private val Window = 1 << 17
@@ -143,37 +133,35 @@ private object Input:
     Input(stream, () => stream.available, () => Right(of(bytes)))
 
   /** Opens a file, decompressing gzip; or returns why it can't. */
-  def open(path: Path): Either[String, Input] =
+  def open(file: InputFile): Either[String, Input] =
     try
-      if Files.isDirectory(path) then Left("it is a folder")
-      else if !Files.isRegularFile(path) && Files.exists(path) then
-        ofPipe(path) // which can be read only once
-      else Right(opened(path))
+      if file.isPipe then ofPipe(file) // which can be read only once
+      else Right(opened(file))
     catch
       case e: IOException => Left(IoReason(e))
 
-  private def ofPipe(path: Path): Either[String, Input] =
+  private def ofPipe(file: InputFile): Either[String, Input] =
     val most = Math.min(Runtime.getRuntime.maxMemory / 4, MostFromPipe).toInt
-    Using.resource(Files.newInputStream(path)): in =>
+    Using.resource(file.stream()): in =>
       val bytes = in.readNBytes(most)
       if bytes.length < most || in.read() < 0 then Right(of(bytes))
       else Left(s"more than ${most >> 20} MB come from it; write them to a file")
 
   private val MostFromPipe = 1L << 30
 
-  private def opened(path: Path): Input =
-    val size = Files.size(path)
-    val raw = BufferedInputStream(Files.newInputStream(path))
+  private def opened(file: InputFile): Input =
+    val raw = file.stream()
     try
+      val size = file.size
       raw.mark(2)
       val isPacked = raw.read() == 0x1f && raw.read() == 0x8b
       raw.reset()
       if isPacked then
-        val unpacked = Unpacked(raw, size)
-        Input(unpacked, () => unpacked.mostLeft, () => open(path))
+        val unpacked = Unpacked(raw, size, file.unpacks)
+        Input(unpacked, () => unpacked.mostLeft, () => open(file))
       else
         val plain = Counted(raw)
-        Input(plain, () => size - plain.count, () => open(path))
+        Input(plain, () => size - plain.count, () => open(file))
     catch
       case e: IOException =>
         raw.close()
@@ -198,8 +186,9 @@ private class Counted(in: InputStream) extends FilterInputStream(in):
 /** Decompressed gzip stream. Refuses small files that expand without bound (zip bombs).
   *
   * @param size compressed size, in bytes
+  * @param note receives the number of bytes that have been unpacked
   */
-private final class Unpacked private (packed: Counted, size: Long)
+private final class Unpacked private (packed: Counted, size: Long, note: Long => Unit)
     extends Counted(GZIPInputStream(packed, 1 << 16)):
 
   /** Upper bound on the bytes that follow, from deflate's maximum ratio and the allowed one. */
@@ -209,13 +198,15 @@ private final class Unpacked private (packed: Counted, size: Long)
 
   override def read(into: Array[Byte], from: Int, length: Int): Int =
     val n = super.read(into, from, length)
+    if n > 0 then note(n)
     if count > Unpacked.Free + packed.count * Unpacked.MostAllowed then
       val times = count / packed.count.max(1)
       throw IOException(s"decompresses to more than $times times its size; it can't be a scene")
     n
 
 private object Unpacked:
-  def apply(in: InputStream, size: Long): Unpacked = new Unpacked(Counted(in), size)
+  def apply(in: InputStream, size: Long, note: Long => Unit): Unpacked =
+    new Unpacked(Counted(in), size, note)
 
   /** Maximum compression ratio of deflate (zlib's technical notes: 1032 to 1). */
   private val MostDeflated = 1032L

@@ -27,6 +27,7 @@ object DisplacedMesh:
 
   /** @param normals per vertex, or empty: those of the faces around it
     * @param longest length of edges in world space, above 0: all get shorter
+    * @param most    number of vertices
     * @param height  of a vertex by its position and its uv
     * @throws MeshError if there are too many triangles
     */
@@ -36,10 +37,11 @@ object DisplacedMesh:
       uvs: Array[Float],
       indices: Array[Int],
       toWorld: Transform,
-      longest: Float
+      longest: Float,
+      most: Int = MostVertices
   )(height: (Vec3, Float, Float) => Float): DisplacedMesh =
     val start = if normals.isEmpty then normalsOf(positions, indices) else normals
-    val mesh = Refinement(positions, start, uvs, toWorld, longest)
+    val mesh = Refinement(positions, start, uvs, toWorld, longest, most)
     loop(indices.length / 3)(f => mesh.add(indices(3 * f), indices(3 * f + 1), indices(3 * f + 2)))
     val fine = mesh.result()
     loop(fine.positions.length / 3): i =>
@@ -54,7 +56,7 @@ object DisplacedMesh:
     )
 
   /** Vertices of the finest mesh: some 4 GB. */
-  private val MostVertices = 100_000_000
+  val MostVertices: Int = 100_000_000
 
   private def vector(of: Array[Float], i: Int) = Vec3(of(3 * i), of(3 * i + 1), of(3 * i + 2))
 
@@ -82,7 +84,8 @@ object DisplacedMesh:
       givenNormals: Array[Float],
       givenUvs: Array[Float],
       toWorld: Transform,
-      longest: Float
+      longest: Float,
+      most: Int
   ):
     private val positions, normals, uvs = FloatBuffer()
     private val indices = IntBuffer()
@@ -127,8 +130,8 @@ object DisplacedMesh:
     private def newMiddle(a: Int, b: Int): Int =
       val made = count
       count += 1
-      if made == MostVertices then
-        throw MeshError(s"an edge length of $longest makes more than $MostVertices vertices")
+      if made >= most then
+        throw MeshError(s"an edge length of $longest makes more than $most vertices")
       append(positions, (p(a) + p(b)) * 0.5f)
       append(normals, unit(n(a) + n(b)))
       uvs += (uvs(2 * a) + uvs(2 * b)) * 0.5f

@@ -1,10 +1,8 @@
 package candela.build
 
-import java.nio.file.Path
-
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Severity, SourcePos}
+import candela.base.{SceneFolder, Severity, SourcePos}
 import candela.build.recipe.*
 import candela.color.ColorBasis
 import candela.scenefile.{Declaration, Dialect}
@@ -25,7 +23,7 @@ abstract class RecipeLaws[A](
 
   private def site(name: String, dialect: Dialect): Site =
     Site(
-      Declaration(recipes.category, name, Vector.empty, place, Path.of("")),
+      Declaration(recipes.category, name, Vector.empty, place, SceneFolder.Nowhere),
       dialect,
       Resources(ColorBasis.Srgb),
       Findings()

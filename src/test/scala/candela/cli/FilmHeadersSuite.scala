@@ -44,7 +44,7 @@ class FilmHeadersSuite extends AnyFunSuite:
     ) ++
     Set(
       "spark", "shards", "checkpoint", "checkpoint-every", "frames", "skip-done", "time", "error",
-      "thumbnail", "watch", "watch-after", "display-server"
+      "thumbnail", "watch", "watch-after", "display-server", "sandbox", "limit"
     )
 
   test("every option of render is known to shape the image or not to"):

@@ -8,7 +8,7 @@ import java.util.zip.GZIPOutputStream
 import scala.jdk.CollectionConverters.*
 import scala.util.Random
 
-import candela.base.{SceneError, Severity}
+import candela.base.{InputFile, SceneError, Severity}
 import candela.build.{BuildOptions, SceneBuilder}
 import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile
@@ -114,7 +114,7 @@ final class Trials(from: Path, folder: Path, random: Random):
           val _ = SceneBuilder.build(scene, BuildOptions(spp = Some(1), quick = true))
           None
         case Kind.Meshes =>
-          val mesh = PlyFile.read(file)
+          val mesh = PlyFile.read(InputFile.asked(file))
           val vertices = mesh.positions.length / 3
           val isSound = mesh.indices.forall(i => i >= 0 && i < vertices) &&
             mesh.positions.forall(java.lang.Float.isFinite)
@@ -123,7 +123,8 @@ final class Trials(from: Path, folder: Path, random: Random):
           val picture = ImageFiles.read(file)
           Option.when(picture.width < 1 || picture.height < 1)("an empty picture")
         case Kind.Volumes =>
-          val all = Vector("density", "heat").flatMap(NanoVdbFile.read(file, _).toOption)
+          val all =
+            Vector("density", "heat").flatMap(NanoVdbFile.read(InputFile.asked(file), _).toOption)
           Option.when(all.exists(_.tree.maximum.isNaN))("an unsound volume")
     catch
       case e: SceneError => unclear(e)

@@ -1,5 +1,6 @@
 package candela.image
 
+import candela.base.InputFile
 import candela.color.Encoding
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -30,7 +31,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       ImageFiles.write(folder.resolve("a.png"), Image.rgb(3, 2))
       val renamed = Files.move(folder.resolve("a.png"), folder.resolve("a.exr"))
-      assert(ImageFiles.load(renamed).isInstanceOf[ByteImage])
+      assert(ImageFiles.load(InputFile.asked(renamed)).isInstanceOf[ByteImage])
 
   test("a TGA file, which has no mark, is known by its extension"):
     Samples.inFolder: folder =>
@@ -38,7 +39,7 @@ class ImageFilesSuite extends AnyFunSuite:
       val file = Array[Byte](0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0, 2, 0, 1, 0, 24, 32) ++
         Array[Byte](30, 20, 10, 60, 50, 40)
       val path = Files.write(folder.resolve("a.tga"), file)
-      ImageFiles.load(path) match
+      ImageFiles.load(InputFile.asked(path)) match
         case image: ByteImage =>
           assert(image.bytes.toVector == Vector[Byte](10, 20, 30, 40, 50, 60))
         case other => fail(s"$other")
@@ -47,7 +48,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       def read(name: String, header: String, values: Int*) =
         val bytes = header.getBytes("ISO-8859-1") ++ values.map(_.toByte)
-        ImageFiles.load(Files.write(folder.resolve(name), bytes)) match
+        ImageFiles.load(InputFile.asked(Files.write(folder.resolve(name), bytes))) match
           case image: ByteImage => (image.channelNames, image.bytes.toVector.map(_ & 255))
           case other => fail(s"$other")
       val pixels = Vector(10, 20, 30, 40, 50, 255)
@@ -152,7 +153,7 @@ class ImageFilesSuite extends AnyFunSuite:
     Samples.inFolder: folder =>
       for (size, isRefused) <- List(20000 -> true, 100 -> false) do
         val file = Files.write(folder.resolve("a.tga"), tga(size))
-        val answer = Samples.attempt(ImageFiles.load(file))
+        val answer = Samples.attempt(ImageFiles.load(InputFile.asked(file)))
         assert(answer.left.exists(_.endsWith("can't be in a file of 905 bytes")) == isRefused)
 
   test("pictures of few bits a pixel may be packed far more than others"):
@@ -162,4 +163,4 @@ class ImageFilesSuite extends AnyFunSuite:
       val file = folder.resolve("a.png")
       assert(javax.imageio.ImageIO.write(picture, "png", file.toFile))
       assert(Files.size(file) < 6000 * 6000 / 1400)
-      assert(ImageFiles.load(file).width == 6000)
+      assert(ImageFiles.load(InputFile.asked(file)).width == 6000)

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SceneError, SourcePos}
+import candela.base.{InputFile, SceneError, SourcePos}
 import candela.math.*
 
 import java.nio.file.Files
@@ -11,7 +11,11 @@ class CurvesSuite extends AnyFunSuite:
 
   private def read(text: String, least: Int = 2): Vector[CurvePoints] =
     val file = Files.createTempFile("candela", ".txt")
-    try CurveFile.read(Files.writeString(file, text), least, SourcePos("scene.xml", 1, 1))
+    try CurveFile.read(
+        InputFile.asked(Files.writeString(file, text)),
+        least,
+        SourcePos("scene.xml", 1, 1)
+      )
     finally Files.delete(file)
 
   private def vertices(m: Mesh): Vector[Vec3] = vectors(m.positions)

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SceneError, SourcePos}
+import candela.base.{InputFile, SceneError, SourcePos}
 
 import java.nio.file.{Files, Path}
 
@@ -10,9 +10,9 @@ class MeshFilesSuite extends AnyFunSuite:
   private val at = SourcePos("scene.xml", 1, 1)
   private val folder = Path.of("scenes", "mitsuba")
 
-  private def written[A](bytes: Array[Byte])(use: Path => A): A =
+  private def written[A](bytes: Array[Byte])(use: InputFile => A): A =
     val file = Files.createTempFile("candela", ".mesh")
-    try use(Files.write(file, bytes))
+    try use(InputFile.asked(Files.write(file, bytes)))
     finally Files.delete(file)
 
   private def obj(text: String): Mesh =
@@ -33,8 +33,8 @@ class MeshFilesSuite extends AnyFunSuite:
     assert(why(obj("v 0 0 0\n")).endsWith("it has no faces"))
 
   test("the same tent as OBJ and as serialized mesh"):
-    val a = ObjFile.read(folder.resolve("tent.obj"), flipped = false, at)
-    val b = SerializedFile.read(folder.resolve("tent.serialized"), 0, at)
+    val a = ObjFile.read(InputFile.asked(folder.resolve("tent.obj")), flipped = false, at)
+    val b = SerializedFile.read(InputFile.asked(folder.resolve("tent.serialized")), 0, at)
     def corners(m: Mesh) =
       m.indices.toVector.map(i => m.positions.slice(3 * i, 3 * i + 3).toVector)
     assert(corners(a).toSet == corners(b).toSet)
@@ -43,7 +43,8 @@ class MeshFilesSuite extends AnyFunSuite:
   test("a serialized mesh that claims more than it can hold is refused"):
     val good = Files.readAllBytes(folder.resolve("tent.serialized"))
     assert(why(written(good.take(40))(SerializedFile.read(_, 0, at))).contains("damaged"))
-    assert(why(SerializedFile.read(folder.resolve("tent.serialized"), 1, at)).contains("1 meshes"))
+    val tent = InputFile.asked(folder.resolve("tent.serialized"))
+    assert(why(SerializedFile.read(tent, 1, at)).contains("1 meshes"))
     val body = java.io.ByteArrayOutputStream()
     val zip = java.util.zip.DeflaterOutputStream(body)
     val claim = java.nio.ByteBuffer.allocate(21).order(java.nio.ByteOrder.LITTLE_ENDIAN)

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.SceneError
+import candela.base.{InputFile, SceneError}
 import candela.scenefile.{MaterialRef, Parser, SceneDescription}
 
 import java.io.{ByteArrayOutputStream, PrintStream}
@@ -113,7 +113,8 @@ class MitsubaSceneSuite extends AnyFunSuite:
     val folder = Files.createTempDirectory("candela-xml")
     def name(declared: String, bytes: Charset, mark: String = ""): String =
       val xml = s"$mark<?xml version='1.0'$declared?>\n<scene version='é'/>"
-      XmlFile.read(Files.write(folder.resolve("a.xml"), xml.getBytes(bytes)), None)("version").get
+      val file = InputFile.asked(Files.write(folder.resolve("a.xml"), xml.getBytes(bytes)))
+      XmlFile.read(file, None)("version").get
     assert(name("", UTF_8) == "é")
     assert(name(" encoding='utf-8'", UTF_8, mark = "\uFEFF") == "é")
     assert(name(" encoding=\"ISO-8859-1\"", ISO_8859_1) == "é")

@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{SceneError, SourcePos}
+import candela.base.{InputFile, SceneError, SourcePos}
 import candela.color.Rgb
 import candela.math.{Transform, Vec3}
 
@@ -18,7 +18,8 @@ class VolumesSuite extends AnyFunSuite:
     Seq(0f, 0f, 0f, 2f, 1f, 1f).foreach(bytes.putFloat)
     values.foreach(bytes.putFloat)
     val file = Files.createTempFile("candela", ".vol")
-    try VolumeFile.read(Files.write(file, bytes.array), SourcePos("scene.xml", 1, 1))
+    try
+      VolumeFile.read(InputFile.asked(Files.write(file, bytes.array)), SourcePos("scene.xml", 1, 1))
     finally Files.delete(file)
 
   private val unit = Array(0f, 0f, 0f, 1f, 1f, 1f)

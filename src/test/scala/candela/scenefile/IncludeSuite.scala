@@ -31,7 +31,7 @@ class IncludeSuite extends AnyFunSuite:
     ): folder =>
       val scene = Parser.parse(folder.resolve("main.pbrt"))
       assert(scene.shapes.map(_.shape.name) == Vector("b", "d"))
-      assert(scene.shapes.forall(_.shape.folder == folder))
+      assert(scene.shapes.forall(_.shape.folder.path == folder))
       val at = scene.shapes.head.shape.at
       assert(at.file.endsWith("b.pbrt") && at.line == 2 && at.column == 7)
       assert(at.includedFrom.get.file.endsWith("a.pbrt"))

@@ -39,7 +39,7 @@ class ParserSuite extends AnyFunSuite:
     ).flatten
     val names = Vector("perspective", "image", "halton", "box", "path", "single", "sampler", "grid")
     assert(all.map(_.name) == names)
-    assert(all.forall(_.folder == Path.of("folder")))
+    assert(all.forall(_.folder.path == Path.of("folder")))
     assert(scene.camera.get.param("fov").get.floats.head == 45f)
     assert(scene.camera.get.at.toString == "test.pbrt:1:8")
     assert(scene.transformTimes == (0.25f, 0.75f))

@@ -5,7 +5,7 @@ import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{FloatBuffer, RestBuffer, SceneError}
+import candela.base.{FloatBuffer, InputFile, RestBuffer, SceneError}
 import org.scalatest.funsuite.AnyFunSuite
 
 class TokenizerSuite extends AnyFunSuite:
@@ -90,12 +90,12 @@ class TokenizerSuite extends AnyFunSuite:
     val file = Files.createTempFile("scene", ".pbrt")
     try
       Files.write(file, bytes.toByteArray)
-      assert(Source.read(file).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
+      assert(Source.read(InputFile.asked(file)).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
     finally Files.delete(file)
 
   test("UTF-16 is refused in so many words"):
     val file = Files.createTempFile("scene", ".pbrt")
     try
       Files.write(file, "WorldBegin".getBytes(UTF_16))
-      assert(Source.read(file).left.exists(_.contains("UTF-16")))
+      assert(Source.read(InputFile.asked(file)).left.exists(_.contains("UTF-16")))
     finally Files.delete(file)

@@ -3,6 +3,7 @@ package candela.bench
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
+import candela.base.InputFile
 import candela.build.shapes.{PlyFile, PlyMesh}
 import candela.scenefile.{Parser, SceneDescription}
 
@@ -61,4 +62,4 @@ class PlyBenchmark:
 
   @Benchmark
   @OperationsPerInvocation(MeshText.Megabytes)
-  def read(): PlyMesh = PlyFile.read(mesh)
+  def read(): PlyMesh = PlyFile.read(InputFile.asked(mesh))

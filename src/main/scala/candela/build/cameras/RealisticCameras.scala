@@ -1,11 +1,8 @@
 package candela.build.cameras
 
-import candela.base.IoReason
-
 import java.io.IOException
-import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.{Files, Path}
 
+import candela.base.{InputFile, IoReason}
 import candela.build.recipe.*
 import candela.cameras.*
 import candela.image.Image
@@ -48,13 +45,13 @@ object RealisticRecipe
       case None => StandInCamera.make
     CameraPlan(place, shutter())
 
-  private def read(path: Path)(using site: Site): Option[LensSystem] =
+  private def read(file: InputFile)(using site: Site): Option[LensSystem] =
     val at = site.declaration.param("lensfile").get.valuesAt
     def refuse(why: String) =
-      val message = s"can't read the lens file `${path.getFileName}`: $why"
+      val message = s"can't read the lens file `${file.path.getFileName}`: $why"
       site.problems.missing(at, message, StandInCamera.words)
       None
-    LensFile.read(path) match
+    LensFile.read(file) match
       case Left(why) => refuse(why)
       case Right(surfaces) =>
         val widest = surfaces.find(_.radius == 0.0).map(s => (s.aperture * 2000).toFloat)
@@ -126,16 +123,19 @@ private[build] object LensFile:
   private val Columns = 4
 
   /** Returns the surfaces, in metres, or an error message. */
-  def read(path: Path): Either[String, Vector[LensSurface]] =
-    try surfaces(Files.readString(path, ISO_8859_1))
+  def read(file: InputFile): Either[String, Vector[LensSurface]] =
+    try surfaces(file.text(), file.quoted)
     catch case e: IOException => Left(IoReason(e))
 
-  private[build] def surfaces(text: String): Either[String, Vector[LensSurface]] =
+  private[build] def surfaces(
+      text: String,
+      quoted: String => String = w => s"`$w`"
+  ): Either[String, Vector[LensSurface]] =
     val lines = text.linesIterator.map(_.takeWhile(_ != '#').trim).zipWithIndex
     val words = lines.flatMap((l, i) => l.split("\\s+").filter(_.nonEmpty).map(_ -> (i + 1)))
     val all = words.toVector
     all.find((word, _) => !word.toDoubleOption.exists(java.lang.Double.isFinite)) match
-      case Some((word, line)) => Left(s"`$word` in line $line is not a number")
+      case Some((word, line)) => Left(s"${quoted(word)} in line $line is not a number")
       case None if all.isEmpty => Left("the file has no surfaces")
       case None if all.size % Columns != 0 =>
         Left(s"${all.size} numbers don't form complete surfaces of $Columns each")

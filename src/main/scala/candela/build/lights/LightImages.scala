@@ -28,10 +28,10 @@ private[build] object LightImages:
     site.resources.once(site.declaration, name):
       for
         p <- site.declaration.param(name)
-        path <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
+        file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
         image <-
           try
-            val lamp = IesFile.read(path)
+            val lamp = IesFile.read(file)
             lamp.notes.foreach(site.problems.warn(p.valuesAt, _))
             Some(lamp.photometry.image)
           catch

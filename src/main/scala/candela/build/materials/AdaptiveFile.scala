@@ -1,10 +1,8 @@
 package candela.build.materials
 
-import candela.base.IoReason
-
 import java.nio.{ByteBuffer, ByteOrder}
-import java.nio.file.{Files, Path}
 
+import candela.base.{InputFile, IoReason}
 import candela.bsdf.measured.AdaptiveReflection
 import candela.color.{Rgb, Spectrum}
 import candela.sampling.WarpTable
@@ -13,9 +11,9 @@ import candela.sampling.WarpTable
 private[build] object AdaptiveFile:
 
   /** Returns the BRDF, or an error message. */
-  def read(path: Path): Either[String, MeasuredBsdf.OfSpectra] =
+  def read(file: InputFile): Either[String, MeasuredBsdf.OfSpectra] =
     for
-      fields <- TensorFile.read(path)
+      fields <- TensorFile.read(file)
       bsdf <- Reader(fields).result
     yield bsdf
 
@@ -132,8 +130,8 @@ private[build] object TensorFile:
   private val Sizes = Map(Bytes -> 1, Floats -> 4)
 
   /** Returns the arrays by name, or an error message. */
-  def read(path: Path): Either[String, Map[String, Tensor]] =
-    try Right(fields(ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)))
+  def read(file: InputFile): Either[String, Map[String, Tensor]] =
+    try Right(fields(ByteBuffer.wrap(file.bytes()).order(ByteOrder.LITTLE_ENDIAN)))
     catch
       case e: java.io.IOException => Left(IoReason(e))
       case _: java.nio.BufferUnderflowException => Left("unexpected end of file")

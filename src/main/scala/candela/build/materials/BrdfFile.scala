@@ -1,10 +1,8 @@
 package candela.build.materials
 
-import candela.base.IoReason
-
 import java.nio.{ByteBuffer, ByteOrder}
-import java.nio.file.{Files, Path}
 
+import candela.base.{FileName, InputFile, IoReason}
 import candela.bsdf.measured.{HalfAngleReflection, ScatteredReflection}
 import candela.color.Spectrum
 import candela.math.*
@@ -19,20 +17,19 @@ import candela.math.*
 private[build] object BrdfFile:
 
   /** Returns the BRDF, or an error message. */
-  def read(path: Path): Either[String, MeasuredBsdf] =
-    val isText = path.getFileName.toString.toLowerCase.endsWith(".brdf")
-    try if isText then scattered(path) else table(path)
+  def read(file: InputFile): Either[String, MeasuredBsdf] =
+    val isText = FileName.suffix(file.path) == "brdf"
+    try if isText then scattered(file) else table(file)
     catch case e: java.io.IOException => Left(IoReason(e))
 
-  private def scattered(path: Path): Either[String, MeasuredBsdf] =
-    val words = Files
-      .readString(path, java.nio.charset.StandardCharsets.ISO_8859_1)
-      .linesIterator
+  private def scattered(file: InputFile): Either[String, MeasuredBsdf] =
+    val words = file
+      .lines()
       .flatMap(_.takeWhile(_ != '#').split("\\s+"))
       .filter(_.nonEmpty)
       .toArray
     words.find(_.toFloatOption.isEmpty) match
-      case Some(word) => Left(s"`$word` is not a number")
+      case Some(word) => Left(s"${file.quoted(word)} is not a number")
       case None =>
         val numbers = words.map(_.toFloat)
         val count = numbers.headOption.fold(0)(_.toInt)
@@ -55,14 +52,14 @@ private[build] object BrdfFile:
   private def direction(theta: Float, phi: Float): Vec3 =
     Vec3(sin(theta) * cos(phi), sin(theta) * sin(phi), cos(theta))
 
-  private def table(path: Path): Either[String, MeasuredBsdf] =
+  private def table(file: InputFile): Either[String, MeasuredBsdf] =
     import HalfAngleReflection.{Azimuths, HalfAngles, Polar}
     val entries = HalfAngles * Polar * Azimuths
     val expected = 12L + 24L * entries
-    if Files.size(path) != expected then
-      Left(s"size must be $expected bytes (90 × 90 × 180 values), found ${Files.size(path)}")
+    if file.size != expected then
+      Left(s"size must be $expected bytes (90 × 90 × 180 values), found ${file.size}")
     else
-      val in = ByteBuffer.wrap(Files.readAllBytes(path)).order(ByteOrder.LITTLE_ENDIAN)
+      val in = ByteBuffer.wrap(file.bytes()).order(ByteOrder.LITTLE_ENDIAN)
       val sizes = Vector.fill(3)(in.getInt)
       if sizes != Vector(HalfAngles, Polar, Azimuths) then
         Left(s"table must have 90 × 90 × 180 values, found ${sizes.mkString(" × ")}")

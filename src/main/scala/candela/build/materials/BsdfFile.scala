@@ -1,11 +1,9 @@
 package candela.build.materials
 
-import candela.base.IoReason
-
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.{Files, Path}
 
+import candela.base.{InputFile, IoReason}
 import candela.bsdf.measured.FourierTable
 
 /** Reads the `.bsdf` files of pbrt-v3's "fourier", as written by Jakob's layerlab.
@@ -24,11 +22,11 @@ private[build] object BsdfFile:
   private inline val MostCosines = 4096
 
   /** Returns the table, or an error message. */
-  def read(path: Path): Either[String, FourierTable] =
+  def read(file: InputFile): Either[String, FourierTable] =
     try
-      val size = Files.size(path)
-      if size > Int.MaxValue then Left(s"size must be below 2 GiB, found $size bytes")
-      else parse(Files.readAllBytes(path))
+      if file.size > Int.MaxValue then
+        Left(s"size must be below 2 GiB, found ${file.size} bytes")
+      else parse(file.bytes())
     catch case e: java.io.IOException => Left(IoReason(e))
 
   def parse(bytes: Array[Byte]): Either[String, FourierTable] =

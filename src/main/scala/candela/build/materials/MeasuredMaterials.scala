@@ -1,7 +1,6 @@
 package candela.build.materials
 
-import java.nio.file.Path
-
+import candela.base.InputFile
 import candela.bsdf.{Bsdf, ConstantMaterial, Material}
 import candela.bsdf.measured.FourierBsdf
 import candela.build.recipe.*
@@ -24,7 +23,7 @@ abstract class MeasuredRecipe(
   private val file = string(parameter, s"$ending file", shown = "none")("")
 
   /** Returns the BSDF, or an error message. */
-  protected def read(path: Path): Either[String, MeasuredBsdf]
+  protected def read(file: InputFile): Either[String, MeasuredBsdf]
 
   /** Whether the BSDF is isotropic. */
   protected def isIsotropic: Boolean
@@ -38,9 +37,9 @@ abstract class MeasuredRecipe(
         val basis = site.resources.basis
         val made =
           for
-            path <-
+            there <-
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
-            bsdf <- site.resources.once(site.declaration, "measured")(read(path)) match
+            bsdf <- site.resources.once(site.declaration, "measured")(read(there)) match
               case Right(MeasuredBsdf.OfSpectra(make)) =>
                 Some(
                   make: s =>
@@ -66,13 +65,13 @@ abstract class MeasuredRecipe(
 object MeasuredTableRecipe
     extends MeasuredRecipe("measured BRDF from a table", ".brdf or .merl", onlyV2):
   protected def isIsotropic: Boolean = true
-  protected def read(path: Path): Either[String, MeasuredBsdf] = BrdfFile.read(path)
+  protected def read(file: InputFile): Either[String, MeasuredBsdf] = BrdfFile.read(file)
 
 /** pbrt-v4's measured BRDF. */
 object MeasuredBsdfRecipe
     extends MeasuredRecipe("measured BRDF of Dupuy and Jakob", ".bsdf", onlyV4):
   protected def isIsotropic: Boolean = false
-  protected def read(path: Path): Either[String, MeasuredBsdf] = AdaptiveFile.read(path)
+  protected def read(file: InputFile): Either[String, MeasuredBsdf] = AdaptiveFile.read(file)
 
 object FourierRecipe
     extends MeasuredRecipe(
@@ -83,5 +82,5 @@ object FourierRecipe
       parameter = "bsdffile"
     ):
   protected def isIsotropic: Boolean = true
-  protected def read(path: Path): Either[String, MeasuredBsdf] =
-    BsdfFile.read(path).map(table => MeasuredBsdf.OfColors(FourierBsdf(table)))
+  protected def read(file: InputFile): Either[String, MeasuredBsdf] =
+    BsdfFile.read(file).map(table => MeasuredBsdf.OfColors(FourierBsdf(table)))

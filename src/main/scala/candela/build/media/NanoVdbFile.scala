@@ -1,15 +1,12 @@
 package candela.build.media
 
-import candela.base.IoReason
-
 import java.io.IOException
-import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.UTF_8
-import java.nio.file.{Path, StandardOpenOption}
 
 import scala.collection.mutable
 import scala.util.Using
 
+import candela.base.{InputFile, IoReason}
 import candela.math.Transform
 import candela.media.VoxelTree
 
@@ -45,13 +42,15 @@ object NanoVdbFile:
     *
     * @throws NanoVdbError if the file is damaged or of another kind
     */
-  def read(path: Path, name: String): Either[Vector[String], NanoVdbGrid] =
+  def read(input: InputFile, name: String): Either[Vector[String], NanoVdbGrid] =
     try
-      Using.resource(FileChannel.open(path, StandardOpenOption.READ)): channel =>
+      Using.resource(input.channel()): channel =>
         val file = FileBytes(channel, 0, channel.size)
         entries(file) match
           case all if all.exists(_.name == name) =>
-            Right(NanoVdbTree.read(all.find(_.name == name).get.bytes(file)))
+            val entry = all.find(_.name == name).get
+            if entry.codec != 0 then input.unpacks(Math.max(0, entry.size))
+            Right(NanoVdbTree.read(entry.bytes(file)))
           case others => Left(others.map(_.name))
     catch
       case e: IOException =>

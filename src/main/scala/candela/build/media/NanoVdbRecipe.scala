@@ -1,8 +1,6 @@
 package candela.build.media
 
-import java.nio.file.Path
-
-import candela.base.Suggest
+import candela.base.{InputFile, Suggest}
 import candela.build.recipe.*
 import candela.geometry.Bounds3
 import candela.math.*
@@ -54,18 +52,18 @@ object NanoVdbRecipe
       val fromUnit: Transform
   )
 
-  private def read(path: Path, p: Param)(using site: Site): Option[Voxels] =
+  private def read(file: InputFile, p: Param)(using site: Site): Option[Voxels] =
     def refuse(why: String, help: Option[String] = None) =
       site.problems.missing(p.valuesAt, s"can't read `${filename()}`: $why", Ignored, help)
       None
     try
-      NanoVdbFile.read(path, gridName()) match
+      NanoVdbFile.read(file, gridName()) match
         case Left(names) =>
           val found = names.distinct.sorted.mkString("`", "`, `", "`")
           val help = Suggest.nearest(gridName(), names).map(n => s"\"string gridname\" \"$n\"")
           refuse(s"it has no grid `${gridName()}`, only $found", help)
         case Right(grid) =>
-          val temperature = NanoVdbFile.read(path, temperatureName()).toOption
+          val temperature = NanoVdbFile.read(file, temperatureName()).toOption
           if temperature.isEmpty && temperatureName.given_().isDefined then
             site.warn(s"`${filename()}` has no grid `${temperatureName()}`; it does not emit")
           voxels(grid, temperature).orElse(refuse("its voxels have no volume"))

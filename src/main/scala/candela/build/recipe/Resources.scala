@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.{Parallel, SourcePos, Suggest}
+import candela.base.{Allowance, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
 import candela.color.ColorBasis
 import candela.scenefile.{Declaration, NameKind, Param}
@@ -27,8 +27,9 @@ final class Resources private (
       pool: Parallel = Parallel.Alone,
       seed: Int = 0,
       mayBeSpectral: Boolean = false,
-      switches: Switches = Switches()
-  ) = this(basis, pool, seed, SharedResources(basis, mayBeSpectral, switches), basis)
+      switches: Switches = Switches(),
+      allowance: Allowance = Allowance()
+  ) = this(basis, pool, seed, SharedResources(basis, mayBeSpectral, switches, allowance), basis)
 
   /** The same files and tables, for another basis; names are yet to be defined. */
   def in(other: ColorBasis): Resources = new Resources(other, pool, seed, shared, plainBasis)
@@ -38,14 +39,14 @@ final class Resources private (
   /** Where spectra are noted, if they decide how the scene is rendered. */
   def counting: Option[ColorCensus] = Option.when(mayBeSpectral && !basis.isSpectral)(census)
 
-  val materials = NamedMaterials()
+  val materials = NamedMaterials(shared.allowance.most(Limit.Depth, 1024))
 
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
 
   // How many textures each evaluates, and how many of them within each other
   // More would take a millisecond each time; evaluation goes as deep into the stack
-  private val sizes = Compositions(most = 16384, deepest = 4096)
+  private val sizes = Compositions(16384, deepest = shared.allowance.most(Limit.Depth, 4096))
 
   /** Builds a texture and gives it a name. A texture of too many others is an error. */
   def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
@@ -95,14 +96,17 @@ final class Resources private (
       None
     }
 
-/** Materials by the names that `MakeNamedMaterial` gave them, each built on first use. */
-final class NamedMaterials:
+/** Materials by the names that `MakeNamedMaterial` gave them, each built on first use.
+  *
+  * @param deepest number of materials within each other
+  */
+final class NamedMaterials(deepest: Int):
   import NamedMaterials.*
   private val recipes = mutable.LinkedHashMap.empty[String, Named]
   private val made = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
   // More lobes would take a millisecond each time
-  private val sizes = Compositions(most = 1024, deepest = 1024)
+  private val sizes = Compositions(most = 1024, deepest)
 
   /** @param parts names of the materials that it refers to */
   def define(name: String, at: SourcePos, parts: Vector[String], make: () => Material): Unit =

@@ -1,12 +1,11 @@
 package candela.build.recipe
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 import java.util.concurrent.ConcurrentHashMap
 
 import scala.collection.mutable
-import scala.util.Try
 
-import candela.base.Suggest
+import candela.base.{Allowance, InputFile, Limit, SceneFolder, SourcePos}
 import candela.color.ColorBasis
 import candela.bsdf.layered.Coats
 import candela.bsdf.subsurface.ProfileTables
@@ -18,11 +17,13 @@ import candela.scenefile.{Declaration, Param}
   *
   * @param mayBeSpectral whether rendering may be spectral
   * @param switches      settings of the whole scene
+  * @param allowance     how much the scene may use
   */
 final class SharedResources(
     basis: ColorBasis,
     val mayBeSpectral: Boolean,
-    val switches: Switches
+    val switches: Switches,
+    val allowance: Allowance
 ):
   /** The spectra read so far. */
   val census = ColorCensus(basis)
@@ -58,7 +59,7 @@ final class SharedResources(
     askForFootprints(what)
 
   // Each of a hundred colour bases asks again
-  private val files = ConcurrentHashMap[(Path, String), Path]()
+  private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
   private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()
 
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
@@ -79,21 +80,23 @@ final class SharedResources(
     *
     * @param standIn replacement if the user chose to keep going
     */
-  def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[Path] =
+  def file(p: Param, from: Declaration, problems: Findings, standIn: String): Option[InputFile] =
     val name = p.strings.headOption.getOrElse("")
-    def path = from.folder.resolve(name.replace('\\', '/'))
     Option(files.get((from.folder, name))).orElse:
-      // some names are not valid paths, e.g. with a zero byte
-      val found = Try(path).toOption.filter(name.nonEmpty && Files.isRegularFile(_))
+      val found = from.folder.find(name, Some(p.valuesAt))
       found match
         case Some(there) => files.put((from.folder, name), there): Unit
-        case None => problems.missing(p.valuesAt, s"no file `$name`", standIn, Suggest.file(path))
+        case None =>
+          problems.missing(p.valuesAt, s"no file `$name`", standIn, from.folder.suggestion(name))
       found
 
-  private def load(path: Path): Either[String, StoredImage] = synchronized:
+  private def load(file: InputFile, at: SourcePos): Either[String, StoredImage] = synchronized:
+    def admit(width: Int, height: Int) =
+      allowance.check(Limit.Pixels, width.toLong * height, Some(at)):
+        s"`${file.path.getFileName}` has $width×$height pixels"
     images.getOrElseUpdate(
-      path.toAbsolutePath.normalize,
-      try Right(ImageFiles.colored(path, ImageFiles.load(path)))
+      file.path.toAbsolutePath.normalize,
+      try Right(ImageFiles.colored(file.path, ImageFiles.load(file, admit)))
       catch case e: ImageError => Left(e.getMessage)
     )
 
@@ -104,10 +107,10 @@ final class SharedResources(
       problems: Findings,
       standIn: String = StandIns.Magentas
   ): Option[StoredImage] =
-    file(p, from, problems, standIn).flatMap: path =>
-      loaded.computeIfAbsent(path, load) match
+    file(p, from, problems, standIn).flatMap: file =>
+      loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt)) match
         case Right(image) =>
-          for remark <- ImageFiles.remark(path) do problems.warn(p.valuesAt, remark)
+          for remark <- ImageFiles.remark(file) do problems.warn(p.valuesAt, remark)
           Some(image)
         case Left(message) =>
           problems.missing(p.valuesAt, message, standIn)

@@ -2,7 +2,7 @@ package candela.build.recipe
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SceneError, Severity, SourcePos}
+import candela.base.{Allowance, Problem, SceneError, Severity, SourcePos}
 import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}
@@ -21,6 +21,9 @@ final class Site(
     val problems: Findings,
     val toWorld: Transform = Transform.Identity
 ):
+  /** How much the scene may use. */
+  def allowance: Allowance = resources.allowance
+
   /** Colour space of a parameter. */
   def colorSpaceOf(p: Param): ColorSpace = space(declaration.colorSpaceOf(p))
 

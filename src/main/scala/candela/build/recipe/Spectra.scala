@@ -1,12 +1,8 @@
 package candela.build.recipe
 
 import java.io.IOException
-import java.nio.charset.StandardCharsets.ISO_8859_1
-import java.nio.file.{Files, Path}
 
-import scala.util.Try
-
-import candela.base.{IoReason, Suggest}
+import candela.base.{InputFile, IoReason, Suggest}
 import candela.color.{ColorBasis, ColorSpace, Colorimetry, NamedSpectra, Rgb, Spectrum, Upsampling}
 import candela.color.Colorimetry.White
 import candela.scenefile.{Dialect, Param, ParamType}
@@ -168,32 +164,31 @@ object Spectra:
   private def named(p: Param, site: Site, standIn: String): Option[Spectrum] =
     val name = p.strings.head
     NamedSpectra(name).orElse {
-      def path = site.declaration.folder.resolve(name.replace('\\', '/'))
-      // a name with a zero byte is not a valid path
-      val file = Try(path).getOrElse(site.declaration.folder)
-      if !Files.isRegularFile(file) then
-        val near = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
-        site.problems.missing(
-          p.valuesAt,
-          s"`$name` is neither a named spectrum nor a file",
-          standIn,
-          near.orElse(Suggest.file(file)).orElse(Some(s"known: ${NamedSpectra.inWords}"))
-        )
-        None
-      else
-        numbers(file, name) match
-          case Right(found) => pairs(found, p, site)
-          case Left(why) =>
-            site.problems.missing(p.valuesAt, why, standIn)
-            None
+      val folder = site.declaration.folder
+      folder.find(name, Some(p.valuesAt)) match
+        case None =>
+          val near = Suggest.nearest(name, NamedSpectra.names).map(n => s"did you mean `$n`?")
+          site.problems.missing(
+            p.valuesAt,
+            s"`$name` is neither a named spectrum nor a file",
+            standIn,
+            near.orElse(folder.suggestion(name)).orElse(Some(s"known: ${NamedSpectra.inWords}"))
+          )
+          None
+        case Some(file) =>
+          numbers(file, name) match
+            case Right(found) => pairs(found, p, site)
+            case Left(why) =>
+              site.problems.missing(p.valuesAt, why, standIn)
+              None
     }
 
   /** Pairs of wavelength and value, or why there are none. */
-  private def numbers(file: Path, name: String): Either[String, Array[Float]] =
+  private def numbers(file: InputFile, name: String): Either[String, Array[Float]] =
     try
-      val lines = Files.readAllLines(file, ISO_8859_1).toArray(Array.empty[String])
-      val words = lines.flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
-      val found = words.flatMap(_.toFloatOption)
+      val words =
+        file.lines().flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
+      val found = words.flatMap(_.toFloatOption).toArray
       if found.length == words.length && found.length % 2 == 0 then Right(found)
       else Left(s"spectrum file `$name` must contain pairs of wavelength and value")
     catch case e: IOException => Left(s"can't read the spectrum file `$name`: ${IoReason(e)}")

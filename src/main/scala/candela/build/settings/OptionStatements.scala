@@ -1,5 +1,6 @@
 package candela.build.settings
 
+import candela.base.{SceneFolder, SourcePos}
 import candela.build.recipe.*
 import candela.color.ColorSpace
 
@@ -52,9 +53,24 @@ object OptionRecipe extends Recipe[Switches]("", "settings of the whole scene", 
       oneColorSet = oneColorSet(),
       diffuse = diffuse(),
       edgeScale = scale,
-      reference = reference.given_().filter(_.nonEmpty),
-      errors = errors.given_().filter(_.nonEmpty)
+      reference = placed(reference)((folder, name, at) =>
+        folder.find(name, Some(at)).fold(folder.path.resolve(name))(_.path).toString
+      ),
+      errors = placed(errors)((folder, name, _) => folder.path.resolve(name).toString)
     )
+
+  /** The name of a file, as pbrt relative to the current folder; of a confined scene, to its own.
+    */
+  private def placed(field: Field[String])(
+      confined: (SceneFolder, String, SourcePos) => String
+  )(using site: Site): Option[String] =
+    val folder = site.declaration.folder
+    for
+      name <- field.given_().filter(_.nonEmpty)
+      p <- site.declaration.param(field.name)
+    yield
+      if folder.isConfined && SceneFolder.isName(name) then confined(folder, name, p.valuesAt)
+      else name
 
 object OptionStatements:
   val all: Recipes[Switches] = Recipes("option", Vector(OptionRecipe))

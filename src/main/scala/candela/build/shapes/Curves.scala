@@ -1,5 +1,6 @@
 package candela.build.shapes
 
+import candela.base.Limit
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
@@ -75,6 +76,9 @@ object CurveRecipe extends ShapeRecipe("curve", "thin curves such as hair or gra
       site.error(s"`splitdepth` must be between 0 and 16, found $depth")
       None
     else
+      val count = chain.size.toLong << depth
+      site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
+        s"a curve of $count segments"
       val all = chain.zipWithIndex.map: (points, i) =>
         BezierCurve(points, widthAt(i), widthAt(i + 1), ends.map(n => (n(i), n(i + 1))))
       val drawn = kind() match

@@ -1,6 +1,6 @@
 package candela.build.shapes
 
-import candela.base.{loop, SceneError}
+import candela.base.{Limit, loop, SceneError}
 import candela.build.recipe.*
 import candela.geometry.ShadingPoint
 import candela.math.{Position, Transform}
@@ -55,9 +55,9 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
     site.declaration.param("filename") match
       case Some(p) if filename().nonEmpty =>
         val standIn = StandIns.LeftOut
-        site.resources.file(p, site.declaration, site.problems, standIn).flatMap: path =>
+        site.resources.file(p, site.declaration, site.problems, standIn).flatMap: file =>
           try
-            val read = PlyFile.read(path, keepQuads = site.dialect == Dialect.V4)
+            val read = PlyFile.read(file, keepQuads = site.dialect == Dialect.V4)
             val near = read.near(site.toWorld)
             val (mesh, origin) = near.getOrElse((read, Position.Origin))
             val toWorld = if near.isEmpty then site.toWorld else site.toWorld * origin.fromOrigin
@@ -94,7 +94,8 @@ object PlyMeshRecipe extends MeshRecipe("plymesh", "triangle mesh from a PLY fil
           mesh.uvs,
           mesh.indices ++ halves,
           toWorld,
-          longest
+          longest,
+          site.allowance.most(Limit.Triangles, DisplacedMesh.MostVertices)
         ): (p, u, v) =>
           at.p = p
           at.u = u
@@ -168,6 +169,9 @@ object LoopSubdivRecipe extends ShapeRecipe("loopsubdiv", "Loop subdivision surf
       val faces = MeshArrays.wholeFaces(indices(), 3)
       MeshArrays.checked(points(), Array.empty, Array.empty, faces).flatMap: _ =>
         try
+          val count = (faces.length.toLong / 3) << (2 * depth)
+          site.allowance.check(Limit.Triangles, count, Some(site.declaration.at)):
+            s"\"loopsubdiv\" makes $count triangles"
           val fine = LoopSubdivision.subdivide(depth, faces, points())
           for edge <- fine.crowded do site.warn(s"\"loopsubdiv\": $edge, as in pbrt")
           Some(ShapeGeometry.Triangles(fine.positions, fine.normals, Array.empty, fine.indices))

@@ -1,10 +1,10 @@
 package candela.build.shapes
 
 import java.io.IOException
-import java.nio.file.Path
 
 import candela.base.{
-  FloatBuffer, IntBuffer, IoReason, loop, Problem, RestBuffer, SceneError, Severity, SourcePos
+  FloatBuffer, InputFile, IntBuffer, IoReason, loop, Problem, RestBuffer, SceneError, Severity,
+  SourcePos
 }
 import candela.math.{Position, Transform}
 import candela.scenefile.Source
@@ -49,19 +49,19 @@ object PlyFile:
     * @param keepsAll  whether to keep all numbers of vertices and faces
     */
   def read(
-      path: Path,
+      file: InputFile,
       at: Option[SourcePos] = None,
       keepQuads: Boolean = false,
       keepsAll: Boolean = false
   ): PlyMesh =
-    Source.read(path) match
+    Source.read(file) match
       case Right(source) => mesh(source, at, keepQuads, keepsAll)
-      case Left(why) => throw problem(at, s"can't read the mesh `$path`: $why")
+      case Left(why) => throw problem(at, s"can't read the mesh `$file`: $why")
 
   /** Positions of the first vertices, at most `most`. */
-  def begin(path: Path, most: Int): Array[Double] =
+  def begin(file: InputFile, most: Int): Array[Double] =
     def fail(at: Long, message: String) = throw problem(None, message)
-    Source.read(path) match
+    Source.read(file) match
       case Left(why) => fail(0, why)
       case Right(source) =>
         try

@@ -4,6 +4,7 @@ import java.io.IOException
 import java.nio.channels.{FileChannel, OverlappingFileLockException}
 import java.nio.file.StandardOpenOption.{CREATE, WRITE}
 import java.nio.file.{Files, Path}
+import java.nio.file.LinkOption.NOFOLLOW_LINKS
 
 import scala.util.Try
 
@@ -27,7 +28,10 @@ object FilmLock:
   def take(film: Path): Option[FilmLock] =
     val place = FilmFile.place(film)
     val file = place.resolveSibling(s".${place.getFileName}.lock")
-    val channel = FileChannel.open(file, CREATE, WRITE)
+    // A pipe would wait, and a link might lead anywhere
+    if Files.exists(file, NOFOLLOW_LINKS) && !Files.isRegularFile(file, NOFOLLOW_LINKS) then
+      throw IOException(s"`$file` is no lock, but a link, a folder or a pipe")
+    val channel = FileChannel.open(file, CREATE, WRITE, NOFOLLOW_LINKS)
     val isOurs =
       try channel.tryLock() != null
       catch

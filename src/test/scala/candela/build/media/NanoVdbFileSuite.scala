@@ -6,6 +6,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import scala.util.Random
 
+import candela.base.InputFile
 import candela.math.*
 import candela.testing.{NanoVdb, VdbGrid}
 
@@ -13,7 +14,7 @@ final class NanoVdbFileSuite extends AnyFunSuite:
 
   private def read(bytes: Array[Byte], name: String = "density") =
     val file = Files.createTempFile("candela", ".nvdb")
-    try NanoVdbFile.read(Files.write(file, bytes), name)
+    try NanoVdbFile.read(InputFile.asked(Files.write(file, bytes)), name)
     finally Files.delete(file)
 
   private def grid(bytes: Array[Byte], name: String = "density"): NanoVdbGrid =

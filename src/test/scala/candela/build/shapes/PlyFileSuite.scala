@@ -5,7 +5,7 @@ import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
 import java.util.zip.GZIPOutputStream
 
-import candela.base.{SceneError, SourcePos}
+import candela.base.{InputFile, SceneError, SourcePos}
 import candela.scenefile.Source
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -139,12 +139,12 @@ class PlyFileSuite extends AnyFunSuite:
       zip.write((header("ascii", 4, 1) + corners + "3 0 1 2\n").getBytes("ISO-8859-1"))
       zip.close()
       Files.write(file, bytes.toByteArray)
-      assert(PlyFile.read(file).indices.toVector == Vector(0, 1, 2))
+      assert(PlyFile.read(InputFile.asked(file)).indices.toVector == Vector(0, 1, 2))
     finally Files.delete(file)
 
   test("a file that is not there is an error at the place that asks for it"):
     val at = SourcePos("scene.pbrt", 3, 4)
-    val error = intercept[SceneError](PlyFile.read(Path.of("no.ply"), Some(at)))
+    val error = intercept[SceneError](PlyFile.read(InputFile.asked(Path.of("no.ply")), Some(at)))
     val problem = error.problems.head
     assert(problem.at.contains(at))
     assert(problem.message == "can't read the mesh `no.ply`: no such file")

@@ -1,0 +1,102 @@
+package candela.base
+
+import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException}
+import java.nio.ByteBuffer
+import java.nio.channels.FileChannel
+import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
+
+import scala.util.Using
+
+/** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `asked` is
+  * for what users name.
+  *
+  * @param path  as named, for messages
+  * @param place where it is opened
+  * @param gate  counts what is read
+  * @param isShown whether messages may quote it
+  */
+final class InputFile private[base] (
+    val path: Path,
+    private val place: Path,
+    gate: Long => Unit,
+    mayBePipe: Boolean,
+    shown: => Boolean
+):
+  lazy val isShown: Boolean = shown
+
+  def isRegular: Boolean = Files.isRegularFile(place)
+  def isFolder: Boolean = Files.isDirectory(place)
+
+  /** Whether it is a pipe that may be read, once. */
+  def isPipe: Boolean = mayBePipe && Files.exists(place) && !isRegular && !isFolder
+  def size: Long = Files.size(place)
+  def isSame(other: InputFile): Boolean = Files.isSameFile(place, other.place)
+
+  /** Counts bytes that are unpacked from the file. */
+  def unpacks(bytes: Long): Unit = gate(bytes)
+
+  /** All bytes. A file of 2 GB or more is an OutOfMemoryError. */
+  def bytes(): Array[Byte] =
+    gate(Files.size(readable))
+    Files.readAllBytes(readable)
+
+  /** The file as Latin-1, in which no byte is wrong. */
+  def text(): String = String(bytes(), ISO_8859_1)
+
+  def lines(): Vector[String] = text().linesIterator.toVector
+
+  def stream(): InputStream = BufferedInputStream(Gated(Files.newInputStream(readable), gate))
+
+  /** In memory as the system sees fit. Its whole size is counted. */
+  def map(): ByteBuffer = Using.resource(channel()): channel =>
+    if channel.size > Int.MaxValue then throw IOException("larger than 2 GB")
+    channel.map(FileChannel.MapMode.READ_ONLY, 0, channel.size)
+
+  /** For reading. Its whole size is counted. */
+  def channel(): FileChannel =
+    val opened = FileChannel.open(readable, StandardOpenOption.READ)
+    try
+      gate(opened.size)
+      opened
+    catch
+      case e: Throwable =>
+        opened.close()
+        throw e
+
+  /** A word of the file, for messages: files beside the scene's may be none of its. */
+  def quoted(word: String): String = if isShown then s"`$word`" else "what is not shown here"
+
+  override def toString: String = path.toString
+
+  /** Pipes and devices might never end. */
+  private def readable: Path =
+    if isFolder then throw IOException("it is a folder")
+    else if !mayBePipe && Files.exists(place) && !isRegular then
+      throw IOException(InputFile.Irregular)
+    else place
+
+object InputFile:
+  private[base] val Irregular = "it is no regular file, but a pipe or a device"
+
+  /** A file that the user has named. */
+  def asked(path: Path): InputFile = InputFile(path, path, _ => (), mayBePipe = true, shown = true)
+
+  /** A file that was read before, by its name in messages. */
+  def again(name: String): Option[InputFile] =
+    try
+      Some(Path.of(name)).filter(Files.isRegularFile(_)).map: path =>
+        InputFile(path, path, _ => (), mayBePipe = false, shown = true)
+    catch case _: InvalidPathException => None
+
+/** Counts the bytes read. */
+private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInputStream(in):
+  override def read(): Int =
+    val byte = in.read()
+    if byte >= 0 then gate(1)
+    byte
+
+  override def read(into: Array[Byte], from: Int, length: Int): Int =
+    val n = in.read(into, from, length)
+    if n > 0 then gate(n)
+    n

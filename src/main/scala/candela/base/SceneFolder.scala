@@ -1,0 +1,144 @@
+package candela.base
+
+import java.nio.file.{Files, InvalidPathException, LinkOption, Path}
+
+import scala.util.Try
+
+/** The folder of a scene: the one door through which files are opened that the scene names.
+  *
+  * @param path  what names are relative to
+  * @param guard decides what may be opened
+  */
+final class SceneFolder private (val path: Path, guard: FileGuard):
+
+  def isConfined: Boolean = guard.isConfined
+  def allowance: Allowance = guard.allowance
+
+  /** Another folder, whose files are guarded as those of this one. */
+  def at(other: Path): SceneFolder = SceneFolder(other, guard)
+
+  /** The scene file itself, which the user has named: a pipe, too, unless it is confined. */
+  def scene(file: Path): InputFile =
+    if !isConfined then guard.asked(file)
+    else
+      guard.open(file, None).filter(_.isRegular).getOrElse:
+        throw Refusal(None, s"`$file` is no regular file", "--sandbox reads no others")
+
+  /** The regular file of a name, if there is one.
+    *
+    * @param at where the scene names it
+    * @throws Refusal if the scene may not read it, whether it exists or not
+    */
+  def find(
+      name: String,
+      at: Option[SourcePos],
+      folders: Seq[Path] = Vector(path)
+  ): Option[InputFile] = all(folders, name, at).find(_.isRegular)
+
+  /** What has this name in the first of several folders, regular or not. */
+  def existing(folders: Seq[Path], name: String, at: Option[SourcePos]): Option[InputFile] =
+    all(folders, name, at).nextOption()
+
+  private def all(folders: Seq[Path], name: String, at: Option[SourcePos]) =
+    folders.iterator.flatMap(SceneFolder.resolved(_, name)).flatMap(guard.open(_, at))
+
+  /** As `find`; but what may not be read is not there, and is not counted. */
+  def belonging(name: String): Option[Path] =
+    SceneFolder.resolved(path, name).filter(guard.mayOpen).filter(Files.isRegularFile(_))
+
+  /** As `belonging`, to look at in passing. */
+  def glance(name: String): Option[InputFile] =
+    belonging(name).flatMap(_ => find(name, None))
+
+  /** A similar name in the folder, after `find` has found nothing. */
+  def suggestion(name: String): Option[String] =
+    SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p))
+
+  /** A file's path from here. */
+  def relativize(file: Path): Path = path.relativize(file)
+
+  override def equals(other: Any): Boolean = other match
+    case that: SceneFolder => path == that.path
+    case _ => false
+
+  override def hashCode: Int = path.hashCode
+  override def toString: String = path.toString
+
+object SceneFolder:
+  /** A folder whose scene may read every file. */
+  def apply(path: Path): SceneFolder = new SceneFolder(path, FileGuard(path, false, Allowance()))
+
+  private def apply(path: Path, guard: FileGuard): SceneFolder = new SceneFolder(path, guard)
+
+  /** The folder of a scene file.
+    *
+    * @param isConfined whether the scene may read no files but those in its folder or below it
+    */
+  def of(
+      scene: Path,
+      isConfined: Boolean = false,
+      allowance: Allowance = Allowance()
+  ): SceneFolder =
+    val folder = Option(scene.getParent).getOrElse(Path.of(""))
+    new SceneFolder(folder, FileGuard(folder, isConfined, allowance))
+
+  /** Of statements that name no files. */
+  val Nowhere: SceneFolder = SceneFolder(Path.of(""))
+
+  /** Whether a file may have this name: not if it has a zero byte, for example. */
+  def isName(name: String): Boolean = resolved(Path.of(""), name).nonEmpty
+
+  private def resolved(folder: Path, name: String): Option[Path] =
+    try Option.when(name.nonEmpty)(folder.resolve(name.replace('\\', '/')))
+    catch case _: InvalidPathException => None
+
+/** Decides which files a scene may open, and counts them.
+  *
+  * @param root       the scene's folder
+  * @param isConfined whether all files must be in it
+  */
+private final class FileGuard(root: Path, val isConfined: Boolean, val allowance: Allowance):
+  private lazy val realRoot = Try(root.toAbsolutePath.toRealPath()).toOption
+
+  def mayOpen(path: Path): Boolean = !isConfined || inside(path).nonEmpty
+
+  /** The file, if it exists; a folder or a pipe, too. */
+  def open(path: Path, at: Option[SourcePos]): Option[InputFile] =
+    val place = if isConfined then inside(path).getOrElse(throw outside(path, at)) else path
+    Option.when(Files.exists(place)):
+      if isConfined && !Files.isRegularFile(place) && !Files.isDirectory(place) then
+        throw Refusal(
+          at,
+          s"expected a regular file, found a pipe or a device: `$path`",
+          "--sandbox reads no others"
+        )
+      allowance.countFile(place, at)
+      def gate(count: Long) = allowance.countBytes(count, path, at)
+      InputFile(path, place, gate, mayBePipe = false, shown = inside(path).nonEmpty)
+
+  /** What the user has named, whatever it is. */
+  def asked(path: Path): InputFile =
+    InputFile(path, path, allowance.countBytes(_, path, None), mayBePipe = true, shown = true)
+
+  private def outside(path: Path, at: Option[SourcePos]): Refusal =
+    val isLink = path.toAbsolutePath.normalize.startsWith(root.toAbsolutePath.normalize)
+    val what =
+      if isLink then s"`$path`, a link that leads out of it or nowhere" else s"`$path`"
+    Refusal(at, s"expected a file in the scene's folder, found $what", Help)
+
+  private val Help = "--sandbox lets scenes read the files of their own folder only"
+
+  /** The real path of a file that may not exist yet; None if it is outside of the folder. */
+  private def inside(path: Path): Option[Path] =
+    val absolute = path.toAbsolutePath
+    val parts = absolute.getNameCount
+    val parents = Iterator.iterate(absolute)(_.getParent).takeWhile(_ != null)
+    for
+      root <- realRoot
+      there <- parents.find(Files.exists(_, LinkOption.NOFOLLOW_LINKS))
+      real <- Try(there.toRealPath()).toOption // not of links that lead nowhere
+      rest = parts - there.getNameCount
+      whole =
+        if rest == 0 then real else real.resolve(absolute.subpath(parts - rest, parts)).normalize
+      if whole.startsWith(root)
+    yield whole

@@ -1,0 +1,50 @@
+package candela.cli
+
+import candela.base.{Allowance, Limit, Problem, SceneError}
+import candela.render.{Cancellation, Deadline}
+
+import scala.collection.mutable
+
+/** Ends a run whose time is over: parsing and building included, whatever they do. */
+private[cli] object TimeLimit:
+
+  /** Runs a command within the time of its options. */
+  def during(options: Options, terminal: Terminal)(run: (Options, Terminal) => ExitCode): ExitCode =
+    options.limits.all.get(Limit.Time) match
+      case None => run(options, terminal)
+      case Some(limit) =>
+        val nanos = limit * 1_000_000
+        val timed = TimedInterrupts(terminal.interrupts, Allowance.outOfTime(limit))
+        val limits = options.limits.copy(endsAt = Some(System.nanoTime + nanos))
+        def quit() =
+          ProblemText.print(timed.problem, terminal.err, terminal.hasColor)
+          terminal.err.flush()
+          terminal.interrupts.quit(ExitCode.BadInput)
+        Deadline.during(nanos, Grace)(timed.expire(), quit()):
+          run(options.copy(limits = limits), terminal.interruptedBy(timed))
+
+  /** Nanoseconds in which a rendering ends, and saves its film. */
+  private val Grace = 700_000_000L
+
+/** Cancels renderings when the time is over, too.
+  *
+  * @param problem what is then said
+  */
+private final class TimedInterrupts(inner: Interrupts, val problem: Problem) extends Interrupts:
+  private val running = mutable.Set.empty[Cancellation]
+  private var isOver = false
+
+  def expire(): Unit = synchronized:
+    isOver = true
+    running.foreach(_.request())
+
+  def during[A](cancellation: Cancellation)(body: => A): A =
+    synchronized:
+      running += cancellation
+      if isOver then cancellation.request()
+    try inner.during(cancellation)(body)
+    finally synchronized(running -= cancellation): Unit
+
+  override def checkTime(): Unit = if synchronized(isOver) then throw SceneError(problem)
+
+  override def quit(code: ExitCode): Unit = inner.quit(code)
