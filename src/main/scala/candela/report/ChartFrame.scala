@@ -21,17 +21,21 @@ object ChartFrame:
   /** For narrow windows: its words can be read on a phone. */
   val Narrow: ChartFrame = ChartFrame(380, 360, isWhole = true)
 
-/** Legend of the curves and other lines, in rows of `columns` entries.
+/** Legend of the curves and other lines, in rows of up to `most` entries.
   *
   * @param lines names and CSS classes of the others
   */
 private[report] final class ChartLegend(
     series: Vector[Series],
     lines: Vector[(String, String)],
-    columns: Int,
+    most: Int,
     width: Double
 ):
   import Svg.*
+
+  private val columns =
+    val longest = (series.map(_.name) ++ lines.map(_._1)).map(_.length).maxOption.getOrElse(0)
+    Math.max(1, Math.min(most, (width / (44 + ChartLegend.Letter * longest)).toInt))
 
   val height: Double = 20.0 * ((series.size + lines.size + columns - 1) / columns)
 
@@ -50,6 +54,10 @@ private[report] final class ChartLegend(
     ) ++ lines.zipWithIndex.map:
       case ((name, css), i) => entry(series.size + i, "other", css, name, hasDot = false)
 
+private[report] object ChartLegend:
+  /** Typical width of a letter. */
+  val Letter = 6.2
+
 /** Grid of small charts with a common legend.
   *
   * @param words   subtitle of the grid
@@ -67,9 +75,9 @@ private[report] final class ChartGrid(
 
   private val width = columns * PanelWidth
   private val inner = width - 2 * Margin
-  private val legend = ChartLegend(series, Vector.empty, Math.max(1, (inner / 220).toInt), inner)
+  private val legend = ChartLegend(series, Vector.empty, 4, inner)
   private val heading = lines(title, inner / TitleLetter)
-  private val subtitle = lines(words, inner / Letter)
+  private val subtitle = lines(words, inner / ChartLegend.Letter)
   private val legendTop = 10.0 + 19 * (heading.size + subtitle.size) + 22
   private val top = legendTop + legend.height
   private val height = top + PanelHeight * ((panels.size + columns - 1) / columns)
@@ -89,8 +97,7 @@ private[report] final class ChartGrid(
 private[report] object ChartGrid:
   val Columns = 3
 
-  // Typical widths of letters
-  private val Letter = 6.2
+  /** Typical width of a letter of titles. */
   private val TitleLetter = 8.0
 
   private val PanelWidth = 310.0

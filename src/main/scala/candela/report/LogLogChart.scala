@@ -61,7 +61,7 @@ final class LogLogChart(
 
   private val legend =
     Option.when(frame.isWhole)(
-      ChartLegend(series, others, if isNarrow then 1 else 3, width - LeftMargin - RightMargin)
+      ChartLegend(series, others, 3, width - LeftMargin - RightMargin)
     )
   private val bottom = frame.height - legend.fold(BareBottom)(_.height + 52)
   private val x = LogAxis.around(marks.map(_.x), LeftMargin, width - RightMargin)

@@ -90,7 +90,7 @@ object SuitePage:
         (metric.word, metric.title, axis, both)
     val pictures = s.programs.map(p => Picture(p.title, p.picture)) :+
       Picture(
-        if s.referenceName.isDefined then "reference" else "mean of all",
+        if s.referenceName.isDefined then "reference" else "mean",
         s.reference,
         isReference = true
       )

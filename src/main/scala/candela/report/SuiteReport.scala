@@ -70,9 +70,12 @@ final case class SuiteReport(
 ):
   /** Where other programs took much of the machine, in words. */
   def disturbances: Vector[String] = scenes.flatMap: s =>
-    for p <- s.programs if p.isDisturbed; share <- p.others
-    yield s"other programs took ${Numbers.percentage(share)} of the processors during the runs " +
-      s"of ${p.title} on ${s.title}: times are too long"
+    val shares =
+      for p <- s.programs if p.isDisturbed; share <- p.others
+      yield s"${Numbers.percentage(share)} while ${p.title} ran"
+    Option.when(shares.nonEmpty):
+      s"on ${s.title}, other programs took much of the processors: ${shares.mkString(", ")}; " +
+        "times are too long"
 
 /** Machine-readable results: JSON with all runs, and CSV with one line per run. */
 object SuiteData:

@@ -66,7 +66,7 @@ class PagesSuite extends AnyFunSuite:
     val disturbed = one.programs.head.copy(others = Some(0.23))
     val scene = one.copy(programs = disturbed +: one.programs.tail)
     val busy = SuitePage.html(Reports.suite.copy(scenes = Vector(scene)))
-    val words = "Other programs took 23 % of the processors during the runs of The fast on A box"
+    val words = "On A box, other programs took much of the processors: 23 % while The fast ran;"
     assert(busy.contains(words) && busy.contains(">3.000 s ⚠</td>") && busy.contains("23 % ⚠"))
     val loaded = Reports.machine.copy(load = Some(1.92))
     val page = SuitePage.html(Reports.suite.copy(machine = loaded))
