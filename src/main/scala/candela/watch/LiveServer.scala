@@ -59,7 +59,8 @@ private[watch] final class LiveServer(
         val now = state()
         for viewer <- query.get("viewer") do
           viewers.saw(viewer, now.isFinal && number("shown").contains(now.version))
-        Some(Answer("application/json", LiveData.state(now).getBytes(UTF_8)))
+        val counted = now.copy(viewers = viewers.count)
+        Some(Answer("application/json", LiveData.state(counted).getBytes(UTF_8)))
       case "charts" =>
         val charts = LiveData.charts(observer.points, isEstimated)
         Some(Answer("text/html", charts.getBytes(UTF_8)))

@@ -29,20 +29,22 @@ class HttpServerSuite extends AnyFunSuite:
       threads.shutdownNow(): Unit
 
   /** Many clients do something, then another one is served within a second. */
-  private def besides(count: Int, from: String = "127.0.0.1")(first: Socket => Unit): Unit =
+  private def besides(count: Int)(first: Socket => Unit): Unit =
     serving(): port =>
       val crowd = Vector.newBuilder[Socket]
       try
         for _ <- 1 to count do
-          val socket = connected(port, from)
+          val socket = connected(port)
           crowd += socket
           // It may have given way to others already.
           try first(socket)
           catch case _: java.io.IOException => ()
-        for _ <- 1 to 5 do
+        val times = Vector.fill(5):
           val began = System.nanoTime
           assert(asked(port, "GET", "/a?x=1").body == "GET /a Vector((x,1))")
-          assert(System.nanoTime - began < 1_000_000_000L)
+          System.nanoTime - began
+        // The best, as other programs may hold up the machine; a client that is blocked always is
+        assert(times.min < 1_000_000_000L): Unit
       finally crowd.result().foreach(_.close())
 
   for count <- Vector(16, 300) do
