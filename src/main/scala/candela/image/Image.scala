@@ -90,7 +90,10 @@ final class Image(
       loop(3): c =>
         picked.data(3 * pixel + c) = encoding.decode(data(pixel * channels + sources(c)))
     val isGray = sources.distinct.size == 1
-    if colorSpace.isSrgb || isGray then picked else picked.mapped(matrix * _)
+    if colorSpace.isSrgb || isGray then picked
+    else
+      val change = matrix
+      picked.mapped(change * _)
 
   /** Three of its channels as R, G and B. */
   def selected(three: Vector[Int]): Image =

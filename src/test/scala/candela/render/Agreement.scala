@@ -54,8 +54,9 @@ final class Agreement(
   private val expected = reference.toRgb.data
   private val mean = new Array[Double](values)
   private val variance = new Array[Double](values)
+  private val rendered = renders.map(_.toRgb.data)
   for i <- 0 until values do
-    val samples = renders.map(_.toRgb.data(i).toDouble)
+    val samples = rendered.map(_(i).toDouble)
     mean(i) = samples.sum / count
     variance(i) = samples.map(s => Math.pow(s - mean(i), 2)).sum / (count - 1) / count
 
