@@ -50,7 +50,7 @@ private[cli] final class ClusterCommand(
       catch
         case e: ClusterFailure =>
           val lines = e.getMessage.split("\n", 2)
-          val help = lines.lift(1).map(_.stripLeading)
+          val help = lines.lift(1).map(_.linesIterator.map(_.strip).mkString("; "))
           throw SceneError(Problem.general(lines.head, help))
 
   private def note(text: String): Unit = if !options.quiet then terminal.err.println(text)

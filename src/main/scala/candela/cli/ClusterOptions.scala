@@ -36,7 +36,10 @@ private[cli] object ClusterTable:
       "watch" -> o.watch.isDefined,
       "display-server" -> o.displayServer.isDefined,
       "debug" -> o.debug,
-      "pixelmaterial" -> o.pixelMaterial.isDefined
+      "pixelmaterial" -> o.pixelMaterial.isDefined,
+      "write-partial-images" -> o.partialImages,
+      "mse-reference-out" -> o.switches.errors.isDefined,
+      "thumbnail" -> o.thumbnail.isDefined
     )
     if o.cluster.master.isEmpty then
       Option.when(o.cluster.shards.isDefined)("--shards needs --spark MASTER")

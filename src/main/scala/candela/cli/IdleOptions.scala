@@ -50,7 +50,9 @@ private[cli] object IdleOptions:
       unwritten.flatMap((option, isGiven) => idle(option, s": --$name renders no image")(isGiven))
     val isFilm = o.film.checkpoint.isDefined || o.outfiles.exists(FilmOptions.isFilm)
     val formats = o.outfiles.flatMap(format)
+    val isFilmAlone = o.outfiles.nonEmpty && o.outfiles.forall(FilmOptions.isFilm)
     silent ++ interval(o, isFilm) ++
+      idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
       idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
       idle("store-time", s": ${listed(formats)} files store no texts")(
         o.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)

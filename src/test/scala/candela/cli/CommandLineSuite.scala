@@ -122,6 +122,9 @@ class CommandLineSuite extends AnyFunSuite:
     "--define x a.xml" -> "--define must be NAME=VALUE, found `x`",
     "preview --spp 4 a.pbrt" ->
       "`candela preview` has no option `--spp`; `render` and `resume` have it",
+    "--spark fake --thumbnail auto a.pbrt" -> "--spark can't be combined with --thumbnail",
+    "--spark fake --write-partial-images a.pbrt" ->
+      "--spark can't be combined with --write-partial-images",
     "merge a.film" -> "`candela merge` needs --outfile FILE[,FILE]",
     "rneder a.pbrt" -> "`rneder` is no command; did you mean `render`?",
     "hlep" -> "`hlep` is no command; did you mean `help`?",

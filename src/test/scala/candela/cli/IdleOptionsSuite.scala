@@ -20,6 +20,8 @@ class IdleOptionsSuite extends AnyFunSuite:
       "--time has no effect: --pixelmaterial renders no image",
     "a.xml --dialect v4" ->
       "--dialect has no effect: scenes of Mitsuba's have none of pbrt's dialects",
+    "a.pbrt -o x.film --write-partial-images" ->
+      "--write-partial-images has no effect: only a film is written",
     "a.pbrt -o x.exr --tonemap aces" ->
       "--tonemap has no effect: .exr files keep the light as it is",
     "a.pbrt -o x.exr,x.pfm --exposure 2" ->
