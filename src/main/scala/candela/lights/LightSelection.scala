@@ -72,7 +72,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
     */
   private val trail = Array.fill(lights.length)(-1L)
 
-  if finite.nonEmpty then build(finite, 0L, 0): Unit
+  if finite.nonEmpty then build(LightOrder(finite.map(_._2)), 0, finite.length, 0L, 0): Unit
 
   private val nodes = LightNodes(bounds)
 
@@ -81,29 +81,29 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
   private val infiniteShare: Float =
     1f / Math.max(1, infinite.length + (if finite.isEmpty then 0 else 1))
 
-  private def build(part: Array[(Int, LightBounds)], bits: Long, depth: Int): LightBounds =
+  /** Median splits: the depth stays at log2 of the count. */
+  private def build(
+      order: LightOrder,
+      from: Int,
+      until: Int,
+      bits: Long,
+      depth: Int
+  ): LightBounds =
     val node = used
     used += 1
     val all =
-      if part.length == 1 then
-        children(node) = ~part(0)._1
-        trail(part(0)._1) = bits
-        part(0)._2
+      if until - from == 1 then
+        val (light, own) = finite(order(from))
+        children(node) = ~light
+        trail(light) = bits
+        own
       else
-        val (left, right) = split(part)
-        val a = build(left, bits, depth + 1)
+        val middle = order.split(from, until)
+        val a = build(order, from, middle, bits, depth + 1)
         children(node) = used
-        a.union(build(right, bits | (1L << depth), depth + 1))
+        a.union(build(order, middle, until, bits | (1L << depth), depth + 1))
     bounds(node) = all
     all
-
-  /** Median split along the axis of largest centroid extent: the depth stays at log2 of the count.
-    */
-  private def split(part: Array[(Int, LightBounds)])
-      : (Array[(Int, LightBounds)], Array[(Int, LightBounds)]) =
-    val centers = candela.geometry.Bounds3.of(part.map(_._2.box.center)).extent
-    val axis = (0 until 3).maxBy(k => centers(k))
-    part.sortBy(_._2.box.center(axis)).splitAt(part.length / 2)
 
   def choose(p: Vec3, n: Vec3, u: Float): Int =
     val out = LightChoice()

@@ -1,0 +1,48 @@
+package candela.lights
+
+import candela.base.loop
+
+import java.util.Arrays
+
+/** The order of lights in a [[LightTree]], while it is built: numbers in flat arrays, as there may
+  * be millions.
+  */
+private[lights] final class LightOrder(bounds: Array[LightBounds]):
+  private val centers =
+    Array.tabulate(3)(axis => bounds.map(_.box.center(axis)))
+  private val order = Array.range(0, bounds.length)
+  private val keys = new Array[Long](bounds.length)
+  private val sorted = new Array[Int](bounds.length)
+
+  /** Number of the light at a place. */
+  def apply(place: Int): Int = order(place)
+
+  /** Sorts lights along the axis of their largest extent, equal ones as they were; returns where
+    * the second half begins.
+    */
+  def split(from: Int, until: Int): Int =
+    val center = centers((0 until 3).maxBy(extent(_, from, until)))
+    val count = until - from
+    loop(count): i =>
+      keys(i) = (LightOrder.sortable(center(order(from + i))).toLong << 32) | i
+    Arrays.sort(keys, 0, count)
+    loop(count)(i => sorted(i) = order(from + keys(i).toInt))
+    System.arraycopy(sorted, 0, order, from, count)
+    from + count / 2
+
+  private def extent(axis: Int, from: Int, until: Int): Float =
+    val center = centers(axis)
+    var low = Float.PositiveInfinity
+    var high = Float.NegativeInfinity
+    var i = from
+    while i < until do
+      low = Math.min(low, center(order(i)))
+      high = Math.max(high, center(order(i)))
+      i += 1
+    high - low
+
+private object LightOrder:
+  /** Integers in the order of the numbers. */
+  private def sortable(x: Float): Int =
+    val bits = java.lang.Float.floatToIntBits(x)
+    bits ^ ((bits >> 31) & Int.MaxValue)
