@@ -58,11 +58,14 @@ final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends
     if worksAside then ThreadPool.thread(name, () => task).start()
 
 object ThreadPool:
+  /** For textures within each other, in bytes; memory is taken only as it is used. */
+  private val StackSize = 16L << 20
+
   /** Seconds after which an idle helper ends. */
   private inline val Patience = 5L
 
   /** One that does not keep the JVM alive. */
-  private def thread(name: String, work: Runnable): Thread =
-    val made = Thread(work, s"candela-$name")
+  private[render] def thread(name: String, work: Runnable): Thread =
+    val made = Thread(null, work, s"candela-$name", StackSize)
     made.setDaemon(true)
     made

@@ -55,18 +55,20 @@ class CompositionSuite extends AnyFunSuite:
   test("blends of a blend with itself take no more time than one"):
     assert(SceneTexts.mean(mixes(60, 1, 1)).g > 0f)
 
-  test("blends whose number doubles with each are refused from some number on"):
+  test("blends whose number doubles with each are rendered"):
     assert(SceneTexts.mean(mixes(10, 1, 2)).g > 0f)
-    assert(errors(mixes(60, 1, 2)).exists(_.matches(
-      "material `m[0-9]+` is composed of [0-9]+ others, each counted .*; 1024 are possible"
-    )))
+    assert(SceneTexts.mean(mixes(60, 1, 2)).g > 0f)
 
-  test("a long chain of blends is refused, not an overflow"):
+  test("a chain of thousands of blends is rendered"):
     val chain = mixes(5000, 1, 1).replaceAll(
       "\"string namedmaterial2\" \"m[0-9]+\"",
       "\"string namedmaterial2\" \"m0\""
     )
-    assert(errors(chain).exists(_.contains("1024 are possible")))
+    // Nearly all of it is the matte base
+    val alone =
+      chain.replace("NamedMaterial \"m4999\"\nTranslate", "NamedMaterial \"m0\"\nTranslate")
+    val (found, expected) = (SceneTexts.mean(chain), SceneTexts.mean(alone))
+    assert(Math.abs(found.g / expected.g - 1) < 1e-3f, s"$found, $expected")
 
   test("blends that refer to each other in a circle are errors, however long it is"):
     val circle = mixes(3000, 1, 1).replace(
@@ -84,6 +86,6 @@ class CompositionSuite extends AnyFunSuite:
     test(s"$kind textures, $how, whose number doubles with each are refused from some number on"):
       assert(errors(textures(kind, how, 60)(1, 2)).exists(_.contains("16384 are")))
     test(s"long chains of $kind textures, $how, are rendered or refused, not an overflow"):
-      val _ = SceneTexts.mean(textures(kind, how, 3000)(1, 3000000))
-      val long = errors(textures(kind, how, 5000)(1, 3000000))
-      assert(long.exists(_.contains("within each other; 4096 are possible")))
+      val _ = SceneTexts.mean(textures(kind, how, 5000)(1, 3000000))
+      val long = errors(textures(kind, how, 20000)(1, 3000000))
+      assert(long.exists(_.contains("16384 are possible")))

@@ -121,8 +121,11 @@ object TranslucentMaterial:
   * A blend of a material with itself is that material. The shading normal of the first is used for
   * both, as in PBRT 2 and 3.
   */
-final class MixedMaterial(first: Material, second: Material, amount: RgbTexture)
-    extends Material,
+final class MixedMaterial(
+    private[composite] val first: Material,
+    private[composite] val second: Material,
+    private[composite] val amount: RgbTexture
+) extends Material,
       Textured(first, second, amount):
   def bsdf(at: ShadingPoint): Bsdf =
     if first eq second then MixedMaterial.scatter(first, at)
@@ -145,5 +148,5 @@ object MixedMaterial:
   private val clear = Passthrough(Rgb.White)
 
   /** Within a blend, an interface is a transparent lobe, not the absence of a surface. */
-  private def scatter(material: Material, at: ShadingPoint): Bsdf =
+  private[composite] def scatter(material: Material, at: ShadingPoint): Bsdf =
     if material eq InterfaceMaterial then clear else material.bsdf(at)

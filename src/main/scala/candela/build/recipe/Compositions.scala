@@ -16,12 +16,15 @@ private[recipe] final class Compositions(most: Int, deepest: Int):
   /** Notes that the thing in the making has a part of this kind and name. */
   def refer(kind: String, name: String): Unit = named += ((kind, name)): Unit
 
-  /** Makes a thing; in words, why it is too large.
+  /** Makes a thing.
     *
     * @param isPlain whether its parts are not evaluated any more
+    * @param lighten makes one of it that takes little time, if it is too large; or tells in words
+    *   why it is
     */
   def composed[A](kind: String, name: String)(make: => A)(
-      isPlain: A => Boolean
+      isPlain: A => Boolean,
+      lighten: (A, String) => Either[String, A] = (_: A, why: String) => Left(why)
   ): Either[String, A] =
     val outer = named
     named = mutable.HashSet.empty
@@ -33,8 +36,9 @@ private[recipe] final class Compositions(most: Int, deepest: Int):
       val isTooLarge = count > most || depth > deepest
       sizes((kind, name)) = if isTooLarge then Size(1, 1) else Size(count + 1, depth + 1)
       if count > most then
-        Left(s"$count others, each counted as often as it is named; $most are possible")
-      else if depth > deepest then Left(s"$depth others within each other; $deepest are possible")
+        lighten(made, s"$count others, each counted as often as it is named; $most are possible")
+      else if depth > deepest then
+        lighten(made, s"$depth others within each other; $deepest are possible")
       else Right(made)
     finally named = outer
 

@@ -4,6 +4,7 @@ import scala.collection.mutable
 
 import candela.base.{Allowance, Limit, Parallel, SourcePos, Suggest}
 import candela.bsdf.Material
+import candela.bsdf.composite.{ChosenMaterial, MixedMaterial}
 import candela.color.ColorBasis
 import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
@@ -44,9 +45,9 @@ final class Resources private (
   private val floats = mutable.Map.empty[String, FloatTexture]
   private val colors = mutable.Map.empty[String, RgbTexture]
 
-  // How many textures each evaluates, and how many of them within each other
-  // More would take a millisecond each time; evaluation goes as deep into the stack
-  private val sizes = Compositions(16384, deepest = shared.allowance.most(Limit.Depth, 4096))
+  // How many textures each evaluates, which would take a millisecond if there were more; all may be
+  // within each other: evaluation goes as deep into the stack, for which threads have room
+  private val sizes = Compositions(16384, deepest = shared.allowance.most(Limit.Depth, 16384))
 
   /** Builds a texture and gives it a name. A texture of too many others is an error. */
   def defineFloat(name: String, at: SourcePos, problems: Findings)(make: => FloatTexture): Unit =
@@ -105,7 +106,7 @@ final class NamedMaterials(deepest: Int):
   private val recipes = mutable.LinkedHashMap.empty[String, Named]
   private val made = mutable.HashMap.empty[String, Material]
   private val open = mutable.HashSet.empty[String]
-  // More lobes would take a millisecond each time
+  // More lobes would take a millisecond each time; evaluation goes as deep into the stack
   private val sizes = Compositions(most = 1024, deepest)
 
   /** @param parts names of the materials that it refers to */
@@ -150,7 +151,7 @@ final class NamedMaterials(deepest: Int):
           val _ = waiting.push(part)
         case None =>
           val result =
-            try sizes.composed(Kind, last)(recipe.make())(_ => false)
+            try sizes.composed(Kind, last)(recipe.make())(_ => false, chosen)
             finally open -= last
           made(last) = result match
             case Right(material) => material
@@ -160,5 +161,10 @@ final class NamedMaterials(deepest: Int):
           val _ = waiting.pop()
 
 object NamedMaterials:
+  /** Of blends of too many parts one is evaluated at a time. */
+  private def chosen(made: Material, why: String): Either[String, Material] = made match
+    case blend: MixedMaterial => Right(ChosenMaterial(blend))
+    case _ => Left(why)
+
   private val Kind = "material"
   private final case class Named(at: SourcePos, parts: Vector[String], make: () => Material)

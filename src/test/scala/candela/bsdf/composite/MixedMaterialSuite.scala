@@ -54,3 +54,18 @@ class MixedMaterialSuite extends BsdfLaws:
 
   test("a mixture of constants is made once"):
     assert(MixedMaterial(paper, gloss, gray(0.5f)).isConstant)
+
+  test("parts that are chosen point by point are the blend, on average"):
+    val inner = MixedMaterial(gloss, paper, gray(0.3f))
+    val blend = MixedMaterial(inner, sheet, ConstantRgb(Rgb(0.25f, 0.5f, 0.75f)))
+    val chosen = ChosenMaterial(blend)
+    assert(!chosen.isConstant)
+    val count = 20000
+    val point = ShadingPoint()
+    val sum = (0 until count).foldLeft(Rgb.Black): (sum, i) =>
+      point.p = Vec3(i * 1e-4f, 0f, 1f)
+      sum + chosen.bsdf(point).f(wo, wi)
+    val expected = blend.bsdf(at).f(wo, wi)
+    // Values differ by a factor of 10 at most: four standard deviations
+    val off = (sum * (1f / count) - expected).map(c => abs(c)).max
+    assert(off < 0.04f * expected.max, s"$off of $expected")

@@ -1,0 +1,50 @@
+package candela.bsdf.composite
+
+import candela.bsdf.{Bsdf, Lobes, Material}
+import candela.color.Rgb
+import candela.geometry.ShadingPoint
+import candela.sampling.SampleHash
+
+import java.lang.Float.floatToRawIntBits
+
+/** A blend of so many parts that evaluating all of them takes too long: at each point one of them,
+  * chosen at random by its share. The choice is a function of the point, as in PBRT 4; the mean
+  * over points is the blend.
+  */
+final class ChosenMaterial(blend: MixedMaterial) extends Material:
+  override def isAnisotropic: Boolean = blend.isAnisotropic
+  override def isDirected: Boolean = blend.isDirected
+  override def isPane: Boolean = blend.isPane
+  override def isDispersive: Boolean = blend.isDispersive
+
+  def bsdf(at: ShadingPoint): Bsdf =
+    var part: Material = blend
+    var weight = Rgb.White
+    var bits = ChosenMaterial.hash(at)
+    var goesOn = true
+    while goesOn do
+      part match
+        case chosen: ChosenMaterial => part = chosen.within
+        case mixed: MixedMaterial if mixed.first eq mixed.second => part = mixed.first
+        case mixed: MixedMaterial =>
+          val share = mixed.amount.albedo(at)
+          val isGray = share.r == share.g && share.r == share.b
+          val chance = if isGray then share.r else (share.r + share.g + share.b) / 3f
+          bits = SampleHash.mix64(bits + SampleHash.Step)
+          if SampleHash.toUnit((bits >>> 32).toInt) < chance then
+            if !isGray then weight *= share * (1f / chance)
+            part = mixed.first
+          else
+            if !isGray then weight *= (Rgb.White - share) * (1f / (1f - chance))
+            part = mixed.second
+        case _ => goesOn = false
+    val found = MixedMaterial.scatter(part, at)
+    if weight == Rgb.White then found else Lobes.Builder().addScaled(found, weight).result
+
+  private def within: Material = blend
+
+object ChosenMaterial:
+  private def hash(at: ShadingPoint): Long =
+    def mixed(bits: Long, x: Float) =
+      SampleHash.mix64(bits * SampleHash.Step + floatToRawIntBits(x))
+    mixed(mixed(mixed(0L, at.p.x), at.p.y), at.p.z)
