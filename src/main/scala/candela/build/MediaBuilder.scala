@@ -96,10 +96,24 @@ private[build] final class MediaBuilder(
         (make(scene, all), all.describe)
       case (_, Some(make)) if regions.nonEmpty =>
         val volumes = Regions(regions)
-        val march = VolumeMarch(scene, volumes, volumeMethod.stepSize, volumeMethod.scatters)
+        val method = volumeMethod.copy(stepSize = stepSize(volumes))
+        val march = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
         val integrator = make(scene, lightSamples, march)
-        (RenderMethod.Tiles(integrator), s"${volumes.describe}, ${volumeMethod.describe}")
+        (RenderMethod.Tiles(integrator), s"${volumes.describe}, ${method.describe}")
       case _ => (plan.method(scene, lightSamples), "none")
+
+  /** The step size that is asked for, if a ray can have so many. */
+  private def stepSize(volumes: Regions): Float =
+    val asked = volumeMethod.stepSize
+    val least = volumes.extent / Regions.MostAcross
+    if asked >= least || !least.isFinite then asked
+    else
+      problems.warn(
+        description.volumeIntegrator.fold(BuildContext.NoPlace)(_.at),
+        s"`stepsize` of $asked needs more than ${Regions.MostAcross} steps through the volumes; " +
+          s"using $least"
+      )
+      least
 
   private def warnOfBlindness(isUsed: Boolean): Unit =
     val blind =

@@ -26,6 +26,9 @@ abstract class Region(toWorld: Transform, box: Bounds3, filling: Filling):
 
   def describe: String
 
+  /** The corners of its box. */
+  final def corners: Iterable[Vec3] = (0 until 8).map(i => toWorld.point(box.corner(i)))
+
   final def densityAt(world: Vec3): Float =
     val p = toVolume.point(world)
     val isInside = p.x >= box.min.x && p.x <= box.max.x && p.y >= box.min.y && p.y <= box.max.y &&

@@ -1,7 +1,7 @@
 package candela.media
 
 import candela.color.Rgb
-import candela.geometry.Ray
+import candela.geometry.{Bounds3, Ray}
 import candela.math.*
 
 /** All volumes of a scene; densities add up where they overlap. Immutable; scratch memory is a
@@ -11,6 +11,9 @@ final class Regions(all: Array[Region]):
   def newWork(): RegionWork = RegionWork(all.length)
 
   def describe: String = s"${all.length} (${all.map(_.describe).mkString("; ")})"
+
+  /** The longest way through all of them. */
+  def extent: Float = Bounds3.of(all.flatMap(_.corners)).extent.length
 
   /** Sets `out.overlap` to the part of the ray, up to `ray.tMax`, from its first entry into a
     * region to its last exit from one.
@@ -54,7 +57,9 @@ final class Regions(all: Array[Region]):
             var sum = 0f
             val begin = out.overlap.begin * unit
             val end = out.overlap.end * unit
-            val length = Math.max(step, (end - begin) / Regions.MostSteps)
+            // Shorter ones would not get on, far from the ray's origin
+            val least = Math.max(Math.ulp(end), (end - begin) / Regions.MostSteps)
+            val length = Math.max(step, least)
             var t = begin + offset * length
             while t < end do
               sum += region.densityAt(ray.at(t / unit))
@@ -101,6 +106,10 @@ final class Regions(all: Array[Region]):
     if weights > 0f then sum / weights else 0f
 
 object Regions:
+  /** Maximum number of steps along a ray through all regions. Others lead from each to the lights.
+    */
+  inline val MostAcross = 2048
+
   /** Maximum number of steps through a region, for any step size. */
   inline val MostSteps = 65536
 

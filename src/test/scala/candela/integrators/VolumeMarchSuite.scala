@@ -94,3 +94,29 @@ final class VolumeMarchSuite extends AnyFunSuite:
       assert(c != seen(""), c)
       for name <- Seq("none", "", "interface") do
         assert(c == seen(s""" Material "$name" Shape "sphere""""), name)
+
+  test("steps without number are bounded, and a warning says how"):
+    val volume = "\"volumegrid\" \"integer nx\" 2 \"integer ny\" 1 \"integer nz\" 1 " +
+      "\"float density\" [1 1] \"color sigma_s\" [.1 .1 .1] \"color Le\" [.02 .02 .02]"
+    for method <- Vector("emission", "single") do
+      val tiny = text(s"\"$method\" \"float stepsize\" 1e-9", volume, surfaces.head)
+        .replace("\"integer pixelsamples\" 200", "\"integer pixelsamples\" 1")
+      val usual = seen(s"\"$method\" \"float stepsize\" .01", volume, surfaces.head)
+      val found = SceneTexts.mean(tiny, Dialect.V2)
+      // The step itself is the error
+      assert(Math.abs(found.g / usual.g - 1) < 0.01, s"$found, $usual")
+      val why = SceneTexts.problems(tiny, Dialect.V2).map(_.message)
+      assert(
+        why.contains(
+          "`stepsize` of 1.0E-9 needs more than 2048 steps through the volumes; using 0.0069740512"
+        ),
+        why
+      )
+
+  test("volumes far from the camera are crossed"):
+    val volume = "\"volumegrid\" \"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 1 " +
+      "\"float density\" [1]"
+    val far = text(s"\"emission\" $fine", volume, surfaces.head)
+      .replace("LookAt 0 0 9", "LookAt 0 0 1e8")
+      .replace("\"integer pixelsamples\" 200", "\"integer pixelsamples\" 1")
+    assert(SceneTexts.mean(far, Dialect.V2).g >= 0)
