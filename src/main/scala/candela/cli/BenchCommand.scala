@@ -9,7 +9,7 @@ import scala.util.Using
 
 import scopt.OParser
 
-import candela.base.{FileName, ForeignFile, ForeignKind, Problem, SceneError, Version, WholeFile}
+import candela.base.{FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile}
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
@@ -117,12 +117,7 @@ final class BenchCommand(options: Options, terminal: Terminal, report: Report):
     path.split(separator).map(p => Path.of(p).toAbsolutePath.toString).mkString(separator)
 
   private def inScratch[A](body: Path => A): A =
-    val scratch = Files.createTempDirectory("candela-bench")
-    try body(scratch)
-    finally
-      // Deletes links without following them.
-      Using.resource(Files.walk(scratch)): files =>
-        files.iterator.asScala.toVector.reverse.foreach(Files.deleteIfExists(_))
+    Using.resource(Scratch.make())(scratch => body(scratch.folder))
 
 /** Options of `bench`; empty or None keeps the suite's setting.
   *

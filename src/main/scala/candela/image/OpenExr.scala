@@ -1,13 +1,12 @@
 package candela.image
 
-import candela.base.{loop, WholeFile}
+import candela.base.{loop, Scratch, WholeFile}
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
 import org.lwjgl.system.MemoryUtil
 
 import java.nio.FloatBuffer
-import java.nio.file.Files
 
 /** Reads EXR files by the OpenEXR library, version 3, which is loaded at run time: its C interface
   * (`ImfCRgbaFile.h`) returns R, G, B and A, or the luminance, in half precision, of files of any
@@ -28,7 +27,8 @@ private[image] final class OpenExr private (library: NativeLibrary):
     * @param why  why it is read here, for messages
     */
   def read(file: Array[Byte], part: ExrPart, why: String): Image =
-    val copy = Files.createTempFile("candela", ".exr")
+    val scratch = Scratch.make()
+    val copy = scratch.folder.resolve("copy.exr")
     val stack = stackPush()
     val halves = MemoryUtil.memAllocShort(4 * part.width * part.height)
     val pixels = MemoryUtil.memAllocFloat(halves.capacity)
@@ -53,7 +53,7 @@ private[image] final class OpenExr private (library: NativeLibrary):
       MemoryUtil.memFree(halves)
       MemoryUtil.memFree(pixels)
       stack.close()
-      val _ = Files.deleteIfExists(copy)
+      scratch.close()
 
   /** Its last error, without the name of the file. */
   private def fail(why: String): Nothing =

@@ -1,5 +1,6 @@
 package candela.cluster
 
+import candela.base.Scratch
 import candela.cli.ShardRenderer
 
 import java.nio.file.{Files, Path}
@@ -11,10 +12,10 @@ import scala.util.{Try, Using}
 /** The scenes that an executor has unpacked and built, for all of its tasks. */
 object ExecutorScenes:
   private lazy val root: Path =
-    val folder = Files.createTempDirectory("candela-executor")
-    val cleanUp: Runnable = () => delete(folder)
+    val scratch = Scratch.make()
+    val cleanUp: Runnable = () => scratch.close()
     Runtime.getRuntime.addShutdownHook(Thread(cleanUp))
-    folder
+    scratch.folder
 
   // By bundle; the latest last. Others wait while one is built.
   private val scenes = mutable.LinkedHashMap.empty[String, ShardRenderer]
