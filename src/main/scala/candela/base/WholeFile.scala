@@ -7,6 +7,7 @@ import java.nio.file.*
 import java.nio.file.StandardCopyOption.{ATOMIC_MOVE, REPLACE_EXISTING}
 import java.nio.file.StandardOpenOption.{APPEND, CREATE_NEW, WRITE}
 import java.nio.file.attribute.BasicFileAttributes
+import java.util.concurrent.ConcurrentHashMap
 
 import scala.annotation.tailrec
 import scala.util.Try
@@ -122,6 +123,7 @@ final class NextFile private (
     val _ = Try(channel.close())
     if target.nonEmpty then
       val _ = Try(Files.deleteIfExists(temporary))
+      val _ = NextFile.open.remove(temporary)
 
   private def named(body: => Unit): Unit =
     try body
@@ -130,6 +132,11 @@ final class NextFile private (
       case e: IOException => throw WriteError(path, WholeFile.reason(e))
 
 object NextFile:
+  /** Temporary files of this process. */
+  private val open = ConcurrentHashMap.newKeySet[Path]()
+
+  /** Deletes what is not complete; the process ends. */
+  def giveUp(): Unit = open.forEach(file => Try(Files.deleteIfExists(file)): Unit)
 
   /** Opens the next version of a file.
     *
@@ -145,7 +152,13 @@ object NextFile:
           removeLeft(file)
           val unique = s"${ProcessHandle.current.pid}-${System.nanoTime}"
           val temporary = file.resolveSibling(s"${beginning(file)}$unique.tmp")
-          val channel = FileChannel.open(temporary, CREATE_NEW, WRITE)
+          open.add(temporary): Unit
+          val channel =
+            try FileChannel.open(temporary, CREATE_NEW, WRITE)
+            catch
+              case e: Throwable =>
+                open.remove(temporary): Unit
+                throw e
           val _ = Try(channel.tryLock())
           val _ = Try(Files.setPosixFilePermissions(temporary, Files.getPosixFilePermissions(file)))
           NextFile(path, target, temporary, channel)

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.base.NextFile
 import candela.render.Cancellation
 
 import java.io.PrintStream
@@ -21,6 +22,9 @@ abstract class Interrupts:
   /** Ends the process at once, if it is ours. */
   def quit(code: ExitCode): Unit = ()
 
+  /** From now on, except [[during]] a rendering, an interrupt quits at once. */
+  def quitting(): Unit = ()
+
 object Interrupts:
 
   /** For embedding: the host program handles Ctrl-C. */
@@ -37,7 +41,18 @@ object Interrupts:
   private final class Signals(err: PrintStream, echoes: Boolean) extends Interrupts:
     private val interrupt = Signal("INT")
 
-    override def quit(code: ExitCode): Unit = Runtime.getRuntime.halt(code.number)
+    override def quitting(): Unit =
+      val onInterrupt: SignalHandler = _ =>
+        if echoes then err.println()
+        err.println("interrupted")
+        err.flush()
+        quit(ExitCode.Interrupted)
+      val _ = Try(Signal.handle(interrupt, onInterrupt))
+
+    /** Without anything that goes on meanwhile and might fail, and leaves nothing half-written. */
+    override def quit(code: ExitCode): Unit =
+      NextFile.giveUp()
+      Runtime.getRuntime.halt(code.number)
 
     def during[A](cancellation: Cancellation)(body: => A): A =
       val ended = CountDownLatch(1)
@@ -45,7 +60,7 @@ object Interrupts:
         cancellation.request()
         ended.await()
       val onInterrupt: SignalHandler = _ =>
-        if cancellation.isRequested then Runtime.getRuntime.halt(ExitCode.Interrupted.number)
+        if cancellation.isRequested then quit(ExitCode.Interrupted)
         else
           // Printed first, because a cancelled rendering may end, and print its result, at once.
           if echoes then err.println()

@@ -45,6 +45,9 @@ object Main:
       for note <- options.notes do
         val warning = Problem(Severity.Warning, None, note)
         ProblemText.print(warning, terminal.err, terminal.hasColor)
+    // Those have children, or shards, to end
+    val isAlone = options.command != Command.Bench && options.cluster.master.isEmpty
+    if isAlone then terminal.interrupts.quitting()
     options.command match
       case Command.Render if options.cluster.master.isDefined =>
         ClusterCommand(options, terminal, report, loader).run()
