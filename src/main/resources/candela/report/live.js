@@ -198,7 +198,7 @@ function figures(state) {
     (state.viewers > 1 ? `; ${state.viewers} viewers` : ""));
   byId("done").style.width = `${100 * state.part}%`;
   byId("progress").setAttribute("aria-valuenow", Math.round(100 * state.part));
-  write("samples", `${state.samples} / ${state.planned}`);
+  write("samples", state.planned === null ? `${state.samples}` : `${state.samples} / ${state.planned}`);
   write("seconds", clock(state.seconds));
   write("left", state.left === null ? "–" : clock(state.left));
   write("rate", metric(state.rate));

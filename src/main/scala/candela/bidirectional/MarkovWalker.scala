@@ -41,21 +41,21 @@ private[bidirectional] final class MarkovWalker(
     chains.begin(this, isStopped)
     chains.start.isDefined
 
-  def advance(chain: Int, paths: Long): Unit =
+  def advance(chain: Int, paths: Long, isLeft: () => Boolean): Unit =
     val start = chains.start.get
-    if start.mean > 0f then walk(chains(chain, start, this), start.mean, paths)
+    if start.mean > 0f then walk(chains(chain, start, this), start.mean, paths, isLeft)
     else
       var i = 0L
       while i < paths do
         view.splats.begin()
         i += 1
 
-  private def walk(chain: MarkovChain, mean: Float, count: Long): Unit =
+  private def walk(chain: MarkovChain, mean: Float, count: Long, isLeft: () => Boolean): Unit =
     val samples = chain.samples
     // Accumulated weight of the current state, splatted when the chain leaves it
     var currentWeight = 0f
     var i = 0L
-    while i < count do
+    while i < count && !isLeft() do
       view.splats.begin()
       samples.propose()
       follow(samples)

@@ -40,7 +40,10 @@ private[bidirectional] final class PhotonMapper(
   private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
-  def begin(pass: Int): Unit = photons = passes(pass, tracer)
+  def begin(pass: Int, isStopped: () => Boolean): Boolean =
+    val prepared = passes(pass, tracer, isStopped)
+    for map <- prepared do photons = map
+    prepared.isDefined
 
   protected def over(scene: Scene): PhotonMapper =
     PhotonMapper(scene, maxDepth, settings, passes, interfaces)

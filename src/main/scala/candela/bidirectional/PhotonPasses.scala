@@ -90,11 +90,17 @@ final class PhotonPasses(
   def integrator(report: Option[PathReport]): PassIntegrator =
     PhotonMapper(report.fold(scene)(scene.reported), maxDepth, settings, this, interfaces)
 
-  /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. */
-  private[bidirectional] def apply(number: Int, tracer: PhotonTracer): PhotonMap =
+  /** The photon map of a pass; up to [[SharedPasses.Open]] passes may be in progress. None if
+    * stopped before it was complete.
+    */
+  private[bidirectional] def apply(
+      number: Int,
+      tracer: PhotonTracer,
+      isStopped: () => Boolean
+  ): Option[PhotonMap] =
     val pass = find(number)
-    if pass.map.isEmpty then pass.help(tracer, shutter)
-    pass.map.get
+    if pass.map.isEmpty then pass.help(tracer, shutter, isStopped)
+    pass.map
 
   def release(pass: Int): Unit = synchronized:
     val at = pass % recent.length
@@ -126,19 +132,19 @@ object PhotonPasses:
     @volatile private var failure: Option[Throwable] = None
     @volatile var map: Option[PhotonMap] = None
 
-    def help(tracer: PhotonTracer, shutter: Shutter): Unit =
-      try work(tracer, shutter)
+    def help(tracer: PhotonTracer, shutter: Shutter, isStopped: () => Boolean): Unit =
+      try work(tracer, shutter, isStopped)
       catch
         case e: Throwable =>
           failure = Some(e)
           throw e
-      while map.isEmpty do
+      while map.isEmpty && !isStopped() do
         for e <- failure do throw e
         LockSupport.parkNanos(Pause)
 
-    private def work(tracer: PhotonTracer, shutter: Shutter): Unit =
+    private def work(tracer: PhotonTracer, shutter: Shutter, isStopped: () => Boolean): Unit =
       var part = next.getAndIncrement()
-      while part < parts.length do
+      while part < parts.length && !isStopped() do
         val count = Math.min(PartSize, paths - part * PartSize)
         parts(part) = tracer.trace(number, part, count, shutter)
         if done.incrementAndGet() == parts.length then map = Some(PhotonMap(parts, paths, radius))

@@ -109,7 +109,7 @@ private[build] final class MediaBuilder(
     if asked >= least || !least.isFinite then asked
     else
       problems.warn(
-        description.volumeIntegrator.fold(BuildContext.NoPlace)(_.at),
+        description.volumeIntegrator.map(_.at),
         s"`stepsize` of $asked needs more than ${Regions.MostAcross} steps through the volumes; " +
           s"using $least"
       )

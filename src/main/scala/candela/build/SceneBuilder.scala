@@ -33,6 +33,8 @@ import candela.scenefile.SceneDescription
   * @param pixels      pixels of the image to render, overrides the scene
   * @param points      which sample points to take
   * @param fireflies   what is done about them
+  * @param taken       samples per pixel to take, if not as many as the points are made for
+  * @param footprint   size of a sample's footprint, in pixels, if not that of their number
   */
 final case class BuildOptions(
     spp: Option[Int] = None,
@@ -48,7 +50,9 @@ final case class BuildOptions(
     switches: Switches = Switches(),
     pixels: Option[PixelBounds] = None,
     points: PointChoice = PointChoice.Best,
-    fireflies: Fireflies = Fireflies.Kept
+    fireflies: Fireflies = Fireflies.Kept,
+    taken: Option[Int] = None,
+    footprint: Option[Float] = None
 ):
   /** A preview shows albedos, for which three numbers do. */
   def colorMode: ColorMode = if preview then ColorMode.Rgb else color
@@ -86,7 +90,7 @@ object SceneBuilder:
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)
-    val samples = crop.pixels * sampling.sampler.samplesPerPixel
+    val samples = crop.pixels * options.taken.getOrElse(sampling.sampler.samplesPerPixel)
     Hierarchies.expect(samples, options.pool)
     val world =
       WorldBuilder(
@@ -198,6 +202,7 @@ object SceneBuilder:
       image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&
         FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
+    val samples = options.taken.getOrElse(sampling.sampler.samplesPerPixel)
     if usesSampler && !options.preview then
       for remark <- sampling.remarks do
         context.problems.warn(context.description.sampler.map(_.at), remark)
@@ -228,7 +233,7 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, sampling, crop.pixels),
+      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, samples, crop.pixels),
       differentialScale =
         if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
         else sampling.footprint,
@@ -244,21 +249,22 @@ object SceneBuilder:
       isCentered = switches.centers,
       errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
       fireflies = if options.preview then Fireflies.Kept else options.fireflies,
-      lights = world.scene.lights.length
+      lights = world.scene.lights.length,
+      samples = options.taken
     )
 
   /** What is said of guiding, if it was asked for. */
   private def guiding(
       context: BuildContext,
       method: RenderMethod,
-      sampling: SamplingSetup,
+      samples: Int,
       pixels: Long
   ): Option[(String, String)] =
     val mode = context.resources.switches.guiding
     Option.when(mode != GuidingMode.Off):
       "guiding" -> (method match
         case RenderMethod.Guided(_, settings, _) =>
-          Guide(settings, sampling.sampler.samplesPerPixel, pixels).describe
+          Guide(settings, samples, pixels).describe
         case _ => "none: only path tracing without pbrt-v2's volumes is guided")
 
   private def layerPlan(

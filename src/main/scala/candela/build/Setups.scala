@@ -137,6 +137,7 @@ private[build] object SamplingSetup:
       if points == chosen then asked.describe(options.points) else points.meaning,
       samples,
       if switches.centers then 1f
+      else if options.footprint.isDefined then options.footprint.get
       else if context.isV4 then Math.max(SharpestV4, density)
       else density,
       replaced.toVector ++ rounded

@@ -1,14 +1,13 @@
 package candela.cli
 
-import candela.base.{Problem, SceneError}
-import candela.render.{Cancellation, Progress, Renderer, RenderState}
+import candela.base.{Problem, SceneError, Scratch}
+import candela.render.{Cancellation, Outlook, Progress, Renderer, RenderState}
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scenefile.SceneFiles
 
-import java.nio.file.{Files, Path}
+import java.nio.file.Path
 import java.util.concurrent.locks.LockSupport
 
-import scala.jdk.CollectionConverters.*
 import scala.util.Using
 
 /** `candela render --spark MASTER`: renders on a cluster, some scenes at a time. Each image is
@@ -28,9 +27,11 @@ private[cli] final class ClusterCommand(
   private val sequence = Sequence(options)
   private var open = Vector.empty[Submitted]
   private var samplesDone, samplesAsked = 0L
+  private var looks = Vector.empty[(Double, Long)] // seconds, and samples until then
 
   def run(): ExitCode =
     val code = guarded:
+      renderer.checkAll(sequence.frames)
       terminal.interrupts.during(cancellation):
         Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
           for frame <- sequence.frames if !cancellation.isRequested do
@@ -94,13 +95,16 @@ private[cli] final class ClusterCommand(
     if !options.quiet then
       val seconds = (System.nanoTime - started) * 1e-9
       val now = samplesDone + open.map(s => Math.min(s.run.samples, s.work.total)).sum
-      progress.update(Progress(now, samplesAsked, seconds))
+      looks = looks.dropWhile((at, _) => at < seconds / 2) :+ (seconds, now)
+      val (since, before) = looks.head
+      val rate = Option((now - before) / (seconds - since)).filter(r => r > 0 && r.isFinite)
+      val left = rate.map((samplesAsked - now) / _).filter(_ => seconds > FirstSeconds)
+      progress.update(Progress(now, samplesAsked, seconds, Outlook(left, rate)))
 
   private def finish(submitted: Submitted): ExitCode =
     terminal.interrupts.checkTime()
-    val folder = Files.createTempDirectory("candela-films")
-    try
-      val (films, shards) = ShardRenderer.distinct(submitted.run.films(folder))
+    Using.resource(Scratch.make()): scratch =>
+      val (films, shards) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
       val header = submitted.work.header
       val count = films.headOption.fold(1)(_.header.count)
       val isWhole = shards.size == count
@@ -115,9 +119,6 @@ private[cli] final class ClusterCommand(
       val Submitted(scene, loaded, paths, _, digest, _, _) = submitted
       renderer.finish(scene, loaded, paths, done, digest)
         .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
-    finally
-      Using.resource(Files.list(folder))(_.iterator.asScala.toVector.foreach(Files.delete))
-      Files.delete(folder)
 
   private def save(path: Path, header: FilmHeader, state: RenderState): Unit =
     Using.resource(FilmKeeping.locked(path)): _ =>
@@ -132,6 +133,9 @@ private object ClusterCommand:
 
   /** In nanoseconds. */
   val Tick = 100_000_000L
+
+  /** In which machines start. */
+  val FirstSeconds = 10.0
 
   final case class Submitted(
       scene: String,

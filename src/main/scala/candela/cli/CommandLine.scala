@@ -140,6 +140,8 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   *   reference; for `describe`, category and type
   * @param outfiles output images, instead of the file named by the scene
   * @param pixels part of the image to render, in pixels
+  * @param taken samples per pixel to take, if not `spp`, for which the points are made
+  * @param footprint size of a sample's footprint in pixels, if not that of `spp` samples
   * @param pixel only pixel to render; with `sample`, the sample that `debug` traces instead
   * @param pixelMaterial pixel whose material is printed, instead of rendering
   * @param switches settings of the whole scene
@@ -179,6 +181,8 @@ final case class Options(
     outfiles: Vector[String] = Vector.empty,
     threads: Option[Int] = None,
     spp: Option[Int] = None,
+    taken: Option[Int] = None,
+    footprint: Option[Float] = None,
     seed: Int = 0,
     quick: Boolean = false,
     preview: Boolean = false,

@@ -70,6 +70,13 @@ private[cli] final class FileRegister:
     */
   def write(output: Output): Unit =
     check(output)
+    note(output)
+
+  /** As [[write]], without a look at the file system.
+    *
+    * @throws SceneError if one is noted already
+    */
+  def note(output: Output): Unit =
     for file <- output.files ++ output.beside; path <- place(file) do
       for other <- outputs.get(path) do throw overwrite(file, output, other)
       outputs += path -> output

@@ -107,8 +107,10 @@ private[cli] object FilmHeaders:
         count = in.read(buffer)
     HexFormat.of.formatHex(sum.digest)
 
-  /** The digest of a whole rendering. */
-  def digest(header: FilmHeader): String =
-    val facts = Vector(header.version, header.size, header.samples) ++ header.words ++ header.files
+  /** The digest of a whole rendering, which may have ended by a goal. */
+  def digest(header: FilmHeader, goals: FilmOptions): String =
+    val ends = goals.time.map("time" -> _) ++ goals.error.map("error" -> _)
+    val facts =
+      Vector(header.version, header.size, header.samples) ++ header.words ++ header.files ++ ends
     val sum = MessageDigest.getInstance("SHA-256").digest(facts.mkString("\n").getBytes("UTF-8"))
     HexFormat.of.formatHex(sum)

@@ -22,7 +22,9 @@ private[cli] final class FilmKeeping(
   def close(): Unit = lock.foreach(_.close())
 
   /** Whether there is nothing left to render. */
-  def isDone: Boolean = start.exists(f => f.header.isComplete && f.header.samples == header.samples)
+  def isDone: Boolean =
+    val isEndless = options.film.endsEarly && options.spp.isEmpty
+    !isEndless && start.exists(f => f.header.isComplete && f.header.samples == header.samples)
 
   /** Samples that every pixel has already. */
   def samplesDone: Int = start.fold(0)(_.header.done)
@@ -30,7 +32,8 @@ private[cli] final class FilmKeeping(
   /** @param isEnough whether the rendering ended because its goal was reached */
   def checkpointer(isEnough: () => Boolean): Checkpoints =
     def of(done: Int) =
-      val planned = if mayEndEarly && isEnough() then done else header.samples
+      val isEarly = mayEndEarly && isEnough()
+      val planned = if isEarly then Math.min(done, header.samples) else header.samples
       header.copy(done = done, samples = planned)
     // A damaged file must not replace its previous copy.
     val writer = FilmWriter(path, isGood = start.forall(_.damage.isEmpty))
@@ -80,7 +83,7 @@ private[cli] object FilmKeeping:
       resumed match
         case Some(film) =>
           val obstacle = film.header.obstacle(loaded.plan)
-          val next = continued(film, now, obstacle)
+          val next = continued(film, now, loaded.plan.samplesPerPixel, obstacle)
           FilmKeeping(path, next, resumed, obstacle.isEmpty, None, options, report)
         case None =>
           val lock = locked(path)
@@ -100,7 +103,12 @@ private[cli] object FilmKeeping:
       FilmInput.fail(s"`$path` is being written by another rendering", "wait for it, or stop it")
 
   /** The rendering that continues a saved one. */
-  private def continued(film: FilmFile, now: FilmHeader, obstacle: Option[String]): FilmHeader =
+  private def continued(
+      film: FilmFile,
+      now: FilmHeader,
+      samples: Int,
+      obstacle: Option[String]
+  ): FilmHeader =
     FilmInput.verify(film, now.copy(count = film.header.count))
     val header = film.header
     if now.samples != header.samples then
@@ -109,7 +117,7 @@ private[cli] object FilmKeeping:
           s"can't change the ${header.samples} samples per pixel of `${film.path}`: $why",
           "render with --spp N --checkpoint, N being the most you may want, and --time or --error"
         )
-    if now.samples < header.done then
+    if samples < header.done then
       FilmInput.fail(s"`${film.path}` has ${header.done} samples per pixel already")
     header.copy(samples = now.samples)
 

@@ -83,7 +83,7 @@ private[cli] object FilmTable:
 
   private def goals: Vector[Row] = Vector(
     opt[Seconds]("time").valueName("TIME")
-      .text("end about this time, e.g. 10m, when all pixels have equally many samples")
+      .text("end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling")
       .action((s, o) => change(o)(_.copy(time = Some(s.value)))),
     opt[Double]("error").valueName("X")
       .text("end when the relative error, estimated from the noise, is below X: 0.02 for 2 %")

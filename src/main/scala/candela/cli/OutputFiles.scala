@@ -92,11 +92,15 @@ object OutputFiles:
       val files = ofFilm(loaded.plan.filename, folder)
       files.copy(warnings = problem.toVector ++ files.warnings)
     else
-      val file = path(scene).getFileName
-      val stem = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
-      val files = ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}", folder)
+      val files = ofName(scene, folder)
       val message = s"`$scene` names no image file; writing `${files.paths.head}`"
       files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
+
+  /** Files named after the scene, in a folder. */
+  def ofName(scene: String, folder: Path): OutputFiles =
+    val file = path(scene).getFileName
+    val stem = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
+    ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}", folder)
 
   /** The file named by the scene's Film, relative to a folder, plus a preview if its format can't
     * be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by

@@ -16,11 +16,16 @@ final class PreviewCommand(
 
   def run(): ExitCode =
     val register = FileRegister()
-    val codes = options.files.map: scene =>
-      report.guarded(RenderCommand(
-        asked(scene), terminal, report, loader, register = register
-      ).run())
-    codes.foldLeft(ExitCode.Done)(_ worseOf _)
+    report.guarded:
+      val previews = FileRegister()
+      for scene <- options.files do
+        val files = OutputFiles.asked(asked(scene).outfiles)
+        previews.note(Output(files.paths, "preview", scene))
+      val codes = options.files.map: scene =>
+        report.guarded(RenderCommand(
+          asked(scene), terminal, report, loader, register = register
+        ).run())
+      codes.foldLeft(ExitCode.Done)(_ worseOf _)
 
   private def asked(scene: String): Options =
     val picture =

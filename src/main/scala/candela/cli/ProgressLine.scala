@@ -15,9 +15,7 @@ final class ProgressLine(err: Printer, isInteractive: Boolean):
   private var shownSteps = 0
   private var shownLength = 0
 
-  /** @param outlook if the rendering may end before the planned samples are taken */
-  def update(progress: Progress, outlook: Option[Outlook] = None): Unit =
-    if isInteractive then redraw(progress, outlook) else log(progress, outlook)
+  def update(progress: Progress): Unit = if isInteractive then redraw(progress) else log(progress)
 
   /** Clears the line for subsequent output. */
   def finish(): Unit =
@@ -26,18 +24,18 @@ final class ProgressLine(err: Printer, isInteractive: Boolean):
       err.flush()
       shownLength = 0
 
-  private def redraw(progress: Progress, outlook: Option[Outlook]): Unit =
+  private def redraw(progress: Progress): Unit =
     if progress.seconds - shownAt >= RedrawSeconds then
-      val text = bar(progress, outlook)
+      val text = bar(progress)
       err.control("\r" + text.padTo(shownLength, ' '))
       err.flush()
       shownAt = progress.seconds
       shownLength = text.length
 
-  private def log(progress: Progress, outlook: Option[Outlook]): Unit =
-    val steps = (fraction(progress, outlook) * LogSteps).toInt
+  private def log(progress: Progress): Unit =
+    val steps = (progress.part * LogSteps).toInt
     if steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds then
-      err.println(line(progress, outlook))
+      err.println(line(progress))
       shownAt = progress.seconds
       shownSteps = steps
 
@@ -53,32 +51,26 @@ object ProgressLine:
   private val NarrowWidth = 12
 
   /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left` */
-  def line(progress: Progress, outlook: Option[Outlook] = None): String =
-    val seconds = Figures.duration(progress.seconds)
-    s"render ${percent(progress, outlook)}  $seconds, ${speed(progress, outlook)}"
+  def line(progress: Progress): String =
+    s"render ${percent(progress)}  ${Figures.duration(progress.seconds)}, ${speed(progress)}"
 
   /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
     * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.
     */
-  def bar(progress: Progress, outlook: Option[Outlook] = None): String =
-    val width = if outlook.isDefined then NarrowWidth else BarWidth
-    val full = (fraction(progress, outlook) * width).toInt
+  def bar(progress: Progress): String =
+    val isLong = progress.outlook.hasGoal || progress.outlook.error.isDefined
+    val width = if isLong then NarrowWidth else BarWidth
+    val full = (progress.part * width).toInt
     val drawn = if full < width then "=" * full + ">" else "=" * full
-    val bar = drawn.padTo(width, ' ')
-    s"render ${percent(progress, outlook)} [$bar] ${speed(progress, outlook)}"
+    s"render ${percent(progress)} [${drawn.padTo(width, ' ')}] ${speed(progress)}"
 
-  private def fraction(p: Progress, outlook: Option[Outlook]): Double =
-    outlook.flatMap(_.secondsLeft) match
-      case Some(left) => p.seconds / Math.max(p.seconds + left, 1e-9)
-      case None => if p.total == 0 then 1 else p.done.toDouble / p.total
+  private def percent(p: Progress): String =
+    "%3d%%".formatLocal(Locale.ROOT, (p.part * 100).toInt)
 
-  private def percent(p: Progress, outlook: Option[Outlook]): String =
-    "%3d%%".formatLocal(Locale.ROOT, (fraction(p, outlook) * 100).toInt)
-
-  private def speed(p: Progress, outlook: Option[Outlook]): String =
+  private def speed(p: Progress): String =
     if p.done == 0 then "starting"
     else
-      val rate = p.done / Math.max(p.seconds, 1e-9)
-      val left = outlook.flatMap(_.secondsLeft).getOrElse((p.total - p.done) / rate)
-      val error = outlook.flatMap(_.error).fold("")(e => s"error ${Figures.percentage(e)}, ")
-      s"${Figures.metric(rate)} samples/s, $error${Figures.clock(left)} left"
+      val rate = p.outlook.rate.getOrElse(p.done / Math.max(p.seconds, 1e-9))
+      val error = p.outlook.error.fold("")(e => s", error ${Figures.percentage(e)}")
+      val left = p.outlook.left.fold("")(l => s", ${Figures.clock(l)} left")
+      s"${Figures.metric(rate)} samples/s$error$left"

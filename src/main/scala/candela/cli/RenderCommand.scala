@@ -7,7 +7,7 @@ import scala.util.{Failure, Success, Try}
 import candela.base.{Problem, SceneError, Version}
 import candela.film.{PixelBounds, SpectralBands}
 import candela.image.*
-import candela.render.{Cancellation, Live, Progress, Refused, Renderer, Rendering, RenderPlan}
+import candela.render.{Cancellation, Live, Progress, Renderer, Rendering, RenderPlan}
 import candela.render.storage.FilmFile
 import candela.scene.PathReport
 
@@ -33,6 +33,15 @@ final class RenderCommand(
 
   def run(): ExitCode =
     val sequence = Sequence(options)
+    val code = report.guarded:
+      checkAll(sequence.frames)
+      ExitCode.Done
+    if code == ExitCode.Done then run(sequence) else code
+
+  /** @throws SceneError if two scenes have one image */
+  private[cli] def checkAll(frames: Vector[Frame]): Unit = files.checkAll(frames, loader)
+
+  private def run(sequence: Sequence): ExitCode =
     for Frame(scene, outfiles) <- sequence.frames do
       // Files of v2 and v3 may have several worlds
       var world = Option(0)
@@ -117,14 +126,12 @@ final class RenderCommand(
     val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
     val goal = Option.when(goals.endsEarly):
       def recorder = RenderRecorder.of(loaded.plan, None)
-      val planned = loaded.plan.sampler.samplesPerPixel
-      Goal(goals, planned, reporting.fold(recorder)(_.recorder))
+      Goal(goals, loaded.plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
     val reference = options.reference.filter(_ => options.denoise)
       .map(RenderRecorder.fitting(loaded.plan, _))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
-      val show: Progress => Unit =
-        if options.quiet then _ => () else p => progress.update(p, goal.map(_.outlook(p)))
+      val show: Progress => Unit = if options.quiet then _ => () else progress.update
       val checkpointer = keeping.map(_.checkpointer(() => goal.exists(_.isEnough)))
       val watching = Option.when(options.isWatched)(watched(scene, loaded, paths, about))
       var current = Option.empty[Live]
@@ -235,7 +242,11 @@ final class RenderCommand(
     val alpha = OutputFiles.alpha(loaded.plan, image)
     val time = Option.when(options.storeTime):
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
-    val about = facts ++ Vector("samplesPerPixel" -> rendering.samplesDone.toString) ++ time ++
+    // Those of earlier runs took no part of the time
+    val earlier = Option.when(options.storeTime && rendering.earlier > 0):
+      "samplesPerPixelOfEarlierRuns" -> rendering.earlier.toString
+    val samples = "samplesPerPixel" -> rendering.samplesDone.toString
+    val about = facts ++ Vector(samples) ++ time ++ earlier ++
       Bias.metadata(loaded.plan, rendering, denoising)
     val how = WriteOptions(
       development.isHalf,
@@ -283,7 +294,7 @@ final class RenderCommand(
       paths: Vector[Path]
   ): Option[String] =
     Option.when(goals.skipDone):
-      FilmHeaders.digest(FilmHeaders.of(options, scene, loaded, Path.of("film"), paths))
+      FilmHeaders.digest(FilmHeaders.of(options, scene, loaded, Path.of("film"), paths), goals)
 
   private def metadata(
       scene: String,
@@ -337,64 +348,3 @@ private[cli] object PixelTrace:
       case None => out.println("discarded: NaN or infinite")
     out.flush()
     ExitCode.Done
-
-/** The final lines of a rendering. */
-object Summary:
-
-  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of an
-    * interrupted rendering, the samples done.
-    *
-    * @param standIns number of missing items replaced by placeholders
-    */
-  def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
-    val missing = placeholders(standIns) + darkness(r)
-    val names = written.mkString(", ")
-    if r.isComplete && r.seconds == 0 then
-      s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
-    else if r.isComplete then
-      val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
-      val size = s"${r.film.width}x${r.film.height}"
-      s"wrote $names  $size, ${r.samplesDone} spp, ${Figures.duration(r.seconds)}, $rates$missing"
-    else
-      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
-      s"interrupted: wrote $names with $done of ${r.samplesPerPixel} samples per pixel$missing"
-
-  private def placeholders(count: Int): String =
-    if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
-
-  /** A discarded sample counts as black. */
-  private def darkness(r: Rendering): String =
-    val lost = r.refused.fold(0L)(_.count)
-    val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
-    if lost * LeastLoss <= done then ""
-    else
-      val share = Figures.percentage(lost.toDouble / done)
-      s"; the image is too dark: $share of its samples were discarded"
-
-  /** One discarded sample among so many is not worth a word in the last line. */
-  private val LeastLoss = 1000
-
-  /** Of images that an interrupted rendering did not replace. */
-  def kept(images: Vector[Path]): String =
-    s"interrupted: kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
-
-  /** `continuing x.film at 12 samples per pixel` */
-  def continues(film: FilmFile): String =
-    s"continuing ${film.path} at ${film.header.done} samples per pixel"
-
-  def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
-    Vector(
-      "parse" -> loaded.parseSeconds,
-      "build" -> loaded.buildSeconds,
-      "render" -> rendering.seconds,
-      "write" -> writeSeconds
-    ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
-
-  def refused(r: Refused): String =
-    val material = if r.material < 0 then "" else s", material ${r.material}"
-    s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
-      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; trace it with " +
-      s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
-
-  private def rate(count: Long, r: Rendering): String =
-    Figures.metric(count / Math.max(r.seconds, 1e-9))

@@ -4,7 +4,7 @@ import candela.base.WholeFile
 import candela.film.{Development, Film}
 import candela.image.Image
 import candela.measure.Errors
-import candela.render.{Pass, RenderPlan, PassObserver}
+import candela.render.{ExpectedEnd, Pass, RenderPlan, PassObserver}
 
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
@@ -19,6 +19,9 @@ private[cli] abstract class ChainedObserver(other: Option[PassObserver]) extends
   override final def isOver(seconds: Double, still: Double): Boolean =
     other.exists(_.isOver(seconds, still))
   override final def seesWaves: Boolean = other.exists(_.seesWaves)
+  override final def most: Int = other.fold(Int.MaxValue)(_.most)
+  override final def goal: Option[ExpectedEnd] = other.flatMap(_.goal)
+  override final def errorAt(samples: Double): Option[Double] = other.flatMap(_.errorAt(samples))
 
   final def passed(pass: Pass, film: Film): Unit =
     other.foreach(_.passed(pass, film))

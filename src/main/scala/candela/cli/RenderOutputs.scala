@@ -14,6 +14,22 @@ private[cli] final class RenderOutputs(
     resumed: Option[FilmFile]
 ):
 
+  /** Checks that no two scenes have one image, before any of them is rendered: that would lose
+    * hours. Scenes that can't be read tell nothing yet.
+    *
+    * @throws SceneError if two have
+    */
+  def checkAll(frames: Vector[Frame], loader: SceneLoader): Unit =
+    if frames.size > 1 then
+      val together = FileRegister()
+      for Frame(scene, outfiles) <- frames do
+        val images =
+          if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
+          else loader.images(scene, options)
+        for files <- images do together.note(Output(files.paths, "image", scene))
+        for film <- outfiles.find(FilmOptions.isFilm) do
+          together.note(Output.film(OutputFiles.path(film), scene))
+
   /** Checks what is known before the scene is read, which may take long.
     *
     * @throws SceneError if a file can't be written

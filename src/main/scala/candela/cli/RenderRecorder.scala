@@ -42,7 +42,7 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
   /** The relative error after so many samples per pixel, as far as known: the root of the relative
     * MSE.
     */
-  def errorAt(samples: Double): Option[Double] =
+  override def errorAt(samples: Double): Option[Double] =
     val errors =
       if reference.isEmpty then estimate.at(samples) else points.lastOption.map(_.errors)
     errors.map(e => Math.sqrt(e.relativeMse))

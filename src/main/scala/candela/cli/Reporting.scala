@@ -69,7 +69,7 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
 
   private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
     Vector(
-      "samples per pixel" -> s"${rendering.samplesDone} of ${rendering.samplesPerPixel}",
+      "samples per pixel" -> Reporting.samples(rendering),
       "threads" -> threads.toString,
       "seed" -> options.seed.toString,
       "image" -> s"${rendering.film.width}×${rendering.film.height}",
@@ -83,6 +83,12 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
       Option.when(options.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
       options.cropWindow.map(w => "crop window" -> s"${w.x0},${w.x1},${w.y0},${w.y1}") ++
       Option.when(options.keepGoing)("placeholders" -> loaded.standIns.toString)
+
+private object Reporting:
+  private def samples(r: Rendering): String =
+    val planned = if r.isOpenEnded then "" else s" of ${r.samplesPerPixel}"
+    val now = if r.earlier == 0 then "" else s", ${r.samplesDone - r.earlier} of them in this run"
+    s"${r.samplesDone}$planned$now"
 
 /** Report files: `.html` for readers, `.json` and `.csv` for programs. */
 object ReportFiles:

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmFile
 
 import scala.util.Using
@@ -21,17 +22,18 @@ final class ResumeCommand(
     val header = film.header
     if header.shards.size != 1 then
       FilmInput.fail(s"`${film.path}` is a merger of shards; resume the shards, and merge them")
-    val hasGoal = options.film.time.isDefined || options.film.error.isDefined
-    val saved = FilmInput.options(film, options)
-    val samples = options.spp.orElse:
-      Option.when(hasGoal && header.isComplete)(ResumeCommand.Most)
-    val now = saved.copy(
-      spp = samples.orElse(saved.spp),
+    val saved = FilmInput.options(film, options).copy(
       outfiles = header.outfiles.map(FilmInput.at(film, _)),
-      film = options.film.copy(shard = candela.render.Shard(header.shards.head, header.count))
+      film = options.film.copy(shard = Shard(header.shards.head, header.count))
     )
+    // A goal goes beyond the number of samples, to which points and footprints still belong
+    val taken =
+      if options.film.endsEarly then RenderPlan.Endless else Math.max(header.samples, header.done)
+    val now = options.spp match
+      case Some(samples) => saved.copy(spp = Some(samples))
+      case None =>
+        saved.copy(
+          taken = Some(taken),
+          footprint = Option(header.footprint).filter(_ > 0)
+        )
     RenderCommand(now, terminal, report, loader, Some(film)).run()
-
-private[cli] object ResumeCommand:
-  /** Samples per pixel at which a rendering ends even if its goal is not reached. */
-  val Most: Int = 1 << 20

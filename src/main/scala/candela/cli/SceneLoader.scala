@@ -10,7 +10,7 @@ import candela.scenefile.{Excerpts, Parser, SceneDescription}
 import java.nio.file.{Files, InvalidPathException, Path}
 
 import scala.jdk.CollectionConverters.*
-import scala.util.Using
+import scala.util.{Try, Using}
 
 /** A scene ready to render, its description, and the load times.
   *
@@ -32,6 +32,9 @@ abstract class SceneLoader:
   /** @throws SceneError if the scene has errors */
   def load(scene: String, options: Options): LoadedScene
 
+  /** The images of a scene that is not loaded yet, if they can be told. */
+  def images(scene: String, options: Options): Option[OutputFiles] = None
+
 object SceneLoader:
 
   object FromFile extends SceneLoader:
@@ -44,6 +47,18 @@ object SceneLoader:
       val built = System.nanoTime
       val all = description.warnings ++ warnings
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
+
+    override def images(scene: String, options: Options): Option[OutputFiles] = Try:
+      val file = existing(scene)
+      val within = options.limits.folder(file)
+      val folder = if within.isConfined then within.path else Path.of("")
+      if MitsubaScene.isNamed(file) then Some(OutputFiles.ofName(scene, folder))
+      else if !Files.isRegularFile(file) then None // it can be read once
+      else
+        Parser.film(file, options.dialect, within).flatMap(_.param("filename")) match
+          case Some(name) => name.strings.headOption.map(OutputFiles.ofFilm(_, folder))
+          case None => Some(OutputFiles.ofName(scene, folder))
+    .toOption.flatten
 
   /** Makes an error of what a scene must not do. */
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
@@ -72,6 +87,9 @@ object SceneLoader:
     val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
     val pixels = o.pixels.map(w => PixelBounds(w.x0, w.y0, w.x1, w.y1))
     val pixel = o.pixel.filterNot(_ => o.debug).map((x, y) => PixelBounds(x, y, x + 1, y + 1))
+    // A goal alone ends a rendering without --spp
+    val isEndless = o.film.endsEarly && o.spp.isEmpty && o.command == Command.Render
+    val taken = o.taken.orElse(Option.when(isEndless)(RenderPlan.Endless))
     val layers = if o.pixelMaterial.isEmpty then o.layers else o.layers ++ PixelMaterial.Layers
     BuildOptions(
       o.spp,
@@ -87,7 +105,9 @@ object SceneLoader:
       o.switches,
       pixels.orElse(pixel),
       o.points,
-      o.fireflies
+      o.fireflies,
+      taken,
+      o.footprint
     )
 
   /** The path of an existing scene file. */

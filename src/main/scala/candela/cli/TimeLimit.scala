@@ -48,3 +48,5 @@ private final class TimedInterrupts(inner: Interrupts, val problem: Problem) ext
   override def checkTime(): Unit = if synchronized(isOver) then throw SceneError(problem)
 
   override def quit(code: ExitCode): Unit = inner.quit(code)
+
+  override def quitting(): Unit = inner.quitting()

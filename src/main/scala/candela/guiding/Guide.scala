@@ -42,7 +42,9 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
 
   /** What will be learnt. */
   def describe: String =
-    val until = s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
+    val until =
+      if samples == Int.MaxValue then "learnt until the end"
+      else s"learnt in the first ${Math.max(1, lastPass)} of $samples samples"
     val what =
       if !settings.divides then "directions alone, "
       else if !settings.directs then "roulette and splitting alone, "
@@ -119,7 +121,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
   private def lastPass: Int = Iterator.iterate(1)(next).takeWhile(goesOn).foldLeft(1)((_, n) => n)
 
   /** Does a pass that ends then record? The first always ends before the samples do. */
-  private def goesOn(end: Int): Boolean = end < samples && (end == 1 || 4 * end <= samples)
+  private def goesOn(end: Int): Boolean = end < samples && (end == 1 || 4L * end <= samples)
 
   /** @param found events per sample that found light
     * @param lit   part of all paths that has such events
@@ -205,4 +207,4 @@ object Guide:
   private val UsualEvents = 3.0
 
   /** The sample with which the next pass begins. */
-  private def next(begun: Int): Int = Math.max(1, 2 * begun)
+  private def next(begun: Int): Int = Math.max(1L, Math.min(2L * begun, Int.MaxValue)).toInt

@@ -52,8 +52,8 @@ object SharedPasses:
 
 /** Estimates radiance with what a pass has prepared. */
 trait PassIntegrator extends Integrator:
-  /** Starts the samples with this index. */
-  def begin(pass: Int): Unit
+  /** Starts the samples with this index; false if stopped before it is prepared. */
+  def begin(pass: Int, isStopped: () => Boolean): Boolean
 
 /** The Markov chains of one rendering, shared by all workers. They write to the film's
   * [[candela.film.Splats]] only.
@@ -79,8 +79,8 @@ abstract class ChainWalker:
     */
   def begin(isStopped: () => Boolean): Boolean
 
-  /** Advances a chain by `paths` mutations. */
-  def advance(chain: Int, paths: Long): Unit
+  /** Advances a chain by `paths` mutations, unless it is left on the way. */
+  def advance(chain: Int, paths: Long, isLeft: () => Boolean): Unit
 
   /** Pixel of the last proposed path. */
   def x: Int

@@ -78,10 +78,10 @@ object SpectralPasses:
     private var current = 0
     private var components = Rgb.Black
 
-    def begin(pass: Int): Unit =
+    def begin(pass: Int, isStopped: () => Boolean): Boolean =
       if pass >= SharedPasses.Open then shared.release(pass - SharedPasses.Open)
       current = shared.basis(pass)
-      integrators(current).begin(pass)
+      integrators(current).begin(pass, isStopped)
 
     def radiance(ray: Ray, sampler: Sampler): Rgb =
       components = integrators(current).radiance(ray, sampler)

@@ -26,11 +26,12 @@ private[render] final class ChainWorker(
       Math.max(schedule.paths(chain, schedule.firstSample(wave)), queue.progress.get(chain))
     while done < end && queue.goesOn() do
       val some = Math.min(end - done, AtOnce)
-      walker.advance(chain, some)
-      beat()
-      queue.samplesTaken.add(some)
-      done += some
-      queue.progress.set(chain, done)
+      walker.advance(chain, some, () => queue.isAbandoned)
+      if !queue.isAbandoned then
+        beat()
+        queue.samplesTaken.add(some)
+        done += some
+        queue.progress.set(chain, done)
     done >= end
 
   protected def failure(cause: Throwable): RenderFailure =

@@ -18,7 +18,7 @@ private[render] final class Job(
 private[render] object Job:
 
   def apply(plan: RenderPlan, shard: Shard): Job =
-    val samples = plan.sampler.samplesPerPixel
+    val samples = plan.samplesPerPixel
     plan.method match
       case RenderMethod.Tiles(integrator) =>
         val tiles = TileJobs(plan, TileSchedule(plan.sampled, samples), plan.crop, shard.takes)
@@ -48,7 +48,7 @@ private[render] object Job:
         val tiles = TileJobs(plan, schedule, plan.crop, takes)
         tiles.job: queue =>
           val integrator = passes.integrator(None)
-          tiles.worker(integrator, queue, begin(integrator))
+          tiles.worker(integrator, queue, begin(integrator, queue))
       case RenderMethod.Chains(paths, make, _) =>
         val splats = splatFilm(plan)
         val view = plan.view(splats)
@@ -73,7 +73,7 @@ private[render] object Job:
       case RenderMethod.Chains(_, _, make) => tiles.worker(make(view).reported(report), queue)
       case RenderMethod.Passes(make) =>
         val integrator = make(view).integrator(Some(report))
-        tiles.worker(integrator, queue, begin(integrator))
+        tiles.worker(integrator, queue, begin(integrator, queue))
     (tiles.film, worker)
 
   /** Begins waves of samples, with their weights. */
@@ -82,9 +82,9 @@ private[render] object Job:
     guide.weight
 
   /** Begins waves of a pass; all samples count the same. */
-  private def begin(integrator: PassIntegrator): TileWorker.BeginWave = (pass, _) =>
-    integrator.begin(pass)
-    1f
+  private def begin(integrator: PassIntegrator, queue: TaskQueue): TileWorker.BeginWave =
+    (pass, _) =>
+      if integrator.begin(pass, () => queue.isStopped) then 1f else TileWorker.Stopped
 
   private def filmOf(
       b: PixelBounds,

@@ -20,19 +20,26 @@ final class Live private[render] (
 ):
   @volatile private var wantsMore = false
   @volatile private var further = 0
+  @volatile private var expected = Outlook()
 
   /** Whether to go on when the planned samples are taken, until cancelled or no longer wanted. */
   def keepsOn: Boolean = canKeepOn && wantsMore
   def keepOn(wanted: Boolean): Unit = wantsMore = wanted
 
   private[render] def extend(samples: Int): Unit = further += samples
+  private[render] def expect(outlook: Outlook): Unit = expected = outlook
+
+  /** Samples per pixel to take, as far as known. */
+  private[render] def samplesPerPixel: Int =
+    Math.min(plan.samplesPerPixel.toLong + further, RenderPlan.Endless).toInt
 
   def progress: Progress =
-    Progress(queue.samplesTaken.sum, planned + further * plan.sampled.pixels, elapsed())
+    val total = planned + further * plan.sampled.pixels
+    Progress(queue.samplesTaken.sum, total, elapsed(), expected)
 
   /** What there is now; the result, once rendering has ended. */
   def rendering: Rendering =
-    Renderer.rendering(state, job, workers, plan.sampler.samplesPerPixel + further)
+    Renderer.rendering(state, job, workers, samplesPerPixel)
       .copy(samplesTaken = queue.samplesTaken.sum, seconds = elapsed())
 
   /** The tiles that workers render at the moment; none for methods without tiles. */

@@ -29,6 +29,8 @@ import candela.scene.SurfaceNames
   * @param errors            where to write errors while rendering, if anywhere
   * @param fireflies         what is done about them; limited light is divided by its way
   * @param lights            number of lights
+  * @param samples           samples per pixel to take, if not as many as the sampler's points are
+  *                          made for
   */
 final class RenderPlan(
     val width: Int,
@@ -52,8 +54,12 @@ final class RenderPlan(
     val isCentered: Boolean = false,
     val errors: Option[ErrorFile] = None,
     val fireflies: Fireflies = Fireflies.Kept,
-    val lights: Int = 0
+    val lights: Int = 0,
+    samples: Option[Int] = None
 ):
+  /** Samples per pixel to take. */
+  val samplesPerPixel: Int = samples.getOrElse(sampler.samplesPerPixel)
+
   /** Pixels whose samples contribute to `crop`: these and, if samples are shared, a border. */
   def sampled: PixelBounds =
     if !sharesSamples then crop
@@ -87,6 +93,10 @@ final class RenderPlan(
       shutter,
       differentialScale
     )
+
+object RenderPlan:
+  /** Samples per pixel of a rendering that something else ends. */
+  val Endless: Int = Int.MaxValue
 
 /** Errors to write while rendering: names of the reference image and of the file. */
 final case class ErrorFile(reference: String, file: String)

@@ -29,9 +29,10 @@ object Renderer:
     require(threads >= 1, s"`threads` must be at least 1, found $threads")
     val started = System.nanoTime
     var paused = 0L
-    def seconds = (System.nanoTime - started - paused) * 1e-9
+    def clock = (System.nanoTime - started) * 1e-9
+    def seconds = clock - paused * 1e-9
 
-    val samplesPerPixel = plan.sampler.samplesPerPixel
+    val samplesPerPixel = plan.samplesPerPixel
     val job = Job(plan, shard)
     val schedule = job.schedule
     val queue = TaskQueue(schedule, cancellation)
@@ -39,10 +40,17 @@ object Renderer:
 
     val state = RenderState(job, queue, workers)
     checkpointer.foreach(_.restore(state))
-    val total = plan.sampled.pixels * (samplesPerPixel - state.samplesDone) / shard.count
-    val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty
+    val earlier = state.samplesDone
+    val pixels = plan.sampled.pixels
+    val total = pixels * Math.max(0, samplesPerPixel - earlier) / shard.count
+    val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty &&
+      samplesPerPixel < RenderPlan.Endless
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
-    def progress() = onProgress(live.progress)
+    val forecast = Forecast(schedule, pixels.toDouble / shard.count, earlier, passObserver)
+    def progress() =
+      val now = live.progress
+      live.expect(forecast.outlook(now.done, live.samplesPerPixel, now.seconds, clock))
+      onProgress(live.progress)
     onStart(live)
     var beats = 0L
     var lastBeat = started
@@ -55,7 +63,7 @@ object Renderer:
       progress()
       if isMoving() then lastBeat = System.nanoTime
       val still = (System.nanoTime - lastBeat) * 1e-9
-      if passObserver.exists(_.isOver(seconds, still)) then queue.stop()
+      if passObserver.exists(_.isOver(clock, still)) then queue.stop()
     def tick() =
       observe()
       for k <- checkpointer if k.isDue && !queue.isStopped do
@@ -64,39 +72,48 @@ object Renderer:
     // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost.
     def isWorthWaiting() = checkpointer.isDefined && isMoving()
     def isEnough = passObserver.exists(_.isEnough)
-    val earlier = state.samplesDone
     passObserver.foreach(_.begins(earlier, job.film))
     def isNew(end: Int) = schedule.firstSample(end) > earlier
-    def run(end: Int): Unit =
-      queue.openUntil(end)
+    def goesOn = !queue.isStopped && !isEnough
+
+    /** Takes all samples before the wave `end`, until there are `done` per pixel. */
+    def take(end: Int, done: Int): Unit =
+      queue.openUntil(end, done)
       val begin = seconds
       lastBeat = System.nanoTime
       Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
       for w <- passObserver if !queue.isStopped do
-        val isLast = end >= schedule.waves
+        val isWhole = done == schedule.firstSample(end)
+        val isLast = isWhole && end >= schedule.waves
         val busy = workers.map(_.seconds)
-        val done = schedule.firstSample(end)
-        val next = schedule.firstSample(end + 1) - done
-        val pass = Pass(done, begin, seconds, busy, isLast, next)
+        val step = if isWhole then schedule.step else 1
+        val pass = Pass(done, begin, seconds, busy, isLast, isWhole, clock, step)
         val stopped = System.nanoTime
         w.passed(pass, job.film)
         paused += System.nanoTime - stopped
-    ends(schedule, passObserver).filter(isNew).takeWhile(_ =>
-      !queue.isStopped && !isEnough
-    ).foreach(run)
+
+    def run(end: Int): Unit =
+      val all = schedule.firstSample(end)
+      val observer = passObserver.filter(o => o.seesWaves && schedule.step > 0)
+      var done = Math.max(earlier, schedule.firstSample(end - 1))
+      while done < all && goesOn do
+        val most = observer.fold(Int.MaxValue)(_.most)
+        done = if observer.isEmpty || most >= all - done then all else done + Math.max(1, most)
+        take(end, done)
+    ends(schedule, passObserver).filter(isNew).takeWhile(_ => goesOn).foreach(run)
     var wave = schedule.waves
-    while live.keepsOn && !queue.isStopped && !isEnough do
+    while live.keepsOn && goesOn do
       // A third of all samples is new: seldom enough for the workers to wait for each other
       val done = schedule.firstSample(wave)
       wave += Math.max(1, done / 2 / Schedule.LargestWave)
       live.extend(schedule.firstSample(wave) - done)
-      run(wave)
+      take(wave, schedule.firstSample(wave))
     progress()
     for k <- checkpointer do
       if queue.isAbandoned then k.lose() else k.save(state)
       k.finish()
 
-    val result = live.rendering
+    val result = live.rendering.copy(earlier = earlier)
     val hasAll = result.samplesDone >= samplesPerPixel
     val isDone = hasAll || (isEnough && result.samplesDone > 0)
     if isDone then result.copy(samplesPerPixel = result.samplesDone) else result
@@ -134,7 +151,7 @@ object Renderer:
   private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Iterator[Int] =
     passObserver match
       case None => Iterator(schedule.waves)
-      case Some(w) if w.seesWaves => Iterator.range(1, schedule.waves + 1)
+      case Some(w) if w.seesWaves => Iterator.range(0, schedule.waves).map(_ + 1)
       case Some(_) => schedule.passes.iterator
 
   /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.

@@ -9,7 +9,31 @@ import candela.image.Image
   * @param done    camera samples taken, of `total`
   * @param seconds elapsed time
   */
-final case class Progress(done: Long, total: Long, seconds: Double)
+final case class Progress(
+    done: Long,
+    total: Long,
+    seconds: Double,
+    outlook: Outlook = Outlook()
+):
+  /** How much of the rendering is done, in [0, 1]; of one that a goal ends, of its time. */
+  def part: Double =
+    if outlook.hasGoal then outlook.left.fold(0.0)(l => seconds / Math.max(seconds + l, 1e-9))
+    else if total == 0 then 1
+    else done.toDouble / total
+
+/** What is known about the rest of a rendering.
+  *
+  * @param left    seconds until it ends
+  * @param rate    camera samples per second, recently
+  * @param error   relative error so far, if somebody observes it
+  * @param hasGoal whether something else than the number of its samples may end it
+  */
+final case class Outlook(
+    left: Option[Double] = None,
+    rate: Option[Double] = None,
+    error: Option[Double] = None,
+    hasGoal: Boolean = false
+)
 
 /** Requests a rendering to stop soon and return the partial image. Thread-safe. */
 final class Cancellation:
@@ -38,6 +62,7 @@ private[render] object Refused:
   * @param refused         discarded samples, if any
   * @param layers          requested AOVs, if any
   * @param learned         what its paths learnt, if they did
+  * @param earlier         of the samples done, those of earlier runs that it continues
   */
 final case class Rendering(
     film: Film,
@@ -48,7 +73,8 @@ final case class Rendering(
     seconds: Double,
     refused: Option[Refused],
     layers: Option[LayerFilm] = None,
-    learned: Option[GuideOutcome] = None
+    learned: Option[GuideOutcome] = None,
+    earlier: Int = 0
 ):
   /** Colour channels, then AOVs, then wavelength bands. */
   def image(development: Development): Image = image(development, development(film))
@@ -59,7 +85,10 @@ final case class Rendering(
     development.bands.fold(layered): bands =>
       film.bands.fold(bands.behind(layered, film.toImage(1f)))(_.behind(layered))
 
-  def isComplete: Boolean = samplesDone == samplesPerPixel
+  def isComplete: Boolean = samplesDone >= samplesPerPixel
+
+  /** Whether no number of samples was to end it. */
+  def isOpenEnded: Boolean = samplesPerPixel == RenderPlan.Endless
 
 /** An internal error in one sample: `cause`, with its pixel and sample number. */
 final class RenderFailure(val x: Int, val y: Int, val sample: Int, cause: Throwable)
@@ -71,7 +100,9 @@ final class RenderFailure(val x: Int, val y: Int, val sample: Int, cause: Throwa
   * @param begin   seconds since the start of rendering, without the observer's time
   * @param workers busy time of each worker, in seconds
   * @param isLast  whether it completes the rendering
-  * @param next    samples per pixel of the next part
+  * @param isWhole whether it was not shortened by [[PassObserver.most]]
+  * @param clock   seconds since the start of rendering, with the observer's time
+  * @param step    fewest samples per pixel of a part; 0: the rendering may end at any time
   */
 final case class Pass(
     samples: Int,
@@ -79,7 +110,9 @@ final case class Pass(
     end: Double,
     workers: Vector[Double],
     isLast: Boolean = false,
-    next: Int = 0
+    isWhole: Boolean = true,
+    clock: Double = 0,
+    step: Int = 1
 )
 
 /** An image observer, called after 1, 2, 4, 8, … samples per pixel, and at the end.
@@ -105,7 +138,7 @@ abstract class PassObserver:
   /** Asked about ten times a second: whether the rendering is to end at once, though not all pixels
     * have the same number of samples.
     *
-    * @param seconds since the start of rendering, without the observer's time
+    * @param seconds since the start of rendering, with the observer's time
     * @param still   seconds since a worker last got on with its work
     */
   def isOver(seconds: Double, still: Double): Boolean = false
@@ -114,3 +147,19 @@ abstract class PassObserver:
     * samples, up to 64.
     */
   def seesWaves: Boolean = false
+
+  /** How many samples per pixel to take at most before it is called again, if it sees waves. */
+  def most: Int = Int.MaxValue
+
+  /** What it expects to end the rendering. */
+  def goal: Option[ExpectedEnd] = None
+
+  /** The relative error after so many samples per pixel, if it observes errors. */
+  def errorAt(samples: Double): Option[Double] = None
+
+/** What is expected to end a rendering, whichever comes first.
+  *
+  * @param seconds since the start of rendering, with the observer's time
+  * @param samples samples per pixel, by the trend so far
+  */
+final case class ExpectedEnd(seconds: Option[Double], samples: Option[Double])

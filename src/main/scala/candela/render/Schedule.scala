@@ -41,6 +41,20 @@ private[render] abstract class Schedule(
   /** Number of steps, each a piece in a wave; the steps of a wave are consecutive. */
   val steps: Long = waves.toLong * pieces
 
+  /** Fewest samples per pixel that a part of a rendering may have; 0: it may end anywhere. */
+  def step: Int = 1
+
+  /** The wave that has this sample. */
+  def waveOf(sample: Int): Int =
+    if sample >= samplesPerPixel then waves + (sample - samplesPerPixel) / largestWave
+    else if sample >= grown then growing.length + (sample - grown) / largestWave
+    else growing.lastIndexWhere(_ <= sample)
+
+  /** Samples per pixel when the wave ends in which there are so many. */
+  def wholeWaves(samples: Double): Int =
+    val last = Math.max(0, Math.min(Math.ceil(samples), Int.MaxValue).toInt - 1)
+    endSample(waveOf(last))
+
   /** Samples per pixel that a piece with this progress has at least. */
   protected def samplesOf(piece: Int, progress: Long): Int
 
@@ -99,6 +113,8 @@ private[render] final class ChainSchedule(
     samplesPerPixel: Int,
     shard: Shard
 ) extends Schedule(chains, samplesPerPixel):
+
+  override def step: Int = 0
 
   def takes(chain: Int): Boolean = shard.takesChain(chain)
 

@@ -9,7 +9,8 @@ import candela.integrators.Integrator
   *
   * @param takes     whether to take this sample of this tile
   * @param beginWave receives the first sample number of each wave of a tile, and what to call while
-  *   it works; returns the weight of the wave's samples
+  *   it works; returns the weight of the wave's samples, or [[TileWorker.Stopped]] if the rendering
+  *   is stopped meanwhile
   */
 private[render] final class TileWorker(
     plan: RenderPlan,
@@ -25,7 +26,6 @@ private[render] final class TileWorker(
   private val camera = plan.camera
   private val getsOn = () => beat()
   private val sampler = plan.sampler.copy()
-  private val planned = sampler.samplesPerPixel
   private val rays = CameraRays(camera, plan.shutter, plan.differentialScale)
   private val ray = rays.ray
   private val weighs = camera.weighs
@@ -73,14 +73,15 @@ private[render] final class TileWorker(
   protected def work(tile: Int, wave: Int): Boolean =
     val first = schedule.firstSample(wave)
     val end = schedule.endSample(wave)
+    val last = Math.min(end, queue.endSample)
     var begun = false
     sample = Math.max(first, queue.progress.get(tile).toInt)
-    while sample < end && queue.goesOn() && !queue.isAbandoned do
+    while sample < last && queue.goesOn() && !queue.isAbandoned do
       if takes(tile, sample) then
         if !begun then waveWeight = beginWave(first, getsOn)
         begun = true
-        renderSample(tile)
-      if !queue.isAbandoned then
+        if waveWeight != TileWorker.Stopped then renderSample(tile)
+      if !queue.isAbandoned && waveWeight != TileWorker.Stopped then
         sample += 1
         queue.progress.set(tile, sample)
     sample >= end
@@ -109,7 +110,7 @@ private[render] final class TileWorker(
   private def takeSample(): Unit =
     val shared = shares
     if shared == null then
-      start(x, y)
+      sampler.start(x, y, sample)
       sampler.next2D()
       filterSampler.sample(sampler.x, sampler.y)
       filmX = x + 0.5f + filterSampler.dx
@@ -117,22 +118,11 @@ private[render] final class TileWorker(
       follow()
     else
       // Samplers cover the image only; pixels outside wrap around to the opposite side
-      start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height))
+      sampler.start(Math.floorMod(x, plan.width), Math.floorMod(y, plan.height), sample)
       sampler.next2D()
       filmX = x + sampler.x
       filmY = y + sampler.y
       if shared.reaches(filmX, filmY) then follow()
-
-  /** Starts the sample. Beyond the planned ones, samplers whose points depend on their number have
-    * none: those of other pixels take their place, which are independent of the pixel's own.
-    */
-  private def start(x: Int, y: Int): Unit =
-    if sample < planned || sampler.isProgressive then sampler.start(x, y, sample)
-    else
-      val round = sample / planned
-      val shiftedX = (x + round * TileWorker.ShiftX) % plan.width
-      val shiftedY = (y + round * TileWorker.ShiftY) % plan.height
-      sampler.start(shiftedX, shiftedY, sample % planned)
 
   /** Traces the camera ray at the sampled film position. */
   private def follow(): Unit =
@@ -201,6 +191,5 @@ private[render] object TileWorker:
 
   val Unweighted: BeginWave = (_, _) => 1f
 
-  // Distances in pixels: beyond a tile, and prime to most sizes of images
-  val ShiftX = 37
-  val ShiftY = 101
+  /** No weight of samples. */
+  val Stopped: Float = 0f

@@ -13,7 +13,8 @@ import java.util.concurrent.locks.LockSupport
 /** Shared state of the workers: the task queue, progress, cancellation. */
 private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancellation):
   private val nextStep = AtomicLong()
-  private var endStep = 0L // changed only while no worker runs
+  private var begunStep, endStep = 0L // changed only while no worker runs
+  private var untilSample = Int.MaxValue
   private val finishedWaves = AtomicIntegerArray(schedule.pieces)
   private val limitsWaves = schedule.openWaves < schedule.waves
   // How many pieces of an open wave are finished; a wave takes the place of one that is closed.
@@ -28,11 +29,17 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   /** Of each piece, how much is done: samples of a tile, paths of a chain. */
   val progress: AtomicLongArray = AtomicLongArray(schedule.pieces)
 
-  /** Opens the steps of all waves before `wave`. */
-  def openUntil(wave: Int): Unit =
-    // Idle workers have incremented it further.
-    nextStep.set(endStep)
+  /** Opens the steps of all waves before `wave`, until each piece has so many samples. */
+  def openUntil(wave: Int, samples: Int): Unit =
+    // Those of a wave that was not finished are opened again
+    nextStep.set(begunStep)
     endStep = wave.toLong * schedule.pieces
+    untilSample = samples
+    val isWhole = samples >= schedule.firstSample(wave)
+    begunStep = if isWhole then endStep else endStep - schedule.pieces
+
+  /** One more than the last sample to take for the moment. */
+  def endSample: Int = untilSample
 
   def isStopped: Boolean = isEnded || cancellation.isRequested || firstFailure.get.isDefined
 
@@ -127,9 +134,7 @@ private[render] object Workers:
         try worker.run()
         catch case e: Throwable => queue.fail(e)
         finally queue.end()
-      val thread = Thread(guarded, s"candela-worker-${i + 1}")
-      thread.setDaemon(true)
-      thread
+      ThreadPool.thread(s"worker-${i + 1}", guarded)
     queue.begin(threads.size)
     threads.foreach(_.start())
     try

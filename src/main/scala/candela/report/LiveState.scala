@@ -25,7 +25,7 @@ final case class LiveLayer(name: String, title: String, meaning: String)
   * @param version of the image; changes whenever the image does
   * @param frame   rendered pixels of the full image
   * @param layers  the images that the page can show
-  * @param samples that every pixel has at least, of `planned`
+  * @param samples that every pixel has at least, of `planned`, if their number is known
   * @param part    of the work that is done, in [0, 1]
   * @param left    remaining seconds, if known
   * @param rate    camera samples per second
@@ -43,7 +43,7 @@ final case class LiveState(
     frame: Frame,
     layers: Vector[LiveLayer],
     samples: Int,
-    planned: Int,
+    planned: Option[Int],
     part: Double,
     seconds: Double,
     left: Option[Double],
@@ -75,7 +75,7 @@ object LiveData:
         "layers" -> ujson.Arr.from(s.layers.map: l =>
           ujson.Obj("name" -> l.name, "title" -> l.title, "meaning" -> l.meaning)),
         "samples" -> s.samples,
-        "planned" -> s.planned,
+        "planned" -> s.planned.fold(ujson.Null: ujson.Value)(ujson.Num(_)),
         "part" -> s.part,
         "seconds" -> s.seconds,
         "left" -> s.left.fold(ujson.Null: ujson.Value)(ujson.Num(_)),

@@ -13,7 +13,10 @@ abstract class Sampler:
   /** Whether sample k is the same for any number of samples per pixel above k. */
   def isProgressive: Boolean = false
 
-  /** Starts at dimension 0 of sample `sample` of the pixel. */
+  /** Starts at dimension 0 of sample `sample` of the pixel. Any number may follow: those beyond
+    * `samplesPerPixel` go on with the points, or begin another set of as many, independent of those
+    * before.
+    */
   def start(x: Int, y: Int, sample: Int): Unit
 
   /** Continues as after so many calls of `next1D` since `start`. What comes after a random walk

@@ -5,7 +5,8 @@ package candela.sampling
   * so the error of an image is high-frequency ("blue") noise, which the eye and filters suppress.
   *
   * For every request, the joint samples of each aligned 2ᵏ × 2ᵏ block of pixels put one point into
-  * each elementary interval. Prefixes of a pixel's samples have no such guarantee.
+  * each elementary interval. Prefixes of a pixel's samples have no such guarantee. Samples beyond
+  * the planned ones are sets of their own, scrambled anew.
   *
   * In pbrt: `zsobol` (v4's default).
   *
@@ -26,12 +27,13 @@ final class ZSobolSampler(requested: Int, width: Int, height: Int, seed: Int) ex
   private val topShift =
     2 * ZSobolSampler.ceilLog2(Math.max(width, height)) + logSamples - 2
 
-  private val start0 = SampleHash.mix64(seed + SampleHash.Step)
   private var place = 0L // along the curve, samples of a pixel side by side
 
   def start(x: Int, y: Int, sample: Int): Unit =
-    begin(start0)
-    place = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | sample
+    val set = sample >>> logSamples
+    begin(SampleHash.mix64(seed + (set + 1) * SampleHash.Step))
+    val number = sample - (set << logSamples)
+    place = (ZSobolSampler.spread(x) | ZSobolSampler.spread(y) << 1) << logSamples | number
 
   def next1D(): Float =
     val bits = nextBits()

@@ -35,6 +35,22 @@ object Parser:
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
 
+  /** The Film statement of a scene's first world, if it can be read; not the world itself. */
+  def film(file: Path, dialect: Option[Dialect], within: SceneFolder): Option[Declaration] =
+    val opened = within.scene(file)
+    Source.read(opened).toOption.flatMap: source =>
+      val run = ParserRun(
+        source,
+        within,
+        Some(opened),
+        dialect.getOrElse(Dialect.V3),
+        keepGoing = true,
+        world = 0,
+        isHead = true
+      )
+      run.read()
+      run.film
+
   /** Parses a scene from a string.
     *
     * @param name name in messages

@@ -12,6 +12,7 @@ import candela.base.{
   * @param dialect decides the meaning of statements that differ between dialects
   * @param keepGoing if true, skips missing include files
   * @param world which of the file's worlds to read, from 0
+  * @param isHead whether to read what is before the world only
   */
 private[scenefile] final class ParserRun(
     source: Source,
@@ -19,7 +20,8 @@ private[scenefile] final class ParserRun(
     file: Option[InputFile],
     dialect: Dialect,
     keepGoing: Boolean,
-    world: Int
+    world: Int,
+    isHead: Boolean = false
 ):
   private val evidence = DialectGuess()
   private val problems = Problems()
@@ -63,6 +65,9 @@ private[scenefile] final class ParserRun(
   def read(): Unit =
     statements(Tokenizer(source, None))
     if problems.errors == 0 then scene.blocks.unclosed.foreach(problems.add)
+
+  /** The Film statement read so far. */
+  def film: Option[Declaration] = scene.description(dialect, Vector.empty).film
 
   /** The description with all problems; throws these if there is no world. */
   def result(dialect: Dialect): SceneDescription =
@@ -108,6 +113,7 @@ private[scenefile] final class ParserRun(
         attempt(in):
           statement(in)
           doubts.dispel(in.source.name)
+        if isHead && scene.worldBegin.nonEmpty then isDone = true
       if goesOn then doubts.dispel(in.source.name)
     finally in.source.close()
 

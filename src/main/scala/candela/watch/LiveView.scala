@@ -86,7 +86,6 @@ final class LiveView(
   private def state: LiveState =
     val rendering = observer.rendering
     val progress = observer.progress
-    val part = if progress.total == 0 then 1.0 else progress.done.toDouble / progress.total
     val rate = progress.done / Math.max(progress.seconds, 1e-9)
     val crop = plan.crop
     val isOver = observer.isEnded
@@ -99,11 +98,11 @@ final class LiveView(
       Frame(crop.x0, crop.y0, crop.x1, crop.y1),
       observer.snapshot.fold(Vector.empty)(s => LayerTitles.of(s.layers)),
       rendering.samplesDone,
-      rendering.samplesPerPixel,
-      part,
+      Option.unless(rendering.isOpenEnded)(rendering.samplesPerPixel),
+      if isOver && rendering.isComplete then 1.0 else progress.part,
       progress.seconds,
-      Option.when(progress.done > 0 && !isOver)((progress.total - progress.done) / rate),
-      rate,
+      progress.outlook.left.filter(_ => !isOver),
+      progress.outlook.rate.filter(_ => !isOver).getOrElse(rate),
       observer.tiles.map(t => Frame(t.x0, t.y0, t.x1, t.y1)),
       observer.points,
       viewers.count,

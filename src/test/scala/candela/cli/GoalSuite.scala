@@ -1,8 +1,8 @@
 package candela.cli
 
 import candela.color.Rgb
-import candela.film.Development
-import candela.render.{Progress, Renderer, Rendering, TinyPlan}
+import candela.film.{Development, Film}
+import candela.render.{Pass, Renderer, Rendering, TinyPlan}
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -25,25 +25,73 @@ class GoalSuite extends AnyFunSuite:
   test("an error of a few samples ends nothing"):
     assert(rendered(goal(FilmOptions(error = Some(10)))).samplesDone == Goal.Fewest)
 
-  test("what remains is the time to the error, by its trend"):
+  test("the samples that an error needs are told by its trend"):
     val ended = goal(FilmOptions(error = Some(0.0436)))
-    val rendering = rendered(ended)
-    val taken = rendering.samplesTaken
-    val early = ended.outlook(Progress(taken / 2, 1000 * 1200, 3.0))
-    // 24 samples in 3 s; 44 are needed: ± 10 %
-    assert(Math.abs(early.secondsLeft.get - 2.5) < 0.7)
-    assert(Math.abs(early.error.get * Math.sqrt(24 * 12) - 1) < 0.08)
+    val _ = rendered(ended)
+    val expected = ended.goal.get
+    // 44 samples: ± 10 %
+    assert(expected.seconds.isEmpty && Math.abs(expected.samples.get - 44) < 5)
+    assert(Math.abs(ended.errorAt(24).get * Math.sqrt(24 * 12) - 1) < 0.08)
 
-  test("what remains is never more than the time that was given"):
-    val timed = goal(FilmOptions(time = Some(5)))
-    assert(timed.outlook(Progress(1200, 1000 * 1200, 3.0)).secondsLeft.contains(2.0))
-    assert(timed.outlook(Progress(0, 1000 * 1200, 0.0)) == Outlook(Some(5.0), None))
+  private val film = Film(0, 0, 1, 1)
+
+  /** When a rendering ends whose samples take a second each, the first one, and then `actual`
+    * seconds.
+    *
+    * @param largest samples per pixel of a pass
+    */
+  private def ended(time: Double, largest: Int, actual: Double = 1): Double =
+    val timed = goal(FilmOptions(time = Some(time)))
+    timed.begins(0, film)
+    var clock = 0.0
+    var samples = 0
+    while !timed.isEnough do
+      val size = Math.min(largest, Math.max(1, Integer.highestOneBit(samples) / 2))
+      val rest = size - samples % size
+      val next = Math.min(timed.most, rest)
+      val end = clock + next * (if samples == 0 then 1 else actual)
+      samples += next
+      timed.passed(
+        Pass(samples, clock, end, Vector.empty, isWhole = next == rest, clock = end),
+        film
+      )
+      clock = end
+    clock
+
+  test("a time ends a rendering after a part that ends near it, however long passes are"):
+    assert(ended(20, 64) == 20)
+    assert(ended(20.3, 1) == 20)
+    assert(Math.abs(ended(100, 16, actual = 1.2) - 100) <= 1)
+    // Another sample would end late
+    assert(ended(20.55, 1) == 20)
+
+  test("a slow start does not end a rendering before its time"):
+    val timed = goal(FilmOptions(time = Some(1.2)))
+    timed.begins(0, film)
+    timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
+    assert(!timed.isEnough && timed.most == 2)
+
+  test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
+    val timed = goal(FilmOptions(time = Some(20)))
+    timed.begins(0, film)
+    for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
+    assert(timed.most == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
+    val chains = goal(FilmOptions(time = Some(20)))
+    chains.begins(0, film)
+    chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
+    assert(!chains.isEnough && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
+
+  test("where an error is looked at does not depend on a time"):
+    val both = goal(FilmOptions(error = Some(1e9), time = Some(1000)))
+    both.begins(0, film)
+    both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
+    assert(!both.isEnough)
 
   test("what ends before its goal because all samples are taken says so, and what to do"):
     def missed(options: FilmOptions) =
       val ended = goal(options)
       ended.missed(rendered(ended))
-    val why = "all 1000 samples per pixel are taken; a larger --spp allows more"
+    val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
     // The root of 0.0833 / 1000
     val noisy = missed(FilmOptions(error = Some(1e-4))).get
     assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))

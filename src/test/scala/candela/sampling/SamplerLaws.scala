@@ -36,6 +36,14 @@ abstract class SamplerLaws(make: (Int, Int) => Sampler, sharper: Double) extends
   test("it offers at least the samples asked for"):
     for n <- Seq(1, 2, 3, 4, 16, 100) do assert(make(n, 0).samplesPerPixel >= n)
 
+  test("samples beyond those asked for are new ones, and as evenly spread"):
+    val s = make(16, 3)
+    val all = points(s, 5, 7, 64 * s.samplesPerPixel, 0)
+    assert(all.distinct.size == all.size)
+    // 1024 of them, or more: three standard deviations of independent ones
+    for mean <- Vector(all.map(_._1).sum / all.size, all.map(_._2).sum / all.size) do
+      assert(Math.abs(mean - 0.5) < 0.03)
+
   test("a number depends on pixel, sample, dimension and seed, not on what was asked before"):
     val (a, b) = (make(16, 5), make(16, 5))
     for px <- 0 until 5; i <- 0 until 16 do // b goes elsewhere first

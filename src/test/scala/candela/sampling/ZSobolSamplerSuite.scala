@@ -18,6 +18,16 @@ class ZSobolSamplerSuite extends SamplerLaws(ZSobolSampler(_, 64, 64, _), sharpe
         val joint = block(s, bx * side, by * side, side, skip)
         assert(ElementaryIntervals.allHoldOne(joint), s"$spp samples, side $side, skip $skip")
 
+  test("so have those of each further set"):
+    val s = ZSobolSampler(4, 40, 24, 5)
+    for set <- 1 to 3 do
+      val joint =
+        for px <- 8 until 12; py <- 4 until 8; i <- 4 * set until 4 * set + 4 yield
+          s.start(px, py, i)
+          s.next2D()
+          (s.x, s.y)
+      assert(ElementaryIntervals.allHoldOne(joint), s"set $set")
+
   test("so have single dimensions"):
     for spp <- Seq(1, 2, 4, 8); side <- Seq(1, 2, 4) do
       val s = ZSobolSampler(spp, 64, 64, 5)

@@ -1,0 +1,73 @@
+package candela.cli
+
+import candela.render.{Refused, Rendering}
+import candela.render.storage.FilmFile
+
+import java.nio.file.Path
+
+/** The final lines of a rendering. */
+object Summary:
+
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of an
+    * interrupted rendering, the samples done.
+    *
+    * @param standIns number of missing items replaced by placeholders
+    */
+  def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
+    val missing = placeholders(standIns) + darkness(r)
+    val names = written.mkString(", ")
+    if r.isComplete && r.seconds == 0 then
+      s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
+    else if r.isComplete then
+      val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
+      val size = s"${r.film.width}x${r.film.height}"
+      val seconds = Figures.duration(r.seconds)
+      s"wrote $names  $size, ${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
+    else
+      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      val number = if r.isOpenEnded then done else s"$done of ${r.samplesPerPixel}"
+      s"interrupted: wrote $names with $number samples per pixel${ofThisRun(r)}$missing"
+
+  /** The seconds are those of this run alone. */
+  private def ofThisRun(r: Rendering): String =
+    if r.earlier == 0 then "" else s" (${r.samplesDone - r.earlier} in this run)"
+
+  private def placeholders(count: Int): String =
+    if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
+
+  /** A discarded sample counts as black. */
+  private def darkness(r: Rendering): String =
+    val lost = r.refused.fold(0L)(_.count)
+    val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
+    if lost * LeastLoss <= done then ""
+    else
+      val share = Figures.percentage(lost.toDouble / done)
+      s"; the image is too dark: $share of its samples were discarded"
+
+  /** One discarded sample among so many is not worth a word in the last line. */
+  private val LeastLoss = 1000
+
+  /** Of images that an interrupted rendering did not replace. */
+  def kept(images: Vector[Path]): String =
+    s"interrupted: kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
+
+  /** `continuing x.film at 12 samples per pixel` */
+  def continues(film: FilmFile): String =
+    s"continuing ${film.path} at ${film.header.done} samples per pixel"
+
+  def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
+    Vector(
+      "parse" -> loaded.parseSeconds,
+      "build" -> loaded.buildSeconds,
+      "render" -> rendering.seconds,
+      "write" -> writeSeconds
+    ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
+
+  def refused(r: Refused): String =
+    val material = if r.material < 0 then "" else s", material ${r.material}"
+    s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; trace it with " +
+      s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
+
+  private def rate(count: Long, r: Rendering): String =
+    Figures.metric(count / Math.max(r.seconds, 1e-9))
