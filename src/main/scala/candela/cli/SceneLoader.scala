@@ -48,8 +48,10 @@ object SceneLoader:
       val all = description.warnings ++ warnings
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
 
-    override def images(scene: String, options: Options): Option[OutputFiles] = Try:
-      val file = existing(scene)
+    override def images(scene: String, options: Options): Option[OutputFiles] =
+      Try(named(scene, existing(scene), options)).toOption.flatten
+
+    private def named(scene: String, file: Path, options: Options): Option[OutputFiles] =
       val within = options.limits.folder(file)
       val folder = if within.isConfined then within.path else Path.of("")
       if MitsubaScene.isNamed(file) then Some(OutputFiles.ofName(scene, folder))
@@ -58,7 +60,6 @@ object SceneLoader:
         Parser.film(file, options.dialect, within).flatMap(_.param("filename")) match
           case Some(name) => name.strings.headOption.map(OutputFiles.ofFilm(_, folder))
           case None => Some(OutputFiles.ofName(scene, folder))
-    .toOption.flatten
 
   /** Makes an error of what a scene must not do. */
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
