@@ -9,7 +9,9 @@ import scala.util.Using
 
 import scopt.OParser
 
-import candela.base.{FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile}
+import candela.base.{
+  FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile
+}
 import candela.render.Cancellation
 import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
 import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults, Work}
