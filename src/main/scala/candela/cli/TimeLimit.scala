@@ -20,11 +20,14 @@ private[cli] object TimeLimit:
           ProblemText.print(timed.problem, terminal.err, terminal.hasColor)
           terminal.err.flush()
           terminal.interrupts.quit(ExitCode.BadInput)
-        Deadline.during(nanos, Grace)(timed.expire(), quit()):
+        Deadline.during(nanos, grace(options))(timed.expire(), quit()):
           run(options.copy(limits = limits), terminal.interruptedBy(timed))
 
-  /** Nanoseconds in which a rendering ends, and saves its film. */
-  private val Grace = 700_000_000L
+  /** Nanoseconds for an orderly end; a film that was asked for may have to wait for its disk. */
+  private def grace(options: Options): Long =
+    val keepsFilm = options.command == Command.Resume || options.film.checkpoint.isDefined ||
+      options.outfiles.exists(FilmOptions.isFilm)
+    if keepsFilm then 5_000_000_000L else 700_000_000L
 
 /** Cancels renderings when the time is over, too.
   *

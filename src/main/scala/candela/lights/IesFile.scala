@@ -24,32 +24,25 @@ object IesFile:
     val text =
       try file.text()
       catch case e: IOException => throw IesError(s"$file: can't be read: ${IoReason(e)}")
-    parse(file.toString, text, file.quoted)
+    parse(file.toString, text)
 
-  /** @param name   of the file, for messages
-    * @param quoted its words in messages
-    */
-  def parse(name: String, text: String, quoted: String => String = w => s"`$w`"): IesLamp =
+  /** @param name of the file, for messages */
+  def parse(name: String, text: String): IesLamp =
     val lines = text.linesIterator.toVector
     val tilt = lines.indexWhere(_.trim.toUpperCase(Locale.ROOT).startsWith("TILT"))
     if tilt < 0 then
       throw IesError(s"$name: expected a line `TILT=NONE`, as in all IES files; there is none")
-    Reading(name, lines, tilt, quoted).lamp
+    Reading(name, lines, tilt).lamp
 
   /** @param tilt index of the line that ends the header */
-  private final class Reading(
-      name: String,
-      lines: Vector[String],
-      tilt: Int,
-      quoted: String => String
-  ):
+  private final class Reading(name: String, lines: Vector[String], tilt: Int):
     private var line = tilt
     private var words = Iterator.empty[String]
 
     private def fail(message: String): Nothing = throw IesError(s"$name:${line + 1}: $message")
 
     private def shown(word: String): String =
-      quoted(word.take(20))
+      word.take(20)
 
     private def word(what: => String): String =
       while !words.hasNext do
@@ -63,7 +56,7 @@ object IesFile:
     private def number(what: => String): Float =
       val found = word(what)
       found.toFloatOption.filter(java.lang.Float.isFinite(_))
-        .getOrElse(fail(s"expected $what, found ${shown(found)}"))
+        .getOrElse(fail(s"expected $what, found `${shown(found)}`"))
 
     private def whole(what: String, least: Int, most: Int): Int =
       val x = number(what)
@@ -87,7 +80,7 @@ object IesFile:
       val notes = Vector.newBuilder[String]
       val what = lines(tilt).dropWhile(_ != '=').drop(1).trim
       if what.toUpperCase(Locale.ROOT) != "NONE" then
-        notes += s"$name:${tilt + 1}: ${shown(s"TILT=$what")} is ignored: the lamp is not tilted"
+        notes += s"$name:${tilt + 1}: `TILT=${shown(what)}` is ignored: the lamp is not tilted"
         if what.toUpperCase(Locale.ROOT) == "INCLUDE" then
           number("the lamp's geometry"): Unit
           val count = whole("the number of tilts", 0, 10_000)
