@@ -61,14 +61,23 @@ object ImageFiles:
     val bytes = Files.readAllBytes(path)
     if bytes.startsWith(ExrMark) then ExrHeader.parts(bytes).head.facts else Vector.empty
 
-  /** What pbrt-v4 makes of the file, if it is another image. */
+  /** What pbrt-v4 makes of the file, if it is another image; or that pixels are missing. */
   def remark(file: InputFile): Option[String] =
-    def start = Using.resource(file.stream())(_.readNBytes(1 << 16))
-    val found = FileName.suffix(file.path) match
-      case "tga" => Tga.remark(start)
-      case "ppm" | "pgm" | "pbm" | "pnm" => Pnm.remark(start)
-      case _ => None
+    val suffix = FileName.suffix(file.path)
+    val found =
+      if !Remarkable(suffix) then None
+      else
+        val size = Files.size(file.path)
+        val (start, end) = Using.resource(file.stream()): in =>
+          val first = in.readNBytes(1 << 16)
+          in.skipNBytes(Math.max(0, size - first.length - (1 << 12)))
+          (first, in.readAllBytes())
+        // A small file has its end in the beginning
+        CutFile.remark(suffix, start, start.takeRight(1 << 12) ++ end, size).orElse:
+          if suffix == "tga" then Tga.remark(start) else Pnm.remark(start)
     found.map(text => s"$file: $text")
+
+  private val Remarkable = Set("tga", "ppm", "pgm", "pbm", "pnm", "jpg", "jpeg", "bmp")
 
   /** Whether the file is a whole image whose metadata contain the text, if its format has any. */
   def isWhole(path: Path, text: String): Boolean =

@@ -77,7 +77,6 @@ class DamagedFilesSuite extends AnyFunSuite:
     Kind("a.exr", bytes("textures/chart.exr"), texture),
     Kind("b.exr", bytes("textures/sky-equalarea.exr"), light),
     Kind("a.hdr", bytes("textures/chart.hdr"), texture),
-    // Of pixels that are missing, stb_image makes black ones
     Kind("a.tga", bytes("textures/chart.tga").take(15), texture),
     Kind("a.ply", bytes("geometry/torus-le.ply"), mesh),
     Kind("b.ply.gz", packed(bytes("geometry/cube-ascii.ply")), mesh),
@@ -164,6 +163,29 @@ class DamagedFilesSuite extends AnyFunSuite:
         assert(told.endsWith(" --keep-going replaces what is missing with placeholders\n"))
         val (code, captured) = Captured.run("check", "--keep-going", s"$folder/s.$suffix")
         assert(code == 0 && captured.out.contains("1 placeholder"), captured.err)
+
+  test("an image that is decoded although it is cut is a warning with place, file and cause"):
+    val whole =
+      Vector("a.tga", "a.jpg").map(name => name -> bytes(s"textures/chart${name.drop(1)}"))
+    val header = java.nio.ByteBuffer.allocate(54).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    header.put("BM".getBytes).putInt(2, 54 + 64).putInt(10, 54).putInt(14, 40).putInt(18, 4)
+      .putInt(22, 4).putShort(26, 1).putShort(28, 32)
+    val bitmap = "a.bmp" -> (header.array ++ Array.fill[Byte](64)(99))
+    TempFolder.use: folder =>
+      for (name, content) <- whole :+ bitmap do
+        val scene = Files.writeString(folder.resolve("s.pbrt"), texture(name))
+        def check(count: Int) =
+          Files.write(folder.resolve(name), content.take(count))
+          val (code, captured) = Captured.run("check", s"$scene")
+          assert(code == 0, captured.err)
+          captured.err
+        assert(check(content.length) == "", name)
+        for count <- Vector(content.length * 2 / 3, content.length - 30) do
+          val told = check(count)
+          assert(
+            told.startsWith(s"$scene:5:") && told.contains(s"$name: the file is cut short"),
+            told
+          )
 
   test("view and image blame the image without colours, not their output"):
     TempFolder.use: folder =>

@@ -1,0 +1,42 @@
+package candela.image
+
+import java.nio.{ByteBuffer, ByteOrder}
+
+/** Files that end before their pixels do, of formats whose decoder does not mind. */
+private[image] object CutFile:
+
+  /** What is missing.
+    *
+    * @param start the first bytes
+    * @param end   the last ones
+    * @param size  of the file
+    */
+  def remark(suffix: String, start: Array[Byte], end: Array[Byte], size: Long): Option[String] =
+    val in = ByteBuffer.wrap(start).order(ByteOrder.LITTLE_ENDIAN)
+    val isCut = suffix match
+      case "jpg" | "jpeg" => !hasEndOfImage(end)
+      case "bmp" => start.length >= BmpHeader && size < bmpSize(in)
+      case "tga" => start.length >= TgaHeader && size < tgaSize(in)
+      case _ => false
+    Option.when(isCut)("the file is cut short: some of its pixels are missing")
+
+  /** Whether the marker is there, which can't be within coded pixels. */
+  private def hasEndOfImage(end: Array[Byte]): Boolean =
+    end.indices.drop(1).exists(i => end(i - 1) == 0xff.toByte && end(i) == 0xd9.toByte)
+
+  /** Of uncompressed pixels; 0 of others. */
+  private def bmpSize(in: ByteBuffer): Long =
+    val (width, height) = (in.getInt(18).toLong, Math.abs(in.getInt(22).toLong))
+    val isPlain = in.getInt(30) == 0
+    if isPlain then in.getInt(10) + (width * in.getShort(28) + 31) / 32 * 4 * height else 0
+
+  /** Of uncompressed pixels; 0 of others. */
+  private def tgaSize(in: ByteBuffer): Long =
+    def byte(i: Int) = in.get(i) & 0xff
+    def short(i: Int) = in.getShort(i) & 0xffffL
+    val palette = if byte(1) == 1 then short(5) * ((byte(7) + 7) / 8) else 0
+    val pixels = short(12) * short(14) * ((byte(16) + 7) / 8)
+    if byte(2) >= 1 && byte(2) <= 3 then TgaHeader + byte(0) + palette + pixels else 0
+
+  private val BmpHeader = 34
+  private val TgaHeader = 18
