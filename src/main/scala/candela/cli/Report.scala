@@ -5,9 +5,10 @@ import java.io.{IOException, UncheckedIOException}
 import java.nio.channels.ClosedByInterruptException
 import java.nio.file.{FileSystemException, InvalidPathException}
 
-import candela.base.{Excerpt, IoReason, Problem, SceneError, Severity, SourcePos, Visible}
+import candela.base.{Excerpt, IoReason, Problem, Refusal, SceneError, Severity, SourcePos, Visible}
 import candela.image.{ImageError, Natives}
 import candela.render.RenderFailure
+import candela.scenefile.Excerpts
 
 /** Turns problems into text and exit codes; no other class does.
   *
@@ -34,6 +35,7 @@ final class Report(
     try body
     catch
       case e: SceneError => errors(e.problems)
+      case r: Refusal => errors(Excerpts.fill(Vector(r.problem)))
       case e: ImageError => errors(Vector(Problem.general(e.getMessage)))
       case e: UncheckedIOException => errors(Vector(Problem.general(ioMessage(e.getCause))))
       case e: IOException if !isInterrupt(e) => errors(Vector(Problem.general(ioMessage(e))))

@@ -49,7 +49,8 @@ object SceneLoader:
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
 
     override def images(scene: String, options: Options): Option[OutputFiles] =
-      Try(named(scene, existing(scene), options)).toOption.flatten
+      // A refusal is told when the scene is loaded
+      Try(refusing(named(scene, existing(scene), options))).toOption.flatten
 
     private def named(scene: String, file: Path, options: Options): Option[OutputFiles] =
       val within = options.limits.folder(file)

@@ -58,6 +58,14 @@ class SandboxSuite extends AnyFunSuite:
           val (code, captured) = Captured.run((command ++ Vector("--sandbox", scene))*)
           assert(code == 1 && captured.err.contains(expected), s"$how: ${captured.err}")
 
+  test("rendering refuses a scene whose first statement names a file elsewhere"):
+    inFolder: f =>
+      for (how, name, expected) <- f.ways("pbrt") do
+        val scene = f.scene("s.pbrt", s"Include \"$name\"\n${film("o.exr")}").toString
+        val (code, captured) = Captured.run("--sandbox", scene)
+        assert(code == 1 && captured.err.contains(expected), s"$how: ${captured.err}")
+        assert(captured.err.contains(s"$scene:1:9"), s"$how: ${captured.err}")
+
   test("images of confined scenes go to the scene's folder, or to that of --outfile"):
     inFolder: f =>
       val scene = f.scene("s.pbrt", film("o.exr"))
