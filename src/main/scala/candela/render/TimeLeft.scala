@@ -141,8 +141,8 @@ private[render] object TimeLeft:
 
   private val Slots = 64
 
-  /** In seconds: JVMs compile the hot loops meanwhile. */
-  private val FirstSeconds = 2.0
+  /** In seconds: JVMs compile the hot loops meanwhile, on busy machines for longer. */
+  private val FirstSeconds = 5.0
 
   /** Of the first sweep; what follows may be anything if less is known. */
   private val FirstPart = 0.1
