@@ -39,7 +39,7 @@ class TimeLeftSuite extends AnyFunSuite:
 
   test("what a pass prepares before its samples counts for all passes"):
     // Photons: as long as the samples
-    val course = Course(spp = 50, (place, _) => if place < 0.02 then 26 else 0.5, largest = 1)
+    val course = Course(spp = 100, (place, _) => if place < 0.02 then 26 else 0.5, largest = 1)
     for part <- Vector(0.1, 0.25, 0.5) do course.assertNear(part, 0.06)
 
   test("samples until an error are as many as its waves have"):
