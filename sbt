@@ -50,65 +50,8 @@ if [ ! -d "$home" ] || [ ! -w "$home" ]; then home=$here/project/target/home; fi
 cache=${XDG_CACHE_HOME:-$home/.cache}/candela
 launcher=$cache/sbt-launch-$version.jar
 
-# What curl, wget and sha256sum do, for machines that have none of them.
-write_fetch_java() {
-  cat >"$1" <<'JAVA'
-import java.io.IOException;
-import java.io.InputStream;
-import java.net.InetSocketAddress;
-import java.net.ProxySelector;
-import java.net.URI;
-import java.net.http.HttpClient;
-import java.net.http.HttpRequest;
-import java.net.http.HttpResponse;
-import java.nio.file.Files;
-import java.nio.file.Path;
-import java.security.MessageDigest;
-import java.time.Duration;
-import java.util.HexFormat;
-
-class Fetch {
-  public static void main(String[] args) throws Exception {
-    try {
-      if (args[0].equals("get")) get(URI.create(args[1]), Path.of(args[2]));
-      else System.out.println(sha256(Path.of(args[1])));
-    } catch (IOException e) {
-      System.err.println("java: " + e);
-      System.exit(1);
-    }
-  }
-
-  static void get(URI from, Path to) throws Exception {
-    var builder = HttpClient.newBuilder()
-        .followRedirects(HttpClient.Redirect.NORMAL)
-        .connectTimeout(Duration.ofSeconds(20));
-    String proxy = System.getenv("https_proxy");
-    if (proxy == null) proxy = System.getenv("HTTPS_PROXY");
-    if (System.getProperty("https.proxyHost") == null && proxy != null && !proxy.isBlank()) {
-      URI at = URI.create(proxy.contains("://") ? proxy : "http://" + proxy);
-      int port = at.getPort() < 0 ? 80 : at.getPort();
-      builder.proxy(ProxySelector.of(new InetSocketAddress(at.getHost(), port)));
-    } else builder.proxy(ProxySelector.getDefault());
-    var answer = builder.build()
-        .send(HttpRequest.newBuilder(from).build(), HttpResponse.BodyHandlers.ofFile(to));
-    if (answer.statusCode() != 200) throw new IOException(from + " answered " + answer.statusCode());
-  }
-
-  static String sha256(Path file) throws Exception {
-    var digest = MessageDigest.getInstance("SHA-256");
-    try (InputStream in = Files.newInputStream(file)) {
-      byte[] buffer = new byte[1 << 16];
-      for (int n = in.read(buffer); n >= 0; n = in.read(buffer)) digest.update(buffer, 0, n);
-    }
-    return HexFormat.of().formatHex(digest.digest());
-  }
-}
-JAVA
-}
-
 with_java() { # SBT_OPTS may hold proxy settings; each option is a word of its own
-  write_fetch_java "$work/Fetch.java"
-  "$java" ${SBT_OPTS:-} "$work/Fetch.java" "$@"
+  "$java" ${SBT_OPTS:-} project/fetch/Fetch.java "$@"
 }
 
 sum_of() {

@@ -6,12 +6,19 @@
 
 import json
 import pathlib
+import sys
 
-import botocore.session
-import botocore.validate
-import kubernetes_validate
-import openjd.model
-import yaml
+try:
+    import botocore.session
+    import botocore.validate
+    import kubernetes_validate
+    import openjd.model
+    import yaml
+except ImportError as missing:
+    sys.exit(
+        f"check.py: Python has no {missing.name}\n"
+        f"  {sys.executable} -m pip install openjd-model botocore kubernetes-validate"
+    )
 
 folder = pathlib.Path(__file__).parent
 
