@@ -22,7 +22,7 @@ final class TevDisplay(
 ) extends AutoCloseable:
   import TevDisplay.*
 
-  @volatile private var connection: Option[Connection] = None
+  @volatile private var connection: Option[TevLink] = None
   @volatile private var isClosed = false
   @volatile private var sentVersion = 0
   private var tries = 0
@@ -64,7 +64,7 @@ final class TevDisplay(
     val socket = Socket()
     try
       socket.connect(InetSocketAddress(host, port), ConnectMillis)
-      connection = Some(Connection(socket, name))
+      connection = Some(TevLink(socket, name))
     catch
       case e: IOException =>
         socket.close()
@@ -89,7 +89,7 @@ object TevDisplay:
   private val TileSize = 128
 
   /** A viewer, and what it shows. */
-  private final class Connection(socket: Socket, name: String):
+  private final class TevLink(socket: Socket, name: String):
     private val out: OutputStream = BufferedOutputStream(socket.getOutputStream, 1 << 16)
     private var shown: Option[Image] = None
 
