@@ -101,9 +101,18 @@ final class CheckedInput private[base] (channel: FileChannel):
   def float(): Float = take(4).getFloat
   def double(): Double = take(8).getDouble
 
+  /** The number of values that follow.
+    *
+    * @param bytes of each, at least
+    * @throws EOFException if the file has fewer
+    */
+  def count(bytes: Int): Int =
+    val count = int()
+    if count < 0 || count.toLong * bytes > left + buffer.remaining then throw EOFException()
+    count
+
   def text(): String =
-    val length = int()
-    if length < 0 || length > left + buffer.remaining then throw EOFException()
+    val length = count(bytes = 1)
     val bytes = new Array[Byte](length)
     for i <- bytes.indices do bytes(i) = take(1).get
     String(bytes, UTF_8)

@@ -84,7 +84,7 @@ final class MarkovChains(
       states(i).current.save(to)
 
   def load(from: CheckedInput): Unit =
-    for _ <- 0 until from.int() do
+    for _ <- 0 until from.count(bytes = 4) do
       val state = MarkovChain(PrimarySamples(settings.largeStep, settings.sigma), view)
       states(from.int()) = state
       state.samples.load(from)

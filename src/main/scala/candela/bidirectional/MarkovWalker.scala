@@ -128,7 +128,8 @@ private[bidirectional] final class Contribution(view: View) extends Splats:
 
   def load(from: CheckedInput): Unit =
     strength = from.float()
-    count = from.int()
+    count = from.count(bytes = 4 * Numbers)
+    require(strength >= 0f && strength < Float.PositiveInfinity, s"a path's light is $strength")
     data = new Array[Float](Math.max(1, count) * Numbers)
     for i <- 0 until count * Numbers do data(i) = from.float()
 

@@ -81,6 +81,7 @@ private[bidirectional] final class PrimarySamples(largeStep: Float, sigma: Float
     time = from.int()
     lastLarge = from.int()
     spare = from.float()
+    require(lastLarge >= 0 && lastLarge <= time, s"a chain has step $lastLarge of $time")
     for stream <- Vector(camera, light, joins) do stream.load(from)
 
   /** Standard deviation of `steps` small steps combined. */
@@ -120,7 +121,7 @@ private[bidirectional] object PrimarySamples:
         to.int(changed(i))
 
     def load(from: CheckedInput): Unit =
-      known = from.int()
+      known = from.count(bytes = 8)
       next = 0
       val size = Math.max(InitialSize, known)
       values = new Array[Float](size)
@@ -130,6 +131,8 @@ private[bidirectional] object PrimarySamples:
       for i <- 0 until known do
         values(i) = from.float()
         changed(i) = from.int()
+        require(values(i) >= 0f && values(i) < 1f, s"a random number is ${values(i)}")
+        require(changed(i) >= Never && changed(i) <= owner.time, s"a step is ${changed(i)}")
 
     def clear(): Unit =
       known = 0

@@ -99,9 +99,15 @@ private[cli] object OptionTable extends OptionRows:
     opt[Unit]("verbose").text(s"print every warning$text")
       .action((_, o) => o.copy(verbose = true))
 
+  /** More than any machine's processors; each thread takes memory, and a slot of the system. */
+  private val MostThreads = 4096
+
   private def threads: Row = opt[Int]('j', "nthreads").valueName("N")
     .text("number of render threads (default: one per processor)")
     .validate(atLeast("nthreads", 1))
+    .validate: n =>
+      if n <= MostThreads then success
+      else failure(s"--nthreads must be at most $MostThreads, found `$n`")
     .action((n, o) => o.copy(threads = Some(n)))
 
   private def samples(text: String): Row = opt[Int]("spp").valueName("N")

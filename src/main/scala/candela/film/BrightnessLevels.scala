@@ -77,7 +77,7 @@ private final class LevelBlock(bounds: PixelBounds):
         own.save(to)
 
   def load(from: CheckedInput): Unit =
-    loop(from.int())(_ => level(from.int()).load(from))
+    loop(from.count(bytes = 4))(_ => level(from.int()).load(from))
 
 /** Adds samples to [[BrightnessLevels]]. Mutable, one per worker. */
 final class LevelPass private[film] (blocks: Vector[LevelBlock]):

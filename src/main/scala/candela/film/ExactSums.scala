@@ -95,9 +95,21 @@ final class ExactSums(val size: Int):
   def load(from: CheckedInput): Unit =
     loop(size)(i => add(i, from.double()))
     loop(size)(i => add(i, from.double()))
-    loop(from.int())(_ => addRest(from.int(), BigDecimal(from.text())))
+    loop(from.count(bytes = 8)): _ =>
+      val at = from.int()
+      require(at >= 0 && at < size, s"there is no sum $at")
+      addRest(at, ExactSums.left(from.text()))
 
 private object ExactSums:
+  /** Decimal digits, before or behind the point, of numbers that are sums of Doubles. */
+  private val MostDigits = 1100
+
+  /** What two Doubles leave of a sum; of other numbers, sums may fill the memory. */
+  private def left(text: String): BigDecimal =
+    require(text.length <= 2 * MostDigits, s"a number of ${text.length} digits")
+    val value = BigDecimal(text)
+    require(Math.abs(value.scale) <= MostDigits, s"a number of ${value.scale} decimal places")
+    value
 
   /** The rounding error of `sum` = `a` + `b`; exact. */
   inline def error(a: Double, b: Double, sum: Double): Double =

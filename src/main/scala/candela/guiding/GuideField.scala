@@ -112,9 +112,21 @@ object GuideField:
   )
 
   private[guiding] def load(from: CheckedInput): GuideField =
-    def ints() = Array.fill(from.int())(from.int())
-    def floats() = Array.fill(from.int())(from.float())
+    def ints() = Array.fill(from.count(bytes = 4))(from.int())
+    def floats() = Array.fill(from.count(bytes = 4))(from.float())
     val (axis, below) = (ints(), ints())
     val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
     val (worth, whole) = (floats(), floats())
+    val (nodes, regions) = (axis.length, shares.length)
+    def isLeaf(node: Int) = below(node) < 0 && -1 - below(node) < regions
+    // Children follow their parent, so every way down has an end
+    def isDivided(node: Int) =
+      below(node) > node && below(node) < nodes - 1 && axis(node) >= 0 && axis(node) <= 2
+    require(
+      nodes >= Sides && split.length == nodes && below.length == nodes &&
+        centres.length == 3 * regions && lobes.length == regions * Lobes * Size &&
+        worth.length == regions && whole.length == regions &&
+        (0 until nodes).forall(node => isLeaf(node) || isDivided(node)),
+      "its guiding field has no such regions"
+    )
     GuideField(axis, split, below, shares, centres, lobes, worth, whole)

@@ -105,7 +105,12 @@ private[guiding] final class GuideRecords(
 
   def load(from: CheckedInput): Unit =
     val part = newPart()
-    loop(from.int())(_ => part.data += from.float())
+    val count = from.count(bytes = 4)
+    require(count % Size == 0, s"it has $count numbers of events")
+    loop(count): i =>
+      val number = from.float()
+      require(i % Size != Side || (number >= 0 && number < GuideField.Sides), s"side $number")
+      part.data += number
     loop(regions)(i => part.counts(i) = from.long())
     loop(regions)(i => part.costs(i) = from.long())
     part.paths = from.long()

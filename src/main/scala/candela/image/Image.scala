@@ -118,7 +118,20 @@ final class Image(
 object Image:
   val RgbNames: Vector[String] = Vector("R", "G", "B")
   def rgb(width: Int, height: Int): Image =
-    Image(width, height, RgbNames, new Array[Float](width * height * 3))
+    Image(width, height, RgbNames, new Array[Float](valueCount(width, height, 3)))
+
+  /** Number of values of an image.
+    *
+    * @throws ImageError if an array can't have as many
+    */
+  def valueCount(width: Int, height: Int, channels: Int): Int =
+    val count = width.toLong * height * channels
+    if count > MostValues then
+      throw ImageError(s"$width×$height pixels of $channels channels are too many for an image")
+    count.toInt
+
+  /** Of arrays in Java. */
+  private val MostValues = Int.MaxValue - 8
 
 /** An 8-bit image of sRGB colours; value 255 stands for 1. */
 final class ByteImage(

@@ -16,7 +16,7 @@ object Resample:
     if width == image.width && height == image.height then image
     else
       val source = image.linear
-      val made = new Array[Float](width * height * source.channels)
+      val made = new Array[Float](Image.valueCount(width, height, source.channels))
       val from = MemoryUtil.memAllocFloat(source.width * source.height)
       val to = MemoryUtil.memAllocFloat(width * height)
       try

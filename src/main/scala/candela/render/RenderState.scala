@@ -34,12 +34,13 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     if from.int() != job.schedule.pieces then throw IOException("its state is of another image")
     for i <- 0 until job.schedule.pieces do
       val done = from.long()
+      require(done >= 0 && done <= job.schedule.mostProgress, s"piece $i has $done samples")
       queue.progress.set(i, Math.max(queue.progress.get(i), done))
     job.film.load(from)
     job.layers.foreach(_.load(from))
     job.chains.foreach(_.load(from))
     job.guide.foreach(_.load(from))
-    for _ <- 0 until from.int() do
+    for _ <- 0 until from.count(bytes = 24) do
       earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
 
 /** Keeps the state of a rendering. */

@@ -55,6 +55,9 @@ private[render] abstract class Schedule(
     val last = Math.max(0, Math.min(Math.ceil(samples), Int.MaxValue).toInt - 1)
     endSample(waveOf(last))
 
+  /** Greatest progress of a piece. */
+  def mostProgress: Long = Int.MaxValue
+
   /** Samples per pixel that a piece with this progress has at least. */
   protected def samplesOf(piece: Int, progress: Long): Int
 
@@ -120,6 +123,8 @@ private[render] final class ChainSchedule(
 
   /** Number of paths of the chain after `samples` per pixel. */
   def paths(chain: Int, samples: Int): Long = (samples * pixels + pieces - 1 - chain) / pieces
+
+  override def mostProgress: Long = paths(0, Int.MaxValue)
 
   protected def samplesOf(chain: Int, progress: Long): Int =
     if !takes(chain) then samplesPerPixel

@@ -57,6 +57,14 @@ class ImageCommandSuite extends AnyFunSuite:
       val small = made(sky, "--resize", size)
       assert((small.width, small.height) == (width, height))
 
+  test("sizes of more values than an image can have are refused"):
+    // As Ints, the first has none, and the second a negative number
+    for size <- Vector("65536x65536", "30000x30000") do
+      val message = s"${size.replace('x', '×')} pixels of 3 channels are too many for an image"
+      assert(refusal(sky, "--resize", size).contains(message))
+    for words <- Vector(Vector(square, "--environment", "latlong", "--resize", "65536")) do
+      assert(refusal(words*).contains("are too many for an image"))
+
   test("image turns environment maps into the other shape and back"):
     val whole = ImageFiles.read(Path.of(sky)).toRgb
     val there = made(sky, "--environment", "equalarea", "--resize", "128")

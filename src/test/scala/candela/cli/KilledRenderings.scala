@@ -77,8 +77,10 @@ object KilledRenderings:
 
   /** The program, in a process of its own. */
   def candela(folder: Path, words: Vector[String]): Process =
+    ProcessBuilder(command(words).asJava).directory(folder.toFile).start()
+
+  /** What starts the program. */
+  def command(words: Vector[String]): Vector[String] =
     val java = ProcessHandle.current.info.command.orElse("java")
     val classes = System.getProperty("java.class.path")
-    val command =
-      Vector(java, "-XX:TieredStopAtLevel=1", "-cp", classes, "candela.cli.Main") ++ words
-    ProcessBuilder(command.asJava).directory(folder.toFile).start()
+    Vector(java, "-XX:TieredStopAtLevel=1", "-cp", classes, "candela.cli.Main") ++ words

@@ -22,6 +22,12 @@ class MainSuite extends AnyFunSuite:
     assert(captured.err.startsWith(message))
     assert(captured.out.isEmpty)
 
+  test("more threads than any machine has processors are refused"):
+    for n <- Vector("4097", "2147483647") do
+      val (code, captured) = run("-j", n, "a.pbrt")
+      assert(code == 2)
+      assert(captured.err.startsWith(s"error: --nthreads must be at most 4096, found `$n`\n"))
+
   test("a missing scene exits with 1 and offers the nearest one"):
     TempFolder.use: folder =>
       val _ = Files.createFile(folder.resolve("bunny.pbrt"))

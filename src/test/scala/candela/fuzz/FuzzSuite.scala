@@ -3,38 +3,31 @@ package candela.fuzz
 import java.nio.file.{Files, Path}
 import scala.util.Random
 
+import candela.cli.TempFolder
 import candela.image.ImageFiles
 
-import org.scalatest.BeforeAndAfterAll
 import org.scalatest.funsuite.AnyFunSuite
 
 /** The short version of [[FuzzScenes]]. */
-class FuzzSuite extends AnyFunSuite with BeforeAndAfterAll:
-  private lazy val folder = Files.createTempDirectory("candela-fuzz")
+class FuzzSuite extends AnyFunSuite:
 
-  override def afterAll(): Unit =
-    val all = Files.walk(folder)
-    try all.sorted(java.util.Comparator.reverseOrder()).forEach(Files.delete(_))
-    finally all.close()
-
-  for (kind, count) <- Vector(
-      Kind.Scenes -> 2000,
-      Kind.Builds -> 150,
-      Kind.Meshes -> 1500,
-      Kind.Pictures -> 500,
-      Kind.Volumes -> 200,
-      Kind.Mitsuba -> 400
-    )
-  do
-    test(s"$count broken files end in an answer or a clean refusal: ${kind.name}"):
-      val trials = Trials(Path.of("scenes"), folder, Random(7))
-      for i <- 0 until count do
-        val file = trials.next(kind)
-        val wrong = trials.judge(kind, file)
-        def text = String(Files.readAllBytes(file), "ISO-8859-1")
-        assert(wrong.isEmpty, s"${kind.name} $i:\n$text")
+  for kind <- Kind.all do
+    test(s"${kind.short} attempts end in an answer or a clean refusal: ${kind.name}"):
+      TempFolder.use: folder =>
+        kind.start(Place(Path.of("scenes"), folder, Random(7))) match
+          case Left(why) => cancel(why)
+          case Right(attempts) =>
+            try
+              for i <- 0 until kind.short do
+                val attempt = attempts.next()
+                val wrong = attempt.judge()
+                def texts = attempt.files.filter(Files.isRegularFile(_)).map: file =>
+                  String(Files.readAllBytes(file), "ISO-8859-1").take(20000)
+                assert(wrong.isEmpty, s"$i: ${attempt.what}\n${texts.mkString("\n")}")
+            finally attempts.close()
 
   test("the pictures that are to be broken can be read before"):
-    for (bytes, i) <- Trials.pictures(folder).zipWithIndex do
-      val file = Files.write(folder.resolve("whole.tga"), bytes)
-      assert(ImageFiles.read(file).width >= 8, s"picture $i")
+    TempFolder.use: folder =>
+      for (bytes, i) <- Trials.pictures(folder).zipWithIndex do
+        val file = Files.write(folder.resolve("whole.tga"), bytes)
+        assert(ImageFiles.read(file).width >= 8, s"picture $i")

@@ -17,14 +17,17 @@ import candela.mitsuba.MitsubaScene
 import candela.scenefile.Parser
 import candela.testing.{NanoVdb, VdbGrid}
 
-/** What is done with hostile input, each in its own way. */
-enum Kind(val name: String):
-  case Scenes extends Kind("scenes")
-  case Builds extends Kind("builds")
-  case Meshes extends Kind("meshes")
-  case Pictures extends Kind("pictures")
-  case Volumes extends Kind("volumes")
-  case Mitsuba extends Kind("mitsuba")
+/** Broken files, each read in its own way.
+  *
+  * @param short number of files in each run of the tests
+  */
+enum FileKind(val name: String, val short: Int):
+  case Scenes extends FileKind("scenes", 2000)
+  case Builds extends FileKind("builds", 150)
+  case Meshes extends FileKind("meshes", 1500)
+  case Pictures extends FileKind("pictures", 500)
+  case Volumes extends FileKind("volumes", 200)
+  case Mitsuba extends FileKind("mitsuba", 400)
 
 /** Reads broken files, all of them written into `folder`. Each must give an answer or a clean
   * refusal; whatever else happens is a finding.
@@ -69,18 +72,18 @@ final class Trials(from: Path, folder: Path, random: Random):
   private val objects = Mutator(files(".obj") ++ files(".serialized"), random)
 
   /** The next broken file; `judge` reads it. */
-  def next(kind: Kind): Path =
+  def next(kind: FileKind): Path =
     val (bytes, name) = kind match
-      case Kind.Scenes => perhapsPacked(scenes.text(), "self.pbrt")
-      case Kind.Builds =>
+      case FileKind.Scenes => perhapsPacked(scenes.text(), "self.pbrt")
+      case FileKind.Builds =>
         (if random.nextInt(4) == 0 then scenes.text() else scenes.meaning(), "self.pbrt")
-      case Kind.Meshes =>
+      case FileKind.Meshes =>
         val bytes = if random.nextBoolean() then meshes.bytes() else meshes.text()
         perhapsPacked(bytes, "broken.ply")
-      case Kind.Pictures =>
+      case FileKind.Pictures =>
         (pictures.bytes(), if random.nextBoolean() then "broken.tga" else "broken.png")
-      case Kind.Volumes => (volumes.bytes(), "broken.nvdb")
-      case Kind.Mitsuba =>
+      case FileKind.Volumes => (volumes.bytes(), "broken.nvdb")
+      case FileKind.Mitsuba =>
         // one in three: a sound scene of broken meshes, curves and of a broken volume
         for mesh <- Vector("broken.obj", "broken.serialized") do
           Files.write(folder.resolve(mesh), objects.bytes())
@@ -102,27 +105,27 @@ final class Trials(from: Path, folder: Path, random: Random):
       case _ => (bytes, name)
 
   /** What is wrong with the answer to a broken file, if it is. */
-  def judge(kind: Kind, file: Path): Option[String] =
+  def judge(kind: FileKind, file: Path): Option[String] =
     try
       kind match
-        case Kind.Scenes => Option.when(Parser.parse(file).shapes.contains(null))("no shape")
-        case Kind.Builds =>
+        case FileKind.Scenes => Option.when(Parser.parse(file).shapes.contains(null))("no shape")
+        case FileKind.Builds =>
           val _ = SceneBuilder.build(Parser.parse(file), BuildOptions(spp = Some(1), quick = true))
           None
-        case Kind.Mitsuba =>
+        case FileKind.Mitsuba =>
           val scene = Parser.whole(MitsubaScene.readable(file, Map.empty, keepGoing = false))
           val _ = SceneBuilder.build(scene, BuildOptions(spp = Some(1), quick = true))
           None
-        case Kind.Meshes =>
+        case FileKind.Meshes =>
           val mesh = PlyFile.read(InputFile.asked(file))
           val vertices = mesh.positions.length / 3
           val isSound = mesh.indices.forall(i => i >= 0 && i < vertices) &&
             mesh.positions.forall(java.lang.Float.isFinite)
           Option.when(!isSound)("an unsound mesh")
-        case Kind.Pictures =>
+        case FileKind.Pictures =>
           val picture = ImageFiles.read(file)
           Option.when(picture.width < 1 || picture.height < 1)("an empty picture")
-        case Kind.Volumes =>
+        case FileKind.Volumes =>
           val all =
             Vector("density", "heat").flatMap(NanoVdbFile.read(InputFile.asked(file), _).toOption)
           Option.when(all.exists(_.tree.maximum.isNaN))("an unsound volume")

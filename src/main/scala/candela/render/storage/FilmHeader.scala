@@ -104,11 +104,11 @@ object FilmHeader:
   private val MostNamed = 10
 
   private[storage] def load(from: CheckedInput): FilmHeader =
-    def texts() = Vector.fill(from.int())(from.text())
+    def texts() = Vector.fill(from.count(bytes = 4))(from.text())
     val Vector(version, scene, folder, size) = Vector.fill(4)(from.text()): @unchecked
     val (words, outfiles, files) = (texts(), texts(), texts())
     val (samples, done, footprint, count) = (from.int(), from.int(), from.float(), from.int())
-    val shards = Vector.fill(from.int())(from.int()).toSet
+    val shards = Vector.fill(from.count(bytes = 4))(from.int()).toSet
     val digests = files.grouped(2).map(pair => (pair(0), pair(1))).toVector
     require(samples > 0 && done >= 0, s"it has $done of $samples samples per pixel")
     require(
