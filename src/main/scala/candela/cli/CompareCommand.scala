@@ -287,6 +287,7 @@ private[cli] object CompareTable extends OptionRows:
       .action((w, o) => change(o)(_.copy(crop = Some(w)))),
     opt[Seq[String]]("channels").valueName("NAME,...")
       .text("restrict the comparison to these channels (default R,G,B)")
+      .validate(some("channels"))
       .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
     opt[Unit]("per-channel")
       .text("also print per-channel figures")

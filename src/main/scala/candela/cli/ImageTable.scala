@@ -85,6 +85,7 @@ private[cli] object ImageTable extends OptionRows:
     outfile,
     opt[Seq[String]]("channels").valueName("NAME,...")
       .text("keep only these channels")
+      .validate(some("channels"))
       .action((names, o) => change(o)(_.copy(channels = Some(names.toVector)))),
     opt[PixelWindow]("crop")(using CompareTable.window).valueName("x0,x1,y0,y1")
       .text("keep only these pixels, x1 and y1 excluded; a negative end is a size")

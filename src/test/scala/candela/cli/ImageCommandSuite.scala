@@ -57,6 +57,13 @@ class ImageCommandSuite extends AnyFunSuite:
       val small = made(sky, "--resize", size)
       assert((small.width, small.height) == (width, height))
 
+  test("a list of channels without names is refused"):
+    val message = "error: --channels must be at least one name, found none"
+    for names <- Vector(",", ",,,") do
+      assert(refusal(sky, "--channels", names).startsWith(message))
+      val (code, captured) = run("compare", sky, sky, "--channels", names)
+      assert(code == 2 && captured.err.startsWith(message))
+
   test("sizes of more values than an image can have are refused"):
     // As Ints, the first has none, and the second a negative number
     for size <- Vector("65536x65536", "30000x30000") do

@@ -46,6 +46,8 @@ object FuzzScenes:
     var i = 0
     while i < count && findings < MostFindings do
       val attempt = attempts.next()
+      // Native code may end the process
+      val _ = Files.write(folder.resolve("last-attempt"), attempt.what.getBytes("UTF-8"))
       watch.during(attempt.what)(attempt.judge()).foreach: wrong =>
         findings += 1
         println(s"${kind.name} $i: ${attempt.what}\n  $wrong")
