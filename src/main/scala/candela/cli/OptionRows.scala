@@ -12,7 +12,8 @@ private[cli] trait OptionRows:
 
   /** Of a list, as of `,`, nothing may be left. */
   protected final def some(option: String)(all: Seq[?]): Either[String, Unit] =
-    if all.nonEmpty then b.success else b.failure(s"--$option must be at least one name, found none")
+    if all.nonEmpty then b.success
+    else b.failure(s"--$option must be at least one name, found none")
 
   protected final def atLeast[N](option: String, least: Int)(n: N)(using
       number: Numeric[N]
