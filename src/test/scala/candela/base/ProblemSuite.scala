@@ -13,8 +13,8 @@ class ProblemSuite extends AnyFunSuite:
         Problem.missing(at, s"`$name` is odd", "nothing", keepGoing = false, Some(s"not $name"))
       )
     do
-      assert(p.message == "`a?b?c?d` is odd")
-      assert(p.help.contains("not a?b?c?d"))
+      assert(p.message == "`a␊b\tc␛d` is odd")
+      assert(p.help.contains("not a␊b\tc␛d"))
 
   test("a message of a thousand characters keeps its beginning and its end"):
     val p = Problem.error(at, "first" + "x" * 1000 + "last")
