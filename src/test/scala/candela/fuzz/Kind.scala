@@ -40,7 +40,7 @@ object Kind:
   val all: Vector[Kind] = FileKind.values.toVector.map(ofFiles) ++ Vector(
     Kind("films", 200, 10000, p => Right(ForgedFilms(p))),
     Kind("options", 200, 10000, p => Right(OddOptions(p))),
-    Kind("chains", 40, 1000, p => Right(Chains(p))),
+    Kind("chains", 15, 1000, p => Right(Chains(p))),
     Kind("devices", 150, 10000, Devices.start),
     Kind("requests", 300, 10000, p => Right(Requests(p))),
     Kind("disks", 20, 1000, FullDisks.start),
