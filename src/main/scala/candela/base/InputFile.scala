@@ -46,6 +46,10 @@ final class InputFile private[base] (
 
   def lines(): Vector[String] = text().linesIterator.toVector
 
+  /** What stands between spaces and line ends, without comments, which begin with `#`. */
+  def words(): Vector[String] =
+    lines().flatMap(_.takeWhile(_ != '#').split("\\s+")).filter(_.nonEmpty)
+
   def stream(): InputStream = BufferedInputStream(Gated(Files.newInputStream(readable), gate))
 
   /** In memory as the system sees fit. Its whole size is counted. */

@@ -15,7 +15,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
   def allowance: Allowance = guard.allowance
 
   /** Another folder, whose files are guarded as those of this one. */
-  def at(other: Path): SceneFolder = SceneFolder(other, guard)
+  def at(other: Path): SceneFolder = new SceneFolder(other, guard)
 
   /** The scene file itself, which the user has named: a pipe, too, unless it is confined. */
   def scene(file: Path): InputFile =
@@ -67,8 +67,6 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 object SceneFolder:
   /** A folder whose scene may read every file. */
   def apply(path: Path): SceneFolder = new SceneFolder(path, FileGuard(path, false, Allowance()))
-
-  private def apply(path: Path, guard: FileGuard): SceneFolder = new SceneFolder(path, guard)
 
   /** The folder of a scene file.
     *

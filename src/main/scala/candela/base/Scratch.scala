@@ -1,7 +1,6 @@
 package candela.base
 
-import java.io.IOException
-import java.nio.channels.{FileChannel, OverlappingFileLockException}
+import java.nio.channels.FileChannel
 import java.nio.file.LinkOption.NOFOLLOW_LINKS
 import java.nio.file.StandardOpenOption.{CREATE_NEW, WRITE}
 import java.nio.file.{Files, Path}
@@ -27,7 +26,7 @@ object Scratch:
   /** A folder that has no lock yet may be about to get one, for milliseconds. */
   private val Doubt = 3_600_000L
 
-  /** @throws IOException if no folder can be made */
+  /** @throws java.io.IOException if no folder can be made */
   def make(): Scratch =
     val folder = Files.createTempDirectory(Prefix)
     val lock = FileChannel.open(folder.resolve(LockName), CREATE_NEW, WRITE)
@@ -48,12 +47,8 @@ object Scratch:
     val lock = folder.resolve(LockName)
     if Files.isRegularFile(lock, NOFOLLOW_LINKS) then
       Using.resource(FileChannel.open(lock, WRITE, NOFOLLOW_LINKS)): channel =>
-        val isFree =
-          try channel.tryLock() != null
-          catch
-            case _: OverlappingFileLockException => false // this process's
-            case _: IOException => false // no locks here: nothing is known
-        if isFree then delete(folder, keepsLock = false)
+        // Where there are no locks, nothing is known
+        if NextFile.isFree(channel, withoutLocks = false) then delete(folder, keepsLock = false)
     else
       val age = System.currentTimeMillis - Files.getLastModifiedTime(folder).toMillis
       if age > Doubt then delete(folder, keepsLock = false)

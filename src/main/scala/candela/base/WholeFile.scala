@@ -200,12 +200,17 @@ object NextFile:
     val _ = Try:
       val channel = FileChannel.open(path, WRITE)
       try
-        if isFree(channel) then
+        // Where there are no locks: the process has ended
+        if isFree(channel, withoutLocks = true) then
           val _ = Files.deleteIfExists(path)
       finally channel.close()
 
-  private def isFree(channel: FileChannel): Boolean =
+  /** Whether nobody has locked the file.
+    *
+    * @param withoutLocks the answer where the file system has none
+    */
+  private[base] def isFree(channel: FileChannel, withoutLocks: Boolean): Boolean =
     try channel.tryLock() != null
     catch
       case _: OverlappingFileLockException => false // another thread of this process
-      case _: IOException => true // no locks here, but the process has ended
+      case _: IOException => withoutLocks

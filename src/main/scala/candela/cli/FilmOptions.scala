@@ -38,6 +38,10 @@ object FilmOptions:
   def isFilm(name: String): Boolean =
     name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
 
+  /** Whether the rendering is to be saved. */
+  private[cli] def asksForFilm(o: Options): Boolean =
+    o.film.checkpoint.isDefined || o.outfiles.exists(isFilm)
+
   /** Gives `--checkpoint` an empty value if no film file follows it. */
   def withValues(args: Seq[String]): Seq[String] =
     args.zipWithIndex.flatMap: (word, i) =>

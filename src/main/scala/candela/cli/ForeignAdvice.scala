@@ -19,7 +19,7 @@ private[cli] object ForeignAdvice:
     yield Problem.general(s"`$file` is ${found.what}, not a scene", advice(found.kind, file))
 
   private def recognised(file: Path, source: Source): Option[ForeignFile] =
-    try ForeignFile.of(file, source.bytes.take(Math.min(source.limit, ForeignFile.Head)))
+    try source.foreign(file)
     finally source.close()
 
   private def advice(kind: ForeignKind, file: Path): Option[String] = kind match

@@ -48,7 +48,7 @@ private[cli] object IdleOptions:
     )
     val silent = printed.toVector.flatMap: name =>
       unwritten.flatMap((option, isGiven) => idle(option, s": --$name renders no image")(isGiven))
-    val isFilm = o.film.checkpoint.isDefined || o.outfiles.exists(FilmOptions.isFilm)
+    val isFilm = FilmOptions.asksForFilm(o)
     val formats = o.outfiles.flatMap(format)
     val isFilmAlone = o.outfiles.nonEmpty && o.outfiles.forall(FilmOptions.isFilm)
     silent ++ interval(o, isFilm) ++

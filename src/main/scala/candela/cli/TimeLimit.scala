@@ -25,8 +25,7 @@ private[cli] object TimeLimit:
 
   /** Nanoseconds for an orderly end; a film that was asked for may have to wait for its disk. */
   private def grace(options: Options): Long =
-    val keepsFilm = options.command == Command.Resume || options.film.checkpoint.isDefined ||
-      options.outfiles.exists(FilmOptions.isFilm)
+    val keepsFilm = options.command == Command.Resume || FilmOptions.asksForFilm(options)
     if keepsFilm then 5_000_000_000L else 700_000_000L
 
 /** Cancels renderings when the time is over, too.

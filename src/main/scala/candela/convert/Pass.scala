@@ -2,7 +2,7 @@ package candela.convert
 
 import scala.collection.mutable
 
-import candela.base.{Problem, SourcePos}
+import candela.base.{Problem, SceneFolder, SourcePos}
 import candela.math.Transform
 import candela.scenefile.*
 
@@ -96,10 +96,10 @@ final class PassRun(
       val between = added.toVector
       added.clear()
       between ++ made.map(d => placed.copy(texture = d))
-    val placeOfNone = scene.camera.fold(SourcePos("", 0, 0))(_.at)
+    val placeOfNone = scene.camera.fold(SourcePos.Nowhere)(_.at)
     def option(category: String, given_ : Option[Declaration]): Option[Declaration] =
       val silent = pass.defaults.get(category).map: name =>
-        Declaration(category, name, Vector.empty, placeOfNone, candela.base.SceneFolder.Nowhere)
+        Declaration(category, name, Vector.empty, placeOfNone, SceneFolder.Nowhere)
       given_.orElse(silent).flatMap(convert(_, category))
     val media =
       scene.media.flatMap(m => convert(m.medium, "Medium").map(d => m.copy(medium = d)))

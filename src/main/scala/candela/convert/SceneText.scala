@@ -188,11 +188,9 @@ private final case class Surroundings(
 )
 
 private object Surroundings:
-  private val Anywhere = SourcePos("", 0, 0)
-
   def apply(s: ShapeDescription): Surroundings =
     val material = s.material match
-      case MaterialRef.Named(name, _) => MaterialRef.Named(name, Anywhere)
+      case MaterialRef.Named(name, _) => MaterialRef.Named(name, SourcePos.Nowhere)
       case other => other
     Surroundings(
       material, s.areaLight, s.reverseOrientation, s.insideMedium, s.outsideMedium,

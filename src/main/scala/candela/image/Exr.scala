@@ -12,13 +12,20 @@ private[image] object Exr extends OutputFormat("exr", Contents.Channels):
 
   /** Channels are returned in the order R, G, B, A, then the others as in the file. Integers above
     * 2^24 lose their lowest bits.
+    *
+    * @param admit receives width and height before the pixels are decoded
     */
-  def read(file: Array[Byte], environment: Map[String, String] = sys.env): Image =
+  def read(
+      file: Array[Byte],
+      environment: Map[String, String] = sys.env,
+      admit: (Int, Int) => Unit = (_, _) => ()
+  ): Image =
     val parts = ExrHeader.parts(file)
     val hasColor = parts.map(p => p.channels.map(_.name).toSet).map: names =>
       names("Y") || Image.RgbNames.forall(names)
     val chosen = Math.max(0, hasColor.indexOf(true))
     val part = parts(chosen)
+    admit(part.width, part.height)
     parts.flatMap(_.obstacle).headOption match
       case None => decoded(file, parts, chosen)
       case Some(why) =>

@@ -38,8 +38,7 @@ object ImageFiles:
         case e: IOException => throw ImageError(s"$file: can't be read: ${IoReason(e)}")
         case _: OutOfMemoryError => throw ImageError(s"$file: a file of 2 GB or more")
     try
-      for (width, height) <- sizeOf(bytes) do admit(width, height)
-      val image = decode(bytes, file.path)
+      val image = decode(bytes, file.path, admit)
       admit(image.width, image.height)
       image
     catch
@@ -86,41 +85,34 @@ object ImageFiles:
         val bytes = Files.readAllBytes(path)
         val holds = !format.keepsTexts || String(bytes, ISO_8859_1).contains(text)
         holds && {
-          val _ = decode(bytes, path)
+          val _ = decode(bytes, path, (_, _) => ())
           format.hasEnd(bytes)
         }
       catch case _: ImageError | _: IOException | _: OutOfMemoryError => false
 
   private val Scenes = Set("pbrt", "xml")
 
-  /** Width and height of files that may have many pixels in few bytes. */
-  private def sizeOf(bytes: Array[Byte]): Option[(Int, Int)] =
-    if bytes.startsWith(ExrMark) then
-      ExrHeader.parts(bytes).headOption.map(part => (part.width, part.height))
-    else if bytes.startsWith("qoif".getBytes) && bytes.length > 12 then
-      val header = java.nio.ByteBuffer.wrap(bytes)
-      Some((header.getInt(4), header.getInt(8)))
-    else StbReader.size(bytes)
-
   private val ExrMark = Array[Byte](0x76, 0x2f, 0x31, 0x01)
 
   /** The file's signature overrides its extension, which may be wrong: none of the signatures can
     * begin a valid TGA file, the only format without one.
+    *
+    * @param admit receives width and height before there are pixels, where few bytes may be many
     */
-  private def decode(bytes: Array[Byte], path: Path): StoredImage =
+  private def decode(bytes: Array[Byte], path: Path, admit: (Int, Int) => Unit): StoredImage =
     val extension = FileName.suffix(path)
     def begins(mark: Int*) =
       bytes.length >= mark.size && mark.indices.forall(i => (bytes(i) & 0xff) == mark(i))
     def beginsWith(mark: String) = begins(mark.map(_.toInt)*)
     if bytes.isEmpty then throw ImageError("the file is empty")
-    else if begins(0x76, 0x2f, 0x31, 0x01) then Exr.read(bytes)
+    else if bytes.startsWith(ExrMark) then Exr.read(bytes, admit = admit)
     else if beginsWith("#?") then Hdr.read(bytes)
     else if beginsWith("PF") || beginsWith("Pf") then Pfm.read(bytes)
-    else if beginsWith("qoif") then Qoi.read(bytes)
+    else if beginsWith("qoif") then Qoi.read(bytes, admit)
     else if Pnm.isMark(bytes) then Pnm.read(bytes)
     else if begins(0x89, 'P', 'N', 'G') || begins(0xff, 0xd8) || StbMarks.exists(beginsWith) then
-      StbReader.read(bytes)
-    else if extension == "tga" then Tga.read(bytes)
+      StbReader.read(bytes, admit)
+    else if extension == "tga" then Tga.read(bytes, admit)
     else
       val other = ForeignFile.of(path, bytes)
       throw ImageError(

@@ -27,10 +27,12 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
   private def slot(pixel: Array[Int]): Int =
     (3 * pixel(0) + 5 * pixel(1) + 7 * pixel(2) + 11 * pixel(3)) & 63
 
-  def read(file: Array[Byte]): ByteImage =
+  /** @param admit receives width and height before the pixels are decoded */
+  def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): ByteImage =
     if file.length < HeaderSize + End.length then throw ImageError("the file is cut short")
     val header = ByteBuffer.wrap(file)
     val (width, height) = (header.getInt(4), header.getInt(8))
+    admit(width, height)
     val (channels, coding) = (file(12).toInt, file(13).toInt)
     if channels != 3 && channels != 4 then throw ImageError(s"$channels channels, expected 3 or 4")
     if coding != 0 && coding != 1 then throw ImageError(s"unknown colour space $coding")

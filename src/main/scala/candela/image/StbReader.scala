@@ -15,32 +15,28 @@ private[image] object StbReader:
 
   private val Names = Vector(Vector("Y"), Vector("Y", "A"), Image.RgbNames, Image.RgbNames :+ "A")
 
-  def read(file: Array[Byte]): StoredImage =
+  /** @param admit receives width and height before the pixels are decoded */
+  def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
     val stack = MemoryStack.stackPush()
     val native = MemoryUtil.memAlloc(file.length)
     try
       native.put(file).flip()
-      decode(native, stack.mallocInt(1), stack.mallocInt(1), stack.mallocInt(1))
+      decode(native, stack.mallocInt(1), stack.mallocInt(1), stack.mallocInt(1), admit)
     finally
       MemoryUtil.memFree(native)
       stack.close()
 
-  /** Width and height, without decoding; None if it is none of these formats. */
-  def size(file: Array[Byte]): Option[(Int, Int)] =
-    val stack = MemoryStack.stackPush()
-    val native = MemoryUtil.memAlloc(file.length)
-    try
-      native.put(file).flip()
-      val (w, h, c) = (stack.mallocInt(1), stack.mallocInt(1), stack.mallocInt(1))
-      Option.when(STBImage.stbi_info_from_memory(native, w, h, c))((w.get(0), Math.abs(h.get(0))))
-    finally
-      MemoryUtil.memFree(native)
-      stack.close()
-
-  private def decode(file: ByteBuffer, w: IntBuffer, h: IntBuffer, c: IntBuffer): StoredImage =
+  private def decode(
+      file: ByteBuffer,
+      w: IntBuffer,
+      h: IntBuffer,
+      c: IntBuffer,
+      admit: (Int, Int) => Unit
+  ): StoredImage =
     if !STBImage.stbi_info_from_memory(file, w, h, c) then failed()
     // That of a BMP is negative if its rows go from top to bottom
     val height = Math.abs(h.get(0))
+    admit(w.get(0), height)
     val values = w.get(0).toLong * height * c.get(0)
     if values <= 0 || values > Int.MaxValue - 8 then
       throw ImageError(s"${w.get(0)}×$height pixels are more than fit into memory")

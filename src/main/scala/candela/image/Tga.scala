@@ -17,8 +17,8 @@ private[image] object Tga extends OutputFormat("tga", Contents.Display):
   /** By stb_image, which knows neither columns from the right nor palettes that don't begin with
     * entry 0.
     */
-  def read(file: Array[Byte]): StoredImage =
-    val image = StbReader.read(withWholePalette(file))
+  def read(file: Array[Byte], admit: (Int, Int) => Unit = (_, _) => ()): StoredImage =
+    val image = StbReader.read(withWholePalette(file), admit)
     if !isFromRight(file) then image
     else
       val n = image.channels

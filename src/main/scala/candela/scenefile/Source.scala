@@ -5,6 +5,7 @@ import candela.base.{ForeignFile, InputFile, IoReason}
 import java.io.{ByteArrayInputStream, FilterInputStream, InputStream, IOException}
 import java.nio.ByteBuffer
 import java.nio.charset.{CharacterCodingException, StandardCharsets}
+import java.nio.file.Path
 import java.util.zip.GZIPInputStream
 
 import scala.util.Using
@@ -25,6 +26,10 @@ final class Source private (val name: String, room: Int, input: Input):
   /** The window: valid from 0 until `limit`. */
   def bytes: Array[Byte] = window
   def limit: Int = end
+
+  /** What the file is by its beginning, which is in the window, if it is no text of ours. */
+  def foreign(file: Path): Option[ForeignFile] =
+    ForeignFile.of(file, window.take(Math.min(end, ForeignFile.Head)))
 
   /** Whether the window reaches the end of the file. */
   def isLast: Boolean = isDone
@@ -103,7 +108,7 @@ object Source:
   /** Opens a file that another one includes. */
   def readNamed(file: InputFile): Either[String, Source] =
     read(file).flatMap: source =>
-      ForeignFile.of(file.path, source.window.take(Math.min(source.end, ForeignFile.Head))) match
+      source.foreign(file.path) match
         case None => Right(source)
         case Some(found) =>
           source.close()

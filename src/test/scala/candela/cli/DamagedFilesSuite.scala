@@ -1,10 +1,9 @@
 package candela.cli
 
 import candela.image.{Image, ImageFiles}
+import candela.testing.Gzip
 
-import java.io.ByteArrayOutputStream
 import java.nio.file.{Files, Path}
-import java.util.zip.GZIPOutputStream
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
@@ -54,13 +53,6 @@ class DamagedFilesSuite extends AnyFunSuite:
 
   private def bytes(name: String): Array[Byte] = Files.readAllBytes(Path.of("scenes").resolve(name))
 
-  private def packed(content: Array[Byte]): Array[Byte] =
-    val all = ByteArrayOutputStream()
-    val gzip = GZIPOutputStream(all)
-    gzip.write(content)
-    gzip.close()
-    all.toByteArray
-
   private val ies = "IESNA:LM-63-2002\r\nTILT=NONE\r\n1 1000 1 3 1 1 2 0 0 0\r\n1 1 50\r\n" +
     "0 45 90\r\n0\r\n100 50 10\r\n"
 
@@ -79,12 +71,12 @@ class DamagedFilesSuite extends AnyFunSuite:
     Kind("a.hdr", bytes("textures/chart.hdr"), texture),
     Kind("a.tga", bytes("textures/chart.tga").take(15), texture),
     Kind("a.ply", bytes("geometry/torus-le.ply"), mesh),
-    Kind("b.ply.gz", packed(bytes("geometry/cube-ascii.ply")), mesh),
+    Kind("b.ply.gz", Gzip.of(bytes("geometry/cube-ascii.ply")), mesh),
     Kind("a.ies", ies.getBytes, goniometric),
     Kind("a.bsdf", bytes("measured/glossy.bsdf"), measured),
     Kind("b.bsdf", bytes("bsdfs/gloss.bsdf"), fourier),
     Kind("a.nvdb", bytes("volumes/smoke.nvdb"), cloud),
-    Kind("a.pbrt.gz", packed("Shape \"sphere\"\n".repeat(99).getBytes), included),
+    Kind("a.pbrt.gz", Gzip.of("Shape \"sphere\"\n".repeat(99).getBytes), included),
     Kind("a.serialized", bytes("mitsuba/tent.serialized"), shape("serialized"), "xml"),
     Kind("a.vol", bytes("mitsuba/stripes.vol"), volume, "xml"),
     Kind("c.ply", bytes("mitsuba/tent.ply"), shape("ply"), "xml")
@@ -140,7 +132,7 @@ class DamagedFilesSuite extends AnyFunSuite:
 
   test("a packed scene that is cut says so"):
     TempFolder.use: folder =>
-      val whole = packed((head + "Shape \"sphere\"\n".repeat(5000)).getBytes)
+      val whole = Gzip.of((head + "Shape \"sphere\"\n".repeat(5000)).getBytes)
       for length <- Vector(3, 10, 14, whole.length / 2, whole.length - 4) do
         val file = Files.write(folder.resolve("a.pbrt.gz"), whole.take(length))
         val (code, captured) = Captured.run("check", s"$file")

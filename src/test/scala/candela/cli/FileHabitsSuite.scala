@@ -1,23 +1,15 @@
 package candela.cli
 
-import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.{Files, Path}
-import java.util.zip.GZIPOutputStream
 
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.image.{Image, ImageFiles}
+import candela.testing.Gzip
 
 /** Files as they come: names in any language, compressed, with Windows line ends, in folders. */
 class FileHabitsSuite extends AnyFunSuite:
-
-  private def zipped(bytes: Array[Byte]): Array[Byte] =
-    val out = ByteArrayOutputStream()
-    val zip = GZIPOutputStream(out)
-    zip.write(bytes)
-    zip.close()
-    out.toByteArray
 
   private val mesh =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n" +
@@ -33,7 +25,7 @@ class FileHabitsSuite extends AnyFunSuite:
       Files.write(file, bytes)
     def lines(texts: String*) = texts.map(_ + "\r\n").mkString.getBytes(UTF_8)
     val _ = put("Körper/große Fläche.ply", mesh.replace("\n", "\r\n").getBytes)
-    put("Körper/große Fläche.ply.gz", zipped(mesh.getBytes))
+    put("Körper/große Fläche.ply.gz", Gzip.of(mesh.getBytes))
     put(
       "素材/stoff.pbrt",
       lines(
@@ -43,7 +35,7 @@ class FileHabitsSuite extends AnyFunSuite:
     )
     put(
       "Körper/alle.pbrt.gz",
-      zipped(lines(
+      Gzip.of(lines(
         "# Windows",
         "Include \"素材/stoff.pbrt\"",
         "Shape \"plymesh\" \"string filename\" \"Körper/große Fläche.ply.gz\"",
@@ -78,7 +70,7 @@ class FileHabitsSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val scene = write(folder.resolve("ein Ordner é"))
       val packed = scene.resolveSibling("die Szene.pbrt.gz")
-      val _ = Files.write(packed, zipped(Files.readAllBytes(scene)))
+      val _ = Files.write(packed, Gzip.of(Files.readAllBytes(scene)))
       val image = folder.resolve("Bild ü.exr")
       val rendered = run(packed.toString, "--outfile", image.toString)
       assert(rendered.err.isEmpty)

@@ -1,10 +1,9 @@
 package candela.cli
 
 import candela.image.{Image, ImageFiles}
+import candela.testing.Gzip
 
-import java.io.ByteArrayOutputStream
 import java.nio.file.{Files, Path}
-import java.util.zip.GZIPOutputStream
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -33,11 +32,7 @@ class ForeignSceneSuite extends AnyFunSuite:
   test("meshes and models in place of scenes are named, also if packed or by a wrong suffix"):
     TempFolder.use: folder =>
       val ply = "ply\nformat ascii 1.0\nend_header\n".getBytes
-      val packed = ByteArrayOutputStream()
-      val gzip = GZIPOutputStream(packed)
-      gzip.write(ply)
-      gzip.close()
-      for (name, bytes) <- Vector("a.ply" -> ply, "a.ply.gz" -> packed.toByteArray, "b.pbrt" -> ply)
+      for (name, bytes) <- Vector("a.ply" -> ply, "a.ply.gz" -> Gzip.of(ply), "b.pbrt" -> ply)
       do
         val file = Files.write(folder.resolve(name), bytes)
         assert(refusal("check", s"$file").head == s"error: `$file` is a PLY mesh, not a scene")
@@ -49,11 +44,8 @@ class ForeignSceneSuite extends AnyFunSuite:
 
   test("a packed scene is a scene"):
     TempFolder.use: folder =>
-      val packed = ByteArrayOutputStream()
-      val gzip = GZIPOutputStream(packed)
-      gzip.write("Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n".getBytes)
-      gzip.close()
-      val file = Files.write(folder.resolve("a.pbrt.gz"), packed.toByteArray)
+      val scene = "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+      val file = Files.write(folder.resolve("a.pbrt.gz"), Gzip.of(scene.getBytes))
       assert(Captured.run("check", s"$file")._1 == 0)
 
   test("a saved rendering in place of a scene is named, and info tells of it"):

@@ -1,14 +1,13 @@
 package candela.cli
 
-import java.io.ByteArrayOutputStream
 import java.nio.file.{Files, Path}
-import java.util.zip.GZIPOutputStream
 
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.Limit
 import candela.image.{Image, ImageFiles}
+import candela.testing.Gzip
 
 /** What a scene may use has limits, each with a message. */
 class LimitsSuite extends AnyFunSuite:
@@ -62,12 +61,9 @@ class LimitsSuite extends AnyFunSuite:
 
   test("bytes: a gzip bomb counts as what it unpacks to"):
     TempFolder.use: folder =>
-      val bytes = ByteArrayOutputStream()
-      val packed = GZIPOutputStream(bytes)
-      packed.write(("# " + "x" * 998 + "\n").repeat(3000).getBytes)
-      packed.close()
-      val _ = Files.write(folder.resolve("a.pbrt.gz"), bytes.toByteArray)
-      assert(bytes.size < 100_000)
+      val packed = Gzip.of(("# " + "x" * 998 + "\n").repeat(3000).getBytes)
+      val _ = Files.write(folder.resolve("a.pbrt.gz"), packed)
+      assert(packed.length < 100_000)
       val _ = Files.writeString(folder.resolve("s.pbrt"), scene("Include \"a.pbrt.gz\"\n"))
       refused(folder, "s.pbrt", "bytes=2MB", "with `a.pbrt.gz`", "s.pbrt:5:9")
 

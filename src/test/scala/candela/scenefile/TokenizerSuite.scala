@@ -1,11 +1,10 @@
 package candela.scenefile
 
-import java.io.ByteArrayOutputStream
 import java.nio.charset.StandardCharsets.{ISO_8859_1, UTF_16, UTF_8}
 import java.nio.file.Files
-import java.util.zip.GZIPOutputStream
 
 import candela.base.{FloatBuffer, InputFile, RestBuffer, SceneError}
+import candela.testing.Gzip
 import org.scalatest.funsuite.AnyFunSuite
 
 class TokenizerSuite extends AnyFunSuite:
@@ -83,13 +82,9 @@ class TokenizerSuite extends AnyFunSuite:
       assert(error.at.map(p => (p.line, p.column)).contains((2, 2)), text)
 
   test("gzipped files are unpacked, whatever their name"):
-    val bytes = ByteArrayOutputStream()
-    val zip = GZIPOutputStream(bytes)
-    zip.write("WorldBegin".getBytes(UTF_8))
-    zip.close()
     val file = Files.createTempFile("scene", ".pbrt")
     try
-      Files.write(file, bytes.toByteArray)
+      Files.write(file, Gzip.of("WorldBegin".getBytes(UTF_8)))
       assert(Source.read(InputFile.asked(file)).map(s => s.text(0, s.limit)) == Right("WorldBegin"))
     finally Files.delete(file)
 

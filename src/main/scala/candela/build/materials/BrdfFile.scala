@@ -23,15 +23,11 @@ private[build] object BrdfFile:
     catch case e: java.io.IOException => Left(IoReason(e))
 
   private def scattered(file: InputFile): Either[String, MeasuredBsdf] =
-    val words = file
-      .lines()
-      .flatMap(_.takeWhile(_ != '#').split("\\s+"))
-      .filter(_.nonEmpty)
-      .toArray
+    val words = file.words()
     words.find(_.toFloatOption.isEmpty) match
       case Some(word) => Left(s"${file.quoted(word)} is not a number")
       case None =>
-        val numbers = words.map(_.toFloat)
+        val numbers = words.map(_.toFloat).toArray
         val count = numbers.headOption.fold(0)(_.toInt)
         val size = 4 + count
         if count < 1 || numbers.length <= 1 + count || (numbers.length - 1 - count) % size != 0 then

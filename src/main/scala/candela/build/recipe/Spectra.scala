@@ -186,8 +186,7 @@ object Spectra:
   /** Pairs of wavelength and value, or why there are none. */
   private def numbers(file: InputFile, name: String): Either[String, Array[Float]] =
     try
-      val words =
-        file.lines().flatMap(_.takeWhile(_ != '#').trim.split("\\s+")).filter(_.nonEmpty)
+      val words = file.words()
       val found = words.flatMap(_.toFloatOption).toArray
       if found.length == words.length && found.length % 2 == 0 then Right(found)
       else Left(s"spectrum file `$name` must contain pairs of wavelength and value")

@@ -1,12 +1,11 @@
 package candela.build.shapes
 
-import java.io.ByteArrayOutputStream
 import java.nio.{ByteBuffer, ByteOrder}
 import java.nio.file.{Files, Path}
-import java.util.zip.GZIPOutputStream
 
 import candela.base.{InputFile, SceneError, SourcePos}
 import candela.scenefile.Source
+import candela.testing.Gzip
 import org.scalatest.funsuite.AnyFunSuite
 
 class PlyFileSuite extends AnyFunSuite:
@@ -134,11 +133,8 @@ class PlyFileSuite extends AnyFunSuite:
   test("gzipped files are read"):
     val file = Files.createTempFile("mesh", ".ply.gz")
     try
-      val bytes = ByteArrayOutputStream()
-      val zip = GZIPOutputStream(bytes)
-      zip.write((header("ascii", 4, 1) + corners + "3 0 1 2\n").getBytes("ISO-8859-1"))
-      zip.close()
-      Files.write(file, bytes.toByteArray)
+      val mesh = header("ascii", 4, 1) + corners + "3 0 1 2\n"
+      Files.write(file, Gzip.of(mesh.getBytes("ISO-8859-1")))
       assert(PlyFile.read(InputFile.asked(file)).indices.toVector == Vector(0, 1, 2))
     finally Files.delete(file)
 
