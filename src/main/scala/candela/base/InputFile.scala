@@ -104,3 +104,8 @@ private final class Gated(in: InputStream, gate: Long => Unit) extends FilterInp
     val n = in.read(into, from, length)
     if n > 0 then gate(n)
     n
+
+  /** None of a pipe, where JDK 17's streams of files throw "Illegal seek". */
+  override def available(): Int =
+    try in.available()
+    catch case _: IOException => 0
