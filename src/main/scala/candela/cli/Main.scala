@@ -5,10 +5,13 @@ import candela.image.Natives
 
 import java.io.{IOException, PrintStream}
 
+import scala.util.Try
+
 /** Entry point; the only place that exits. */
 object Main:
 
   def main(args: Array[String]): Unit =
+    JavaWarnings.hush()
     Natives.find()
     val code = run(args.toVector, Terminal.ofProcess)
     System.err.flush()
@@ -71,6 +74,18 @@ object Main:
       val message = s"can't write to standard output: ${failure.getMessage}"
       ProblemText.print(Problem.general(message), terminal.err, terminal.hasColor)
     ExitCode.BadInput
+
+/** What Java prints about the program's own code, which its user can't change. */
+private object JavaWarnings:
+
+  /** JDK 24 and later warn once that Scala's lazy values use `sun.misc.Unsafe`. The launcher's
+    * option against it has no equivalent in a manifest: for `java -jar`, it counts as given.
+    */
+  def hush(): Unit =
+    val _ = Try:
+      val isGiven = classOf[sun.misc.Unsafe].getDeclaredField("memoryAccessWarned")
+      isGiven.setAccessible(true)
+      isGiven.setBoolean(null, true)
 
 /** Result of a run, from best to worst; `number` is the process's exit code. */
 enum ExitCode(val number: Int):

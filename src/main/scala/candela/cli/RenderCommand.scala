@@ -320,7 +320,8 @@ final class RenderCommand(
       rendering: Rendering,
       writeSeconds: Double
   ): Unit =
-    rendering.refused.foreach(r => terminal.err.println(Summary.refused(r)))
+    for r <- rendering.refused do
+      terminal.err.println(Summary.refused(r, isTraceable = !options.preview))
     if !options.quiet && written.nonEmpty then
       if options.verbose then
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))

@@ -63,11 +63,13 @@ object Summary:
       "write" -> writeSeconds
     ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
 
-  def refused(r: Refused): String =
+  /** @param isTraceable whether `render` can trace the same sample: not of a smaller image */
+  def refused(r: Refused, isTraceable: Boolean): String =
     val material = if r.material < 0 then "" else s", material ${r.material}"
+    val options = s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
+    val advice = if isTraceable then s"; trace it with candela render $options" else ""
     s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
-      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material; trace it with " +
-      s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material$advice"
 
   private def rate(count: Long, r: Rendering): String =
     Figures.metric(count / Math.max(r.seconds, 1e-9))

@@ -37,11 +37,12 @@ final class LiveView(
   private val run = UUID.randomUUID.toString
   private val ended = CountDownLatch(1)
   private val threads = Background.pool("viewers", MostAnswers)
+  @volatile private var isStoppedHere = false
   @volatile private var saved: Option[String] = None
   @volatile private var files: Option[Vector[String]] = None
 
   private val actions: Map[String, () => Unit] = Map(
-    "stop" -> (() => cancellation.request()),
+    "stop" -> (() => stop()),
     "keep" -> (() => observer.keepsOn.foreach(keeps => observer.keepOn(!keeps))),
     "save" -> (() => saved = Some(save(observer.rendering))),
     "end" -> (() => ended.countDown())
@@ -61,23 +62,25 @@ final class LiveView(
   /** Address of the page. */
   def link: String = server.access.link
 
-  /** Waits until viewers need the page no longer: until one asks for the end, if the page stays,
-    * otherwise a moment, until all have the last image. A cancellation after the end ends it too.
+  /** Waits until viewers need the page no longer: if it stays, until one asks for the end or the
+    * program is interrupted; then a moment, until all have the last image.
     *
     * @param written all files of the rendering
     */
   def await(written: Vector[String]): Unit =
     files = Some(written)
-    if stays then
-      val wasRequested = cancellation.isRequested
-      while !ended.await(100, TimeUnit.MILLISECONDS) &&
-        (wasRequested || !cancellation.isRequested)
-      do ()
-    else
-      val begin = System.nanoTime
-      while !viewers.haveAll && System.nanoTime - begin < Patience &&
-        !ended.await(50, TimeUnit.MILLISECONDS)
-      do ()
+    while remains && !ended.await(100, TimeUnit.MILLISECONDS) do ()
+    val begin = System.nanoTime
+    while !viewers.haveAll && System.nanoTime - begin < Patience &&
+      !ended.await(50, TimeUnit.MILLISECONDS)
+    do ()
+
+  private def stop(): Unit =
+    isStoppedHere ||= !cancellation.isRequested
+    cancellation.request()
+
+  /** The page's own button stops the rendering, not the page. */
+  private def remains: Boolean = stays && (isStoppedHere || !cancellation.isRequested)
 
   def close(): Unit =
     server.close()
@@ -107,7 +110,7 @@ final class LiveView(
       observer.points,
       viewers.count,
       observer.keepsOn,
-      stays,
+      remains,
       saved,
       files
     )

@@ -125,3 +125,13 @@ class EarlyInterruptSuite extends AnyFunSuite:
       running.interrupt()
       running.interrupt()
       assert(running.ended().code == 130)
+
+  test("an interrupt while it renders ends a page that stays, too"):
+    inFolder: folder =>
+      val running = Running(folder, endless ++ Seq("--watch", "0", "--watch-after"))
+      running.awaits("watch at")
+      Thread.sleep(300)
+      running.interrupt()
+      val ended = running.ended()
+      assert(ended.code == 130 && ended.err.contains("stopping"), ended)
+      assert(Files.exists(folder.resolve("a.exr")))

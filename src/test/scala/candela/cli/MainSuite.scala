@@ -4,6 +4,8 @@ import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import scala.jdk.CollectionConverters.*
+
 class MainSuite extends AnyFunSuite:
 
   private def run(args: String*): (Int, Captured) = Captured.run(args*)
@@ -58,3 +60,14 @@ class MainSuite extends AnyFunSuite:
       assert(captured.err.contains(" 2 | Tranlate 0 0 5"))
       assert(captured.err.contains("did you mean `Translate`?"))
       assert(!captured.err.contains("\tat "))
+
+  test("Java adds no warnings of its own"):
+    TempFolder.use: folder =>
+      val scene = Files.writeString(folder.resolve("a.pbrt"), "WorldBegin Shape \"sphere\"")
+      val java = ProcessHandle.current.info.command.orElse("java")
+      val classes = System.getProperty("java.class.path")
+      val words = Vector(java, "-XX:TieredStopAtLevel=1", "-cp", classes, "candela.cli.Main") ++
+        Vector("check", scene.toString)
+      val process = ProcessBuilder(words.asJava).redirectErrorStream(true).start()
+      val printed = String(process.getInputStream.readAllBytes)
+      assert(process.waitFor() == 0 && !printed.contains("WARNING"), printed)

@@ -1,6 +1,9 @@
 package candela.cli
 
+import candela.color.Rgb
 import candela.image.ImageFiles
+import candela.render.TinyPlan
+import candela.scenefile.{Dialect, SceneDescription}
 
 import java.nio.file.Files
 
@@ -35,7 +38,9 @@ class PreviewCommandSuite extends AnyFunSuite:
     TempFolder.use: folder =>
       val file = folder.resolve("s.pbrt")
       val glass = "Material \"dielectric\" \"spectrum eta\" \"glass-BK7\""
-      Files.writeString(file, s"Integrator \"path\" WorldBegin $glass Shape \"sphere\"")
+      // Small: a busy machine may not end a larger one's first pass in time
+      val film = "Film \"rgb\" \"integer xresolution\" 12 \"integer yresolution\" 8"
+      Files.writeString(file, s"$film Integrator \"path\" WorldBegin $glass Shape \"sphere\"")
       def run(options: String*) =
         val captured = Captured()
         val words = Seq("preview", file.toString, "--outfile", s"$folder/a.png") ++ options
@@ -43,3 +48,16 @@ class PreviewCommandSuite extends AnyFunSuite:
         captured.err
       assert(run() == "")
       assert(run("--verbose").contains("dispersion of \"dielectric\" needs"))
+
+  test("discarded samples are told, without options that preview does not have"):
+    TempFolder.use: folder =>
+      object Sick extends SceneLoader:
+        private val plan = TinyPlan(): (where, _) =>
+          if where.x == 3 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else Rgb.White
+        def load(scene: String, options: Options): LoadedScene =
+          LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+      val captured = Captured()
+      val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png")
+      assert(Main.run(words, captured.terminal, Sick) == 0)
+      val where = "the first at pixel (3, 0), sample 2"
+      assert(captured.err.endsWith(s"samples discarded: NaN or infinite, $where\n"), captured.err)

@@ -117,6 +117,20 @@ class WatchingSuite extends AnyFunSuite:
       val samples = raw", (\d+) spp, ".r.findFirstMatchIn(running.out).get.group(1)
       assert(samples.toInt >= 160)
 
+  test("a page that stays outlives a rendering that its button stopped"):
+    TempFolder.use: folder =>
+      val words = Vector("--watch", "0", "--watch-after")
+      val running = Watched(plan(1_000_000_000, folder.resolve("a.exr")), words*)
+      def state = ujson.read(WebClient.get(s"${running.link}state").text)
+      val _ = WebClient.post(s"${running.link}stop")
+      val late =
+        candela.testing.Chromium.eventually("files")(Some(state).filter(!_("files").isNull))
+      assert(late("stage").str == "stopped" && late("stays").bool)
+      Thread.sleep(300)
+      assert(running.isRunning)
+      val _ = WebClient.post(s"${running.link}end")
+      assert(running.ended == 130)
+
   test("the page needs nothing but its server"):
     stays("--watch", "0"): (running, _) =>
       val page = WebClient.get(running.link).text
