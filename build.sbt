@@ -65,8 +65,32 @@ val builtOnce = Seq(
   "candela.bsdf.layered.RoughCoat$*"
 ).map(code => s"-XX:CompileCommand=MaxNodeLimit,$code::*,1") // an option of JDK 22 and later
 
+val compiled = Seq(
+  scalacOptions ++= Seq("-encoding", "UTF-8"),
+  scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
+  scalacOptions += "-java-output-version:17"
+)
+
+/** The renderer without the program: no command line, no pages. Its tests are among the root's. */
+lazy val core: Project = (project in file("src/core"))
+  .settings(
+    name := "candela-core",
+    description := "A physically based renderer for pbrt and Mitsuba scenes: the library",
+    target := (ThisBuild / baseDirectory).value / "target" / "core",
+    Compile / scalaSource := baseDirectory.value / "scala",
+    Compile / resourceDirectory := baseDirectory.value / "resources",
+    compiled,
+    libraryDependencies ++= Seq("lwjgl", "lwjgl-tinyexr", "lwjgl-stb").flatMap(module =>
+      ("org.lwjgl" % module % lwjgl) +:
+        lwjglNatives.map(n => "org.lwjgl" % module % lwjgl classifier n)
+    ),
+    Compile / sourceGenerators += versionSource
+  )
+
+/** The program: commands, pages, reports, suites, converters. */
 lazy val root: Project = (project in file("."))
-  .aggregate(LocalProject("cluster"))
+  .dependsOn(core)
+  .aggregate(core, LocalProject("cluster"))
   .enablePlugins(UniversalPlugin)
   .settings(
     name := "candela",
@@ -75,26 +99,17 @@ lazy val root: Project = (project in file("."))
     scalafmtAll / aggregate := true,
     scalafmtCheckAll / aggregate := true,
     description := "A physically based renderer for pbrt scenes",
-    scalacOptions ++= Seq("-encoding", "UTF-8"),
-    scalacOptions ++= Seq("-deprecation", "-feature", "-Wunused:all", "-Wvalue-discard", "-Werror"),
-    scalacOptions += "-java-output-version:17",
+    compiled,
     libraryDependencies ++= Seq(
       "com.github.scopt" %% "scopt" % "4.1.0",
       "com.lihaoyi" %% "scalatags" % "0.13.1",
       "com.lihaoyi" %% "ujson" % "4.1.0",
       "com.typesafe" % "config" % "1.4.3",
-      "org.lwjgl" % "lwjgl" % lwjgl,
-      "org.lwjgl" % "lwjgl-tinyexr" % lwjgl,
-      "org.lwjgl" % "lwjgl-stb" % lwjgl,
       "org.scalatest" %% "scalatest" % "3.2.19" % Test,
       "org.scalacheck" %% "scalacheck" % "1.19.0" % Test,
       "org.scalatestplus" %% "scalacheck-1-18" % "3.2.19.0" % Test
     ),
-    libraryDependencies ++= lwjglNatives.flatMap(n =>
-      Seq("lwjgl", "lwjgl-tinyexr", "lwjgl-stb").map(m => "org.lwjgl" % m % lwjgl classifier n)
-    ),
     Compile / mainClass := Some("candela.cli.Main"),
-    Compile / sourceGenerators += versionSource,
 
     // `sbt run`: a separate JVM in the project folder, attached to the terminal.
     Compile / run / javaOptions ++= jvmOptions ++ memory,
@@ -118,7 +133,7 @@ lazy val cluster: Project = (project in file("cluster"))
   .dependsOn(root % "compile->compile;test->test")
   .settings(
     name := "candela-cluster",
-    scalacOptions ++= (root / scalacOptions).value,
+    compiled,
     libraryDependencies ++= Seq(
       ("org.apache.spark" %% "spark-core" % spark % Provided).cross(CrossVersion.for3Use2_13)
     ),

@@ -7,7 +7,8 @@ import java.nio.file.{Files, Path}
 
 /** The floors of docs/ARCHITECTURE.md, kept true; and each rule seen to fail where it should. */
 class ArchitectureSuite extends AnyFunSuite:
-  private lazy val main = SourceText.under(Path.of("src/main/scala/candela"))
+  private lazy val core = SourceText.under(Path.of("src/core/scala/candela"))
+  private lazy val main = core ++ SourceText.under(Path.of("src/main/scala/candela"))
   private lazy val tests = SourceText.under(Path.of("src/test/scala/candela"))
 
   private def holds(wrong: Vector[String]): Assertion =
@@ -19,6 +20,10 @@ class ArchitectureSuite extends AnyFunSuite:
   test("every package has its floor, and every floor its package"):
     holds(Architecture.packages(main))
     assert(main.flatMap(Architecture.home).toSet == Architecture.allowed.keySet)
+
+  test("the core is the two towers and the bridge, and all of them"):
+    val towers = Architecture.runtime ++ Architecture.file ++ Architecture.bridge :+ "mitsuba"
+    assert(core.flatMap(Architecture.home).toSet == towers.toSet)
 
   test("every use points to a lower floor"):
     holds(Architecture.floors(main))
