@@ -172,7 +172,7 @@ final class RenderCommand(
         val films =
           keeping.map(_.path).filter(_ => paths.isEmpty && checkpointer.forall(_.failure.isEmpty))
         if wanted.size < paths.size && !options.quiet then
-          terminal.err.println(Summary.kept(paths.diff(wanted)))
+          terminal.err.println(Summary.kept(paths.diff(wanted), isLate))
         summarise(written ++ films, loaded, rendering, writeSeconds)
         // A preview has neither goals nor options of its own to reach them
         if !options.preview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
@@ -314,6 +314,9 @@ final class RenderCommand(
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata) ++
       digest.map(Sequence.Digest -> _)
 
+  /** Whether a rendering without samples ended by its time, and not by its user. */
+  private def isLate: Boolean = goals.time.isDefined && !cancellation.isRequested
+
   private def summarise(
       written: Vector[Path],
       loaded: LoadedScene,
@@ -326,7 +329,7 @@ final class RenderCommand(
       if options.verbose then
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
         rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
-      terminal.out.println(Summary.result(written, rendering, loaded.standIns))
+      terminal.out.println(Summary.result(written, rendering, loaded.standIns, isLate))
       terminal.out.flush()
 
 /** Prints the features of a plan, one line each: the choices that the builder made. */

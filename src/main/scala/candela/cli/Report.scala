@@ -102,14 +102,16 @@ final class Report(
 
   private def tooDeep(): ExitCode =
     val message = "the scene is nested too deeply: Java's stack is full"
-    errors(Vector(Problem.general(message, Some("raise the limit of the stack, e.g. by -Xss64m"))))
+    errors(Vector(Problem.general(message, Some(raised("-Xss64m")))))
 
   private def outOfMemory(): ExitCode =
     val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
     val message = s"out of memory: Java's heap is limited to ${limit}B"
+    errors(Vector(Problem.general(message, Some(raised("-Xmx8g")))))
+
+  private def raised(limit: String): String =
     val variable = Report.heapVariable(sys.props.getOrElse("java.class.path", ""), sys.env)
-    val help = s"raise the limit, e.g. with the environment variable $variable=-Xmx8g"
-    errors(Vector(Problem.general(message, Some(help))))
+    s"raise the limit, e.g. with the environment variable $variable=$limit"
 
   private def bug(e: Throwable): ExitCode =
     val (place, cause) = e match

@@ -8,12 +8,18 @@ import java.nio.file.Path
 /** The final lines of a rendering. */
 object Summary:
 
-  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of an
-    * interrupted rendering, the samples done.
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of a
+    * rendering that ended before its first sample or was interrupted, the samples done.
     *
     * @param standIns number of missing items replaced by placeholders
+    * @param isLate   whether its time was over
     */
-  def result(written: Vector[Path], r: Rendering, standIns: Int = 0): String =
+  def result(
+      written: Vector[Path],
+      r: Rendering,
+      standIns: Int = 0,
+      isLate: Boolean = false
+  ): String =
     val missing = placeholders(standIns) + darkness(r)
     val names = written.mkString(", ")
     if r.isComplete && r.seconds == 0 then
@@ -25,8 +31,13 @@ object Summary:
       s"wrote $names  $size, ${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
     else
       val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
-      val number = if r.isOpenEnded then done else s"$done of ${r.samplesPerPixel}"
-      s"interrupted: wrote $names with $number samples per pixel${ofThisRun(r)}$missing"
+      val number =
+        if !r.isOpenEnded then s"$done of ${r.samplesPerPixel} samples"
+        else if r.samplesDone > 1 then s"$done samples"
+        else s"$done sample"
+      s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
+
+  private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
 
   /** The seconds are those of this run alone. */
   private def ofThisRun(r: Rendering): String =
@@ -47,9 +58,10 @@ object Summary:
   /** One discarded sample among so many is not worth a word in the last line. */
   private val LeastLoss = 1000
 
-  /** Of images that an interrupted rendering did not replace. */
-  def kept(images: Vector[Path]): String =
-    s"interrupted: kept ${images.mkString(", ")}: the new image has less than 1 sample per pixel"
+  /** Of images that a rendering without samples did not replace. */
+  def kept(images: Vector[Path], isLate: Boolean): String =
+    val names = images.mkString(", ")
+    s"${ended(isLate)}: kept $names: the new image has less than 1 sample per pixel"
 
   /** `continuing x.film at 12 samples per pixel` */
   def continues(film: FilmFile): String =

@@ -135,7 +135,7 @@ object SuitePage:
       p.firstImage.fold("–")(Numbers.short),
       p.curve.memory.fold("–")(m => Numbers.fixed(m * 1e-6, 0)),
       p.others.fold("–")(Numbers.percentage) + (if p.isDisturbed then " ⚠" else "")
-    ).map(stringFrag)
+    ).map(cell => stringFrag(cell.replace("± ", "±\u00a0")))
 
   private def range(i: Interval): String =
     val known = if i.isKnown then s" (${Numbers.short(i.low)} to ${Numbers.short(i.high)})" else ""

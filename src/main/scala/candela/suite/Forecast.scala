@@ -39,7 +39,7 @@ private[suite] final class Forecast(runs: Vector[Forecast.Run]):
 
   def words: String =
     val time = secondsLeft match
-      case None => ""
+      case None | Some(0.0) => ""
       case Some(s) if s < 90 => f", about $s%.0f s left"
       case Some(s) => f", about ${s / 60}%.0f min left"
     s"[$done of ${done + left.values.sum}$time]"

@@ -67,6 +67,9 @@ final class SuiteRunner(
   private var waiting = Vector.empty[SuiteScene]
   private var forecast = Forecast(Vector.empty)
 
+  /** Of the longest name of a run, in characters. */
+  private var nameWidth = 0
+
   /** What could not be run, and why; and what has not been run yet. */
   def omissions: Vector[(String, String)] =
     val begun = pictures.keySet.map(_.scene)
@@ -94,6 +97,7 @@ final class SuiteRunner(
         false
     val plans = scenes.map(scene => scene -> programs.flatMap(entryOf(_, scene)))
     forecast = Forecast(plans.flatMap(_._2).flatMap(Forecast.runs(_, suite)))
+    nameWidth = plans.flatMap(_._2).map(e => named(e, 1000).length).maxOption.getOrElse(0)
     waiting = scenes
     plans.foldLeft(Vector.empty[Result]): (before, plan) =>
       val (scene, entries) = plan
@@ -207,9 +211,8 @@ final class SuiteRunner(
     if isCancelled() then None else render(job, judge)
 
   private def render(job: Job, judge: Judge): Option[Double] =
-    val Entry(program, scene, _) = job.entry
     val out = scratch.resolve("out.exr")
-    val name = s"${scene.title}, ${program.title}, ${job.samples} spp"
+    val name = named(job.entry, job.samples)
     val before = ProcessorTimes.now
     val outcome = commands.run(words(job, out), out, suite.timeout)
     val share = before.flatMap(_.othersSince)
@@ -221,13 +224,14 @@ final class SuiteRunner(
         None
       case Outcome.Done(seconds, memory) =>
         try
-          val image = shown(ImageFiles.read(out), program)
+          val image = shown(ImageFiles.read(out), job.entry.program)
           val error = judge.take(job, seconds, memory, image)
           val counted = if job.step == Job.WarmUp then "warm-up" else s"seed ${job.seed}"
           forecast.ended(job, Some(seconds))
           for s <- share if job.isPoint do
             shares(job.entry) = shares.getOrElse(job.entry, Vector.empty) :+ (seconds, s)
-          say(f"$name%-48s $counted%-8s $seconds%8.2f s  $error  " + forecast.words)
+          val what = s"${name.padTo(nameWidth, ' ')}  ${counted.padTo(7, ' ')}"
+          say(f"$what $seconds%7.2f s  $error  " + forecast.words)
           keep(job, image)
           Some(seconds)
         catch
@@ -235,6 +239,9 @@ final class SuiteRunner(
             forecast.ended(job, None)
             leaveOut(name, e.getMessage)
             None
+
+  private def named(entry: Entry, samples: Int): String =
+    s"${entry.scene.title}, ${entry.program.title}, $samples spp"
 
   private def shown(image: Image, program: Program): Image =
     program.layer.fold(image.toRgb): layer =>

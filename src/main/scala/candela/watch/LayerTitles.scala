@@ -9,7 +9,7 @@ private[watch] object LayerTitles:
   /** @param names as in [[Snapshot.layers]] */
   def of(names: Vector[String]): Vector[LiveLayer] = names.map:
     case "color" => LiveLayer("color", "color", "the image")
-    case "noise" => LiveLayer("noise", "noise", "expected standard deviation of the color")
+    case "noise" => LiveLayer("noise", "noise", "expected standard deviation of the colour")
     case group @ s"Combined_$light" =>
       LiveLayer(group, s"light group $light", "light of these lights only")
     case band @ s"S0.$nanometres" =>

@@ -61,3 +61,17 @@ class PreviewCommandSuite extends AnyFunSuite:
       assert(Main.run(words, captured.terminal, Sick) == 0)
       val where = "the first at pixel (3, 0), sample 2"
       assert(captured.err.endsWith(s"samples discarded: NaN or infinite, $where\n"), captured.err)
+
+  test("a preview whose time is over before its first sample says so"):
+    TempFolder.use: folder =>
+      object Slow extends SceneLoader:
+        private val plan = TinyPlan(): (_, _) =>
+          Thread.sleep(400)
+          Rgb.White
+        def load(scene: String, options: Options): LoadedScene =
+          LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+      val captured = Captured()
+      val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png", "--nthreads", "1")
+      assert(Main.run(words, captured.terminal, Slow) == 130)
+      val told = s"out of time: wrote $folder/a.png with less than 1 of 5 samples per pixel\n"
+      assert(captured.out == told)

@@ -90,6 +90,14 @@ class PageMannersSuite extends AnyFunSuite:
       page.until("document.querySelector('.stage').dataset.zoomed == 'true'")
       assert(top == still)
 
+  test("on a screen, all columns of the results are seen; pairs of numbers wrap"):
+    opened(suite): page =>
+      page.resize(1440, 900)
+      val hidden = page.value("[...document.querySelectorAll('.scroll')].filter(b => " +
+        "b.scrollWidth > b.clientWidth && b.querySelector('th:last-child').textContent == " +
+        "'other programs').length").num
+      assert(hidden == 0)
+
   test("a wide table scrolls in its box, which the keyboard reaches"):
     opened(suite): page =>
       page.resize(390, 900)

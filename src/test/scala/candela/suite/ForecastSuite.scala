@@ -42,7 +42,7 @@ class ForecastSuite extends AnyFunSuite:
     assert(f.words == "[3 of 5, about 2 s left]")
     f.ended(job(entries(0), 0), None)
     f.dropFrom(entries(0), 1, hasFirstImage = false)
-    assert(f.words == "[4 of 4, about 0 s left]")
+    assert(f.words == "[4 of 4]")
 
   test("first images are foretold, unless a count is one"):
     def left(samples: Vector[Int], found: Option[Boolean]) =
