@@ -67,6 +67,7 @@ object Architecture:
     measure ++ Set("bsdf", "bsdf.microfacet", "lights", "sampling", "scenefile")
   private val mitsuba = Set("base", "math", "color", "scenefile", "build.shapes")
   private val towers = (runtime ++ file).toSet
+  private val job = towers ++ bridge + "mitsuba"
 
   /** What each package may use beside itself. */
   val allowed: Map[String, Set[String]] =
@@ -76,12 +77,11 @@ object Architecture:
       "measure" -> measure,
       "convert" -> convert,
       "mitsuba" -> mitsuba,
+      "job" -> job,
       "report" -> report,
       "suite" -> (report + "report"),
       "watch" -> (report ++ Set("film", "render", "report")),
-      "cli" -> (towers ++ bridge ++ Set(
-        "measure", "convert", "mitsuba", "report", "suite", "watch"
-      ))
+      "cli" -> (job ++ Set("job", "measure", "convert", "report", "suite", "watch"))
     )
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */

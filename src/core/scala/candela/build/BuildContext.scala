@@ -2,7 +2,7 @@ package candela.build
 
 import java.util.IdentityHashMap
 
-import candela.base.{SceneFolder, SourcePos}
+import candela.base.{Parallel, SceneFolder, SourcePos}
 import candela.build.lights.{AreaLightPlan, AreaLights}
 import candela.build.recipe.*
 import candela.build.settings.OptionRecipe
@@ -62,13 +62,17 @@ private[build] final class BuildContext(
 
 private[build] object BuildContext:
 
-  def apply(whole: SceneDescription, options: BuildOptions): BuildContext =
+  def apply(
+      whole: SceneDescription,
+      settings: RenderSettings,
+      pool: Parallel = Parallel.Alone
+  ): BuildContext =
     val isBlind = whole.dialect == Dialect.V4 && whole.worldToCamera.start.isFlat
     val description = if isBlind then background(whole) else whole
     // pbrt-v4 multiplies spectra, the older ones sRGB components
     val isSharp = description.dialect == Dialect.V4 && !description.isMitsubas
     val basis = if isSharp then ColorBasis.Sharp else ColorBasis.Srgb
-    val problems = Findings(options.keepGoing, description.lost, description.errors)
+    val problems = Findings(settings.reading.keepGoing, description.lost, description.errors)
     if isBlind then
       problems.warn(
         whole.camera.fold(start(whole))(_.at),
@@ -76,7 +80,7 @@ private[build] object BuildContext:
       )
     val origin = RenderOrigin.of(description)
     val there = origin.around(description)
-    val mode = ColorPlan.mode(options.colorMode, description)
+    val mode = ColorPlan.mode(settings.colorMode, description)
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
       // Mitsuba does not filter textures over footprints
@@ -89,12 +93,12 @@ private[build] object BuildContext:
         )
       val allowance = description.folder.allowance
       val resources =
-        new Resources(basis, options.pool, options.seed, mayBeSpectral, switches, allowance)
+        new Resources(basis, pool, settings.seed, mayBeSpectral, switches, allowance)
       new BuildContext(there, origin, resources, problems)
     val plain = context(Switches())
     val statement = plain.unwritten("Option", "")
       .copy(params = description.options, folder = description.folder)
-    context(options.switches.over(OptionRecipe.build(plain.site(statement))))
+    context(settings.over(OptionRecipe.build(plain.site(statement))))
 
   /** The start of the scene's file, if it has one. */
   private def start(scene: SceneDescription): SourcePos =

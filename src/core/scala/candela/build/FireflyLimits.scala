@@ -30,9 +30,9 @@ private[build] final class FireflyLimits(context: BuildContext, fireflies: Firef
 
 private[build] object FireflyLimits:
   /** What `--explain` says, if anything is done. */
-  def feature(options: BuildOptions): Option[(String, String)] =
-    val what = options.fireflies match
-      case _ if options.preview => None
+  def feature(settings: RenderSettings): Option[(String, String)] =
+    val what = settings.fireflies match
+      case _ if settings.preview => None
       case Fireflies.Kept => None
       case Fireflies.Reweighted =>
         Some("light that few samples have found is left out; 48 bytes per pixel and level of " +

@@ -6,29 +6,29 @@ import candela.guiding.GuidingMode
 import candela.render.RenderMethod
 
 /** Warns of options of the command line that the scene's integrator does not heed. */
-private[build] final class IdleSettings(context: BuildContext, options: BuildOptions):
+private[build] final class IdleSettings(context: BuildContext, settings: RenderSettings):
 
   def check(world: World): Unit =
     val method = world.method
     val isGuided = method match
       case RenderMethod.Guided(_, _, _) => true
       case _ => false
-    idle("guiding", options.switches.guiding != GuidingMode.Off && !isGuided):
+    idle("guiding", settings.guiding != GuidingMode.Off && !isGuided):
       if context.isV2 && context.description.volumes.nonEmpty then
         "paths among pbrt-v2's volumes are not guided"
       else s"$integrator is not guided; \"path\" and \"volpath\" are"
     val takesNone = !method.takesCameraSamples
     val chains = s"the Markov chains of $integrator take no points of a sampler"
-    val isNamed = options.points match
+    val isNamed = settings.points match
       case PointChoice.Named(_) => true
       case _ => false
     idle("sampler", takesNone && isNamed)(chains)
-    idle("disable-pixel-jitter", takesNone && options.switches.centers)(chains)
-    idle("disable-wavelength-jitter", options.switches.oneColorSet && !world.color.isSpectral):
+    idle("disable-pixel-jitter", takesNone && settings.centers)(chains)
+    idle("disable-wavelength-jitter", settings.oneColorSet && !world.color.isSpectral):
       "colours are three numbers here; --color spectral takes wavelengths"
     val isDisplaced = context.description.shapes.exists(_.shape.param("displacement").isDefined) ||
       context.description.objects.values.exists(_.exists(_.shape.param("displacement").isDefined))
-    idle("displacement-edge-scale", options.switches.edgeScale.isDefined && !isDisplaced):
+    idle("displacement-edge-scale", settings.edgeScale.isDefined && !isDisplaced):
       "no mesh is displaced"
 
   private def idle(option: String, isSo: Boolean)(why: => String): Unit =

@@ -4,8 +4,6 @@ import candela.accel.tracing.Hierarchies
 import candela.base.{Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
-import candela.build.recipe.Switches
-import candela.build.sampling.PointChoice
 import candela.film.{
   Development, FilterReach, Fireflies, Layer, PixelBounds, ScreenMotion, SpectralBands,
   VisibleSurface
@@ -17,45 +15,17 @@ import candela.sampling.{CenteredSampler, IndependentSampler}
 import candela.scene.{Footprints, SurfaceNames}
 import candela.scenefile.SceneDescription
 
-/** Options of the command line, which override or extend the scene.
+/** How a scene is built and its rendering continued: none of it is an image's identity.
   *
-  * @param spp         samples per pixel, overrides the scene
-  * @param quick       if true, renders a sixteenth of the pixels with one sample each
-  * @param preview     if true, reduces the image and shades it by a headlight, whatever the scene's
-  *                     integrator, lights and film
-  * @param cropWindow  x0, x1, y0, y1 as fractions of the image, overrides the scene
-  * @param keepGoing   if true, replaces missing items
-  * @param layers      requested AOVs, in addition to the scene's
-  * @param color       whether rendering is spectral
-  * @param lightGroups how to group lights for their layer
-  * @param pool        executes divisible work
-  * @param switches    settings of the whole scene
-  * @param pixels      pixels of the image to render, overrides the scene
-  * @param points      which sample points to take
-  * @param fireflies   what is done about them
-  * @param taken       samples per pixel to take, if not as many as the points are made for
-  * @param footprint   size of a sample's footprint, in pixels, if not that of their number
+  * @param pool      executes divisible work
+  * @param taken     samples per pixel to take, if not as many as the points are made for
+  * @param footprint size of a sample's footprint, in pixels, if not that of their number
   */
-final case class BuildOptions(
-    spp: Option[Int] = None,
-    seed: Int = 0,
-    quick: Boolean = false,
-    preview: Boolean = false,
-    cropWindow: Option[(Float, Float, Float, Float)] = None,
-    keepGoing: Boolean = false,
-    layers: Vector[Layer] = Vector.empty,
-    color: ColorMode = ColorMode.Auto,
-    lightGroups: LightGrouping = LightGrouping.Statements,
+final case class BuildControl(
     pool: Parallel = Parallel.Alone,
-    switches: Switches = Switches(),
-    pixels: Option[PixelBounds] = None,
-    points: PointChoice = PointChoice.Best,
-    fireflies: Fireflies = Fireflies.Kept,
     taken: Option[Int] = None,
     footprint: Option[Float] = None
-):
-  /** A preview shows albedos, for which three numbers do. */
-  def colorMode: ColorMode = if preview then ColorMode.Rgb else color
+)
 
 /** Builds a render plan from a description. Connects scene files to rendering.
   *
@@ -68,13 +38,18 @@ object SceneBuilder:
   /** Returns the plan and warnings about unsupported features. Throws [[SceneError]] with all
     * errors, including those of the description.
     */
-  def build(description: SceneDescription, options: BuildOptions): (RenderPlan, Vector[Problem]) =
-    val context = BuildContext(description, options)
-    val image = ImageSetup.of(context, options)
+  def build(
+      description: SceneDescription,
+      settings: RenderSettings = RenderSettings(),
+      control: BuildControl = BuildControl()
+  ): (RenderPlan, Vector[Problem]) =
+    val context = BuildContext(description, settings, control.pool)
+    val image = ImageSetup.of(context, settings)
+    val taken = control.taken.orElse(Option.when(settings.isEndless)(RenderPlan.Endless))
     def integratorIn(context: BuildContext) =
-      if options.preview then Preview.integrator(context) else integratorPlan(context)
+      if settings.preview then Preview.integrator(context) else integratorPlan(context)
     val integrator = integratorIn(context)
-    val sampling = SamplingSetup.of(context, options, image, integrator)
+    val sampling = SamplingSetup.of(context, settings, image, integrator, control.footprint)
     val camera = CameraSetup.of(context, image)
     for layer <- image.layers if layer.needsFootprints do
       context.resources.askForFootprints(s"the image's ${layer.channels.mkString(" and ")}")
@@ -82,7 +57,7 @@ object SceneBuilder:
       val cone = Option.when(context.isV4 && !context.resources.switches.unfiltered):
         camera.cone(image, sampling.footprint)
       Footprints(integrator.followsSpecular, cone)
-    val crop = image.crop(integrator.window, options)
+    val crop = image.crop(integrator.window, settings)
     if crop.pixels > MostPixels then
       context.problems.error(
         context.placeOf(context.description.film),
@@ -90,8 +65,8 @@ object SceneBuilder:
         Some("give the film a crop window, or render parts of it with --cropwindow")
       )
     checkLimits(context, image, crop, sampling)
-    val samples = crop.pixels * options.taken.getOrElse(sampling.sampler.samplesPerPixel)
-    Hierarchies.expect(samples, options.pool)
+    val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
+    Hierarchies.expect(samples, control.pool)
     val world =
       WorldBuilder(
         context,
@@ -99,16 +74,17 @@ object SceneBuilder:
         integratorIn,
         camera.shutter,
         samples,
-        options.colorMode,
+        settings.colorMode,
         image.film.camera,
-        Option.when(image.layers.exists(_.isLight) || dimsLight(options))(options.lightGroups)
+        Option.when(image.layers.exists(_.isLight) || dimsLight(settings)):
+          settings.lightGroups.getOrElse(LightGrouping.Statements)
       ).build(footprints)
     warnOfLimits(context, image, camera, world.method)
-    if !options.preview then
-      FireflyLimits(context, options.fireflies).check(world.method)
-      IdleSettings(context, options).check(world)
+    if !settings.preview then
+      FireflyLimits(context, settings.fireflies).check(world.method)
+      IdleSettings(context, settings).check(world)
     context.problems.stopAtErrors()
-    val made = plan(context, options, image, crop, integrator, sampling, camera, world)
+    val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
     (made, context.problems.result)
 
   /** What a film and its samples need, and how long paths are.
@@ -177,13 +153,14 @@ object SceneBuilder:
     val why = if scene.dialectReason.isEmpty then "" else s", ${scene.dialectReason}"
     scene.dialect.toString.toLowerCase + why
 
-  private def dimsLight(options: BuildOptions): Boolean = options.fireflies match
-    case Fireflies.Clamped(_) => !options.preview
+  private def dimsLight(settings: RenderSettings): Boolean = settings.fireflies match
+    case Fireflies.Clamped(_) => !settings.preview
     case _ => false
 
   private def plan(
       context: BuildContext,
-      options: BuildOptions,
+      settings: RenderSettings,
+      taken: Option[Int],
       image: ImageSetup,
       crop: PixelBounds,
       integrator: IntegratorPlan,
@@ -202,8 +179,8 @@ object SceneBuilder:
       image.layers.isEmpty && bands.isEmpty && method.canShareSamples && !switches.centers &&
         FilterReach.isUseful(image.filter)
     val usesSampler = method.takesCameraSamples
-    val samples = options.taken.getOrElse(sampling.sampler.samplesPerPixel)
-    if usesSampler && !options.preview then
+    val samples = taken.getOrElse(sampling.sampler.samplesPerPixel)
+    if usesSampler && !settings.preview then
       for remark <- sampling.remarks do
         context.problems.warn(context.description.sampler.map(_.at), remark)
     val moves = camera.motion.isDefined || world.moves
@@ -217,12 +194,12 @@ object SceneBuilder:
       sampler =
         if usesSampler then
           if switches.centers then CenteredSampler(sampling.sampler, moves) else sampling.sampler
-        else IndependentSampler(sampling.samples.getOrElse(1), options.seed),
+        else IndependentSampler(sampling.samples.getOrElse(1), settings.seed),
       method = method,
       basis = if world.color.isSpectral then ColorBasis.Srgb else context.resources.basis,
-      limit = if options.preview then None else film.limit(exposure),
+      limit = if settings.preview then None else film.limit(exposure),
       development =
-        if options.preview then Development()
+        if settings.preview then Development()
         else film.development.copy(scale = film.development.scale * exposure),
       filename = film.filename,
       features = Vector(
@@ -233,7 +210,7 @@ object SceneBuilder:
         "layers" -> described(image.layers, film.development.bands),
         "sampler" -> (if usesSampler then sampling.points else "none: Markov chains"),
         "samples" -> (if shares then "splatted under the filter" else "one pixel each")
-      ) ++ FireflyLimits.feature(options) ++ guiding(context, method, samples, crop.pixels),
+      ) ++ FireflyLimits.feature(settings) ++ guiding(context, method, samples, crop.pixels),
       differentialScale =
         if context.resources.footprintUses.isEmpty || switches.unfiltered then 0f
         else sampling.footprint,
@@ -248,9 +225,9 @@ object SceneBuilder:
       bands = bands,
       isCentered = switches.centers,
       errors = for r <- switches.reference; f <- switches.errors yield ErrorFile(r, f),
-      fireflies = if options.preview then Fireflies.Kept else options.fireflies,
+      fireflies = if settings.preview then Fireflies.Kept else settings.fireflies,
       lights = world.scene.lights.length,
-      samples = options.taken
+      samples = taken
     )
 
   /** What is said of guiding, if it was asked for. */

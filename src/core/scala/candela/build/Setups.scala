@@ -28,7 +28,7 @@ private[build] final case class ImageSetup(
     *
     * @param window the integrator's window of the full image, if any
     */
-  def crop(window: Option[PixelBounds], options: BuildOptions): PixelBounds =
+  def crop(window: Option[PixelBounds], settings: RenderSettings): PixelBounds =
     // The image may be smaller than the film. In Double: a pixel's number must not be rounded up
     def x(at: Double) = Math.ceil(at * width / film.width).toInt
     def y(at: Double) = Math.ceil(at * height / film.height).toInt
@@ -40,16 +40,16 @@ private[build] final case class ImageSetup(
     )
     def edge(part: Float, size: Int) =
       candela.math.clamp(Math.ceil((size * part).toDouble).toInt, 0, size)
-    def byParts(w: (Float, Float, Float, Float)) =
-      PixelBounds(edge(w._1, width), edge(w._3, height), edge(w._2, width), edge(w._4, height))
+    def byParts(x0: Float, x1: Float, y0: Float, y1: Float) =
+      PixelBounds(edge(x0, width), edge(y0, height), edge(x1, width), edge(y1, height))
     val c = film.crop
-    val onFilm = (options.pixels, options.cropWindow) match
-      case (Some(p), _) => clipped(p)
-      case (None, Some(parts)) => byParts(parts)
-      case (None, None) if film.inPixels =>
+    val onFilm = settings.region match
+      case RenderRegion.Window(x0, x1, y0, y1) => byParts(x0, x1, y0, y1)
+      case RenderRegion.Whole if film.inPixels =>
         clipped(PixelBounds(x(c(0)), y(c(2)), x(c(1)), y(c(3))))
-      case (None, None) => byParts((c(0), c(1), c(2), c(3)))
-    val isAsked = options.cropWindow.isDefined || options.pixels.isDefined
+      case RenderRegion.Whole => byParts(c(0), c(1), c(2), c(3))
+      case _ => clipped(settings.region.pixels.get)
+    val isAsked = settings.region != RenderRegion.Whole
     val bounds = window.filterNot(_ => isAsked).fold(onFilm): w =>
       PixelBounds(
         Math.max(onFilm.x0, x(w.x0)),
@@ -62,10 +62,12 @@ private[build] final case class ImageSetup(
         Problem(
           Severity.Error,
           None,
-          options.pixels match
+          settings.region.pixels match
             case Some(p) => s"pixels ${p.x0},${p.x1},${p.y0},${p.y1} are outside $width×$height"
             case None =>
-              val asked = options.cropWindow.fold(c.toSeq)(w => Seq(w._1, w._2, w._3, w._4))
+              val asked = settings.region match
+                case RenderRegion.Window(x0, x1, y0, y1) => Seq(x0, x1, y0, y1)
+                case _ => c.toSeq
               s"the crop window ${asked.mkString(" ")}, with `pixelbounds`, has no pixel of " +
                 s"$width×$height"
         )
@@ -73,14 +75,14 @@ private[build] final case class ImageSetup(
     bounds
 
 private[build] object ImageSetup:
-  def of(context: BuildContext, options: BuildOptions): ImageSetup =
+  def of(context: BuildContext, settings: RenderSettings): ImageSetup =
     val film = context.made(context.description.film, Films.all, context.defaults.film)
     val filter = context.made(context.description.filter, Filters.all, context.defaults.filter)
     val layers =
-      if options.preview then Vector.empty else (film.layers ++ options.layers).distinct
+      if settings.preview then Vector.empty else (film.layers ++ settings.layers).distinct
     val part =
-      if options.preview then Preview.reduction(film.width, film.height)
-      else if options.quick then 4
+      if settings.preview then Preview.reduction(film.width, film.height)
+      else if settings.quick then 4
       else 1
     ImageSetup(
       film,
@@ -111,33 +113,34 @@ private[build] object SamplingSetup:
 
   def of(
       context: BuildContext,
-      options: BuildOptions,
+      settings: RenderSettings,
       image: ImageSetup,
-      integrator: IntegratorPlan
+      integrator: IntegratorPlan,
+      footprint: Option[Float]
   ): SamplingSetup =
     val samples =
-      options.spp.orElse(Option.when(options.quick)(1)).orElse(integrator.samples)
+      settings.samples.orElse(Option.when(settings.quick)(1)).orElse(integrator.samples)
     val switches = context.resources.switches
-    val request = SamplerRequest(samples, options.seed ^ switches.seed)
+    val request = SamplerRequest(samples, settings.seed ^ switches.seed)
     val default = context.defaults.sampler
     val asked = context.made(context.description.sampler, Samplers.all, default)(request)
-    val chosen = asked.points(options.points)
+    val chosen = asked.points(settings.points)
     val points = if asked.count <= chosen.most then chosen else SamplerPlan.Best
     val sampler = points.sampler(asked.count, asked.seed, image.width, image.height)
     val replaced = Option.when(points != chosen):
       s"\"${chosen.word}\" has at most ${chosen.most} samples per pixel, not ${asked.count}; " +
         s"using ${points.meaning}"
     // pbrt rounds a scene's own number, too
-    val rounded = Option.when(options.spp.exists(_ != sampler.samplesPerPixel)):
+    val rounded = Option.when(settings.samples.exists(_ != sampler.samplesPerPixel)):
       s"\"${points.word}\" takes ${sampler.samplesPerPixel} samples per pixel, the next power " +
         s"of two, not ${asked.count}"
     val density = 1f / sqrt(sampler.samplesPerPixel.toFloat)
     SamplingSetup(
       sampler,
-      if points == chosen then asked.describe(options.points) else points.meaning,
+      if points == chosen then asked.describe(settings.points) else points.meaning,
       samples,
       if switches.centers then 1f
-      else if options.footprint.isDefined then options.footprint.get
+      else if footprint.isDefined then footprint.get
       else if context.isV4 then Math.max(SharpestV4, density)
       else density,
       replaced.toVector ++ rounded

@@ -16,7 +16,7 @@ object TextureValues:
     * built.
     */
   def last(description: SceneDescription): Option[(Float, Float, Vec3) => Rgb] =
-    val context = BuildContext(description, BuildOptions(color = ColorMode.Rgb))
+    val context = BuildContext(description, RenderSettings(color = ColorMode.Rgb))
     for t <- description.textures do
       Textures.define(t, context.stillSite(t.texture, t.textureToWorld, "a texture"))
     for

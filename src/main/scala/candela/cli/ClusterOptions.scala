@@ -30,15 +30,15 @@ private[cli] object ClusterTable:
     val local = Vector(
       "checkpoint" -> film.checkpoint.isDefined,
       "shard" -> !film.shard.isWhole,
-      "time" -> film.time.isDefined,
-      "error" -> film.error.isDefined,
+      "time" -> o.settings.goal.time.isDefined,
+      "error" -> o.settings.goal.error.isDefined,
       "report" -> o.reports.nonEmpty,
       "watch" -> o.watch.isDefined,
       "display-server" -> o.displayServer.isDefined,
       "debug" -> o.debug,
       "pixelmaterial" -> o.pixelMaterial.isDefined,
       "write-partial-images" -> o.partialImages,
-      "mse-reference-out" -> o.switches.errors.isDefined,
+      "mse-reference-out" -> o.settings.output.errors.isDefined,
       "thumbnail" -> o.thumbnail.isDefined
     )
     if o.cluster.master.isEmpty then

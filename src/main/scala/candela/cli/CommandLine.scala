@@ -3,11 +3,9 @@ package candela.cli
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.{Problem, Suggest, Version}
-import candela.build.{ColorMode, LightGrouping}
-import candela.build.recipe.Switches
+import candela.build.{RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.convert.Baking
-import candela.film.{Fireflies, Layer}
 import candela.image.DisplayTransform
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
@@ -72,8 +70,9 @@ object CommandLine:
 
   /** Where the number of samples is not known in advance, points must not depend on it. */
   private def progressive(o: Options): Options =
-    if o.film.endsEarly && o.points == PointChoice.Best && o.command == Command.Render then
-      o.copy(points = PointChoice.Progressive)
+    val s = o.settings
+    if s.goal.isGiven && s.points == PointChoice.Best && o.command == Command.Render then
+      o.setting(_.copy(points = PointChoice.Progressive))
     else o
 
   /** Translates pbrt's words for rendering; other commands have options of their own. */
@@ -131,20 +130,17 @@ enum Command(val word: String):
   case Average extends Command("average")
   case Info extends Command("info")
 
-/** Part of the image to render, in fractions [0, 1] of width and height. */
-final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
-
 /** A parsed command line; None if an option was not given.
   *
   * @param files scenes; for `resume` and `merge`, film files; for `compare`, the image and its
   *   reference; for `describe`, category and type
   * @param outfiles output images, instead of the file named by the scene
-  * @param pixels part of the image to render, in pixels
-  * @param taken samples per pixel to take, if not `spp`, for which the points are made
+  * @param settings what is rendered of the scenes
+  * @param regions parts of the image that were asked for, of which there may be one
+  * @param taken samples per pixel to take, if not those for which the points are made
   * @param footprint size of a sample's footprint in pixels, if not that of `spp` samples
-  * @param pixel only pixel to render; with `sample`, the sample that `debug` traces instead
+  * @param sample the sample of the pixel that `debug` traces, instead of rendering
   * @param pixelMaterial pixel whose material is printed, instead of rendering
-  * @param switches settings of the whole scene
   * @param partialImages whether to write the image of each pass
   * @param notes on words of the command line that have no effect
   * @param markdown whether `describe` prints the whole reference
@@ -152,19 +148,10 @@ final case class CropWindow(x0: Float, x1: Float, y0: Float, y1: Float)
   * @param to target dialect of `convert`
   * @param toPly minimum number of triangles for writing a mesh as a PLY file
   * @param bake  width and height of images that replace textures, in pixels
-  * @param color whether rendering is spectral
-  * @param points which sample points to take
-  * @param fireflies what is done about them
-  * @param display how pictures show linear light
-  * @param denoise whether to add a denoised image
   * @param thumbnail how to show the image in the terminal
   * @param columns pictures per row of a contact sheet
-  * @param layers AOVs in addition to the scene's
   * @param film options of saved renderings
   * @param cluster options of rendering on a cluster
-  * @param storeTime whether to store the render time in the image file
-  * @param precisions whether AOVs are stored in 16 bits, where asked
-  * @param lightGroups how to group lights for their layer
   * @param reference reference image for reports
   * @param reports report files
   * @param watch address of the live page
@@ -179,42 +166,24 @@ final case class Options(
     command: Command = Command.Render,
     files: Vector[String] = Vector.empty,
     outfiles: Vector[String] = Vector.empty,
+    settings: RenderSettings = RenderSettings(),
+    regions: Vector[RenderRegion] = Vector.empty,
     threads: Option[Int] = None,
-    spp: Option[Int] = None,
     taken: Option[Int] = None,
     footprint: Option[Float] = None,
-    seed: Int = 0,
-    quick: Boolean = false,
-    preview: Boolean = false,
     quiet: Boolean = false,
     verbose: Boolean = false,
     explain: Boolean = false,
-    cropWindow: Option[CropWindow] = None,
-    pixels: Option[PixelRange] = None,
-    pixel: Option[(Int, Int)] = None,
     pixelMaterial: Option[(Int, Int)] = None,
-    switches: Switches = Switches(),
     partialImages: Boolean = false,
     notes: Vector[String] = Vector.empty,
     sample: Int = 0,
     debug: Boolean = false,
-    dialect: Option[Dialect] = None,
-    keepGoing: Boolean = false,
     world: Int = 0,
-    defines: Map[String, String] = Map.empty,
-    color: ColorMode = ColorMode.Auto,
-    points: PointChoice = PointChoice.Best,
-    fireflies: Fireflies = Fireflies.Kept,
-    layers: Vector[Layer] = Vector.empty,
-    precisions: Vector[(Layer, Boolean)] = Vector.empty,
-    lightGroups: Option[LightGrouping] = None,
-    display: DisplayTransform = DisplayTransform.Plain,
-    denoise: Boolean = false,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
     film: FilmOptions = FilmOptions(),
     cluster: ClusterOptions = ClusterOptions(),
-    storeTime: Boolean = false,
     reference: Option[String] = None,
     reports: Vector[String] = Vector.empty,
     watch: Option[WatchAddress] = None,
@@ -230,10 +199,10 @@ final case class Options(
     bake: Option[Int] = None,
     limits: LimitOptions = LimitOptions()
 ):
-  /** With a parameter of a Mitsuba scene, given as NAME=VALUE. */
-  def defining(text: String): Options =
-    val (name, value) = text.span(_ != '=')
-    copy(defines = defines.updated(name, value.drop(1)))
+  def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
+
+  /** How pictures show linear light: those of renderings, and of images that are there. */
+  def display: DisplayTransform = settings.output.display
 
   /** Whether anything follows the rendering. */
   def isWatched: Boolean = watch.isDefined || displayServer.isDefined

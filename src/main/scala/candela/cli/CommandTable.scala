@@ -131,7 +131,8 @@ private[cli] object CommandTable extends OptionRows:
       .orElse(if isRender then FilmTable.problem(o).orElse(ClusterTable.problem(o)) else None)
       .orElse(needed(
         "--reference needs --report FILE, --watch or --denoise",
-        isRender && o.reference.nonEmpty && o.reports.isEmpty && o.watch.isEmpty && !o.denoise
+        isRender && o.reference.nonEmpty && o.reports.isEmpty && o.watch.isEmpty &&
+          !o.settings.output.denoise
       ))
       .orElse(needsSingle(if o.watch.isDefined then "watch" else "display-server", o.isWatched))
       .orElse(needed("--watch-after needs --watch", o.watchAfter && o.watch.isEmpty))

@@ -9,7 +9,8 @@ import candela.scenefile.Dialect
 
 /** `candela describe`: prints the scene reference, generated from the recipes that build scenes. */
 final class DescribeCommand(options: Options, terminal: Terminal, report: Report):
-  private val described = Described(options.dialect.fold(Dialect.values.toSet)(Set(_)))
+  private val described =
+    Described(options.settings.reading.dialect.fold(Dialect.values.toSet)(Set(_)))
   private val text = ReferenceText(described, terminal.columns)
 
   def run(): ExitCode = report.guarded:
@@ -61,7 +62,7 @@ final class DescribeCommand(options: Options, terminal: Terminal, report: Report
   private def unknown(kind: String, word: String, known: Vector[String]): Nothing =
     val start = known.find(_.toLowerCase.startsWith(word.toLowerCase))
     val help = Suggest.nearest(word, known).orElse(start).map(k => s"did you mean `$k`?")
-    val where = options.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
+    val where = options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
     throw SceneError(
       Problem.general(
         s"unknown ${kind.toLowerCase} `$word`$where",

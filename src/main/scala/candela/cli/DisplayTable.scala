@@ -12,23 +12,15 @@ private[cli] object DisplayTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
-  private given Read[ToneCurve] = Read.reads: word =>
-    ToneCurve.values.find(_.word.equalsIgnoreCase(word)).getOrElse:
-      throw IllegalArgumentException(s"expected ${ToneCurve.values.map(_.word).mkString(", ")}")
-
-  private given Read[Exposure] = Read.reads: text =>
-    if text.equalsIgnoreCase("auto") then Exposure.Auto
-    else
-      text.toFloatOption.filter(s => Math.abs(s) <= 100).map(Exposure.Stops(_)).getOrElse:
-        throw IllegalArgumentException("expected stops, e.g. 1.5 or -2, or auto")
-
   private given Read[ThumbnailKind] = Read.reads: word =>
     ThumbnailKind.values.find(_.word.equalsIgnoreCase(word)).getOrElse:
       val known = ThumbnailKind.values.map(_.word).mkString(", ")
       throw IllegalArgumentException(s"expected one of $known")
 
-  private def change(o: Options)(f: DisplayTransform => DisplayTransform): Options =
-    o.copy(display = f(o.display))
+  private def show[A](
+      change: (A, DisplayTransform) => DisplayTransform
+  ): (A, Options) => Options =
+    setOutput((value, w) => w.copy(display = change(value, w.display)))
 
   private val pictures = OutputFormat.listed(Contents.Display)
 
@@ -42,21 +34,21 @@ private[cli] object DisplayTable extends OptionRows:
           ToneCurve.values.map(c => s"${c.word} (${c.meaning})").mkString(", ") +
           "; default linear"
       )
-      .action((c, o) => change(o)(_.copy(curve = c))),
+      .action(show((c, d) => d.copy(curve = c))),
     opt[Exposure]("exposure").valueName("STOPS")
       .text(s"scale of the light in $pictures, in stops; auto: the mean becomes middle grey")
-      .action((e, o) => change(o)(_.copy(exposure = e))),
+      .action(show((e, d) => d.copy(exposure = e))),
     opt[Unit]("falsecolor")
       .text(s"show luminance in false colours in $pictures: from -6 to 6 stops about middle grey")
-      .action((_, o) => change(o)(_.copy(falseColor = true))),
+      .action(show((_, d) => d.copy(falseColor = true))),
     opt[Int]("bits").valueName("8|16")
       .text("bits per channel of .png (default 8)")
       .validate: n =>
         if n == 8 || n == 16 then success else failure(s"--bits must be 8 or 16, found `$n`")
-      .action((n, o) => change(o)(_.copy(bits = n))),
+      .action(show((n, d) => d.copy(bits = n))),
     opt[Unit]("dither")
       .text("round 8-bit values at random, which hides banding")
-      .action((_, o) => change(o)(_.copy(dithers = true)))
+      .action(show((_, d) => d.copy(dithers = true)))
   )
 
   private def thumbnail: Row =

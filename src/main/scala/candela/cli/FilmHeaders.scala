@@ -1,10 +1,9 @@
 package candela.cli
 
 import candela.base.Version
-import candela.build.ColorMode
-import candela.build.sampling.PointChoice
-import candela.film.{Layer, PixelBounds}
-import candela.image.Exposure
+import candela.build.RenderGoal
+import candela.film.PixelBounds
+import candela.job.SettingsCodec
 import candela.render.RenderPlan
 import candela.render.storage.FilmHeader
 import candela.scenefile.{SceneDescription, SceneFiles}
@@ -34,7 +33,7 @@ private[cli] object FilmHeaders:
       Version.current,
       scene,
       relative(film.toAbsolutePath.getParent, here).toString,
-      words(options),
+      SettingsCodec.identity(options.settings),
       files.map(_.toString),
       digests(loaded.description),
       size(plan),
@@ -55,41 +54,6 @@ private[cli] object FilmHeaders:
     s"${plan.width}x${plan.height}, pixels $x0 to $x1, $y0 to $y1, " +
       (if plan.sharesSamples then "splatted" else "one pixel each")
 
-  /** Options that shape the image, except the samples per pixel: a command line that selects them.
-    */
-  def words(o: Options): Vector[String] =
-    def one(name: String, value: Option[Any]) =
-      value.toVector.flatMap(v => Vector(s"--$name", v.toString))
-    def flag(name: String, isSet: Boolean) = Option.when(isSet)(s"--$name").toVector
-    val exposure = o.display.exposure match
-      case Exposure.Auto => Some("auto")
-      case Exposure.Stops(0f) => None
-      case Exposure.Stops(n) => Some(n)
-    one("seed", Option.when(o.seed != 0)(o.seed)) ++
-      flag("quick", o.quick) ++
-      one("cropwindow", o.cropWindow.map(w => s"${w.x0},${w.x1},${w.y0},${w.y1}")) ++
-      one("aov", Option.when(o.layers.nonEmpty)(o.layers.map(layer(o, _)).mkString(","))) ++
-      one("light-groups", o.lightGroups.map(LightGroupWords(_))) ++
-      flag("denoise", o.denoise) ++
-      one("dialect", o.dialect.map(_.toString.toLowerCase)) ++
-      o.defines.toVector.sorted.flatMap((name, value) => Vector("--define", s"$name=$value")) ++
-      flag("keep-going", o.keepGoing) ++
-      one("color", Option.when(o.color != ColorMode.Auto)(o.color.toString.toLowerCase)) ++
-      one("sampler", Option.when(o.points != PointChoice.Best)(o.points.word)) ++
-      FireflyTable.words(o.fireflies) ++
-      flag("store-time", o.storeTime) ++
-      one("tonemap", Option.when(o.display != Options().display)(o.display.curve.word)) ++
-      one("exposure", exposure) ++
-      flag("falsecolor", o.display.falseColor) ++
-      one("bits", Option.when(o.display.bits != 8)(o.display.bits)) ++
-      flag("dither", o.display.dithers) ++
-      SwitchTable.words(o)
-
-  private def layer(o: Options, layer: Layer): String =
-    val precision = o.precisions.collectFirst:
-      case (`layer`, isHalf) => if isHalf then ":half" else ":float"
-    layer.word + precision.mkString
-
   /** SHA-256 of the scene's files, by their names relative to the scene's folder. */
   private def digests(scene: SceneDescription): Vector[(String, String)] =
     val files = SceneFiles.of(scene).map(_.toAbsolutePath.normalize)
@@ -108,8 +72,8 @@ private[cli] object FilmHeaders:
     HexFormat.of.formatHex(sum.digest)
 
   /** The digest of a whole rendering, which may have ended by a goal. */
-  def digest(header: FilmHeader, goals: FilmOptions): String =
-    val ends = goals.time.map("time" -> _) ++ goals.error.map("error" -> _)
+  def digest(header: FilmHeader, goal: RenderGoal): String =
+    val ends = goal.time.map("time" -> _) ++ goal.error.map("error" -> _)
     val facts =
       Vector(header.version, header.size, header.samples) ++ header.words ++ header.files ++ ends
     val sum = MessageDigest.getInstance("SHA-256").digest(facts.mkString("\n").getBytes("UTF-8"))

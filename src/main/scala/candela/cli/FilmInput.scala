@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, SceneFolder, Version}
+import candela.job.SettingsCodec
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
@@ -35,7 +36,9 @@ private[cli] object FilmInput:
     if now.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
       val _ = SceneLoader.refusing(folder.scene(OutputFiles.path(scene)))
-    options(film.header, scene).copy(
+    val saved = options(film.header, scene)
+    saved.copy(
+      settings = saved.settings.copy(goal = now.settings.goal),
       limits = now.limits,
       threads = now.threads,
       quiet = now.quiet,
@@ -45,11 +48,11 @@ private[cli] object FilmInput:
 
   /** The options of a rendering, with its scene as found here. */
   def options(header: FilmHeader, scene: String): Options =
-    CommandLine.parse(Command.Render.word +: header.words :+ scene).toOption
-      // Of a forged film, they might be any
-      .filter(o => FilmHeaders.words(o) == header.words && o.files == Vector(scene))
-      .getOrElse(fail(s"the film of `$scene` has unknown options: ${header.words.mkString(" ")}"))
-      .copy(spp = Some(header.samples))
+    SettingsCodec.settings(header.words) match
+      case Right(saved) =>
+        Options(files = Vector(scene), settings = saved.copy(samples = Some(header.samples)))
+      // Only of a forged film
+      case Left(why) => fail(s"the film of `$scene` has settings that are none: $why")
 
   /** A file named by the rendering, as found from here. */
   def at(film: FilmFile, name: String): String =

@@ -23,8 +23,9 @@ private[cli] final class FilmKeeping(
 
   /** Whether there is nothing left to render. */
   def isDone: Boolean =
-    val isEndless = options.film.endsEarly && options.spp.isEmpty
-    !isEndless && start.exists(f => f.header.isComplete && f.header.samples == header.samples)
+    !options.settings.isEndless && start.exists(f =>
+      f.header.isComplete && f.header.samples == header.samples
+    )
 
   /** Samples that every pixel has already. */
   def samplesDone: Int = start.fold(0)(_.header.done)

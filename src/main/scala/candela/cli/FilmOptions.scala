@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.job.TextForm
 import candela.render.Shard
 import candela.render.storage.FilmFile
 
@@ -12,8 +13,6 @@ import scopt.{OParser, Read}
   * @param checkpoint film file to save to; empty: beside the image
   * @param every      seconds between two checkpoints
   * @param shard      part of the samples to take
-  * @param time       seconds after which the rendering ends
-  * @param error      relative error at which the rendering ends
   * @param partial    whether to merge although shards are missing
   * @param frames     numbers for the scene's name
   * @param skipDone   whether to skip scenes whose images exist already
@@ -22,14 +21,10 @@ final case class FilmOptions(
     checkpoint: Option[String] = None,
     every: Option[Double] = None,
     shard: Shard = Shard.Whole,
-    time: Option[Double] = None,
-    error: Option[Double] = None,
     partial: Boolean = false,
     frames: Option[Range] = None,
     skipDone: Boolean = false
-):
-  /** Whether the number of samples is not known in advance. */
-  def endsEarly: Boolean = time.isDefined || error.isDefined
+)
 
 object FilmOptions:
   /** All of them are listed. */
@@ -49,24 +44,11 @@ object FilmOptions:
       if isAlone then Seq(word, "") else Seq(word)
 
 /** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
-private[cli] object FilmTable:
-  private type Row = OParser[?, Options]
-
+private[cli] object FilmTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
-  private final case class Seconds(value: Double)
-
-  private given Read[Seconds] = Read.reads: text =>
-    seconds(text).map(Seconds(_)).getOrElse:
-      throw IllegalArgumentException("expected a duration, e.g. 90s, 10m or 2h")
-
-  /** Seconds of a duration. */
-  private[cli] def seconds(text: String): Option[Double] =
-    val unit = text.takeRight(1)
-    val scale = Map("s" -> 1.0, "m" -> 60.0, "h" -> 3600.0).get(unit)
-    val number = if scale.isDefined then text.dropRight(1) else text
-    number.toDoubleOption.map(_ * scale.getOrElse(1.0)).filter(s => s > 0 && s < 1e9)
+  private val seconds = reading(TextForm.seconds)
 
   private given Read[Shard] = Read.reads: text =>
     text.split("/", -1).map(_.trim.toIntOption) match
@@ -81,18 +63,18 @@ private[cli] object FilmTable:
 
   private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
 
-  private def every: Row = opt[Seconds]("checkpoint-every").valueName("TIME")
+  private def every: Row = opt[Double]("checkpoint-every")(using seconds).valueName("TIME")
     .text("time between two checkpoints, e.g. 10s or 5m (default 60s)")
-    .action((s, o) => change(o)(_.copy(every = Some(s.value))))
+    .action((s, o) => change(o)(_.copy(every = Some(s))))
 
   private def goals: Vector[Row] = Vector(
-    opt[Seconds]("time").valueName("TIME")
+    opt[Double]("time")(using seconds).valueName("TIME")
       .text("end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling")
-      .action((s, o) => change(o)(_.copy(time = Some(s.value)))),
+      .action(setGoal((t, g) => g.copy(time = Some(t)))),
     opt[Double]("error").valueName("X")
       .text("end when the relative error, estimated from the noise, is below X: 0.02 for 2 %")
       .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
-      .action((x, o) => change(o)(_.copy(error = Some(x))))
+      .action(setGoal((x, g) => g.copy(error = Some(x))))
   )
 
   def render: Vector[Row] = Vector(
@@ -141,6 +123,6 @@ private[cli] object FilmTable:
       Some("--frames needs a single scene name, with %d for the number")
     else if film.frames.isDefined && !(o.files ++ o.outfiles).forall(Sequence.hasNumber) then
       Some("--frames needs %d, or %04d, for the number in the names of scene and output files")
-    else if !film.shard.isWhole && (film.time.isDefined || film.error.isDefined) then
+    else if !film.shard.isWhole && o.settings.goal.isGiven then
       Some("--shard can't end by --time or --error: all shards need the same samples")
     else None

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.build.RenderGoal
 import candela.film.Film
 import candela.render.{ExpectedEnd, Pass, PassObserver, Rendering}
 
@@ -9,7 +10,7 @@ import candela.render.{ExpectedEnd, Pass, PassObserver, Rendering}
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
-final class Goal(options: FilmOptions, planned: Int, recorder: RenderRecorder) extends PassObserver:
+final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder) extends PassObserver:
   private var isReached = false
   private var seen, step, parts = 0
   private var now, perSample = 0.0

@@ -29,7 +29,7 @@ private[cli] object IdleOptions:
   private def scenes(o: Options): Vector[String] =
     val areMitsubas = o.files.nonEmpty && o.files.forall(_.toLowerCase.endsWith(".xml"))
     idle("dialect", ": scenes of Mitsuba's have none of pbrt's dialects")(
-      areMitsubas && o.dialect.isDefined
+      areMitsubas && o.settings.reading.dialect.isDefined
     )
 
   private def rendering(o: Options): Vector[String] =
@@ -41,9 +41,9 @@ private[cli] object IdleOptions:
       "report" -> o.reports.nonEmpty,
       "watch" -> o.watch.isDefined,
       "display-server" -> o.displayServer.isDefined,
-      "time" -> o.film.time.isDefined,
-      "error" -> o.film.error.isDefined,
-      "denoise" -> o.denoise,
+      "time" -> o.settings.goal.time.isDefined,
+      "error" -> o.settings.goal.error.isDefined,
+      "denoise" -> o.settings.output.denoise,
       "thumbnail" -> o.thumbnail.isDefined
     )
     val silent = printed.toVector.flatMap: name =>
@@ -55,7 +55,7 @@ private[cli] object IdleOptions:
       idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
       idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
       idle("store-time", s": ${listed(formats)} files store no texts")(
-        o.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)
+        o.settings.output.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)
       )
 
   private def interval(o: Options, isFilm: Boolean): Vector[String] =
@@ -105,7 +105,10 @@ private[cli] object IdleOptions:
     val page =
       if o.pbrtOptions then Some("pbrt-options")
       else Option.when(o.markdown)("markdown")
-    idle("dialect", " with --pbrt-options")(o.pbrtOptions && o.dialect.isDefined) ++
+    idle(
+      "dialect",
+      " with --pbrt-options"
+    )(o.pbrtOptions && o.settings.reading.dialect.isDefined) ++
       idle("markdown", " with --pbrt-options, which prints Markdown")(
         o.pbrtOptions && o.markdown
       ) ++

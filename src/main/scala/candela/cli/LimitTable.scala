@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{Allowance, Limit, SceneFolder}
+import candela.job.TextForm
 
 import java.nio.file.Path
 
@@ -70,7 +71,7 @@ private[cli] object LimitTable:
     case _ => None
 
   private def milliseconds(text: String): Option[Long] =
-    FilmTable.seconds(text).map(s => Math.max(1L, (s * 1000).toLong))
+    TextForm.seconds.read(text).map(s => Math.max(1L, (s * 1000).toLong))
 
   def options: Vector[OParser[?, Options]] = Vector(
     opt[Unit]("sandbox")

@@ -1,9 +1,11 @@
 package candela.cli
 
-import candela.build.{ColorMode, LightGrouping}
+import candela.build.{ColorMode, LightGrouping, RenderRegion, RenderSettings}
+import candela.build.sampling.PointChoice
 import candela.convert.Baking
-import candela.film.Layer
+import candela.film.{Fireflies, Layer}
 import candela.image.{Contents, OutputFormat}
+import candela.job.TextForm
 import candela.scenefile.Dialect
 import candela.watch.{TevDisplay, WatchAddress}
 
@@ -14,26 +16,6 @@ private[cli] object OptionTable extends OptionRows:
   private val b = OParser.builder[Options]
   import b.{failure, opt, success}
 
-  private given Read[Dialect] = Read.reads: text =>
-    Dialect.values
-      .find(_.toString.equalsIgnoreCase(text))
-      .getOrElse(throw IllegalArgumentException("expected v2, v3 or v4"))
-
-  private given Read[(Int, Int)] = Read.reads: text =>
-    text.split(",", -1).map(_.trim.toIntOption) match
-      case Array(Some(x), Some(y)) if x >= 0 && y >= 0 => (x, y)
-      case _ => throw IllegalArgumentException("expected x,y in pixels, e.g. 12,40")
-
-  private given Read[CropWindow] = Read.reads: text =>
-    text.split(",", -1).map(_.trim.toFloatOption) match
-      case Array(Some(x0), Some(x1), Some(y0), Some(y1))
-          if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
-        CropWindow(x0, x1, y0, y1)
-      case _ =>
-        throw IllegalArgumentException(
-          "expected x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5"
-        )
-
   private given Read[(String, Int)] = Read.reads: text =>
     WatchAddresses.display(text)
       .getOrElse(throw IllegalArgumentException("expected HOST:PORT, e.g. localhost:14158"))
@@ -42,51 +24,27 @@ private[cli] object OptionTable extends OptionRows:
     WatchAddresses.parse(text)
       .getOrElse(throw IllegalArgumentException("expected PORT or ADDRESS:PORT, e.g. 0.0.0.0:8642"))
 
-  /** A layer, with a precision if given. */
-  private given Read[(Layer, Option[Boolean])] = Read.reads: text =>
-    val (word, precision) = text.trim.toLowerCase match
-      case s"$w:half" => (w, Some(true))
-      case s"$w:float" => (w, Some(false))
-      case w => (w, None)
-    val layer = Layer.values
-      .find(_.word.equalsIgnoreCase(word))
-      .getOrElse(throw IllegalArgumentException(s"expected one or more of $layers"))
-    (layer, precision)
-
-  private given Read[LightGrouping] = Read.reads: text =>
-    LightGroupWords.parse(text).getOrElse(
-      throw IllegalArgumentException(
-        "expected statement, type, or names of letters, digits and _, such as " +
-          "key=point_12+spot_14,sky=infinite"
-      )
-    )
-
-  private given Read[ColorMode] = Read.reads: text =>
-    ColorMode.values
-      .find(_.toString.equalsIgnoreCase(text))
-      .getOrElse(throw IllegalArgumentException("expected auto, rgb or spectral"))
-
   // Options of several commands are methods: scopt gives a row one parent.
   private def dialect(text: String): Row =
     opt[Dialect]("dialect").valueName("v2|v3|v4").text(text)
-      .action((d, o) => o.copy(dialect = Some(d)))
+      .action(setReading((d, r) => r.copy(dialect = Some(d))))
 
   private def parsedAs: Row =
     dialect("parse the scene as this pbrt version (default: auto-detected)")
 
   private def keepGoing: Row = opt[Unit]("keep-going")
     .text("replace missing files and types with placeholders, with a warning each")
-    .action((_, o) => o.copy(keepGoing = true))
+    .action(setReading((_, r) => r.copy(keepGoing = true)))
 
-  private def defines: Row = opt[String]('D', "define").unbounded().valueName("NAME=VALUE")
-    .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE")
-    .validate: d =>
-      if d.indexOf('=') > 0 then success else failure(s"--define must be NAME=VALUE, found `$d`")
-    .action((d, o) => o.defining(d))
+  private def defines: Row =
+    opt[(String, String)]('D', "define")(using reading(TextForm.definition))
+      .unbounded().valueName("NAME=VALUE")
+      .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE")
+      .action(setReading((d, r) => r.copy(defines = r.defines + d)))
 
   private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
     .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
-    .action((mode, o) => o.copy(color = mode))
+    .action(set((mode, s) => s.copy(color = mode)))
 
   private def explain: Row = opt[Unit]("explain")
     .text("print what the scene is built from and what was ignored")
@@ -113,13 +71,45 @@ private[cli] object OptionTable extends OptionRows:
   private def samples(text: String): Row = opt[Int]("spp").valueName("N")
     .text(text)
     .validate(atLeast("spp", 1))
-    .action((n, o) => o.copy(spp = Some(n)))
+    .action(set((n, s) => s.copy(samples = Some(n))))
 
-  private def crop: Row = opt[CropWindow]("cropwindow").valueName("x0,x1,y0,y1")
+  private def crop: Row = opt[RenderRegion.Window]("cropwindow").valueName("x0,x1,y0,y1")
     .text("render only this window, in fractions of width and height")
-    .action((w, o) => o.copy(cropWindow = Some(w)))
+    .action(setRegion)
 
   private def layers: String = Layer.values.map(_.word).mkString(", ")
+
+  private def withLayers(
+      all: Seq[(Layer, Option[Boolean])],
+      s: RenderSettings
+  ): RenderSettings =
+    val asked = all.collect { case (layer, Some(isHalf)) => layer -> isHalf }
+    val output = s.output.copy(precisions = s.output.precisions ++ asked)
+    s.copy(layers = s.layers ++ all.map(_._1), output = output)
+
+  private def grouped(groups: LightGrouping, s: RenderSettings): RenderSettings =
+    s.copy(lightGroups = Some(groups), layers = (s.layers :+ Layer.Lights).distinct)
+
+  private def denoised(s: RenderSettings): RenderSettings =
+    val layers = (s.layers ++ Denoising.Layers).distinct
+    s.copy(output = s.output.copy(denoise = true), layers = layers)
+
+  private def sampler: Row =
+    val words = PointChoice.all.map(_.word).mkString("|")
+    opt[PointChoice]("sampler").valueName(words)
+      .text(
+        "sample points: those with the least noise instead of the scene's (best, the default), " +
+          "the scene's own, or these"
+      )
+      .action(set((p, s) => s.copy(points = p)))
+
+  private def fireflies: Row =
+    opt[Fireflies]("fireflies").valueName("keep|reweight|clamp:X")
+      .text(
+        "less noise, but bias: leave out light that few samples have found, or limit each " +
+          "sample's indirect light to X (default: keep)"
+      )
+      .action(set((f, s) => s.copy(fireflies = f)))
 
   private val renderOptions: Vector[Row] = Vector(
     opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
@@ -129,14 +119,14 @@ private[cli] object OptionTable extends OptionRows:
     samples("samples per pixel; overrides the scene"),
     opt[Int]("seed").valueName("N")
       .text("random seed (default 0)")
-      .action((n, o) => o.copy(seed = n)),
+      .action(set((n, s) => s.copy(seed = n))),
     opt[Unit]("quick")
       .text("draft: a quarter of the width and height, one sample per pixel")
-      .action((_, o) => o.copy(quick = true)),
+      .action(set((_, s) => s.copy(quick = true))),
     crop,
-    opt[(Int, Int)]("pixel").valueName("x,y")
+    opt[RenderRegion.Pixel]("pixel").valueName("x,y")
       .text("render only this pixel, from 0,0 at the top left; with --debug, trace it")
-      .action((p, o) => o.copy(pixel = Some(p))),
+      .action(setRegion),
     opt[Int]("sample").valueName("N")
       .text("the sample of --debug, from 0 (default 0)")
       .validate(atLeast("sample", 0))
@@ -149,32 +139,28 @@ private[cli] object OptionTable extends OptionRows:
         s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers; " +
           "LAYER:half and LAYER:float select its precision"
       )
-      .action: (l, o) =>
-        val precisions = l.collect { case (layer, Some(isHalf)) => layer -> isHalf }
-        o.copy(layers = o.layers ++ l.map(_._1), precisions = o.precisions ++ precisions)
-    ,
+      .action(set(withLayers)),
     opt[LightGrouping]("light-groups").valueName("statement|type|NAME=LIGHT[+LIGHT],…")
       .text(
         "groups of the layer lights, which is added: each light statement (default), each type, " +
           "or named groups of statements (point_12: type and line) and types"
       )
-      .action: (g, o) =>
-        o.copy(lightGroups = Some(g), layers = (o.layers :+ Layer.Lights).distinct),
+      .action(set(grouped)),
     opt[Unit]("denoise")
       .text(
         "add the image denoised by Open Image Denoise; .png and .jpg show it " +
           s"(layers ${Denoising.Layers.map(_.word).mkString(" and ")} are added, too)"
       )
-      .action((_, o) => o.copy(denoise = true, layers = (o.layers ++ Denoising.Layers).distinct)),
+      .action(set((_, s) => denoised(s))),
     opt[String]("film").valueName("gbuffer|rgba")
       .text("add all AOVs of pbrt-v4's gbuffer film, or alpha")
       .validate: f =>
         if Layer.films.contains(f) then success
         else failure(s"--film must be gbuffer or rgba, found `$f`")
-      .action((f, o) => o.copy(layers = o.layers ++ Layer.films(f))),
+      .action(set((f, s) => s.copy(layers = s.layers ++ Layer.films(f)))),
     opt[Unit]("store-time")
       .text("store the render time in the image file; equal images are then different files")
-      .action((_, o) => o.copy(storeTime = true)),
+      .action(setOutput((_, w) => w.copy(storeTime = true))),
     opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
       .text("write error over time as .html, .json or .csv; the image is unaffected")
       .action((f, o) => o.copy(reports = o.reports ++ f)),
@@ -202,9 +188,11 @@ private[cli] object OptionTable extends OptionRows:
     color,
     explain,
     quiet,
-    verbose(", the time of each phase, and what --explain prints")
-  ) ++ PointTable.render ++ SwitchTable.render(summon[Read[(Int, Int)]]) ++ FilmTable.render ++
-    ClusterTable.options ++ DisplayTable.options ++ LimitTable.options
+    verbose(", the time of each phase, and what --explain prints"),
+    sampler,
+    fireflies
+  ) ++ SwitchTable.render ++ FilmTable.render ++ ClusterTable.options ++
+    DisplayTable.options ++ LimitTable.options
 
   private val resumeOptions: Vector[Row] = Vector(
     threads,

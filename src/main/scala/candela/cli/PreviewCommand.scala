@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.FileName
+import candela.build.RenderGoal
 import candela.image.OutputFormat
 
 /** `candela preview`: a first look at scenes, within seconds: few pixels, headlight shading, and
@@ -42,10 +43,12 @@ final class PreviewCommand(
             if isConfined then OutputFiles.path(scene).resolveSibling(name).toString else name
           )
       ,
-      preview = true,
-      keepGoing = true,
-      spp = Some(Samples),
-      film = options.film.copy(time = Some(Seconds)),
+      settings = options.settings.copy(
+        preview = true,
+        samples = Some(Samples),
+        goal = RenderGoal(time = Some(Seconds)),
+        reading = options.settings.reading.copy(keepGoing = true)
+      ),
       thumbnail = options.thumbnail.orElse(known)
     )
 

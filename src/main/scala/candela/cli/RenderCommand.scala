@@ -5,6 +5,7 @@ import java.nio.file.{Files, Path}
 import scala.util.{Failure, Success, Try}
 
 import candela.base.{Problem, SceneError, Version}
+import candela.build.RenderRegion
 import candela.film.{PixelBounds, SpectralBands}
 import candela.image.*
 import candela.render.{Cancellation, Live, Progress, Renderer, Rendering, RenderPlan}
@@ -27,9 +28,9 @@ final class RenderCommand(
   private val cancellation = Cancellation()
   private val files = RenderOutputs(options, report, register, resumed)
   private val threads = options.threadCount
-  private val goals = options.film
+  private val settings = options.settings
   private lazy val denoising =
-    Option.when(options.denoise)(Denoising(Oidn.load(terminal.environment), threads))
+    Option.when(settings.output.denoise)(Denoising(Oidn.load(terminal.environment), threads))
 
   def run(): ExitCode =
     val sequence = Sequence(options)
@@ -72,7 +73,7 @@ final class RenderCommand(
     denoising.foreach(identity)
     val loaded = loader.load(scene, options.copy(world = world))
     // A first look ignores most of what warnings are about.
-    val isBrief = options.preview && !options.verbose
+    val isBrief = settings.preview && !options.verbose
     val told = if isBrief then loaded.warnings.filter(_.standIn.nonEmpty) else loaded.warnings
     report.warnings(told, all = options.verbose)
     if options.explain || options.verbose then Explanation.print(loaded.plan, terminal.err)
@@ -106,7 +107,7 @@ final class RenderCommand(
   ): ExitCode =
     val digest = this.digest(name, loaded, paths)
     val isDone = digest.exists(Sequence.isDone(paths, _)) ||
-      (goals.skipDone && paths.isEmpty && keeping.exists(_.isDone))
+      (options.film.skipDone && paths.isEmpty && keeping.exists(_.isDone))
     if isDone then
       sequence.skip(name)
       ExitCode.Done
@@ -124,10 +125,10 @@ final class RenderCommand(
       about: Vector[(String, String)]
   ): ExitCode =
     val reporting = Option.when(options.reports.nonEmpty)(Reporting(options, scene, loaded))
-    val goal = Option.when(goals.endsEarly):
+    val goal = Option.when(settings.goal.isGiven):
       def recorder = RenderRecorder.of(loaded.plan, None)
-      Goal(goals, loaded.plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
-    val reference = options.reference.filter(_ => options.denoise)
+      Goal(settings.goal, loaded.plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
+    val reference = options.reference.filter(_ => settings.output.denoise)
       .map(RenderRecorder.fitting(loaded.plan, _))
     terminal.interrupts.during(cancellation):
       val progress = ProgressLine(terminal.err, terminal.isInteractive)
@@ -151,7 +152,7 @@ final class RenderCommand(
               cancellation,
               show,
               passObserver,
-              goals.shard,
+              options.film.shard,
               checkpointer,
               live =>
                 current = Some(live)
@@ -164,7 +165,7 @@ final class RenderCommand(
         val facts = about.filter((name, _) => name != Sequence.Digest || rendering.isComplete)
         val image = finished(loaded, rendering)
         val finishedAt = System.nanoTime
-        val denoised = Option.when(options.denoise):
+        val denoised = Option.when(settings.output.denoise):
           Denoised(image, rendering.seconds, (finishedAt - started) * 1e-9)
         val wanted = writable(paths, rendering)
         val written = write(wanted, loaded, rendering, image, facts)
@@ -175,7 +176,7 @@ final class RenderCommand(
           terminal.err.println(Summary.kept(paths.diff(wanted), isLate))
         summarise(written ++ films, loaded, rendering, writeSeconds)
         // A preview has neither goals nor options of its own to reach them
-        if !options.preview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
+        if !settings.preview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
         val pages = reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
         for path <- pages if !options.quiet do terminal.out.println(s"wrote $path")
         terminal.out.flush()
@@ -183,7 +184,7 @@ final class RenderCommand(
           terminal.out.println(s"relative MSE  ${d.errors(r)}")
         for kind <- options.thumbnail do
           val shown = Denoising.shown(image)
-          terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
+          terminal.out.control(Thumbnail.of(shown, settings.output.display, kind, terminal))
         terminal.out.flush()
         watching.foreach(_.await(written ++ films ++ pages))
         if written.size < wanted.size || checkpointer.exists(_.failure.nonEmpty) then
@@ -240,10 +241,10 @@ final class RenderCommand(
   ): Vector[Path] = synchronized:
     val development = loaded.plan.development
     val alpha = OutputFiles.alpha(loaded.plan, image)
-    val time = Option.when(options.storeTime):
+    val time = Option.when(settings.output.storeTime):
       "renderSeconds" -> Figures.fixed(rendering.seconds, 2)
     // Those of earlier runs took no part of the time
-    val earlier = Option.when(options.storeTime && rendering.earlier > 0):
+    val earlier = Option.when(settings.output.storeTime && rendering.earlier > 0):
       "samplesPerPixelOfEarlierRuns" -> rendering.earlier.toString
     val samples = "samplesPerPixel" -> rendering.samplesDone.toString
     val about = facts ++ Vector(samples) ++ time ++ earlier ++
@@ -251,13 +252,13 @@ final class RenderCommand(
     val how = WriteOptions(
       development.isHalf,
       precisions(loaded.plan),
-      options.display,
+      settings.output.display,
       window(loaded.plan),
       alpha
     )
     def write(path: Path) = Try:
       val (written, more) = OutputFiles.picture(path, image, alpha) match
-        case Some(picture) => (picture, options.display.describe(picture))
+        case Some(picture) => (picture, settings.output.display.describe(picture))
         case None => (image, loaded.plan.layers.fold(Vector.empty)(_.metadata(image)))
       ImageFiles.write(path, written, about ++ more, how)
     // Those that can't hold the digest first: what is done is told by the others
@@ -276,7 +277,7 @@ final class RenderCommand(
       for
         layers <- plan.layers.toVector
         own = layers.layers.filter(_.needsFloat).map(_ -> false)
-        (layer, isHalf) <- own ++ options.precisions
+        (layer, isHalf) <- own ++ settings.output.precisions
         channel <- layers.channels(layer)
       yield channel -> isHalf
     all.toMap
@@ -293,8 +294,11 @@ final class RenderCommand(
       loaded: LoadedScene,
       paths: Vector[Path]
   ): Option[String] =
-    Option.when(goals.skipDone):
-      FilmHeaders.digest(FilmHeaders.of(options, scene, loaded, Path.of("film"), paths), goals)
+    Option.when(options.film.skipDone):
+      FilmHeaders.digest(
+        FilmHeaders.of(options, scene, loaded, Path.of("film"), paths),
+        settings.goal
+      )
 
   private def metadata(
       scene: String,
@@ -309,13 +313,13 @@ final class RenderCommand(
       "software" -> s"Candela ${Version.current}",
       "scene" -> scene,
       "dialect" -> loaded.description.dialect.toString.toLowerCase,
-      "seed" -> options.seed.toString
+      "seed" -> settings.seed.toString
     ) ++ plan.features.filter(_._1 == "integrator") ++ crop ++
       plan.development.bands.fold(Vector.empty)(_ => SpectralBands.metadata) ++
       digest.map(Sequence.Digest -> _)
 
   /** Whether a rendering without samples ended by its time, and not by its user. */
-  private def isLate: Boolean = goals.time.isDefined && !cancellation.isRequested
+  private def isLate: Boolean = settings.goal.time.isDefined && !cancellation.isRequested
 
   private def summarise(
       written: Vector[Path],
@@ -324,7 +328,7 @@ final class RenderCommand(
       writeSeconds: Double
   ): Unit =
     for r <- rendering.refused do
-      terminal.err.println(Summary.refused(r, isTraceable = !options.preview))
+      terminal.err.println(Summary.refused(r, isTraceable = !settings.preview))
     if !options.quiet && written.nonEmpty then
       if options.verbose then
         terminal.err.println(Summary.phases(loaded, rendering, writeSeconds))
@@ -341,7 +345,9 @@ object Explanation:
 /** `candela render --pixel x,y --sample n --debug`: traces one sample and logs its path. */
 private[cli] object PixelTrace:
   def run(plan: RenderPlan, options: Options, out: Printer): ExitCode =
-    val (x, y) = options.pixel.getOrElse((0, 0))
+    val (x, y) = options.settings.region match
+      case RenderRegion.Pixel(x, y) => (x, y)
+      case _ => (0, 0)
     val crop = plan.crop
     if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then
       val size = s"x in [${crop.x0}, ${crop.x1}), y in [${crop.y0}, ${crop.y1})"

@@ -38,11 +38,15 @@ private[cli] final class RenderOutputs(
     val images = OutputFiles.asked(outfiles)
     if options.limits.sandbox then register.confine(folders(scene, outfiles))
     images.check()
-    register.read((scene +: (options.reference ++ options.switches.reference).toVector)
+    register.read((scene +: (options.reference ++ options.settings.output.reference).toVector)
       .map(OutputFiles.path))
     register.check(Output(images.paths, "image", scene))
     val film = if resumed.isDefined then None else FilmKeeping.named(options, outfiles)
-    others(scene, film.map(OutputFiles.path), options.switches.errors).foreach(register.check)
+    others(
+      scene,
+      film.map(OutputFiles.path),
+      options.settings.output.errors
+    ).foreach(register.check)
 
   /** The images to write, each by one scene.
     *
@@ -58,9 +62,9 @@ private[cli] final class RenderOutputs(
       else OutputFiles.ofScene(scene, loaded).without(register.hasRead)
     report.warnings(files.warnings, all = true)
     files.check()
-    if OutputFiles.needLayers(plan, options.denoise) && files.paths.nonEmpty then
+    if OutputFiles.needLayers(plan, options.settings.output.denoise) && files.paths.nonEmpty then
       files.checkLayers()
-    if options.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
+    if options.settings.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
     val at = if outfiles.isEmpty then FilmName.place(loaded.description) else None
     register.write(Output(files.paths, "image", scene, at = at))
     val film = FilmKeeping.path(options, outfiles, files.paths, resumed)

@@ -4,6 +4,8 @@ import java.nio.charset.StandardCharsets.UTF_8
 import java.nio.file.Path
 
 import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
+import candela.build.RenderRegion
+import candela.job.TextForm
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
 
@@ -67,11 +69,15 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
     phases.zip(begins).map:
       case ((name, seconds), begin) => Span(name, begin, begin + seconds)
 
+  private def window: Option[String] = options.settings.region match
+    case window: RenderRegion.Window => Some(TextForm.window.show(window))
+    case _ => None
+
   private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
     Vector(
       "samples per pixel" -> Reporting.samples(rendering),
       "threads" -> threads.toString,
-      "seed" -> options.seed.toString,
+      "seed" -> options.settings.seed.toString,
       "image" -> s"${rendering.film.width}×${rendering.film.height}",
       "rays" -> Figures.metric(rendering.rays.toDouble)
     ) ++
@@ -80,9 +86,9 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
         "memory of brightness levels" -> s"${Figures.metric(l.memory.toDouble)}B"
       ++
       options.reference.map("reference" -> _) ++
-      Option.when(options.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
-      options.cropWindow.map(w => "crop window" -> s"${w.x0},${w.x1},${w.y0},${w.y1}") ++
-      Option.when(options.keepGoing)("placeholders" -> loaded.standIns.toString)
+      Option.when(options.settings.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
+      window.map("crop window" -> _) ++
+      Option.when(options.settings.reading.keepGoing)("placeholders" -> loaded.standIns.toString)
 
 private object Reporting:
   private def samples(r: Rendering): String =

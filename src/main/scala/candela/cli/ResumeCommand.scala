@@ -28,9 +28,10 @@ final class ResumeCommand(
     )
     // A goal goes beyond the number of samples, to which points and footprints still belong
     val taken =
-      if options.film.endsEarly then RenderPlan.Endless else Math.max(header.samples, header.done)
-    val now = options.spp match
-      case Some(samples) => saved.copy(spp = Some(samples))
+      if options.settings.goal.isGiven then RenderPlan.Endless
+      else Math.max(header.samples, header.done)
+    val now = options.settings.samples match
+      case Some(samples) => saved.setting(_.copy(samples = Some(samples)))
       case None =>
         saved.copy(
           taken = Some(taken),

@@ -1,8 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, Refusal, SceneError, Severity, Suggest}
-import candela.build.{BuildOptions, DialectChoice, LightGrouping, SceneBuilder}
-import candela.film.PixelBounds
+import candela.build.{BuildControl, DialectChoice, RenderRegion, SceneBuilder}
 import candela.mitsuba.MitsubaScene
 import candela.render.{RenderPlan, ThreadPool}
 import candela.scenefile.{Excerpts, Parser, SceneDescription}
@@ -43,7 +42,7 @@ object SceneLoader:
       val started = System.nanoTime
       val description = readable(file, options)
       val parsed = System.nanoTime
-      val (plan, warnings) = SceneBuilder.build(description, buildOptions(options))
+      val (plan, warnings) = build(description, options)
       val built = System.nanoTime
       val all = description.warnings ++ warnings
       LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
@@ -58,7 +57,11 @@ object SceneLoader:
       if MitsubaScene.isNamed(file) then Some(OutputFiles.ofName(scene, folder))
       else if !Files.isRegularFile(file) then None // it can be read once
       else
-        Parser.film(file, options.dialect, within).flatMap(_.param("filename")) match
+        Parser.film(
+          file,
+          options.settings.reading.dialect,
+          within
+        ).flatMap(_.param("filename")) match
           case Some(name) => name.strings.headOption.map(OutputFiles.ofFilm(_, folder))
           case None => Some(OutputFiles.ofName(scene, folder))
 
@@ -68,49 +71,31 @@ object SceneLoader:
   /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
   def readable(file: Path, options: Options): SceneDescription =
     val folder = options.limits.folder(file)
+    val reading = options.settings.reading
     // What is not to be read is not looked at either
     if folder.isConfined then folder.scene(file): Unit
     for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
     if MitsubaScene.isNamed(file) then
-      MitsubaScene.readable(file, options.defines, options.keepGoing, Some(folder))
-    else if options.defines.nonEmpty then
+      MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(folder))
+    else if reading.defines.nonEmpty then
       val help = "-D sets parameters of Mitsuba's XML files"
       throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
     else
       val within = Some(folder)
-      val read = Parser.readable(file, options.dialect, options.keepGoing, options.world, within)
-      val scene = DialectChoice.of(read, options.dialect)
+      val read = Parser.readable(file, reading.dialect, reading.keepGoing, options.world, within)
+      val scene = DialectChoice.of(read, reading.dialect)
       if !scene.isFollowed || options.command == Command.Render then scene
       else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
 
   private val FirstOnly = "the file has several worlds; this is about the first"
 
-  private def buildOptions(o: Options): BuildOptions =
-    val crop = o.cropWindow.map(w => (w.x0, w.x1, w.y0, w.y1))
-    val pixels = o.pixels.map(w => PixelBounds(w.x0, w.y0, w.x1, w.y1))
-    val pixel = o.pixel.filterNot(_ => o.debug).map((x, y) => PixelBounds(x, y, x + 1, y + 1))
-    // A goal alone ends a rendering without --spp
-    val isEndless = o.film.endsEarly && o.spp.isEmpty && o.command == Command.Render
-    val taken = o.taken.orElse(Option.when(isEndless)(RenderPlan.Endless))
-    val layers = if o.pixelMaterial.isEmpty then o.layers else o.layers ++ PixelMaterial.Layers
-    BuildOptions(
-      o.spp,
-      o.seed,
-      o.quick,
-      o.preview,
-      crop,
-      o.keepGoing,
-      layers.distinct,
-      o.color,
-      o.lightGroups.getOrElse(LightGrouping.Statements),
-      ThreadPool(o.threadCount, worksAside = o.command != Command.Check),
-      o.switches,
-      pixels.orElse(pixel),
-      o.points,
-      o.fireflies,
-      taken,
-      o.footprint
-    )
+  private def build(d: SceneDescription, o: Options): (RenderPlan, Vector[Problem]) =
+    // A traced pixel is one of the whole image
+    val region = if o.debug then RenderRegion.Whole else o.settings.region
+    val shown = if o.pixelMaterial.isEmpty then Vector.empty else PixelMaterial.Layers
+    val settings = o.settings.copy(region = region, layers = (o.settings.layers ++ shown).distinct)
+    val pool = ThreadPool(o.threadCount, worksAside = o.command != Command.Check)
+    SceneBuilder.build(d, settings, BuildControl(pool, o.taken, o.footprint))
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =

@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
+import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.Dialect
@@ -129,7 +129,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
   /** Means of the image, by a few independent renderings. */
   private def means(text: String, dialect: Dialect): Seq[Double] =
     (1 to Seeds).map: seed =>
-      val plan = SceneTexts.plan(text, dialect, BuildOptions(seed = seed))
+      val plan = SceneTexts.plan(text, dialect, RenderSettings(seed = seed))
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       image.data.map(_.toDouble).sum / image.data.length
 
@@ -279,7 +279,8 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     val text = scene("\"bdpt\"", point, (matte, matte), Dialect.V3, perspective, 2000)
     val plan = SceneTexts.plan(text)
     val whole = Renderer.render(plan, threads = 2).image(plan.development)
-    val cut = BuildOptions(cropWindow = Some((0.25f, 0.75f, 0.5f, 1f)), spp = Some(8000))
+    val right = RenderRegion.Window(0.25f, 0.75f, 0.5f, 1f)
+    val cut = RenderSettings(region = right, samples = Some(8000))
     val part = SceneTexts.plan(text, options = cut)
     val crop = Renderer.render(part, threads = 2).image(part.development)
     val (a, b) = (

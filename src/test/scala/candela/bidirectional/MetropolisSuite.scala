@@ -2,7 +2,7 @@ package candela.bidirectional
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, ColorMode}
+import candela.build.{ColorMode, RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.film.Layer
 import candela.render.{Cancellation, Renderer}
@@ -49,7 +49,7 @@ final class MetropolisSuite extends AnyFunSuite:
         "\"integer chains\" 20"
 
   private def image(text: String, dialect: Dialect, threads: Int = 2, seed: Int = 1) =
-    val plan = SceneTexts.plan(text, dialect, BuildOptions(seed = seed, color = ColorMode.Rgb))
+    val plan = SceneTexts.plan(text, dialect, RenderSettings(seed = seed, color = ColorMode.Rgb))
     Renderer.render(plan, threads).image(plan.development).data
 
   for dialect <- Seq(Dialect.V2, Dialect.V3, Dialect.V4) do
@@ -116,11 +116,12 @@ final class MetropolisSuite extends AnyFunSuite:
       LightSource "infinite" "rgb L" [1 1 1]
       Material "matte" "rgb Kd" [.5 .5 .5]
       Shape "disk" "float radius" 9"""
-    for crop <- Seq(None, Some((0.5f, 1f, 0.25f, 0.75f))) do
-      val plan = SceneTexts.plan(lit, options = BuildOptions(cropWindow = crop))
+    val part = RenderRegion.Window(0.5f, 1f, 0.25f, 0.75f)
+    for region <- Seq(RenderRegion.Whole, part) do
+      val plan = SceneTexts.plan(lit, options = RenderSettings(region = region))
       val data = Renderer.render(plan, threads = 2).image(plan.development).data
-      assert(data.length == (if crop.isEmpty then 192 else 48))
-      for value <- data do assert(Math.abs(value - 0.5f) < 0.04f, s"$crop: $value")
+      assert(data.length == (if region == part then 48 else 192))
+      for value <- data do assert(Math.abs(value - 0.5f) < 0.04f, s"$region: $value")
 
   test("the image is the same bit for bit by one thread and by three, and another by another seed"):
     val text = room(mlt(Dialect.V3), Dialect.V3)
@@ -130,7 +131,7 @@ final class MetropolisSuite extends AnyFunSuite:
     assert(one.exists(_ > 0f))
 
   test("a plan can be rendered twice, with the same image"):
-    val options = BuildOptions(spp = Some(4))
+    val options = RenderSettings(samples = Some(4))
     val plan = SceneTexts.plan(room(mlt(Dialect.V3), Dialect.V3), options = options)
     def data = Renderer.render(plan, threads = 1).image(plan.development).data.toVector
     assert(data == data)
@@ -138,7 +139,7 @@ final class MetropolisSuite extends AnyFunSuite:
   test("mutations are as many as asked for, and --spp says how many"):
     val text = room(mlt(Dialect.V3), Dialect.V3)
     assert(SceneTexts.plan(text).sampler.samplesPerPixel == 400)
-    val plan = SceneTexts.plan(text, options = BuildOptions(spp = Some(3)))
+    val plan = SceneTexts.plan(text, options = RenderSettings(samples = Some(3)))
     val rendering = Renderer.render(plan, threads = 2)
     assert(rendering.samplesTaken == 3 * 64 && rendering.isComplete)
 
@@ -164,6 +165,6 @@ final class MetropolisSuite extends AnyFunSuite:
     assert(said("").isEmpty)
     val (_, warnings) = candela.build.SceneBuilder.build(
       SceneTexts.parse(room(mlt(Dialect.V3), Dialect.V3), Dialect.V3),
-      BuildOptions(layers = Vector(Layer.Albedo))
+      RenderSettings(layers = Vector(Layer.Albedo))
     )
     assert(warnings.exists(_.message.contains("writes no AOVs")))

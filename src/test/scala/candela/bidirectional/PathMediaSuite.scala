@@ -1,6 +1,6 @@
 package candela.bidirectional
 
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.color.Rgb
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -142,4 +142,4 @@ final class PathMediaSuite extends AnyFunSuite:
       SceneTexts.problems(inFog(scene("\"bdpt\"", coloured, sky, 1, 3)), Dialect.V4).map(_.message)
     assert(said.exists(_.contains("light from infinity in a medium without end yet")), said)
     val outside = scene("\"bdpt\"", coloured, lamp, 1, 3)
-    assert(SceneTexts.problems(outside, Dialect.V4, options = BuildOptions()).isEmpty)
+    assert(SceneTexts.problems(outside, Dialect.V4, options = RenderSettings()).isEmpty)

@@ -212,7 +212,7 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val file = Files.createTempFile("shpere", ".pbrt")
     try
       Files.writeString(file, "WorldBegin\nLightSource \"piont\"\n"): Unit
-      val error = intercept[SceneError](SceneBuilder.build(Parser.parse(file), BuildOptions()))
+      val error = intercept[SceneError](SceneBuilder.build(Parser.parse(file), RenderSettings()))
       assert(error.problems.flatMap(_.excerpt) == Vector("LightSource \"piont\""))
     finally Files.delete(file)
 

@@ -16,12 +16,12 @@ class FireflyLimitsSuite extends AnyFunSuite:
        |""".stripMargin
 
   private def problems(integrator: String, fireflies: Fireflies) =
-    messages(integrator, BuildOptions(fireflies = fireflies))
+    messages(integrator, RenderSettings(fireflies = fireflies))
 
-  private def messages(integrator: String, options: BuildOptions) =
+  private def messages(integrator: String, options: RenderSettings) =
     SceneTexts.problems(scene(integrator), Dialect.V4, options = options).map(_.message)
 
-  private def plan(options: BuildOptions) = SceneTexts.plan(scene("path"), Dialect.V4, options)
+  private def plan(options: RenderSettings) = SceneTexts.plan(scene("path"), Dialect.V4, options)
 
   private val clamped = Fireflies.Clamped(2)
 
@@ -50,18 +50,18 @@ class FireflyLimitsSuite extends AnyFunSuite:
   test("nothing is said, nor done, unless asked; previews have no fireflies"):
     for integrator <- Vector("path", "mlt", "sppm", "bdpt") do
       assert(problems(integrator, Fireflies.Kept).isEmpty)
-    val preview = BuildOptions(fireflies = clamped, preview = true)
+    val preview = RenderSettings(fireflies = clamped, preview = true)
     assert(messages("mlt", preview).isEmpty)
     assert(plan(preview).fireflies == Fireflies.Kept)
-    assert(!plan(BuildOptions()).features.exists(_._1 == "fireflies"))
+    assert(!plan(RenderSettings()).features.exists(_._1 == "fireflies"))
 
   test("--explain says what is done"):
-    val limited = plan(BuildOptions(fireflies = clamped))
+    val limited = plan(RenderSettings(fireflies = clamped))
     assert(limited.features.contains(
       "fireflies" -> "indirect light of samples is limited to 2.0; the image is biased"
     ))
     assert(limited.indirectLimit.exists(_.most == 2f))
-    val reweighted = plan(BuildOptions(fireflies = Fireflies.Reweighted))
+    val reweighted = plan(RenderSettings(fireflies = Fireflies.Reweighted))
     assert(reweighted.features.exists((what, how) =>
       what == "fireflies" && how.contains("48 bytes")
     ))

@@ -42,7 +42,7 @@ final class ImageDecodingSuite extends AnyFunSuite:
         <shape type="rectangle">$bsdf</shape></scene>"""
     )
     val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
-    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val plan = SceneBuilder.build(scene, RenderSettings())._1
     Renderer.render(plan, threads = 1).image(plan.development).data(0)
 
   test("raw images of Mitsuba's scenes are read as they are, JPEG as PNG"):

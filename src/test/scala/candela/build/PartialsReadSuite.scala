@@ -29,7 +29,7 @@ class PartialsReadSuite extends AnyFunSuite:
       ${if squares.contains(bumpy) then wrinkles else ""}
       LightSource "point"
       ${shapes.mkString("\n")}"""
-    val context = BuildContext(SceneTexts.parse(text, Dialect.V4), BuildOptions())
+    val context = BuildContext(SceneTexts.parse(text, Dialect.V4), RenderSettings())
     def integrator(in: BuildContext) = in.made(None, Integrators.all, "path")
     WorldBuilder(
       context,

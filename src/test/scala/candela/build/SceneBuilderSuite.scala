@@ -60,8 +60,9 @@ final class SceneBuilderSuite extends AnyFunSuite:
       Material "coateddiffuse" "rgb reflectance" [.1 .6 .3] "float other" 1
       Translate 2 0 0 Shape "sphere" """
     def made(pool: Parallel) =
-      val options = BuildOptions(pool = pool, color = ColorMode.Spectral)
-      val (plan, problems) = SceneBuilder.build(SceneTexts.parse(scene, Dialect.V4), options)
+      val options = RenderSettings(color = ColorMode.Spectral)
+      val description = SceneTexts.parse(scene, Dialect.V4)
+      val (plan, problems) = SceneBuilder.build(description, options, BuildControl(pool))
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       (image.data.toVector, problems.map(_.message))
     val alone = made(Parallel.Alone)
@@ -73,7 +74,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
       val plan = SceneTexts.plan(
         s"Sampler $statement\n$nothing",
         Dialect.V3,
-        BuildOptions(points = choice)
+        RenderSettings(points = choice)
       )
       (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
     val halton = "\"halton\" \"integer pixelsamples\" 9"
@@ -99,7 +100,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val text = s"Sampler \"independent\" \"integer pixelsamples\" 9\n$nothing"
     def sampler(isMitsubas: Boolean, choice: PointChoice) =
       val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
-      val plan = SceneBuilder.build(scene, BuildOptions(points = choice))._1
+      val plan = SceneBuilder.build(scene, RenderSettings(points = choice))._1
       (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
     val own = (classOf[IndependentSampler], 9, "independent random numbers, for \"independent\"")
     assert(sampler(isMitsubas = false, PointChoice.Best) == own)
@@ -113,14 +114,14 @@ final class SceneBuilderSuite extends AnyFunSuite:
 
   test("points whose number is fixed are replaced where any number must be evenly spread"):
     def sampler(choice: PointChoice) =
-      SceneTexts.plan(nothing, Dialect.V4, BuildOptions(points = choice)).sampler
+      SceneTexts.plan(nothing, Dialect.V4, RenderSettings(points = choice)).sampler
     assert(sampler(PointChoice.Best).isInstanceOf[ZSobolSampler])
     assert(sampler(PointChoice.Progressive).isInstanceOf[OwenSobolSampler])
 
   test("a number of samples that the points can't have is said, as is what is rendered"):
     def of(spp: Int, sampler: String = "\"zsobol\"") =
       val text = s"Sampler $sampler\n$nothing"
-      val options = BuildOptions(spp = Some(spp), points = PointChoice.Scene)
+      val options = RenderSettings(samples = Some(spp), points = PointChoice.Scene)
       val found = SceneTexts.problems(text, Dialect.V4, options = options)
       (SceneTexts.plan(text, Dialect.V4, options).sampler.samplesPerPixel, found.map(_.message))
     val none = of(256)
@@ -148,7 +149,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     assert(SceneTexts.plan(pixels, Dialect.V4).crop == PixelBounds(3, 5, 7, 9))
     val both = s"$rgb \"integer pixelbounds\" [3 7 5 9] \"float cropwindow\" [0.25 0.5 0.5 1]"
     assert(SceneTexts.plan(s"$both\n$nothing", Dialect.V4).crop == PixelBounds(20, 20, 40, 40))
-    val asked = BuildOptions(cropWindow = Some((0f, 0.1f, 0f, 0.1f)))
+    val asked = RenderSettings(region = RenderRegion.Window(0f, 0.1f, 0f, 0.1f))
     assert(SceneTexts.plan(cropped, options = asked).crop == PixelBounds(0, 0, 8, 4))
 
   test("windows in pixels are those pixels, at any width"):
@@ -172,7 +173,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     for method <- methods; sampler <- if method.contains("path") then samplers else Seq("halton") do
       val text = s"${film(window)}Sampler \"$sampler\" \"integer pixelsamples\" 1\n$method\n" +
         s"Camera \"perspective\"\nWorldBegin\n$lit"
-      val scenes = BuildOptions(points = PointChoice.Scene)
+      val scenes = RenderSettings(points = PointChoice.Scene)
       val plan = SceneTexts.plan(text, options = scenes)
       assert(plan.crop == PixelBounds(22500, 23000, 22505, 23005), method)
       val image = Renderer.render(plan, threads = 1).image(plan.development)
@@ -194,18 +195,18 @@ final class SceneBuilderSuite extends AnyFunSuite:
     ).exists(_.message.contains("must be above `shutteropen`")))
 
   test("a crop window without a pixel is an error"):
-    val empty = BuildOptions(cropWindow = Some((0.5f, 0.5f, 0f, 1f)))
+    val empty = RenderSettings(region = RenderRegion.Window(0.5f, 0.5f, 0f, 1f))
     val error = intercept[SceneError](SceneTexts.plan(s"$film\n$nothing", options = empty))
     assert(error.getMessage.contains("no pixel"))
 
   test("quick: a sixteenth of the pixels with one sample each"):
-    val plan = SceneTexts.plan(s"$film\n$nothing", options = BuildOptions(quick = true))
+    val plan = SceneTexts.plan(s"$film\n$nothing", options = RenderSettings(quick = true))
     assert((plan.width, plan.height, plan.sampler.samplesPerPixel) == (20, 10, 1))
 
   test("the caller's number of samples replaces the scene's"):
     val scene = s"Sampler \"stratified\" \"integer xsamples\" 2 \"integer ysamples\" 3\n$nothing"
     assert(SceneTexts.plan(scene).sampler.samplesPerPixel == 6)
-    val asked = BuildOptions(spp = Some(12))
+    val asked = RenderSettings(samples = Some(12))
     assert(SceneTexts.plan(scene, options = asked).sampler.samplesPerPixel == 12)
 
   test("film settings reach the plan"):

@@ -27,10 +27,9 @@ final class SwitchesSuite extends AnyFunSuite:
        |Shape "disk" "float radius" 40
        |""".stripMargin
 
-  private def image(text: String, switches: Switches, folder: Path = Path.of("")): Image =
+  private def image(text: String, settings: RenderSettings, folder: Path = Path.of("")): Image =
     val description = SceneTexts.parse(text, Dialect.V4, folder)
-    val options = BuildOptions(switches = switches, color = ColorMode.Rgb)
-    val plan = SceneBuilder.build(description, options)._1
+    val plan = SceneBuilder.build(description, settings.copy(color = ColorMode.Rgb))._1
     Renderer.render(plan, threads = 1).image(plan.development)
 
   private def mean(image: Image): Rgb =
@@ -49,9 +48,9 @@ final class SwitchesSuite extends AnyFunSuite:
        |Material "diffuse" "texture reflectance" "t"""".stripMargin
 
   test("textures that are not filtered have their own colours only, at pixel centres"):
-    def greys(switches: Switches) =
-      image(surface(sun, squares), switches).data.map(v => Math.round(v * 100)).distinct.length
-    val filtered = Switches(centers = true)
+    def greys(settings: RenderSettings) =
+      image(surface(sun, squares), settings).data.map(v => Math.round(v * 100)).distinct.length
+    val filtered = RenderSettings(centers = true)
     assert(greys(filtered) > 10)
     assert(greys(filtered.copy(unfiltered = true)) == 2)
 
@@ -67,53 +66,53 @@ final class SwitchesSuite extends AnyFunSuite:
           "Material \"diffuse\" \"texture reflectance\" \"t\"",
         spp = 1
       )
-      def values(switches: Switches) =
-        image(text, switches, folder).data.grouped(3).map(p => Math.round(p(0) * 50)).toSet.size
-      assert(values(Switches()) > 1)
-      assert(values(Switches(meanImages = true)) == 1)
+      def values(settings: RenderSettings) =
+        image(text, settings, folder).data.grouped(3).map(p => Math.round(p(0) * 50)).toSet.size
+      assert(values(RenderSettings()) > 1)
+      assert(values(RenderSettings(meanImages = true)) == 1)
     finally
       Files.delete(file)
       Files.delete(folder)
 
   test("a mirror turns into a diffuse surface of its own albedo"):
     val mirror = "Material \"conductor\" \"rgb reflectance\" [.7 .7 .7]"
-    assert(mean(image(surface(point, mirror), Switches())).g == 0f)
-    assert(mean(image(surface(point, mirror), Switches(diffuse = true))).g > 0.1f)
+    assert(mean(image(surface(point, mirror), RenderSettings())).g == 0f)
+    assert(mean(image(surface(point, mirror), RenderSettings(diffuse = true))).g > 0.1f)
     // Of the sky, as much as a grey surface: of 1,024 samples, by light and by BSDF, 2 %
-    val seen = mean(image(surface(sky, mirror), Switches(diffuse = true))).g
+    val seen = mean(image(surface(sky, mirror), RenderSettings(diffuse = true))).g
     assert(Math.abs(seen - 0.7f) < 0.03f, seen) // and 0.01 of Fresnel's equations
 
   test("glass turns into a white surface, with what it reflects and what it transmits"):
     val glass = "Material \"dielectric\""
-    val seen = mean(image(surface(sun, glass), Switches(diffuse = true))).g
+    val seen = mean(image(surface(sun, glass), RenderSettings(diffuse = true))).g
     val white = "Material \"diffuse\" \"rgb reflectance\" [1 1 1]"
-    val expected = mean(image(surface(sun, white), Switches())).g
+    val expected = mean(image(surface(sun, white), RenderSettings())).g
     // Refracted radiance is compressed by the squared index, as in pbrt
     assert(seen > 0.4f * expected && seen < expected, s"$seen of $expected")
 
   test("with one set of wavelengths all samples take it, in spectral rendering"):
-    def color(switches: Switches, mode: ColorMode) =
-      val options = BuildOptions(switches = switches, color = mode)
+    def color(settings: RenderSettings, mode: ColorMode) =
+      val options = settings.copy(color = mode)
       val plan = SceneTexts.plan(surface(sun, squares), Dialect.V4, options)
       plan.features.toMap.apply("color")
-    val one = Switches(oneColorSet = true)
+    val one = RenderSettings(oneColorSet = true)
     assert(color(one, ColorMode.Spectral).contains("always the same three"))
-    assert(!color(Switches(), ColorMode.Spectral).contains("always"))
+    assert(!color(RenderSettings(), ColorMode.Spectral).contains("always"))
     assert(!color(one, ColorMode.Rgb).contains("always"))
     val grey = "Material \"diffuse\" \"rgb reflectance\" [.5 .5 .5]"
-    def lit(switches: Switches) =
-      val options = BuildOptions(switches = switches, color = ColorMode.Spectral)
+    def lit(settings: RenderSettings) =
+      val options = settings.copy(color = ColorMode.Spectral)
       val plan = SceneTexts.plan(surface(sun, grey), Dialect.V4, options)
       Renderer.render(plan, threads = 1).image(plan.development).data.map(v => Math.round(v * 1e4f))
     // Without their noise, but with another hue
     assert(lit(one).grouped(3).map(_.toVector).toSet.size == 1)
-    assert(lit(Switches()).grouped(3).map(_.toVector).toSet.size > 10)
+    assert(lit(RenderSettings()).grouped(3).map(_.toVector).toSet.size > 10)
 
-  test("the command line's settings go before the scene's, and seeds are combined"):
+  test("the user's settings go before the scene's, and seeds are combined"):
     val scene = Switches(seed = 3, diffuse = true, edgeScale = Some(2f))
-    val line = Switches(centers = true, edgeScale = Some(4f))
-    assert(line.over(scene) == Switches(3, centers = true, diffuse = true, edgeScale = Some(4f)))
-    assert(Switches().over(scene) == scene)
+    val asked = RenderSettings(centers = true, edgeScale = Some(4f))
+    assert(asked.over(scene) == scene.copy(centers = true, edgeScale = Some(4f)))
+    assert(RenderSettings().over(scene) == scene)
 
   test("a scale of edges that is not above 0 is an error"):
     val found = SceneTexts.problems("Option \"displacementedgescale\" 0\nWorldBegin", Dialect.V4)

@@ -3,7 +3,7 @@ package candela.cameras
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.mitsuba.MitsubaScene
 import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.Dialect
@@ -108,5 +108,5 @@ final class IntrinsicsSuite extends AnyFunSuite:
       val scene =
         try MitsubaScene.readable(file, Map.empty, keepGoing = false)
         finally Files.delete(file)
-      val plan = SceneBuilder.build(scene, BuildOptions())._1
+      val plan = SceneBuilder.build(scene, RenderSettings())._1
       near(centre(plan), f * x / z + width / 2.0, f * y / z + height / 2.0)

@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.base.Version
-import candela.build.LightGrouping
+import candela.build.{LightGrouping, ReadSettings, RenderRegion}
 import candela.film.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect
@@ -16,6 +16,12 @@ class CommandLineSuite extends AnyFunSuite:
 
   private val one = Options(files = Vector("a.pbrt"))
 
+  private def in(region: RenderRegion) =
+    one.setting(_.copy(region = region)).copy(regions = Vector(region))
+
+  private def as(dialect: Dialect) =
+    one.setting(_.copy(reading = ReadSettings(dialect = Some(dialect))))
+
   private def compare(o: CompareOptions) =
     Options(command = Command.Compare, files = Vector("a.exr", "b.exr"), compare = o)
 
@@ -23,31 +29,31 @@ class CommandLineSuite extends AnyFunSuite:
     "a.pbrt" -> one,
     "render a.pbrt" -> one,
     "a.pbrt b.pbrt" -> one.copy(files = Vector("a.pbrt", "b.pbrt")),
-    "--spp 16 a.pbrt" -> one.copy(spp = Some(16)),
-    "a.pbrt --spp=16" -> one.copy(spp = Some(16)),
-    "a.pbrt --seed -3" -> one.copy(seed = -3),
+    "--spp 16 a.pbrt" -> one.setting(_.copy(samples = Some(16))),
+    "a.pbrt --spp=16" -> one.setting(_.copy(samples = Some(16))),
+    "a.pbrt --seed -3" -> one.setting(_.copy(seed = -3)),
     "a.pbrt --nthreads 3" -> one.copy(threads = Some(3)),
     "a.pbrt -j 3" -> one.copy(threads = Some(3)),
     "a.pbrt --quick --quiet --verbose --explain" ->
-      one.copy(quick = true, quiet = true, verbose = true, explain = true),
+      one.setting(_.copy(quick = true)).copy(quiet = true, verbose = true, explain = true),
     "a.pbrt --outfile x.exr" -> one.copy(outfiles = Vector("x.exr")),
     "a.pbrt --outfile x.exr,y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
     "--outfile x.exr a.pbrt --outfile y.png" -> one.copy(outfiles = Vector("x.exr", "y.png")),
     "a.pbrt --cropwindow 0.25,0.75,0,1" ->
-      one.copy(cropWindow = Some(CropWindow(0.25f, 0.75f, 0f, 1f))),
+      in(RenderRegion.Window(0.25f, 0.75f, 0f, 1f)),
     "a.pbrt --aov albedo,Depth --aov samples" ->
-      one.copy(layers = Vector(Layer.Albedo, Layer.Depth, Layer.Samples)),
+      one.setting(_.copy(layers = Vector(Layer.Albedo, Layer.Depth, Layer.Samples))),
     "a.pbrt --light-groups type" ->
-      one.copy(layers = Vector(Layer.Lights), lightGroups = Some(LightGrouping.Types)),
-    "a.pbrt --light-groups key=point_3,key=spot_4+area" -> one.copy(
+      one.setting(_.copy(layers = Vector(Layer.Lights), lightGroups = Some(LightGrouping.Types))),
+    "a.pbrt --light-groups key=point_3,key=spot_4+area" -> one.setting(_.copy(
       layers = Vector(Layer.Lights),
       lightGroups =
         Some(LightGrouping.Named(Vector("key" -> Vector("point_3", "spot_4", "area"))))
-    ),
-    "a.pbrt --film gbuffer" -> one.copy(layers = Layer.gbuffer),
-    "a.pbrt --dialect v2" -> one.copy(dialect = Some(Dialect.V2)),
+    )),
+    "a.pbrt --film gbuffer" -> one.setting(_.copy(layers = Layer.gbuffer)),
+    "a.pbrt --dialect v2" -> as(Dialect.V2),
     "check a.pbrt --dialect V4 --explain" ->
-      one.copy(command = Command.Check, dialect = Some(Dialect.V4), explain = true),
+      as(Dialect.V4).copy(command = Command.Check, explain = true),
     "render check" -> one.copy(files = Vector("check")),
     "a.pbrt --report r.html,r.csv --reference b.exr" ->
       one.copy(reports = Vector("r.html", "r.csv"), reference = Some("b.exr")),

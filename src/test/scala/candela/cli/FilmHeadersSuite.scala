@@ -1,5 +1,9 @@
 package candela.cli
 
+import candela.build.RenderSettings
+import candela.guiding.GuidingMode
+import candela.job.SettingsCodec
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class FilmHeadersSuite extends AnyFunSuite:
@@ -32,7 +36,8 @@ class FilmHeadersSuite extends AnyFunSuite:
     "disable-image-textures" -> Vector(""),
     "disable-wavelength-jitter" -> Vector(""),
     "force-diffuse" -> Vector(""),
-    "guiding" -> Vector("auto", "on"),
+    "guiding" -> GuidingMode.values.toVector.filter(_ != GuidingMode.Off)
+      .map(_.toString.toLowerCase),
     "displacement-edge-scale" -> Vector("2.5")
   )
 
@@ -50,14 +55,20 @@ class FilmHeadersSuite extends AnyFunSuite:
   test("every option of render is known to shape the image or not to"):
     assert(OptionTable.names("render").toSet == shaping.keySet ++ others)
 
+  private def options(words: Vector[String]) =
+    CommandLine.parse("render" +: words :+ "s.pbrt").toOption.get
+
   test("the options that shape the image are saved, and read again as they were"):
     for (name, values) <- shaping; value <- values do
-      val words = Vector("render", s"--$name") ++ Option(value).filter(_.nonEmpty) :+ "s.pbrt"
-      val options = CommandLine.parse(words).toOption.get
-      val saved = FilmHeaders.words(options)
-      assert(saved.nonEmpty, words)
-      val read = CommandLine.parse("render" +: saved :+ "s.pbrt").toOption.get
-      assert(read == options, words)
+      val asked = options(s"--$name" +: Option(value).filter(_.nonEmpty).toVector).settings
+      val saved = SettingsCodec.identity(asked)
+      assert(saved.nonEmpty, name)
+      assert(SettingsCodec.settings(saved) == Right(asked), saved)
+
+  test("saved settings are the words of the options that ask for them"):
+    for (name, values) <- shaping; value <- values do
+      val asked = options(s"--$name" +: Option(value).filter(_.nonEmpty).toVector).settings
+      assert(options(SettingsCodec.identity(asked)).settings == asked, name)
 
   test("without options nothing is saved"):
-    assert(FilmHeaders.words(Options()).isEmpty)
+    assert(SettingsCodec.identity(RenderSettings()).isEmpty)

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.build.RenderGoal
 import candela.color.Rgb
 import candela.film.{Development, Film}
 import candela.render.{Pass, Renderer, Rendering, TinyPlan}
@@ -11,22 +12,22 @@ class GoalSuite extends AnyFunSuite:
   private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
     Rgb.gray(0.5f + sampler.next1D())
 
-  private def goal(options: FilmOptions) =
+  private def goal(options: RenderGoal) =
     Goal(options, 1000, RenderRecorder(Development(), None))
 
   private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, passObserver = Some(goal))
 
   test("a rendering ends at the first samples whose error is low enough, with whole passes"):
     // The root of 0.0833 / 44: past 32, before 64
-    val rendering = rendered(goal(FilmOptions(error = Some(0.0436))))
+    val rendering = rendered(goal(RenderGoal(error = Some(0.0436))))
     assert(rendering.samplesDone == 48 && rendering.isComplete)
     assert(rendering.samplesTaken == 48 * 40 * 30)
 
   test("an error of a few samples ends nothing"):
-    assert(rendered(goal(FilmOptions(error = Some(10)))).samplesDone == Goal.Fewest)
+    assert(rendered(goal(RenderGoal(error = Some(10)))).samplesDone == Goal.Fewest)
 
   test("the samples that an error needs are told by its trend"):
-    val ended = goal(FilmOptions(error = Some(0.0436)))
+    val ended = goal(RenderGoal(error = Some(0.0436)))
     val _ = rendered(ended)
     val expected = ended.goal.get
     // 44 samples: ± 10 %
@@ -41,7 +42,7 @@ class GoalSuite extends AnyFunSuite:
     * @param largest samples per pixel of a pass
     */
   private def ended(time: Double, largest: Int, actual: Double = 1): Double =
-    val timed = goal(FilmOptions(time = Some(time)))
+    val timed = goal(RenderGoal(time = Some(time)))
     timed.begins(0, film)
     var clock = 0.0
     var samples = 0
@@ -66,42 +67,42 @@ class GoalSuite extends AnyFunSuite:
     assert(ended(20.55, 1) == 20)
 
   test("a slow start does not end a rendering before its time"):
-    val timed = goal(FilmOptions(time = Some(1.2)))
+    val timed = goal(RenderGoal(time = Some(1.2)))
     timed.begins(0, film)
     timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
     assert(!timed.isEnough && timed.most == 2)
 
   test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
-    val timed = goal(FilmOptions(time = Some(20)))
+    val timed = goal(RenderGoal(time = Some(20)))
     timed.begins(0, film)
     for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
     assert(timed.most == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
-    val chains = goal(FilmOptions(time = Some(20)))
+    val chains = goal(RenderGoal(time = Some(20)))
     chains.begins(0, film)
     chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
     assert(!chains.isEnough && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
 
   test("where an error is looked at does not depend on a time"):
-    val both = goal(FilmOptions(error = Some(1e9), time = Some(1000)))
+    val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
     both.begins(0, film)
     both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
     assert(!both.isEnough)
 
   test("what ends before its goal because all samples are taken says so, and what to do"):
-    def missed(options: FilmOptions) =
+    def missed(options: RenderGoal) =
       val ended = goal(options)
       ended.missed(rendered(ended))
     val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
     // The root of 0.0833 / 1000
-    val noisy = missed(FilmOptions(error = Some(1e-4))).get
+    val noisy = missed(RenderGoal(error = Some(1e-4))).get
     assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
-    val early = missed(FilmOptions(time = Some(3600))).get
+    val early = missed(RenderGoal(time = Some(3600))).get
     assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
-    val both = missed(FilmOptions(error = Some(1e-4), time = Some(3600))).get
+    val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
     assert(both.contains("not 0.01 %, and the rendering ended after "))
-    assert(missed(FilmOptions(error = Some(0.5))).isEmpty)
-    assert(missed(FilmOptions(time = Some(1e-6))).isEmpty)
+    assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
+    assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)
 
   test("a time ends a rendering with whole passes"):
-    val rendering = rendered(goal(FilmOptions(time = Some(1e-6))))
+    val rendering = rendered(goal(RenderGoal(time = Some(1e-6))))
     assert(rendering.samplesDone == 1 && rendering.samplesTaken == 1200)

@@ -1,6 +1,8 @@
 package candela.cli
 
-import candela.build.recipe.{Dialects, Switches}
+import candela.build.{OutputSettings, RenderRegion, RenderSettings}
+import candela.build.recipe.Dialects
+import candela.film.PixelBounds
 import candela.scenefile.Dialect
 
 import java.nio.file.{Files, Path}
@@ -39,33 +41,37 @@ final class PbrtOptionsSuite extends AnyFunSuite:
   private def options(line: String): Options = parse(line).fold(a => fail(a.err), identity)
 
   private val one = Options(files = Vector("a.pbrt"))
-  private def switched(s: Switches) = one.copy(switches = s)
+  private def switched(s: RenderSettings) = one.copy(settings = s)
+  private def in(region: RenderRegion) =
+    one.setting(_.copy(region = region)).copy(regions = Vector(region))
 
   private val understood = Vector(
     "--ncores 3 a.pbrt --quick --quiet --verbose" ->
-      one.copy(threads = Some(3), quick = true, quiet = true, verbose = true),
+      switched(RenderSettings(quick = true)).copy(threads = Some(3), quiet = true, verbose = true),
     "--ncores=3 a.pbrt" -> one.copy(threads = Some(3)),
     "-nthreads 2 -outfile b.exr a.pbrt" ->
       one.copy(threads = Some(2), outfiles = Vector("b.exr")),
     "--cropwindow 0 .5 .25 1 a.pbrt" ->
-      one.copy(cropWindow = Some(CropWindow(0f, 0.5f, 0.25f, 1f))),
+      in(RenderRegion.Window(0f, 0.5f, 0.25f, 1f)),
     "--cropwindow=0,.5,.25,1 a.pbrt" ->
-      one.copy(cropWindow = Some(CropWindow(0f, 0.5f, 0.25f, 1f))),
-    "--pixelbounds 3,9,2,5 a.pbrt" -> one.copy(pixels = Some(PixelRange(3, 9, 2, 5))),
-    "--pixel 7,8 a.pbrt" -> one.copy(pixel = Some((7, 8))),
+      in(RenderRegion.Window(0f, 0.5f, 0.25f, 1f)),
+    "--pixelbounds 3,9,2,5 a.pbrt" -> in(RenderRegion.Pixels(PixelBounds(3, 2, 9, 5))),
+    "--pixel 7,8 a.pbrt" -> in(RenderRegion.Pixel(7, 8)),
     "--pixelmaterial 7,8 a.pbrt" -> one.copy(pixelMaterial = Some((7, 8))),
     "--stats a.pbrt" -> one.copy(verbose = true),
     "--v 2 a.pbrt" -> one.copy(verbose = true),
-    "--disable-pixel-jitter a.pbrt" -> switched(Switches(centers = true)),
-    "--disablePixelJitter a.pbrt" -> switched(Switches(centers = true)),
-    "--disable_texture_filtering=true a.pbrt" -> switched(Switches(unfiltered = true)),
+    "--disable-pixel-jitter a.pbrt" -> switched(RenderSettings(centers = true)),
+    "--disablePixelJitter a.pbrt" -> switched(RenderSettings(centers = true)),
+    "--disable_texture_filtering=true a.pbrt" -> switched(RenderSettings(unfiltered = true)),
     "--disable-texture-filtering=false a.pbrt" -> one,
-    "--disable-image-textures a.pbrt" -> switched(Switches(meanImages = true)),
-    "--disable-wavelength-jitter a.pbrt" -> switched(Switches(oneColorSet = true)),
-    "--force-diffuse a.pbrt" -> switched(Switches(diffuse = true)),
-    "--displacement-edge-scale 2.5 a.pbrt" -> switched(Switches(edgeScale = Some(2.5f))),
+    "--disable-image-textures a.pbrt" -> switched(RenderSettings(meanImages = true)),
+    "--disable-wavelength-jitter a.pbrt" -> switched(RenderSettings(oneColorSet = true)),
+    "--force-diffuse a.pbrt" -> switched(RenderSettings(diffuse = true)),
+    "--displacement-edge-scale 2.5 a.pbrt" -> switched(RenderSettings(edgeScale = Some(2.5f))),
     "--mse-reference-image r.exr --mse-reference-out e.txt a.pbrt" ->
-      switched(Switches(reference = Some("r.exr"), errors = Some("e.txt"))),
+      switched(RenderSettings(output =
+        OutputSettings(reference = Some("r.exr"), errors = Some("e.txt"))
+      )),
     "--write-partial-images a.pbrt" -> one.copy(partialImages = true),
     "--wavefront --render-coord-sys world --log-level error --logtostderr a.pbrt" -> one,
     "--gpu a.pbrt" -> one.copy(notes =

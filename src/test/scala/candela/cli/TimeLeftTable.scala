@@ -30,8 +30,8 @@ object TimeLeftTable:
       .getOrElse(throw IllegalArgumentException(words.mkString(" ")))
     val plan = SceneLoader.FromFile.load(options.files.head, options).plan
     val looks = Vector.newBuilder[Progress]
-    val goal = Option.when(options.film.endsEarly):
-      Goal(options.film, plan.samplesPerPixel, RenderRecorder.of(plan, None))
+    val goal = Option.when(options.settings.goal.isGiven):
+      Goal(options.settings.goal, plan.samplesPerPixel, RenderRecorder.of(plan, None))
     val _ = Renderer.render(
       plan,
       options.threadCount,

@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.color.Rgb
 import candela.film.Layer
 import candela.image.ImageFiles
@@ -146,7 +146,7 @@ class WatchingSuite extends AnyFunSuite:
       val text = s"""Film "image" "integer xresolution" 8 "integer yresolution" 8
         "string filename" "$file" Camera "perspective" Sampler "random" "integer pixelsamples" 4
         WorldBegin LightSource "infinite" Translate 0 0 3 Shape "sphere" """
-      val layers = BuildOptions(layers = Vector(Layer.Normal, Layer.Depth, Layer.Uv))
+      val layers = RenderSettings(layers = Vector(Layer.Normal, Layer.Depth, Layer.Uv))
       val plan = SceneTexts.plan(text, Dialect.V3, layers)
       val running = Watched(plan, "--watch", "0", "--watch-after")
       try

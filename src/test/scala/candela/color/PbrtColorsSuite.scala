@@ -2,7 +2,7 @@ package candela.color
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, ColorMode}
+import candela.build.{ColorMode, RenderSettings}
 import candela.color.Colorimetry.White
 import candela.render.Renderer
 import candela.scenefile.Dialect
@@ -53,7 +53,7 @@ final class PbrtColorsSuite extends AnyFunSuite:
        |""".stripMargin
 
   private def image(text: String, mode: ColorMode): Vector[Rgb] =
-    val plan = SceneTexts.plan(text, Dialect.V4, BuildOptions(color = mode))
+    val plan = SceneTexts.plan(text, Dialect.V4, RenderSettings(color = mode))
     val data = Renderer.render(plan, threads = 1).image(plan.development).data
     data.grouped(3).map(p => Rgb(p(0), p(1), p(2))).toVector
 

@@ -1,6 +1,6 @@
 package candela.convert
 
-import candela.build.{BuildOptions, ColorMode, SceneBuilder}
+import candela.build.{ColorMode, RenderSettings, SceneBuilder}
 import candela.cli.TempFolder
 import candela.image.Image
 import candela.render.{ReferenceScenes, Renderer}
@@ -157,7 +157,7 @@ object ConverterSuite:
   private def image(scene: SceneDescription, seed: Int): Image =
     // Colours of v2 and v3 are three numbers
     val options =
-      BuildOptions(spp = Some(32), seed = seed, quick = true, color = ColorMode.Rgb)
+      RenderSettings(samples = Some(32), seed = seed, quick = true, color = ColorMode.Rgb)
     val (plan, _) = SceneBuilder.build(scene, options)
     val made = Renderer.render(plan, 2).image(plan.development)
     if made.colorSpace.isSrgb then made else made.toRgb

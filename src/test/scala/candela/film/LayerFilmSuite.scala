@@ -3,7 +3,7 @@ package candela.film
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.Lambert
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.color.{ColorSpace, Rgb}
 import candela.geometry.{Frame, Ray}
 import candela.image.Image
@@ -16,7 +16,7 @@ object LayerFilmSuite:
   /** The camera's space is the world's, and colours are in linear sRGB. */
   def nothing: VisibleSurface =
     val text = """Camera "perspective" WorldBegin LightSource "infinite" Shape "sphere" """
-    val asked = BuildOptions(layers = Layer.values.toVector)
+    val asked = RenderSettings(layers = Layer.values.toVector)
     SceneTexts.plan(text, Dialect.V3, asked).layers.get.surface
 
 final class LayerFilmSuite extends AnyFunSuite:

@@ -9,7 +9,7 @@ import scala.jdk.CollectionConverters.*
 import scala.util.Random
 
 import candela.base.{InputFile, SceneError, Severity}
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.build.media.{NanoVdbError, NanoVdbFile}
 import candela.build.shapes.PlyFile
 import candela.image.{Image, ImageError, ImageFiles, OutputFormat}
@@ -110,11 +110,12 @@ final class Trials(from: Path, folder: Path, random: Random):
       kind match
         case FileKind.Scenes => Option.when(Parser.parse(file).shapes.contains(null))("no shape")
         case FileKind.Builds =>
-          val _ = SceneBuilder.build(Parser.parse(file), BuildOptions(spp = Some(1), quick = true))
+          val _ =
+            SceneBuilder.build(Parser.parse(file), RenderSettings(samples = Some(1), quick = true))
           None
         case FileKind.Mitsuba =>
           val scene = Parser.whole(MitsubaScene.readable(file, Map.empty, keepGoing = false))
-          val _ = SceneBuilder.build(scene, BuildOptions(spp = Some(1), quick = true))
+          val _ = SceneBuilder.build(scene, RenderSettings(samples = Some(1), quick = true))
           None
         case FileKind.Meshes =>
           val mesh = PlyFile.read(InputFile.asked(file))

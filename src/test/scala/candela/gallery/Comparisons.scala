@@ -1,6 +1,6 @@
 package candela.gallery
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.render.{ReferenceScenes, RenderPlan}
 import candela.scenefile.Parser
 
@@ -16,7 +16,7 @@ final case class Comparison(name: String, effect: String):
 
   def plan(samples: Int): RenderPlan =
     val scene = Parser.parse(ReferenceScenes.Scenes.resolve(s"$name.pbrt"))
-    SceneBuilder.build(scene, BuildOptions(spp = Some(samples)))._1
+    SceneBuilder.build(scene, RenderSettings(samples = Some(samples)))._1
 
 object Comparisons:
   val all: Vector[Comparison] = Vector(

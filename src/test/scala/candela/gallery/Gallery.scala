@@ -3,7 +3,7 @@ package candela.gallery
 import java.nio.file.{Files, Path}
 
 import candela.base.Problem
-import candela.build.{BuildOptions, Category, SceneBuilder}
+import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
 import candela.image.{Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
@@ -31,7 +31,7 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
     val suffix = if same > 1 then s"-${dialect.toString.toLowerCase}" else ""
     s"${slug(category.name)}-${slug(recipe.name)}$suffix"
 
-  def plan(options: BuildOptions): (RenderPlan, Vector[Problem]) =
+  def plan(options: RenderSettings): (RenderPlan, Vector[Problem]) =
     val description =
       Parser.parseText(s"$file.pbrt", scene.get, ReferenceScenes.Scenes, Some(dialect))
     SceneBuilder.build(description, options)
@@ -56,7 +56,7 @@ object Gallery:
   def main(words: Array[String]): Unit =
     val _ = Files.createDirectories(Pictures)
     for e <- exhibits if e.scene.nonEmpty && (words.isEmpty || words.exists(e.file.contains)) do
-      val (plan, problems) = e.plan(BuildOptions(spp = Some(SamplesPerPixel)))
+      val (plan, problems) = e.plan(RenderSettings(samples = Some(SamplesPerPixel)))
       problems.foreach(p => println(s"${e.file}: ${p.message}"))
       write(e.file, render(plan))
       println(e.file)

@@ -5,7 +5,7 @@ import java.nio.file.Files
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.SceneError
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.image.{DisplayTransform, Image, ImageFiles}
 import candela.render.{ReferenceScenes, Renderer}
 import candela.testing.Blocks
@@ -20,7 +20,7 @@ final class GallerySuite extends AnyFunSuite:
   for e <- Gallery.exhibits if e.scene.nonEmpty do
     test(s"the example of ${e.file} builds without problems and matches its picture"):
       val (plan, problems) =
-        try e.plan(BuildOptions(spp = Some(8)))
+        try e.plan(RenderSettings(samples = Some(8)))
         catch case error: SceneError => fail(error.problems.map(_.message).mkString("\n"))
       assert(problems.isEmpty, problems.map(_.message))
       val rendering = Renderer.render(plan, threads = 1)

@@ -1,6 +1,6 @@
 package candela.gallery
 
-import candela.build.{BuildOptions, LightGrouping, SceneBuilder}
+import candela.build.{LightGrouping, RenderRegion, RenderSettings, SceneBuilder}
 import candela.film.Layer
 import candela.image.{ContactSheet, DisplayTransform, Image, ImageFiles}
 import candela.color.ToneCurve
@@ -15,11 +15,11 @@ object LightPicture:
   def main(args: Array[String]): Unit =
     val layers = Vector(Layer.Emission, Layer.Background, Layer.Direct, Layer.Indirect)
     val lamps = Vector("lamp" -> Vector("diffuse_17"), "candle" -> Vector("diffuse_93"))
-    val options = BuildOptions(
-      spp = Some(64),
-      cropWindow = Some((0.25f, 0.75f, 0.1f, 0.9f)),
+    val options = RenderSettings(
+      samples = Some(64),
+      region = RenderRegion.Window(0.25f, 0.75f, 0.1f, 0.9f),
       layers = layers.filterNot(_ == Layer.Background) :+ Layer.Lights,
-      lightGroups = LightGrouping.Named(lamps :+ "sky" -> Vector("infinite"))
+      lightGroups = Some(LightGrouping.Named(lamps :+ "sky" -> Vector("infinite")))
     )
     val scene = Parser.parse(Path.of("scenes", "showcase.pbrt"))
     val image = Gallery.render(SceneBuilder.build(scene, options)._1)

@@ -2,7 +2,7 @@ package candela.integrators
 
 import candela.bsdf.{Bsdf, BsdfLaws, Lambert, Lobes, Scaled, SentThrough}
 import candela.bsdf.microfacet.{Dielectric, Dispersive, TrowbridgeReitz}
-import candela.build.{BuildOptions, ColorMode}
+import candela.build.{ColorMode, RenderSettings}
 import candela.color.{Rgb, SmoothSpectra, Wavelengths}
 import candela.math.lerp
 import candela.scenefile.Dialect
@@ -70,7 +70,7 @@ class DispersionSuite extends BsdfLaws:
     assert(features(text)("color").endsWith("glass disperses light"))
     assert(!features(scene("\"float eta\" 1.5"))("color").contains("disperses"))
     assert(SceneTexts.problems(text, Dialect.V4).isEmpty)
-    val plain = BuildOptions(color = ColorMode.Rgb)
+    val plain = RenderSettings(color = ColorMode.Rgb)
     val problems = SceneTexts.problems(text, Dialect.V4, options = plain)
     assert(problems.map(_.message).exists(_.startsWith("dispersion of \"dielectric\" needs")))
 

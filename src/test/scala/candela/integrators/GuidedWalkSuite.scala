@@ -1,8 +1,7 @@
 package candela.integrators
 
 import candela.base.CheckedFile
-import candela.build.BuildOptions
-import candela.build.recipe.Switches
+import candela.build.RenderSettings
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
@@ -26,7 +25,7 @@ final class GuidedWalkSuite extends AnyFunSuite:
       fireflies: Fireflies = Fireflies.Kept
   ): RenderPlan =
     val options =
-      BuildOptions(Some(spp), seed, switches = Switches(guiding = mode), fireflies = fireflies)
+      RenderSettings(Some(spp), seed, guiding = mode, fireflies = fireflies)
     SceneTexts.plan(text, dialect, options)
 
   private def image(plan: RenderPlan, threads: Int = 1): Image =

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.color.Rgb
 import candela.image.Image
 import candela.render.Renderer
@@ -10,7 +10,7 @@ import candela.testing.SceneTexts
 import org.scalatest.funsuite.AnyFunSuite
 
 class HeadlightSuite extends AnyFunSuite:
-  private val asked = BuildOptions(preview = true, spp = Some(1))
+  private val asked = RenderSettings(preview = true, samples = Some(1))
   private val head = """LookAt 0 0 -4  0 0 0  0 1 0
     Camera "orthographic" "float screenwindow" [-1 1 -1 1]
     Sampler "independent"

@@ -5,7 +5,7 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.mitsuba.MitsubaScene
 import candela.render.Renderer
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -113,7 +113,7 @@ final class InterfacesSuite extends AnyFunSuite:
     Files.writeString(file, xml)
     try
       val scene = MitsubaScene.readable(file, Map.empty, keepGoing = false)
-      val (plan, problems) = SceneBuilder.build(scene, BuildOptions())
+      val (plan, problems) = SceneBuilder.build(scene, RenderSettings())
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       val data = image.data
       (data.map(_.toDouble).sum.toFloat / data.length, problems.map(_.toString))

@@ -2,7 +2,7 @@ package candela.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.film.Layer
 import candela.render.Renderer
 import candela.scenefile.Dialect
@@ -148,7 +148,7 @@ final class SimplePathTracerSuite extends AnyFunSuite:
   test("layers of light divide the light of simple paths, too"):
     for integrator <- Seq("\"simplepath\"", unsampled, "\"simplevolpath\"") do
       val text = corner(integrator, 64)
-      val options = BuildOptions(layers = Vector(Layer.Emission, Layer.Direct, Layer.Indirect))
+      val options = RenderSettings(layers = Vector(Layer.Emission, Layer.Direct, Layer.Indirect))
       val plan = SceneTexts.plan(text, Dialect.V4, options)
       val image = Renderer.render(plan, threads = 1).image(plan.development)
       val channels = image.channels

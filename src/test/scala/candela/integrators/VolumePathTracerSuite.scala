@@ -3,7 +3,7 @@ package candela.integrators
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.Dialect
@@ -123,7 +123,7 @@ final class VolumePathTracerSuite extends AnyFunSuite:
   /** The mean, by Mitsuba's rules or pbrt's. */
   private def seen(text: String, isMitsubas: Boolean): Float =
     val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
-    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val plan = SceneBuilder.build(scene, RenderSettings())._1
     val data = Renderer.render(plan, threads = 1).image(plan.development).data
     data.sum / data.length
 

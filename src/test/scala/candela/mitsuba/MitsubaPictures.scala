@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.color.Rgb
 import candela.render.Renderer
 import candela.scenefile.SceneDescription
@@ -39,7 +39,7 @@ abstract class MitsubaPictures extends AnyFunSuite:
       "<rfilter type=\"box\"/></film></sensor>"
 
   protected def mean(body: String): Rgb = using(body): scene =>
-    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val plan = SceneBuilder.build(scene, RenderSettings())._1
     val data = Renderer.render(plan, threads = 1).image(plan.development).data
     val sums = Array(0.0, 0.0, 0.0)
     for i <- data.indices do sums(i % 3) += data(i)

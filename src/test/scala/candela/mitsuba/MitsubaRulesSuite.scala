@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.image.{Image, ImageFiles}
 import candela.render.Renderer
 import candela.scenefile.SceneDescription
@@ -32,7 +32,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
 
   private def means(body: String): Vector[Double] = inFile(body): scene =>
     assert(scene.errors.isEmpty, scene.errors)
-    val plan = SceneBuilder.build(scene, BuildOptions())._1
+    val plan = SceneBuilder.build(scene, RenderSettings())._1
     val image = Renderer.render(plan, threads = 1).image(plan.development)
     val n = image.channels
     Vector.tabulate(3)(c => image.data.indices.by(n).map(i => image.data(i + c).toDouble).sum)
@@ -207,7 +207,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
         s"value=\"$hides\"/></integrator>"
       val film = sensor("<string name=\"pixel_format\" value=\"rgba\"/>")
       inFile(s"$integrator$film$body"): scene =>
-        val plan = SceneBuilder.build(scene, BuildOptions())._1
+        val plan = SceneBuilder.build(scene, RenderSettings())._1
         val image = Renderer.render(plan, threads = 1).image(plan.development)
         val a = image.channelNames.indexOf("A")
         val values = image.data.indices.by(image.channels).map(i => image.data(i + a).toDouble)

@@ -1,6 +1,6 @@
 package candela.noise
 
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.build.sampling.PointChoice
 import candela.cli.RenderRecorder
 import candela.measure.Metrics
@@ -27,7 +27,11 @@ object ErrorHonesty:
     for file <- list("scenes", NoiseScenes.all.mkString(",")) do
       val scene = SmallScene(file, number("width", 64))
       def plan(spp: Int, seed: Int) =
-        scene.plan(BuildOptions(spp = Some(spp), seed = seed, points = PointChoice.Progressive))
+        scene.plan(RenderSettings(
+          samples = Some(spp),
+          seed = seed,
+          points = PointChoice.Progressive
+        ))
       val most = plan(number("truth", 4096), 12345)
       val truth = Renderer.render(most, 2).image(most.development)
       val seen = (1 to number("seeds", 20)).toVector.map: seed =>

@@ -1,6 +1,6 @@
 package candela.noise
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.film.Fireflies
 import candela.image.{Image, ImageFiles}
 import candela.measure.Metrics
@@ -17,7 +17,7 @@ class FirefliesSuite extends AnyFunSuite:
   private val reference = ImageFiles.read(Path.of("bench/scenes/fireflies.exr"))
 
   private def image(samples: Int, fireflies: Fireflies, threads: Int = 2): Image =
-    val options = BuildOptions(spp = Some(samples), seed = 3, fireflies = fireflies)
+    val options = RenderSettings(samples = Some(samples), seed = 3, fireflies = fireflies)
     val plan = SceneBuilder.build(scene, options)._1
     Renderer.render(plan, threads).image(plan.development)
 

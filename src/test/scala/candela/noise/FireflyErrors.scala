@@ -1,7 +1,7 @@
 package candela.noise
 
 import candela.base.loop
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.build.sampling.PointChoice
 import candela.film.Fireflies
 import candela.image.Image
@@ -27,8 +27,8 @@ object FireflyErrors:
     for file <- list("scenes", NoiseScenes.all.mkString(",")) do
       val scene = SmallScene(file, number("width", 64))
       def plan(spp: Int, seed: Int, fireflies: Fireflies) = scene.plan(
-        BuildOptions(
-          spp = Some(spp),
+        RenderSettings(
+          samples = Some(spp),
           seed = seed,
           points = PointChoice.Progressive,
           fireflies = fireflies

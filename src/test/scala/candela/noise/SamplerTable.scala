@@ -1,7 +1,7 @@
 package candela.noise
 
 import candela.base.loop
-import candela.build.BuildOptions
+import candela.build.RenderSettings
 import candela.build.sampling.{PointChoice, PointSet}
 import candela.image.Image
 import candela.measure.{LogLogFit, Metrics}
@@ -49,7 +49,7 @@ private object NoiseOf:
   def apply(scene: SmallScene, choice: PointChoice, samples: Int, seeds: Int): NoiseOf =
     var taken, seconds = 0.0
     val images = (1 to seeds).toVector.map: seed =>
-      val plan = scene.plan(BuildOptions(spp = Some(samples), seed = seed, points = choice))
+      val plan = scene.plan(RenderSettings(samples = Some(samples), seed = seed, points = choice))
       val start = cpu()
       val rendering = Renderer.render(plan, threads = 1)
       seconds += cpu() - start

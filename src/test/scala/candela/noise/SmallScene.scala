@@ -1,6 +1,6 @@
 package candela.noise
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.render.RenderPlan
 import candela.scenefile.{Declaration, Param, Parser, SceneDescription}
 
@@ -8,7 +8,7 @@ import java.nio.file.Path
 
 /** A scene whose image is reduced to `width` pixels. */
 final class SmallScene(description: SceneDescription):
-  def plan(options: BuildOptions): RenderPlan = SceneBuilder.build(description, options)._1
+  def plan(options: RenderSettings): RenderPlan = SceneBuilder.build(description, options)._1
 
 object SmallScene:
   def apply(file: String, width: Int): SmallScene =

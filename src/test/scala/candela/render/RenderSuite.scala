@@ -2,8 +2,7 @@ package candela.render
 
 import java.nio.file.{Files, Path}
 
-import candela.build.{BuildOptions, SceneBuilder}
-import candela.build.recipe.Switches
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.guiding.GuidingMode
 import candela.image.{Image, ImageFiles}
 import candela.mitsuba.MitsubaScene
@@ -136,8 +135,7 @@ object RenderSuite:
       if scene.isMitsubas then
         Parser.whole(MitsubaScene.readable(scene.file, Map.empty, keepGoing = false))
       else Parser.parseText(scene.file.toString, text, ReferenceScenes.Scenes)
-    val switches = Switches(guiding = guiding)
-    SceneBuilder.build(description, BuildOptions(Some(spp), seed, switches = switches))._1
+    SceneBuilder.build(description, RenderSettings(Some(spp), seed, guiding = guiding))._1
 
   /** Leaves images to look at; their paths. */
   private def keep(scene: ReferenceScene, agreement: Agreement): Vector[Path] =

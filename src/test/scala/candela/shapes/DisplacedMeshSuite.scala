@@ -2,8 +2,7 @@ package candela.shapes
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
-import candela.build.recipe.Switches
+import candela.build.RenderSettings
 import candela.math.*
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
@@ -72,7 +71,7 @@ final class DisplacedMeshSuite extends AnyFunSuite:
     )((_, _, _) => 0f)
     assert(mesh.indices.length > 30)
 
-  private def plan(mesh: String, switches: Switches = Switches()): String =
+  private def plan(mesh: String, settings: RenderSettings = RenderSettings()): String =
     val text =
       s"""Film "rgb" "integer xresolution" 8 "integer yresolution" 8
          |WorldBegin
@@ -82,7 +81,7 @@ final class DisplacedMeshSuite extends AnyFunSuite:
          |Shape "plymesh" $mesh "texture displacement" "h"
          |""".stripMargin
     val description = SceneTexts.parse(text, Dialect.V4, Path.of("scenes"))
-    val made = candela.build.SceneBuilder.build(description, BuildOptions(switches = switches))._1
+    val made = candela.build.SceneBuilder.build(description, settings)._1
     made.features.toMap.apply("triangles")
 
   private val sheet = """"string filename" "geometry/sheet-quads.ply""""
@@ -91,7 +90,7 @@ final class DisplacedMeshSuite extends AnyFunSuite:
     // Squares of side 6 in world space: two triangles each, or half of one
     assert(plan(s"$sheet \"float edgelength\" 99") == "8")
     val fine = plan(s"$sheet \"float edgelength\" 2").toInt
-    val scaled = plan(s"$sheet \"float edgelength\" 1", Switches(edgeScale = Some(2f))).toInt
+    val scaled = plan(s"$sheet \"float edgelength\" 1", RenderSettings(edgeScale = Some(2f))).toInt
     assert(fine > 8 && scaled == fine)
 
   test("a mesh without uv, or an edge length of 0, is an error"):

@@ -5,7 +5,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.image.Image
 import candela.math.Position
 import candela.mitsuba.MitsubaScene
@@ -22,7 +22,7 @@ class FarSuite extends AnyFunSuite:
   )
 
   private def render(scene: SceneDescription): Image =
-    val (plan, _) = SceneBuilder.build(scene, BuildOptions())
+    val (plan, _) = SceneBuilder.build(scene, RenderSettings())
     Renderer.render(plan, threads = 1).image(plan.development)
 
   private def render(text: String, dialect: Dialect, folder: Path = Path.of("")): Image =

@@ -2,7 +2,7 @@ package candela.stability
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.image.Image
 import candela.render.Renderer
 import candela.scenefile.{Dialect, Parser}
@@ -14,7 +14,7 @@ class HardScenesSuite extends AnyFunSuite:
     val text =
       HardScene(name, "", Expected.Value(0)).text.replace("resolution\" 64", "resolution\" 32")
     val scene = Parser.parseText(s"$name.pbrt", text, HardScenes.Folder, Some(Dialect.V3))
-    val (plan, problems) = SceneBuilder.build(scene, BuildOptions())
+    val (plan, problems) = SceneBuilder.build(scene, RenderSettings())
     assert(problems.isEmpty)
     Renderer.render(plan, threads = 2).image(plan.development)
 

@@ -1,7 +1,6 @@
 package candela.stability
 
-import candela.build.{BuildOptions, ColorMode}
-import candela.build.recipe.Switches
+import candela.build.{ColorMode, RenderSettings}
 import candela.guiding.GuidingMode
 import candela.render.Renderer
 import candela.testing.SceneTexts
@@ -64,7 +63,7 @@ final case class Way(
   def means(ball: ExtremeBall, effort: Double): Means =
     val text = scene(ball, effort)
     val found = Vector.tabulate(Way.Seeds): seed =>
-      val options = BuildOptions(seed = seed, color = color, switches = Switches(guiding = mode))
+      val options = RenderSettings(seed = seed, color = color, guiding = mode)
       val plan = SceneTexts.plan(text, ball.dialect, options)
       val rendering = Renderer.render(plan, threads = 1)
       val data = rendering.image(plan.development).data

@@ -6,7 +6,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
+import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
@@ -58,9 +58,9 @@ class ReportedPathSuite extends AnyFunSuite:
     // A pixel by itself: few splats come to it
     val pixels = for y <- 0 until 4; x <- 0 until 4 yield (x, y)
     val same = pixels.count: (x, y) =>
-      val window = (x / 4f, (x + 1) / 4f, y / 4f, (y + 1) / 4f)
+      val window = RenderRegion.Window(x / 4f, (x + 1) / 4f, y / 4f, (y + 1) / 4f)
       val text = LitPlane.scene("\"bdpt\"", spp = 1, ball)
-      val plan = SceneTexts.plan(text, options = BuildOptions(cropWindow = Some(window)))
+      val plan = SceneTexts.plan(text, options = RenderSettings(region = window))
       val image = Renderer.render(plan, threads = 1).film.toImage(1f)
       Renderer.trace(plan, x, y, 0, PathReport(_ => ())).contains(
         Rgb(image.data(0), image.data(1), image.data(2))

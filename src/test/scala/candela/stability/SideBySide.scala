@@ -3,7 +3,7 @@ package candela.stability
 import java.nio.file.{Files, Path}
 import java.util.concurrent.TimeUnit
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.convert.{Converter, SceneText}
 import candela.image.{Image, ImageError, ImageFiles}
 import candela.render.Renderer
@@ -65,7 +65,7 @@ object SideBySide:
 
   private def candela = Renders("Candela"): (name, _) =>
     val scene = Parser.parse(HardScenes.Folder.resolve(s"$name.pbrt"), Some(Dialect.V3))
-    val (plan, _) = SceneBuilder.build(scene, BuildOptions())
+    val (plan, _) = SceneBuilder.build(scene, RenderSettings())
     Right(Renderer.render(plan, threads).image(plan.development))
 
   private def pbrt3 = program("pbrt-v3", "PBRT_V3"): (command, name, folder, out) =>

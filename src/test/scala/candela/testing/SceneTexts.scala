@@ -3,7 +3,7 @@ package candela.testing
 import java.nio.file.Path
 
 import candela.base.{Problem, SceneError}
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.color.Rgb
 import candela.render.{Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser, SceneDescription}
@@ -17,7 +17,7 @@ object SceneTexts:
   def plan(
       text: String,
       dialect: Dialect = Dialect.V3,
-      options: BuildOptions = BuildOptions()
+      options: RenderSettings = RenderSettings()
   ): RenderPlan = SceneBuilder.build(parse(text, dialect), options)._1
 
   /** All that building has to say, warnings or errors. */
@@ -25,7 +25,7 @@ object SceneTexts:
       text: String,
       dialect: Dialect = Dialect.V3,
       folder: Path = Path.of(""),
-      options: BuildOptions = BuildOptions()
+      options: RenderSettings = RenderSettings()
   ): Vector[Problem] =
     try SceneBuilder.build(parse(text, dialect, folder), options)._2
     catch case e: SceneError => e.problems

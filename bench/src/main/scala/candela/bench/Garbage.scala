@@ -1,6 +1,6 @@
 package candela.bench
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{BuildControl, RenderSettings, SceneBuilder}
 import candela.cameras.CameraRays
 import candela.film.FilterSampler
 import candela.render.{RenderMethod, RenderPlan, ThreadPool}
@@ -25,7 +25,8 @@ object Garbage:
   def main(scenes: Array[String]): Unit =
     for scene <- scenes do
       val description = Parser.readable(Path.of(scene), None, keepGoing = false)
-      val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(AsIf), pool = ThreadPool(1)))
+      val settings = RenderSettings(samples = Some(AsIf))
+      val (plan, _) = SceneBuilder.build(description, settings, BuildControl(ThreadPool(1)))
       val paths = Paths(plan)
       for pass <- 0 until WarmUp do paths.take(pass)
       val before = allocated()

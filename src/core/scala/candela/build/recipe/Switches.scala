@@ -3,7 +3,8 @@ package candela.build.recipe
 import candela.guiding.GuidingMode
 import candela.math.Position
 
-/** What pbrt-v4's `Option` statements and the options of its command line set for a whole scene.
+/** What holds for a whole scene: as its `Option` statements, the user's settings and its program's
+  * rules say together.
   *
   * @param seed        of the scene, combined with that of the command line
   * @param centers     take all samples at the pixel centre, the middle of lens and shutter
@@ -31,19 +32,4 @@ final case class Switches(
     isMitsubas: Boolean = false,
     guiding: GuidingMode = GuidingMode.Off,
     origin: Position = Position.Origin
-):
-  /** Both together; where they differ, these. */
-  def over(scene: Switches): Switches =
-    Switches(
-      scene.seed,
-      centers || scene.centers,
-      unfiltered || scene.unfiltered,
-      meanImages || scene.meanImages,
-      oneColorSet || scene.oneColorSet,
-      diffuse || scene.diffuse,
-      edgeScale.orElse(scene.edgeScale),
-      reference.orElse(scene.reference),
-      errors.orElse(scene.errors),
-      isMitsubas || scene.isMitsubas,
-      guiding
-    )
+)

@@ -4,7 +4,7 @@ import java.nio.file.Path
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, ColorMode, SceneBuilder}
+import candela.build.{ColorMode, RenderSettings, SceneBuilder}
 import candela.film.{Cryptomatte, Layer}
 import candela.image.{Image, ImageFiles}
 import candela.math.square
@@ -24,7 +24,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     Material "diffuse" "rgb reflectance" [.2 .4 .6]
     Shape "disk" "float radius" 1 """
 
-  private def render(text: String, options: BuildOptions = BuildOptions()): Image =
+  private def render(text: String, options: RenderSettings = RenderSettings()): Image =
     val plan = SceneTexts.plan(text, Dialect.V4, options)
     Renderer.render(plan, threads = 2).image(plan.development)
 
@@ -70,7 +70,7 @@ final class FilmLayersSuite extends AnyFunSuite:
 
   test("any scene can be asked for layers, which cost nothing where they are not"):
     val text = s"PixelFilter \"box\"\n$view\n${film("rgb")}\n$world"
-    val asked = BuildOptions(layers = Vector(Layer.Depth, Layer.Samples))
+    val asked = RenderSettings(layers = Vector(Layer.Depth, Layer.Samples))
     val image = render(text, asked)
     assert(image.channelNames == Image.RgbNames ++ Vector("Z", "samples"))
     val Seq(depth, samples) = pixel(image, 10, 10)("Z", "samples"): @unchecked
@@ -85,7 +85,7 @@ final class FilmLayersSuite extends AnyFunSuite:
   /** Renders with these layers. */
   private def layered(text: String, layers: Layer*): Image =
     // Few samples: no noise of wavelengths
-    val options = BuildOptions(layers = layers.toVector, color = ColorMode.Rgb)
+    val options = RenderSettings(layers = layers.toVector, color = ColorMode.Rgb)
     render(s"PixelFilter \"box\"\n$text", options)
 
   // A unit at distance 4 is this many pixels wide
@@ -173,7 +173,7 @@ final class FilmLayersSuite extends AnyFunSuite:
       Translate 1 0 0
       ObjectInstance "thing"
       AttributeEnd"""
-    val asked = BuildOptions(layers = Vector(Layer.CryptoObject, Layer.CryptoMaterial))
+    val asked = RenderSettings(layers = Vector(Layer.CryptoObject, Layer.CryptoMaterial))
     val plan = SceneTexts.plan(two, Dialect.V4, asked)
     val image = Renderer.render(plan, threads = 2).image(plan.development)
     def coverage(layer: String, name: String) =
@@ -213,7 +213,7 @@ final class FilmLayersSuite extends AnyFunSuite:
   test("the sensors of cameras are known by name, and what they see is said"):
     def text(name: String) = s"$view\n${film("rgb")} \"string sensor\" \"$name\"\n$world"
     def said(name: String, color: ColorMode = ColorMode.Auto) =
-      SceneTexts.problems(text(name), Dialect.V4, options = BuildOptions(color = color))
+      SceneTexts.problems(text(name), Dialect.V4, options = RenderSettings(color = color))
         .map(_.message)
     assert(said("cie1931").isEmpty && said("nikon_d850").isEmpty)
     val features = SceneTexts.plan(text("nikon_d850"), Dialect.V4).features.toMap
@@ -226,7 +226,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     def said(color: ColorMode) = SceneTexts.problems(
       s"$view\n${film("spectral")}\n$world",
       Dialect.V4,
-      options = BuildOptions(color = color)
+      options = RenderSettings(color = color)
     )
     assert(said(ColorMode.Auto).isEmpty)
     assert(said(ColorMode.Rgb).exists(_.message.contains("RGB, not spectral")))
@@ -242,7 +242,7 @@ final class FilmLayersSuite extends AnyFunSuite:
   test("the layers are pbrt-v4's"):
     val reference = ImageFiles.read(Path.of("reference-images", "v4-gbuffer.exr"))
     val description = Parser.parse(Path.of("scenes", "v4-gbuffer.pbrt"))
-    val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(16)))
+    val (plan, _) = SceneBuilder.build(description, RenderSettings(samples = Some(16)))
     val image = Renderer.render(plan, threads = 2).image(plan.development)
     assert(image.channelNames.toSet == reference.channelNames.toSet)
     // pbrt's variances hold the noise of wavelengths; dzdx shrinks with the samples
@@ -260,7 +260,7 @@ final class FilmLayersSuite extends AnyFunSuite:
   test("the bands of wavelengths are pbrt-v4's"):
     val reference = ImageFiles.read(Path.of("reference-images", "v4-spectral.exr"))
     val description = Parser.parse(Path.of("scenes", "v4-spectral.pbrt"))
-    val (plan, _) = SceneBuilder.build(description, BuildOptions(spp = Some(16)))
+    val (plan, _) = SceneBuilder.build(description, RenderSettings(samples = Some(16)))
     val image = Renderer.render(plan, threads = 2).image(plan.development)
     assert(image.channelNames.toSet == reference.channelNames.toSet)
     for channel <- reference.channelNames.filter(_.startsWith("S0.")) do

@@ -4,7 +4,7 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, ColorMode, LightGrouping, SceneBuilder}
+import candela.build.{ColorMode, LightGrouping, RenderSettings, SceneBuilder}
 import candela.cli.TempFolder
 import candela.film.Layer
 import candela.image.Image
@@ -15,7 +15,7 @@ import candela.testing.SceneTexts
 /** Layers of divided light, of whole scenes. */
 final class LightLayersSuite extends AnyFunSuite:
   private val byWay = Vector(Layer.Emission, Layer.Background, Layer.Direct, Layer.Indirect)
-  private val all = BuildOptions(layers = byWay :+ Layer.Lights)
+  private val all = RenderSettings(layers = byWay :+ Layer.Lights)
 
   private def image(plan: RenderPlan): Image =
     Renderer.render(plan, threads = 2).image(plan.development)
@@ -113,7 +113,7 @@ final class LightLayersSuite extends AnyFunSuite:
       val isOld = read.dialect == Dialect.V2
       val integrator = read.integrator.map(d => if isOld then d.copy(name = "path") else d)
       val scene = read.copy(integrator = integrator)
-      val options = all.copy(spp = Some(1), quick = true)
+      val options = all.copy(samples = Some(1), quick = true)
       assertDivided(image(SceneBuilder.build(scene, options)._1), name)
 
   test("divided light leaves the image as it is"):
@@ -131,10 +131,10 @@ final class LightLayersSuite extends AnyFunSuite:
       assert(off < 1e-4, c)
 
   test("a light's group is the image of that light alone"):
-    val found = image(SceneTexts.plan(box(path), Dialect.V4, all.copy(spp = Some(256))))
+    val found = image(SceneTexts.plan(box(path), Dialect.V4, all.copy(samples = Some(256))))
     val dark = box(path).replaceAll("LightSource \"infinite\".*", "")
       .replaceAll("AreaLightSource.*", "")
-    val alone = image(SceneTexts.plan(dark, Dialect.V4, BuildOptions(spp = Some(256))))
+    val alone = image(SceneTexts.plan(dark, Dialect.V4, RenderSettings(samples = Some(256))))
     val point = groups(found).find(_.startsWith("Combined_point")).get
     for c <- Seq("R", "G", "B") do
       val (group, whole) = (channel(found, s"$point.$c").sum, channel(alone, c).sum)
@@ -142,7 +142,7 @@ final class LightLayersSuite extends AnyFunSuite:
       assert(whole > 0.5f && Math.abs(group - whole) < 0.03f * whole, s"$c: $group, $whole")
 
   private def names(grouping: LightGrouping, text: String = box(path)): Vector[String] =
-    val options = BuildOptions(layers = Vector(Layer.Lights), lightGroups = grouping)
+    val options = RenderSettings(layers = Vector(Layer.Lights), lightGroups = Some(grouping))
     SceneTexts.plan(text, Dialect.V4, options).layers.get.groups.get
 
   test("groups are statements by type and line, types, or as named; others are the default"):
@@ -168,13 +168,13 @@ final class LightLayersSuite extends AnyFunSuite:
       val text = "WorldBegin Include \"lamps-1.pbrt\" Include \"lamps-2.pbrt\" " +
         "Include \"lamps-1.pbrt\""
       val scene = SceneTexts.parse(text, Dialect.V4, folder)
-      val found = SceneBuilder.build(scene, BuildOptions(layers = Vector(Layer.Lights)))._1
+      val found = SceneBuilder.build(scene, RenderSettings(layers = Vector(Layer.Lights)))._1
       val names = found.layers.get.groups.get
       assert(names == Vector("point_lamps_1_1_13", "point_lamps_2_1_13"))
 
   test("unknown lights, too many groups and integrators that do not divide light are errors"):
     def problems(text: String, grouping: LightGrouping, layer: Layer = Layer.Lights) =
-      val options = BuildOptions(layers = Vector(layer), lightGroups = grouping)
+      val options = RenderSettings(layers = Vector(layer), lightGroups = Some(grouping))
       SceneTexts.problems(text, Dialect.V4, options = options)
         .map(p => p.message + p.help.fold("")(h => s" ($h)"))
     val wrong = LightGrouping.Named(Vector("key" -> Vector("point_11")))

@@ -2,7 +2,7 @@ package candela.build.integrators
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.BuildOptions
+import candela.build.{RenderRegion, RenderSettings}
 import candela.color.Rgb
 import candela.film.PixelBounds
 import candela.render.Renderer
@@ -32,7 +32,7 @@ final class IntegratorOptionsSuite extends AnyFunSuite:
       "\"float cropwindow\" [.5 1 0 .5]"
     )
     assert(SceneTexts.plan(both).crop == PixelBounds(40, 7, 50, 30))
-    val asked = BuildOptions(cropWindow = Some((0f, 0.25f, 0f, 1f)))
+    val asked = RenderSettings(region = RenderRegion.Window(0f, 0.25f, 0f, 1f))
     assert(SceneTexts.plan(both, options = asked).crop == PixelBounds(0, 0, 20, 60))
 
   test("v2's igi and irradiancecache are replaced by paths with as many bounces, probes by path"):
@@ -47,7 +47,7 @@ final class IntegratorOptionsSuite extends AnyFunSuite:
 
   test("the part is the same of a smaller image"):
     val text = window("\"path\" \"integer pixelbounds\" [40 80 0 30]")
-    val plan = SceneTexts.plan(text, options = BuildOptions(quick = true))
+    val plan = SceneTexts.plan(text, options = RenderSettings(quick = true))
     assert(plan.crop == PixelBounds(10, 0, 20, 8))
 
   test("`pixelbounds` of no pixel or of no four numbers are errors"):

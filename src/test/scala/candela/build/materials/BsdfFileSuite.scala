@@ -7,7 +7,7 @@ import java.nio.file.Files
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.bsdf.measured.{FourierBsdf, FourierTable, FourierTables}
-import candela.build.{BuildOptions, ColorMode}
+import candela.build.{ColorMode, RenderSettings}
 import candela.color.Rgb
 import candela.testing.{Draws, SceneTexts}
 
@@ -72,7 +72,7 @@ class BsdfFileSuite extends AnyFunSuite:
     assert(found.size == 1 && found.head.contains("found 100"), found)
     val _ = Files.write(file, bytes)
     assert(found.isEmpty)
-    val options = BuildOptions(color = ColorMode.Spectral)
+    val options = RenderSettings(color = ColorMode.Spectral)
     val spectral = SceneTexts.problems(scene, folder = folder, options = options)
     assert(spectral.map(_.message).exists(_.contains("red, green and blue only")), spectral)
     Files.delete(file)

@@ -2,7 +2,7 @@ package candela.build.materials
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{BuildOptions, SceneBuilder}
+import candela.build.{RenderSettings, SceneBuilder}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -30,7 +30,7 @@ class VaryingMaterialsSuite extends AnyFunSuite:
       Seq("a", "b").map(n => s"MakeNamedMaterial \"$n\" \"string type\" \"$matte\"\n").mkString +
       s"$material\nShape \"sphere\"\n" + (if dialect == Dialect.V4 then "" else "WorldEnd\n")
     val scene = SceneTexts.parse(text, dialect).copy(isMitsubas = inMitsubas)
-    SceneBuilder.build(scene, BuildOptions())._1.features.toMap.apply("materials")
+    SceneBuilder.build(scene, RenderSettings())._1.features.toMap.apply("materials")
 
   for
     recipe <- Materials.all.all

@@ -1,0 +1,131 @@
+package candela.build
+
+import candela.build.recipe.Switches
+import candela.build.sampling.PointChoice
+import candela.film.{Fireflies, Layer, PixelBounds}
+import candela.guiding.GuidingMode
+import candela.image.DisplayTransform
+import candela.scenefile.Dialect
+
+/** What is rendered of a scene. With the scene's files, these are the identity of a rendering:
+  * `job.SettingsCodec` stores each of them.
+  *
+  * @param samples     per pixel, instead of the scene's
+  * @param goal        what ends the rendering before its samples do
+  * @param quick       if true, renders a sixteenth of the pixels with one sample each
+  * @param preview     if true, reduces the image and shades it by a headlight, whatever the scene's
+  *                    integrator, lights and film
+  * @param region      part of the image to render, instead of the scene's
+  * @param layers      AOVs, in addition to the scene's
+  * @param lightGroups how to group lights for their layer
+  * @param color       whether rendering is spectral
+  * @param points      which sample points to take
+  * @param fireflies   what is done about them
+  * @param guiding     whether paths learn where light comes from
+  * @param centers     take all samples at the pixel centre, the middle of lens and shutter
+  * @param unfiltered  point-sample textures
+  * @param meanImages  replace image textures by their mean
+  * @param oneColorSet take the same wavelengths for all samples
+  * @param diffuse     make all materials diffuse
+  * @param edgeScale   scale of `edgelength` of displaced meshes
+  * @param reading     how the scene's files are read
+  * @param output      what is written of the image
+  */
+final case class RenderSettings(
+    samples: Option[Int] = None,
+    seed: Int = 0,
+    goal: RenderGoal = RenderGoal(),
+    quick: Boolean = false,
+    preview: Boolean = false,
+    region: RenderRegion = RenderRegion.Whole,
+    layers: Vector[Layer] = Vector.empty,
+    lightGroups: Option[LightGrouping] = None,
+    color: ColorMode = ColorMode.Auto,
+    points: PointChoice = PointChoice.Best,
+    fireflies: Fireflies = Fireflies.Kept,
+    guiding: GuidingMode = GuidingMode.Off,
+    centers: Boolean = false,
+    unfiltered: Boolean = false,
+    meanImages: Boolean = false,
+    oneColorSet: Boolean = false,
+    diffuse: Boolean = false,
+    edgeScale: Option[Float] = None,
+    reading: ReadSettings = ReadSettings(),
+    output: OutputSettings = OutputSettings()
+):
+  /** Whether only a goal ends the rendering. */
+  def isEndless: Boolean = goal.isGiven && samples.isEmpty
+
+  /** A preview shows albedos, for which three numbers do. */
+  private[build] def colorMode: ColorMode = if preview then ColorMode.Rgb else color
+
+  /** Both these and what the scene's own `Option` statements set; where they differ, these. */
+  private[build] def over(scene: Switches): Switches =
+    scene.copy(
+      centers = centers || scene.centers,
+      unfiltered = unfiltered || scene.unfiltered,
+      meanImages = meanImages || scene.meanImages,
+      oneColorSet = oneColorSet || scene.oneColorSet,
+      diffuse = diffuse || scene.diffuse,
+      edgeScale = edgeScale.orElse(scene.edgeScale),
+      reference = output.reference.orElse(scene.reference),
+      errors = output.errors.orElse(scene.errors),
+      guiding = guiding
+    )
+
+/** What ends a rendering before its samples do.
+  *
+  * @param time  in seconds
+  * @param error relative error
+  */
+final case class RenderGoal(time: Option[Double] = None, error: Option[Double] = None):
+  def isGiven: Boolean = time.isDefined || error.isDefined
+
+/** Part of an image. */
+enum RenderRegion:
+  /** All of it, or the part that the scene asks for. */
+  case Whole
+
+  /** In fractions [0, 1] of width and height. */
+  case Window(x0: Float, x1: Float, y0: Float, y1: Float)
+
+  /** In pixels. */
+  case Pixels(bounds: PixelBounds)
+
+  case Pixel(x: Int, y: Int)
+
+  /** Its pixels, if they do not depend on the size of the image. */
+  def pixels: Option[PixelBounds] = this match
+    case Pixels(bounds) => Some(bounds)
+    case Pixel(x, y) => Some(PixelBounds(x, y, x + 1, y + 1))
+    case Whole | Window(_, _, _, _) => None
+
+/** How the files of a scene are read.
+  *
+  * @param dialect   instead of the one that they seem to be of
+  * @param defines   parameters of a Mitsuba scene, by name
+  * @param keepGoing whether to replace missing items by placeholders
+  */
+final case class ReadSettings(
+    dialect: Option[Dialect] = None,
+    defines: Map[String, String] = Map.empty,
+    keepGoing: Boolean = false
+)
+
+/** What is written of an image.
+  *
+  * @param precisions whether layers are stored in 16 bits, where asked
+  * @param denoise    whether a denoised image is added
+  * @param storeTime  whether the render time is stored in the image file
+  * @param display    how pictures show linear light
+  * @param reference  reference image of `errors`
+  * @param errors     file for the MSE at 1, 2, 4, 8, … samples per pixel
+  */
+final case class OutputSettings(
+    precisions: Map[Layer, Boolean] = Map.empty,
+    denoise: Boolean = false,
+    storeTime: Boolean = false,
+    display: DisplayTransform = DisplayTransform.Plain,
+    reference: Option[String] = None,
+    errors: Option[String] = None
+)

@@ -1,0 +1,174 @@
+package candela.job
+
+import candela.build.{ColorMode, LightGrouping, RenderRegion}
+import candela.build.sampling.PointChoice
+import candela.color.ToneCurve
+import candela.film.{Fireflies, Layer, PixelBounds}
+import candela.guiding.GuidingMode
+import candela.image.Exposure
+import candela.scenefile.Dialect
+
+/** A value as text, in film files and on command lines.
+  *
+  * @param expected what messages say of other text, after "expected"
+  * @param read     None: it is no such value
+  * @param show     what `read` reads as the same value
+  */
+final class TextForm[A](val expected: String, val read: String => Option[A], val show: A => String):
+
+  def map[B](to: A => B)(from: B => A): TextForm[B] =
+    TextForm(expected, read(_).map(to), b => show(from(b)))
+
+  def filter(rule: String)(fits: A => Boolean): TextForm[A] =
+    TextForm(rule, read(_).filter(fits), show)
+
+object TextForm:
+  private def named[A](all: Seq[A], name: A => String, expected: String): TextForm[A] =
+    TextForm(expected, text => all.find(name(_).equalsIgnoreCase(text)), name)
+
+  private def oneOf[A](all: Seq[A], name: A => String): TextForm[A] =
+    named(all, name, all.map(name).mkString("one of ", ", ", ""))
+
+  private def lower(value: Any): String = value.toString.toLowerCase
+
+  /** Numbers between commas. */
+  private def numbers[N](expected: String, count: Int)(
+      read: String => Option[N]
+  ): TextForm[Vector[N]] =
+    def all(text: String) = text.split(",", -1).toVector.flatMap(n => read(n.trim))
+    TextForm(
+      expected,
+      text => Some(all(text)).filter(_.size == count && text.count(_ == ',') == count - 1),
+      _.mkString(",")
+    )
+
+  val int: TextForm[Int] = TextForm("a number", _.toIntOption, _.toString)
+  val float: TextForm[Float] = TextForm("a number", _.toFloatOption, _.toString)
+  val double: TextForm[Double] = TextForm("a number", _.toDoubleOption, _.toString)
+  val string: TextForm[String] = TextForm("a name", Some(_), identity)
+
+  /** Seconds of a duration. */
+  val seconds: TextForm[Double] = TextForm(
+    "a duration, e.g. 90s, 10m or 2h",
+    text =>
+      val scale = Map("s" -> 1.0, "m" -> 60.0, "h" -> 3600.0).get(text.takeRight(1))
+      val number = if scale.isDefined then text.dropRight(1) else text
+      number.toDoubleOption.map(_ * scale.getOrElse(1.0)).filter(s => s > 0 && s < 1e9)
+    ,
+    s => s"${s}s"
+  )
+
+  val definition: TextForm[(String, String)] = TextForm(
+    "NAME=VALUE",
+    text =>
+      Some(text.span(_ != '=')).filter((n, v) => n.nonEmpty && v.nonEmpty)
+        .map((name, value) => (name, value.drop(1))),
+    (name, value) => s"$name=$value"
+  )
+
+  given TextForm[Dialect] = named(Dialect.values.toSeq, lower, "v2, v3 or v4")
+
+  given TextForm[ColorMode] = named(ColorMode.values.toSeq, lower, "auto, rgb or spectral")
+
+  given TextForm[GuidingMode] =
+    named(GuidingMode.values.toSeq, lower, "auto, on, off, directions or splitting")
+
+  given TextForm[PointChoice] = oneOf(PointChoice.all, _.word)
+
+  given TextForm[Fireflies] = TextForm(
+    "keep, reweight, or clamp:X with X > 0",
+    _.toLowerCase match
+      case Fireflies.Kept.word => Some(Fireflies.Kept)
+      case Fireflies.Reweighted.word => Some(Fireflies.Reweighted)
+      case s"clamp:$most" =>
+        val limit = most.toFloatOption.filter(m => m > 0 && m < Float.PositiveInfinity)
+        limit.map(Fireflies.Clamped(_))
+      case _ => None
+    ,
+    fireflies =>
+      fireflies match
+        case Fireflies.Clamped(most) => s"${fireflies.word}:$most"
+        case other => other.word
+  )
+
+  given window: TextForm[RenderRegion.Window] = TextForm(
+    "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",
+    numbers("", 4)(_.toFloatOption).read(_).collect:
+      case Vector(x0, x1, y0, y1)
+          if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
+        new RenderRegion.Window(x0, x1, y0, y1)
+    ,
+    w => s"${w.x0},${w.x1},${w.y0},${w.y1}"
+  )
+
+  given pixels: TextForm[RenderRegion.Pixels] = TextForm(
+    "x0,x1,y0,y1 with x0 < x1 and y0 < y1, in pixels",
+    numbers("", 4)(_.toIntOption).read(_).collect:
+      case Vector(x0, x1, y0, y1) if x0 < x1 && y0 < y1 =>
+        new RenderRegion.Pixels(PixelBounds(x0, y0, x1, y1))
+    ,
+    p => s"${p.bounds.x0},${p.bounds.x1},${p.bounds.y0},${p.bounds.y1}"
+  )
+
+  given pixel: TextForm[RenderRegion.Pixel] = TextForm(
+    "x,y in pixels, e.g. 12,40",
+    numbers("", 2)(_.toIntOption).read(_).collect:
+      case Vector(x, y) if x >= 0 && y >= 0 => new RenderRegion.Pixel(x, y)
+    ,
+    p => s"${p.x},${p.y}"
+  )
+
+  /** A layer, with a precision if given: whether it is half. */
+  given layer: TextForm[(Layer, Option[Boolean])] =
+    val names = oneOf(Layer.values.toSeq, (l: Layer) => l.word)
+    TextForm(
+      Layer.values.map(_.word).mkString("one or more of ", ", ", ""),
+      text =>
+        val (word, precision) = text.trim.toLowerCase match
+          case s"$w:half" => (w, Some(true))
+          case s"$w:float" => (w, Some(false))
+          case w => (w, None)
+        names.read(word).map((_, precision))
+      ,
+      (layer, isHalf) => layer.word + isHalf.fold("")(if _ then ":half" else ":float")
+    )
+
+  given TextForm[LightGrouping] =
+    val name = "[A-Za-z0-9_]+"
+    def parsed(text: String): Option[LightGrouping] =
+      val groups = text.split(",", -1).toVector.map:
+        case s"$group=$lights" => (group, lights.split("\\+", -1).toVector)
+        case _ => ("", Vector.empty)
+      val isValid = groups.forall((group, lights) => (group +: lights).forall(_.matches(name)))
+      Option.when(isValid):
+        val merged = groups.map(_._1).distinct
+        LightGrouping.Named(merged.map(n => n -> groups.filter(_._1 == n).flatMap(_._2)))
+    TextForm(
+      "statement, type, or names of letters, digits and _, such as " +
+        "key=point_12+spot_14,sky=infinite",
+      {
+        case "statement" => Some(LightGrouping.Statements)
+        case "type" => Some(LightGrouping.Types)
+        case text => parsed(text)
+      },
+      {
+        case LightGrouping.Statements => "statement"
+        case LightGrouping.Types => "type"
+        case LightGrouping.Named(groups) =>
+          groups.map((group, lights) => s"$group=${lights.mkString("+")}").mkString(",")
+      }
+    )
+
+  given TextForm[ToneCurve] =
+    named(ToneCurve.values.toSeq, _.word, ToneCurve.values.map(_.word).mkString(", "))
+
+  given TextForm[Exposure] = TextForm(
+    "stops, e.g. 1.5 or -2, or auto",
+    text =>
+      if text.equalsIgnoreCase("auto") then Some(Exposure.Auto)
+      else text.toFloatOption.filter(s => Math.abs(s) <= 100).map(Exposure.Stops(_)),
+    {
+      case Exposure.Auto => "auto"
+      case Exposure.Stops(n) => n.toString
+    }
+  )
