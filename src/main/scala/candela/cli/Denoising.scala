@@ -8,7 +8,7 @@ import candela.measure.Metrics
   *
   * @param denoiser the library
   */
-private[cli] final class Denoising(denoiser: Oidn, threads: Int):
+private[candela] final class Denoising(denoiser: Oidn, threads: Int):
   import Denoising.*
 
   /** The image with a layer of denoised colours behind the others. */
@@ -52,7 +52,7 @@ private[cli] final case class Denoised(image: Image, renderSeconds: Double, seco
     val names = Vector("noisy", "noisy in the same time", "denoised")
     figures.map(Figures.scientific).zip(names).map((e, name) => s"$e $name").mkString(", ")
 
-private[cli] object Denoising:
+private[candela] object Denoising:
   /** What it needs, in addition to the colours. */
   val Layers: Vector[Layer] = Vector(Layer.DenoisingAlbedo, Layer.DenoisingNormal)
 

@@ -5,7 +5,8 @@ import java.nio.file.{Files, Path}
 import candela.base.Problem
 import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
-import candela.image.{Image, ImageFiles}
+import candela.cli.Denoising
+import candela.image.{Image, ImageFiles, Oidn}
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}
 
@@ -20,9 +21,12 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
   def reason: Option[String] = recipe.substitute.map(p => s"substituted: $p").orElse:
     example.collect { case Example.Unseen(why) => why }
 
-  /** The scene of the example. */
-  def scene: Option[String] = example.collect:
-    case Example.Lines(text) if reason.isEmpty => Template.scene(category.name, dialect, text)
+  def isShown: Boolean = reason.isEmpty && example.nonEmpty
+
+  /** The scene of the example, for an image of this width. */
+  private def scene(width: Int): String = example match
+    case Some(Example.Lines(text)) => Template.scene(category.name, dialect, text, width)
+    case _ => throw IllegalArgumentException(s"$file has no scene")
 
   /** File name of its image, without extension. */
   def file: String =
@@ -31,12 +35,13 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
     val suffix = if same > 1 then s"-${dialect.toString.toLowerCase}" else ""
     s"${slug(category.name)}-${slug(recipe.name)}$suffix"
 
-  def plan(options: RenderSettings): (RenderPlan, Vector[Problem]) =
+  def plan(width: Int, options: RenderSettings): (RenderPlan, Vector[Problem]) =
     val description =
-      Parser.parseText(s"$file.pbrt", scene.get, ReferenceScenes.Scenes, Some(dialect))
+      Parser.parseText(s"$file.pbrt", scene(width), ReferenceScenes.Scenes, Some(dialect))
     SceneBuilder.build(description, options)
 
-/** Renders a small image of each type of scene files and writes the gallery page.
+/** Renders an image of each type of scene files and writes the gallery page. Needs Open Image
+  * Denoise.
   *
   * Usage: `./sbt "Test/runMain candela.gallery.Gallery"` renders all images; with arguments, only
   * those whose names contain one of them. The page is always written.
@@ -44,32 +49,48 @@ final case class Exhibit(category: Category, recipe: Recipe[?], example: Option[
 object Gallery:
   val Page: Path = Path.of("docs", "GALLERY.md")
   val Pictures: Path = Path.of("docs", "gallery")
-  private val SamplesPerPixel = 64
+  val Ending = ".jpg"
+  val Width = 400
+
+  /** Before denoising. */
+  private val SamplesPerPixel = 16
 
   /** About as many as the references have. */
   private val ComparedSamples = 1024
+
+  private val threads = Runtime.getRuntime.availableProcessors
 
   val exhibits: Vector[Exhibit] =
     for category <- Examples.categories; recipe <- category.recipes.all
     yield Exhibit(category, recipe, Examples.of(category, recipe))
 
+  def picture(file: String): Path = Pictures.resolve(s"$file$Ending")
+
   def main(words: Array[String]): Unit =
     val _ = Files.createDirectories(Pictures)
-    for e <- exhibits if e.scene.nonEmpty && (words.isEmpty || words.exists(e.file.contains)) do
-      val (plan, problems) = e.plan(RenderSettings(samples = Some(SamplesPerPixel)))
+    val denoising = Denoising(Oidn.load(), threads)
+    val options = RenderSettings(samples = Some(SamplesPerPixel), layers = Denoising.Layers)
+    for e <- exhibits if e.isShown && (words.isEmpty || words.exists(e.file.contains)) do
+      val (plan, problems) = e.plan(Width, options)
       problems.foreach(p => println(s"${e.file}: ${p.message}"))
-      write(e.file, render(plan))
-      println(e.file)
+      write(e.file, Denoising.shown(denoising(render(plan))))
+      println(s"${e.file}: ${Looks.of(ImageFiles.read(picture(e.file)))}")
     for c <- Comparisons.all if words.isEmpty || words.exists(c.own.contains) do
       val reference = ImageFiles.read(ReferenceScenes.References.resolve(s"${c.name}.exr"))
-      write(c.own, render(c.plan(ComparedSamples)))
-      write(c.pbrt, reference)
+      write(c.own, enlarged(render(c.plan(ComparedSamples)).toRgb))
+      write(c.pbrt, enlarged(reference.toRgb))
       println(c.own)
     val _ = Files.writeString(Page, GalleryPage(exhibits).text)
     println(s"wrote $Page")
 
-  private def write(file: String, image: Image): Unit =
-    ImageFiles.write(Pictures.resolve(s"$file.png"), image.toRgb)
+  private def write(file: String, image: Image): Unit = ImageFiles.write(picture(file), image.toRgb)
 
-  def render(plan: RenderPlan): Image =
-    Renderer.render(plan, Runtime.getRuntime.availableProcessors).image(plan.development)
+  /** Pixels as squares: the references are small. */
+  private def enlarged(image: Image): Image =
+    val times = (Width + image.width - 1) / image.width
+    val large = Image.rgb(times * image.width, times * image.height)
+    for y <- 0 until large.height; x <- 0 until large.width; c <- 0 until 3 do
+      large.data((y * large.width + x) * 3 + c) = image(x / times, y / times, c)
+    large
+
+  def render(plan: RenderPlan): Image = Renderer.render(plan, threads).image(plan.development)

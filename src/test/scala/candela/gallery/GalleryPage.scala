@@ -19,7 +19,7 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
         val words = type_(e)
         val picture = e.reason match
           case Some(why) => why
-          case None => s"![${words.title.replace("\"", "")}](gallery/${e.file}.png)"
+          case None => s"![${words.title.replace("\"", "")}](${place(e.file)})"
         s"| $picture | [`${shown(e.recipe.name)}`](${link(e)}) | ${words.dialects} " +
           s"| ${words.meaning.replace("|", "\\|")} |"
     Vector("", s"## ${category.name}", "", s"${category.meaning.capitalize}.", "") ++
@@ -27,11 +27,13 @@ final class GalleryPage(exhibits: Vector[Exhibit]):
 
   private val colors: Vector[String] =
     val rows = Comparisons.all.map: c =>
-      val own = s"![${c.name} by Candela](gallery/${c.own}.png)"
-      val pbrt = s"![${c.name} by pbrt-v4](gallery/${c.pbrt}.png)"
+      val own = s"![${c.name} by Candela](${place(c.own)})"
+      val pbrt = s"![${c.name} by pbrt-v4](${place(c.pbrt)})"
       s"| $own | $pbrt | [`${c.name}`](../scenes/${c.name}.pbrt) | ${c.effect} |"
     Vector("", "## Spectral rendering", "", GalleryPage.OfColors, "") ++
       Vector("| Candela | pbrt-v4 | scene | |", "|---|---|---|---|") ++ rows
+
+  private def place(file: String) = s"gallery/$file${Gallery.Ending}"
 
   private def shown(name: String) = if name.isEmpty then "\"\"" else name
 
@@ -53,13 +55,14 @@ object GalleryPage:
 
   val OfColors: String =
     """Scenes of this repository where three numbers per colour are not enough, beside pbrt-v4's
-      |images of them, which `RenderSuite` compares with Candela's.""".stripMargin
+      |images of them, which `RenderSuite` compares with Candela's. They are small; here, each
+      |pixel is a square.""".stripMargin
 
   val Introduction: String =
     """# Gallery
       |
-      |A small image of each supported type of shape, material, texture, light, camera and medium,
-      |mostly with its defaults. `./sbt "Test/runMain candela.gallery.Gallery"` regenerates this
+      |An image of each supported type of shape, material, texture, light, camera and medium,
+      |[denoised](DENOISING.md). `./sbt "Test/runMain candela.gallery.Gallery"` regenerates this
       |page and its images from the recipes. The example scenes are in
       |`src/test/scala/candela/gallery`; a test fails if one is missing.
       |""".stripMargin.stripTrailing

@@ -5,21 +5,23 @@ import candela.gallery.Example.Unseen
 /** Lights in a dark room and cameras among spheres. */
 private object LightExamples:
   val lights: Vector[(String, String)] = Vector(
-    "point" -> "LightSource \"point\" \"rgb I\" [9 8 7] \"point3 from\" [1.2 -1 2.4]",
+    "point" -> "LightSource \"point\" \"rgb I\" [12 11 9] \"point3 from\" [1.2 -1 2.4]",
     "spot" ->
-      """LightSource "spot" "rgb I" [30 27 24] "point3 from" [1.5 -2 3.5] "point3 to" [0 0 0]""",
+      """LightSource "spot" "rgb I" [30 27 24] "point3 from" [1.5 -2 3.5] "point3 to" [0 0 .2]""",
     "goniometric" ->
       """Translate .8 -.6 1.8
-        |LightSource "goniometric" "string filename" "textures/dusk-equalarea.exr" "float scale" 12
+        |LightSource "goniometric" "string filename" "textures/dusk-equalarea.exr" "float scale" 20
         |""".stripMargin,
     "projection" ->
-      """Translate .5 -4 2
-        |Rotate -105 1 0 0
-        |LightSource "projection" "string filename" "textures/chart.png" "float fov" 30
-        |  "float scale" 14""".stripMargin,
+      """Translate 0 -4 2
+        |Rotate -103 1 0 0
+        |LightSource "projection" "string filename" "textures/chart.png" "float fov" 28
+        |  "float scale" 90""".stripMargin,
     "distant" ->
       "LightSource \"distant\" \"rgb L\" [2.5 2.4 2.2] \"point3 from\" [2 -2 3]",
-    "infinite" -> "LightSource \"infinite\" \"rgb L\" [.8 .9 1]",
+    "infinite" ->
+      """LightSource "infinite" "string filename" "textures/dusk-equalarea.exr"
+        |  "float scale" 2.5""".stripMargin,
     "exinfinite" -> "LightSource \"exinfinite\" \"string mapname\" \"textures/sky-latlong.exr\""
   )
 
@@ -32,12 +34,17 @@ private object LightExamples:
 
   val cameras: Vector[(String, String)] = Vector(
     "perspective" -> "Camera \"perspective\"",
-    "orthographic" -> "Camera \"orthographic\"",
+    "orthographic" ->
+      """Identity
+        |LookAt 0 -3 3.2  0 1.8 .4  0 0 1
+        |Camera "orthographic" "float screenwindow" [-2 2 -1.5 1.5]""".stripMargin,
     "environment" -> "Camera \"environment\"",
     "spherical" -> "Camera \"spherical\"",
     "realistic/v4" ->
-      """Camera "realistic" "string lensfile" "lenses/double-gauss-50mm.dat"
-        |  "float aperturediameter" 17.1 "float focusdistance" 1.5""".stripMargin
+      """Identity
+        |LookAt -1 -2.2 1.4  .1 2.1 .35  0 0 1
+        |Camera "realistic" "string lensfile" "lenses/double-gauss-50mm.dat"
+        |  "float aperturediameter" 17.1 "float focusdistance" 3.7""".stripMargin
   )
 
   val unseenCameras: Map[String, Example] =

@@ -22,11 +22,11 @@ private object SurfaceExamples:
     "thindielectric" -> "Material \"thindielectric\"",
     "mirror" -> "Material \"mirror\"",
     "metal" -> "Material \"metal\"",
-    "shinymetal" -> "Material \"shinymetal\"",
+    "shinymetal" -> "Material \"shinymetal\" \"rgb Ks\" [.45 .3 .1] \"rgb Kr\" [.35 .25 .1]",
     "conductor" -> "Material \"conductor\" \"float roughness\" .1",
     "subsurface" -> "Material \"subsurface\" \"float scale\" 4",
-    "kdsubsurface" -> "Material \"kdsubsurface\"",
-    "hair" -> "Material \"hair\" \"float eumelanin\" .6",
+    "kdsubsurface" -> "Material \"kdsubsurface\" \"rgb Kd\" [.7 .45 .3] \"rgb mfp\" [.2 .1 .05]",
+    "hair" -> HairExample.text,
     "measured/v2" -> "Material \"measured\" \"string filename\" \"geometry/orange-paint.brdf\"",
     "mix" ->
       """MakeNamedMaterial "one" "string type" "diffuse" "rgb reflectance" [.7 .3 .1]
@@ -82,6 +82,6 @@ private object SurfaceExamples:
     "fbm" -> solid,
     "wrinkled" -> solid,
     "windy" -> "",
-    "marble" -> "\"float scale\" 2 \"float variation\" .6",
+    "marble" -> "\"float scale\" 4 \"float variation\" .4",
     "uv" -> ""
   )

@@ -5,12 +5,17 @@ import candela.scenefile.Dialect
 /** Small scenes into which examples are inserted, in each dialect. */
 object Template:
 
-  /** Scene with `text`, which declares a type of this category. */
-  def scene(category: String, dialect: Dialect, text: String): String =
-    val words = Words(dialect)
+  /** Scene with `text`, which declares a type of this category.
+    *
+    * @param width of the image, whose height is three quarters of that
+    */
+  def scene(category: String, dialect: Dialect, text: String, width: Int): String =
+    val words = Words(dialect, width)
     category match
       case "Shape" => words.onFloor("LookAt 0 -6 3.2  0 0 .9  0 0 1", 26, words.clay + text)
-      case "Material" => words.onFloor("LookAt 0 -6 2.6  0 0 .95  0 0 1", 24, s"$text\n$ball")
+      case "Material" =>
+        val shown = if text.contains("Shape") then text else s"$text\n$ball"
+        words.onFloor("LookAt 0 -6 2.6  0 0 .95  0 0 1", 24, shown)
       case "Texture (float)" => words.onFloor(Facing, 24, words.blend(text) + panel)
       case "Texture (spectrum)" => words.onFloor(Facing, 24, words.painted(text) + panel)
       case "LightSource" => words.lit(text)
@@ -27,23 +32,25 @@ Shape "sphere" "float radius" .9"""
 
   /** A sphere and a disk facing the camera, which differ in their texture coordinates. */
   private val panel = """AttributeBegin
-  Translate -.75 .3 .95
+  Translate -.82 .3 .95
   Rotate -15 0 0 1
-  Shape "sphere" "float radius" .85
+  Shape "sphere" "float radius" .8
 AttributeEnd
 AttributeBegin
-  Translate 1.05 .2 .95
+  Translate .86 .2 .95
   Rotate 75 1 0 0
-  Scale .8 .8 1
+  Scale .76 .76 1
   Shape "disk" "float radius" 1
 AttributeEnd"""
 
-  private val lamp = """Translate .7 0 1.6
-Rotate 150 0 1 .3
+  /** Faces the things on the floor, and the camera. */
+  private val lamp = """Translate .8 .2 1.6
+Rotate 220 0 0 1
+Rotate 128 0 1 0
 Shape "disk" "float radius" .5"""
 
 /** Common parts of the templates, in the syntax of a dialect. */
-private final class Words(dialect: Dialect):
+private final class Words(dialect: Dialect, width: Int):
   private val isV4 = dialect == Dialect.V4
   private val isV2 = dialect == Dialect.V2
 
@@ -80,10 +87,10 @@ private final class Words(dialect: Dialect):
   private def spectrum = if isV2 then "color" else "spectrum"
   private val Shown = "shown"
 
-  private def head(camera: String, hasMedia: Boolean = false): String =
+  private def head(camera: String, hasMedia: Boolean = false, sensor: String = ""): String =
     s"""$camera
        |PixelFilter "box"
-       |Film "$film" "integer xresolution" 96 "integer yresolution" 96
+       |Film "$film" "integer xresolution" $width "integer yresolution" ${width * 3 / 4} $sensor
        |${integrator(hasMedia)}
        |WorldBegin
        |""".stripMargin
@@ -115,8 +122,8 @@ private final class Words(dialect: Dialect):
 
   private def checkedFloor =
     s"""AttributeBegin
-       |${checks(24)}Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
-       |  "$p P" [-12 -12 0  12 -12 0  12 12 0  -12 12 0] $square
+       |${checks(80)}Shape "trianglemesh" "integer indices" [0 1 2 0 2 3]
+       |  "$p P" [-40 -40 0  40 -40 0  40 40 0  -40 40 0] $square
        |AttributeEnd
        |""".stripMargin
 
@@ -129,18 +136,27 @@ private final class Words(dialect: Dialect):
        |AttributeEnd
        |$end""".stripMargin
 
-  /** A sphere and a wall, lit only by the example. */
+  /** Things before a wall, lit only by the example. */
   def lit(text: String): String =
-    val look = "LookAt 0 -6.5 3  0 0 .8  0 0 1"
-    s"""${head(perspective(look, 26))}${matte(".6 .6 .6")}${floor(8)}
-       |${quad("-8 2 0  8 2 0  8 2 6  -8 2 6")}AttributeBegin
-       |${matte(".7 .7 .7")}Translate -.5 0 .5
-       |Shape "sphere" "float radius" .5
-       |AttributeEnd
+    val column = "Shape \"cylinder\" \"float radius\" .22 \"float zmin\" 0 \"float zmax\" 1.3\n" +
+      "Shape \"disk\" \"float radius\" .22 \"float height\" 1.3"
+    s"""${head(perspective("LookAt 0 -6.5 3  0 0 .8  0 0 1", 26))}${matte(".6 .6 .6")}${floor(8)}
+       |${quad("-8 2 0  8 2 0  8 2 6  -8 2 6")}${ball("-.5 0 .5", ".5", ".7 .7 .7")}
+       |${ball(".65 -.5 .3", ".3", ".7 .2 .12")}${thing("-1.5 .9 0", ".15 .3 .6", column)}
        |AttributeBegin
        |$text
        |AttributeEnd
        |$end""".stripMargin
+
+  private def ball(place: String, radius: String, color: String) =
+    thing(place, color, s"Shape \"sphere\" \"float radius\" $radius")
+
+  private def thing(place: String, color: String, shape: String) =
+    s"""AttributeBegin
+       |${matte(color)}Translate $place
+       |$shape
+       |AttributeEnd
+       |""".stripMargin
 
   /** Spheres all around the camera, in metres. */
   def seenBy(camera: String): String =
@@ -151,13 +167,10 @@ private final class Words(dialect: Dialect):
       ("1.6 -.4 .5", ".5", ".8 .7 .2"),
       ("-1.5 -.6 .4", ".4", ".5 .25 .6"),
       ("0 -1.8 .6", ".6", ".3 .65 .7")
-    ).map: (place, radius, color) =>
-      s"""AttributeBegin
-         |${matte(color)}Translate $place
-         |Shape "sphere" "float radius" $radius
-         |AttributeEnd
-         |""".stripMargin
-    s"""${head(s"LookAt 0 0 .6  0 1 .5  0 0 1\n$camera")}$sky
+    ).map(ball(_, _, _))
+    // Small apertures let little light through
+    val sensor = if camera.contains("lensfile") then "\"float iso\" 400" else ""
+    s"""${head(s"LookAt 0 0 .6  0 1 .5  0 0 1\n$camera", sensor = sensor)}$sky
        |LightSource "distant" "$p from" [-2 -3 4] "rgb L" [1 1 .95]
        |$checkedFloor${balls.mkString}$end""".stripMargin
 
