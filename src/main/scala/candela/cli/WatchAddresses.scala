@@ -19,8 +19,9 @@ private[cli] object WatchAddresses:
       case None if text.nonEmpty && !text.contains(':') => Some((text, TevDisplay.UsualPort))
       case _ => None
 
-  /** Whether a word of the command line is one, rather than a scene. */
-  def isOne(text: String): Boolean = parse(text).isDefined
+  /** Whether a word of the command line is one, or a wrong one, rather than a scene. */
+  def isOne(text: String): Boolean =
+    parse(text).isDefined || (text.nonEmpty && text.forall(c => c >= '0' && c <= '9'))
 
   private def port(digits: String): Option[Int] =
     digits.toIntOption.filter(p => p >= 0 && p < 65536)

@@ -157,6 +157,7 @@ class CommandLineSuite extends AnyFunSuite:
     "--reference x.exr a.pbrt" -> "--reference needs --report",
     "--watch a.pbrt b.pbrt" -> "--watch needs a single scene",
     "--watch=no a.pbrt" -> "--watch must be PORT or ADDRESS:PORT",
+    "--watch 70000 a.pbrt" -> "--watch must be PORT or ADDRESS:PORT",
     "--watch-after a.pbrt" -> "--watch-after needs --watch",
     "--display-server localhost: a.pbrt" -> "--display-server must be HOST:PORT",
     "--display-server x a.pbrt b.pbrt" -> "--display-server needs a single scene",
