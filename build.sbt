@@ -122,7 +122,7 @@ lazy val root: Project = (project in file("."))
     // `sbt test`: a separate JVM, suites in parallel.
     Test / fork := true,
     Test / testForkedParallel := true,
-    Test / javaOptions ++= jvmOptions :+ "-Xmx3g",
+    Test / javaOptions ++= jvmOptions ++ Seq("-Xmx3g", "-ea:candela..."), // Assertions
     Test / test / testResultLogger := CountedTests((Test / test / testResultLogger).value),
     Test / testOnly / testResultLogger := CountedTests((Test / testOnly / testResultLogger).value),
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)

@@ -16,34 +16,34 @@ import candela.scene.Scene
   *
   * Unlike path tracing, it finds caustics from point lights.
   *
-  * @param takes         the image's camera; if it can't project points to the film, light tracing
+  * @param imageCamera   the image's camera; if it can't project points to the film, light tracing
   *                      is disabled and that light is missing
   * @param splats        receives the splats of light tracing
   * @param maxDepth      maximum number of scattering events of a full path
   * @param rouletteAfter minimum depth before Russian roulette, for either subpath
   * @param compresses    as in [[Subpath]]
   * @param regularizes   as in [[candela.integrators.PathTracer]], for each subpath separately
-  * @param through       participating media, if there are any
+  * @param sceneMedia    participating media, if there are any
   *
   * Sources: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, §10; PBRT 3rd
   * ed., §16.3; weights as in [[PartialWeights]].
   */
 final class BidirectionalPathTracer(
     scene: Scene,
-    takes: Camera,
+    imageCamera: Camera,
     splats: Splats,
     maxDepth: Int,
     rouletteAfter: Int,
     compresses: Boolean,
     regularizes: Boolean = false,
-    through: SceneMedia | Null = null
+    sceneMedia: SceneMedia | Null = null
 ) extends SceneIntegrator(scene)
     with ChainPaths:
   import BidirectionalPaths.*
   import PartialWeights.mis
 
   private val ownMedia, lightMedia: PathMedia | Null =
-    if through == null then null else PathMedia(scene, through)
+    if sceneMedia == null then null else PathMedia(scene, sceneMedia)
   private val lightPaths = LightPaths(
     scene, maxDepth, rouletteAfter, compresses, weighsAll = true, regularizes, media = lightMedia
   )
@@ -64,11 +64,11 @@ final class BidirectionalPathTracer(
   // Vertex at which the current direction of the camera subpath was sampled
   private val lastP, lastN = MutableVec3()
 
-  private val camera = CameraConnection(scene, takes, splats, lightMedia)
+  private val camera = CameraConnection(scene, imageCamera, splats, lightMedia)
 
   protected def over(scene: Scene): BidirectionalPathTracer =
     BidirectionalPathTracer(
-      scene, takes, splats, maxDepth, rouletteAfter, compresses, regularizes, through
+      scene, imageCamera, splats, maxDepth, rouletteAfter, compresses, regularizes, sceneMedia
     )
 
   def raysTraced: Long =
@@ -110,16 +110,16 @@ final class BidirectionalPathTracer(
     camera.begin(ray.time)
     connection.begin(ray.time)
     val hero =
-      if through != null && through.isChromatic then (light.next1D() * 3f).toInt else 0
+      if sceneMedia != null && sceneMedia.isChromatic then (light.next1D() * 3f).toInt else 0
     // What leads away from the camera matters most: it has the same dimensions in all samples
     light.skipTo(LightRequests)
     lightPaths.trace(ray.time, light, hero)
     camera.connect(lightPaths, isWeighted = true, light)
     onward.skipTo(CameraRequests)
     val media = ownMedia
-    if media == null || through == null then fromCamera(ray, joins, onward)
+    if media == null || sceneMedia == null then fromCamera(ray, joins, onward)
     else
-      media.begin(hero, through.camera, ray.time, onward)
+      media.begin(hero, sceneMedia.camera, ray.time, onward)
       fromCamera(ray, joins, onward) + media.glow
 
   private def fromCamera(ray: Ray, joins: Sampler, onward: Sampler): Rgb =
@@ -157,7 +157,7 @@ final class BidirectionalPathTracer(
         val wo = vertex.wo
         val cosine = vertex.cosine(wo)
         val distance =
-          if through == null then ray.tMax.toDouble else (at.p - lastP).length.toDouble
+          if sceneMedia == null then ray.tMax.toDouble else (at.p - lastP).length.toDouble
         if edges > 1 then path.weights.arrive(distance, cosine)
         else
           val density = camera.density(eye, at.p)
@@ -279,7 +279,7 @@ final class BidirectionalPathTracer(
     *
     * Source: Veach 1997, §10.3.3, roulette for shadow rays, with a threshold for each sample.
     */
-  private def worth(contribution: Float, least: Float): Float =
+  private def connectionRoulette(contribution: Float, least: Float): Float =
     if !(contribution < least) then 1f
     else if dice.next() * least < contribution then least / contribution
     else 0f
@@ -322,8 +322,8 @@ final class BidirectionalPathTracer(
         // If both subpaths carry their hero alone, each stands for all three wavelengths
         val shares = if lit.isAlone && path.isAlone then 1f / 3f else 1f
         val weight = (cosines / (distance2 * (1 + others))).toFloat * shares
-        val whole = f * g * lit.throughput * weight
-        val light = whole * worth(whole.largest, least)
+        val contribution = f * g * lit.throughput * weight
+        val light = contribution * connectionRoulette(contribution.largest, least)
         val media = ownMedia
         if light.isBlack then light
         else if media != null then light * media.between(vertex, lit, wi)

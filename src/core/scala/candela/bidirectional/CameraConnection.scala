@@ -11,17 +11,17 @@ import candela.scene.Scene
 
 /** Light tracing: connects the vertices of light subpaths to the camera. Mutable, one per worker.
   *
-  * @param takes  the image's camera; if it can't project points to the film, nothing is connected
+  * @param imageCamera if it can't project points to the film, nothing is connected
   * @param splats receives what arrives
   * @param media  through which light goes to the camera, if any
   */
 private[bidirectional] final class CameraConnection(
     scene: Scene,
-    takes: Camera,
+    imageCamera: Camera,
     splats: Splats,
     media: PathMedia | Null = null
 ):
-  private val camera: Camera | Null = if takes.isTraceable then takes else null
+  private val camera: Camera | Null = if imageCamera.isTraceable then imageCamera else null
   private val place = FilmPlace()
   private val shadowRay = Ray()
   private val shadowHit = Hit()

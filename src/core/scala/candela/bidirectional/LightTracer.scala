@@ -4,7 +4,7 @@ import candela.cameras.Camera
 import candela.color.Rgb
 import candela.film.Splats
 import candela.geometry.Ray
-import candela.integrators.{LightTransport, SceneIntegrator, Walk}
+import candela.integrators.{LightTransport, SceneIntegrator, SurfaceWalk}
 import candela.sampling.Sampler
 import candela.scene.Scene
 
@@ -12,7 +12,6 @@ import candela.scene.Scene
   * to the camera at every vertex. What the camera sees in mirrors and through smooth glass stays
   * black.
   *
-  * @param takes    the image's camera
   * @param splats   receives the splats
   * @param maxDepth scattering events of a path, at most
   * @param countsPassed as in [[candela.integrators.WalkOptions]]
@@ -22,7 +21,7 @@ import candela.scene.Scene
   */
 final class LightTracer(
     scene: Scene,
-    takes: Camera,
+    imageCamera: Camera,
     splats: Splats,
     maxDepth: Int,
     countsPassed: Boolean = false,
@@ -36,11 +35,11 @@ final class LightTracer(
     weighsAll = false,
     countsPassed = countsPassed
   )
-  private val camera = CameraConnection(scene, takes, splats)
-  private val walk = Walk(scene)
+  private val camera = CameraConnection(scene, imageCamera, splats)
+  private val walk = SurfaceWalk(scene)
 
   protected def over(scene: Scene): LightTracer =
-    LightTracer(scene, takes, splats, maxDepth, countsPassed, showsSky)
+    LightTracer(scene, imageCamera, splats, maxDepth, countsPassed, showsSky)
 
   def raysTraced: Long = walk.raysTraced + paths.raysTraced + camera.raysTraced
   override def lastMaterial: Int = walk.vertex.at.material
@@ -53,4 +52,4 @@ final class LightTracer(
     // As connections to the camera, which interfaces block
     if walk.intersect() then walk.addEmission()
     else if showsSky then walk.addEnvironment()
-    walk.radiance.toRgb
+    walk.radiance

@@ -3,7 +3,7 @@ package candela.bidirectional
 import candela.color.Rgb
 import candela.geometry.Ray
 import candela.integrators.{
-  Interfaces, LightTransport, PassIntegrator, SceneIntegrator, Walk, WalkOptions
+  Interfaces, LightTransport, PassIntegrator, SceneIntegrator, SurfaceWalk, WalkOptions
 }
 import candela.sampling.Sampler
 import candela.scene.Scene
@@ -36,7 +36,7 @@ private[bidirectional] final class PhotonMapper(
   import PhotonMapper.Sharp
 
   private val tracer = PhotonTracer(scene, settings)
-  private val walk = Walk(scene, options = WalkOptions(interfaces = interfaces))
+  private val walk = SurfaceWalk(scene, options = WalkOptions(interfaces = interfaces))
   private val looksBeyond = scene.hasInterfaces && interfaces == Interfaces.Weighed
   private var photons = PhotonMap(Array.empty, paths = 1, radius = 1f) // none yet
 
@@ -55,7 +55,7 @@ private[bidirectional] final class PhotonMapper(
     val vertex = walk.vertex
     walk.begin(ray, sampler)
     // Photons of dispersive scenes have one wavelength
-    if scene.isDispersive then walk.keepHero()
+    if scene.isDispersive then walk.path.keepHero()
     var hasGathered = false
     while walk.goesOn do
       if !walk.intersect() then walk.addEnvironment()
@@ -73,24 +73,25 @@ private[bidirectional] final class PhotonMapper(
           addOneLight(follows, sampler)
           // Beyond the last event paths find emission only
           val limit = if isLast && !settings.gathersGloss then Float.PositiveInfinity else follows
-          if !vertex.bsdf.isSpecular && limit > 0f then walk.add(photons.gather(vertex, limit))
+          if !vertex.bsdf.isSpecular && limit > 0f then
+            walk.addScattered(photons.gather(vertex, limit))
           walk.scatter(sampler)
           walk.leave()
           if !(vertex.bounce.isSpecular || vertex.bounce.pdf > follows) then
             if looksBeyond then hasGathered = true else walk.end()
-    walk.radiance.toRgb
+    walk.radiance
 
   /** Next-event estimation, without MIS for directions in which paths end.
     *
     * @param follows pdf above which directions are followed
     */
   private def addOneLight(follows: Float, sampler: Sampler): Unit =
-    if walk.sampleOneLight(sampler) then
-      val light = walk.light
-      walk.addLight(weight =
+    if walk.sampleLight(sampler) then
+      walk.connectBy(weight =
         wi =>
           val pdf = walk.vertex.localPdf(wi)
-          if pdf > follows || looksBeyond then LightTransport.powerHeuristic(light.pdf, pdf)
+          val competes = pdf > follows || looksBeyond
+          if competes then LightTransport.powerHeuristic(walk.connection.pdf, pdf)
           else 1f
       )
 

@@ -21,11 +21,11 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
   private var learning: GuideLearning | Null = null
   private var progress = GuideProgress()
   private val memory = GuideMemory()
-  @volatile private var current = lesson(GuideField.Start, 0, UsualEvents, lit = 1.0)
+  @volatile private var current = newPass(GuideField.Start, 0, UsualEvents, lit = 1.0)
   private var tallies = Vector.empty[GuideTally]
 
   /** The field to use, and where to record, until the pass ends. */
-  def lesson: Lesson = current
+  def pass: Pass = current
 
   /** Of the samples until the pass ends, relative to the first; one where few paths are guided, or
     * all count the same.
@@ -85,15 +85,15 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
         synchronized:
           if isOver(current, sample) then take(all.growth, sample)
 
-  private def isOver(lesson: Lesson, sample: Int): Boolean =
-    lesson.records != null && sample >= next(lesson.begun)
+  private def isOver(pass: Pass, sample: Int): Boolean =
+    pass.records != null && sample >= next(pass.begun)
 
   /** Events per path that found light, in a pass that ends. */
-  private def perPath(was: Lesson, sample: Int, events: Int): Double =
+  private def perPath(was: Pass, sample: Int, events: Int): Double =
     val rate = was.records.nn.rate
     events / (pixels.toDouble * (sample - was.begun) * was.part * rate)
 
-  private def growth(was: Lesson, sample: Int): GuideGrowth =
+  private def growth(was: Pass, sample: Int): GuideGrowth =
     val events = was.records.nn.sorted()
     val lit = perPath(was, sample, events.firsts)
     val records = was.records.nn
@@ -107,12 +107,12 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
     progress =
       if was.field.guides then progress.after(growth.verdict)
       else progress.copy(cost = growth.verdict.cost)
-    val following = lesson(growth.result(), sample, found, growth.lit)
+    val following = newPass(growth.result(), sample, found, growth.lit)
     val isLast = following.records == null
     val ends =
       settings.adapts && progress.doubts >= (if isLast then 1 else GuideProgress.MostDoubts)
     if ends then progress = progress.copy(gaveUp = true)
-    current = if ends then Lesson(GuideField.Start, sample, part = 0f, null) else following
+    current = if ends then Pass(GuideField.Start, sample, part = 0f, null) else following
     learning = null
     was.records.nn.release()
     if current.records == null then memory.forget()
@@ -126,7 +126,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
   /** @param found events per sample that found light
     * @param lit   part of all paths that has such events
     */
-  private def lesson(field: GuideField, begun: Int, found: Double, lit: Double): Lesson =
+  private def newPass(field: GuideField, begun: Int, found: Double, lit: Double): Pass =
     val end = next(begun)
     val learns = isLongEnough && goesOn(end)
     val paths = pixels.toDouble * (end - begun)
@@ -135,7 +135,7 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
       else if !learns || !settings.adapts || progress.pays then 1f
       else Math.min(1.0, TrialPaths / (paths * Math.max(lit, 1e-3))).toFloat
     val rate = Math.min(1.0, settings.records / (paths * part * Math.max(found, 1e-3))).toFloat
-    Lesson(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
+    Pass(field, begun, part, if learns then GuideRecords(rate, field.regions, memory) else null)
 
   /** Writes what was learnt; no path may be on its way. */
   def save(to: CheckedOutput): Unit =
@@ -162,24 +162,26 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
     val rate = from.float()
     val records = if rate == 0f then null else GuideRecords(rate, field.regions, memory)
     if records != null then records.load(from)
-    current = Lesson(field, begun, part, records)
+    current = Pass(field, begun, part, records)
 
 object Guide:
-  /** @param begun   the first sample that uses it
-    * @param part    of the paths that use it, and record
+  /** A pass of training.
+    *
+    * @param begun   its first sample
+    * @param part    of the paths that use the field, and record
     * @param records null: nothing more is learnt
     */
-  final class Lesson private[guiding] (
+  final class Pass private[guiding] (
       val field: GuideField,
       val begun: Int,
       private[guiding] val part: Float,
       private[guiding] val records: GuideRecords | Null
   ):
-    /** Does the path use it whose camera ray this is? Chosen at random. */
-    def takes(origin: Vec3, direction: Vec3): Boolean =
+    /** Does the path use the field whose camera ray this is? Chosen at random. */
+    def includes(origin: Vec3, direction: Vec3): Boolean =
       part == 1f || part > 0f && chance(origin, direction) < part
 
-    /** Does the path record, if it uses it? */
+    /** Does the path record, if it uses the field? */
     def learnsFrom(origin: Vec3, direction: Vec3): Boolean =
       val to = records
       to != null && (to.rate == 1f || chance(origin, direction) < part * to.rate)

@@ -22,10 +22,10 @@ import candela.math.*
   *                (three numbers), one over its distance, the concentration, the weight; then,
   *                leaving light lobes out, the weight times the factor that normalises the lobe,
   *                and the sum of weights up to this lobe. Without light all are zero
-  * @param worth   of each region, the number of branches in which a path goes on from an event
-  *                there, in units of its throughput over what such paths find; 0: not known
-  * @param whole   of each region, the mean light of paths whose first event is there, over their
-  *                throughput before
+  * @param splittingFactors of each region, the number of branches in which a path goes on from an
+  *                event there, in units of its throughput over what such paths find; 0: not known
+  * @param measurements of each region, the mean light of paths whose first event is there, over
+  *                their throughput before
   */
 final class GuideField private[guiding] (
     val axis: Array[Int],
@@ -34,8 +34,8 @@ final class GuideField private[guiding] (
     val shares: Array[Float],
     val centres: Array[Float],
     val lobes: Array[Float],
-    val worth: Array[Float],
-    val whole: Array[Float]
+    val splittingFactors: Array[Float],
+    val measurements: Array[Float]
 ):
   import GuideField.*
 
@@ -68,7 +68,7 @@ final class GuideField private[guiding] (
     for all <- Vector(axis, below) do
       to.int(all.length)
       loop(all.length)(i => to.int(all(i)))
-    for all <- Vector(split, shares, centres, lobes, worth, whole) do
+    for all <- Vector(split, shares, centres, lobes, splittingFactors, measurements) do
       to.int(all.length)
       loop(all.length)(i => to.float(all(i)))
 
@@ -116,7 +116,7 @@ object GuideField:
     def floats() = Array.fill(from.count(bytes = 4))(from.float())
     val (axis, below) = (ints(), ints())
     val (split, shares, centres, lobes) = (floats(), floats(), floats(), floats())
-    val (worth, whole) = (floats(), floats())
+    val (splittingFactors, measurements) = (floats(), floats())
     val (nodes, regions) = (axis.length, shares.length)
     def isLeaf(node: Int) = below(node) < 0 && -1 - below(node) < regions
     // Children follow their parent, so every way down has an end
@@ -125,8 +125,8 @@ object GuideField:
     require(
       nodes >= Sides && split.length == nodes && below.length == nodes &&
         centres.length == 3 * regions && lobes.length == regions * Lobes * Size &&
-        worth.length == regions && whole.length == regions &&
+        splittingFactors.length == regions && measurements.length == regions &&
         (0 until nodes).forall(node => isLeaf(node) || isDivided(node)),
       "its guiding field has no such regions"
     )
-    GuideField(axis, split, below, shares, centres, lobes, worth, whole)
+    GuideField(axis, split, below, shares, centres, lobes, splittingFactors, measurements)

@@ -44,17 +44,17 @@ private[guiding] final class GuideGrowth(
 
   /** The field, when all regions have grown. */
   def result(): GuideField =
-    val centres, lobes, shares, worth, whole = FloatBuffer()
+    val centres, lobes, shares, splittingFactors, measurements = FloatBuffer()
     val unit = Math.sqrt(cost / Math.max(verdict.noise, LeastNoise)).toFloat
     for leaf <- leaves do
       shares += leaf.share
-      worth += (if leaf.effort > 0f then leaf.effort * unit else leaf.worth)
-      whole += leaf.whole
+      splittingFactors += (if leaf.effort > 0f then leaf.effort * unit else leaf.splittingFactor)
+      measurements += leaf.measurement
       loop(3)(a => centres += leaf.centre(a))
       loop(Lobes * GuideField.Size)(i => lobes += leaf.lobes(i))
     GuideField(
       axis.take(), split.take(), below.take(), shares.take(), centres.take(), lobes.take(),
-      worth.take(), whole.take()
+      splittingFactors.take(), measurements.take()
     )
 
   /** What the paths of the pass tell of guiding, when all regions have grown. */

@@ -32,8 +32,8 @@ private[guiding] final class GuideLeaf(
   var share: Float = old.shares(region)
 
   /** As in [[GuideField]]. */
-  var worth: Float = old.worth(region)
-  var whole: Float = old.whole(region)
+  var splittingFactor: Float = old.splittingFactors(region)
+  var measurement: Float = old.measurements(region)
 
   /** The root of the second moment of the light that paths find after an event here, over its cost;
     * 0: not known.
@@ -68,7 +68,7 @@ private[guiding] final class GuideLeaf(
       if events(of(j) + Total) > 0f then
         before += events(of(j) + Before)
         count += 1
-    whole = meanLight * found + (before / Math.max(1, count)).toFloat
+    measurement = meanLight * found + (before / Math.max(1, count)).toFloat
     effort = Math.sqrt(squares / of.length * found / Math.max(1f, cost)).toFloat
 
   /** Compares paths as they are with those that would have sampled BSDFs alone, by the same paths.
@@ -118,7 +118,7 @@ private object GuideLeaf:
   /** More light counts as this much, in units of the region's mean. */
   val Brightest = 100f
 
-  /** Likewise, where it is to be said how much effort it is worth. */
+  /** Likewise, in the second moment that decides how often paths split. */
   private val BrightestEffort = 20f
 
   /** Probability of BSDF sampling in guided regions. */

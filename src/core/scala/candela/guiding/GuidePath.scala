@@ -105,11 +105,11 @@ final class GuidePath:
     count(light)
     val before = firstLight
     val unguided = addUp()
-    to.finished(firstCost)
+    to.countPath(firstCost)
     var isFirst = true
     var i = 0
     while i < size do
-      to.caused(regions(i), costs(i))
+      to.countRays(regions(i), costs(i))
       val found = lights(i) / throughputs(i)
       if found > 0f && found < Float.PositiveInfinity && light < Float.PositiveInfinity then
         val event = events(i)

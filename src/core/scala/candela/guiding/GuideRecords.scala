@@ -154,13 +154,13 @@ object GuideRecords:
     private[guiding] var paths, allCosts = 0L
 
     /** Counts an event. */
-    def saw(region: Int): Unit = counts(region) += 1
+    def countEvent(region: Int): Unit = counts(region) += 1
 
     /** Counts the rays that an event brings about. */
-    private[guiding] def caused(region: Int, rays: Int): Unit = costs(region) += rays
+    private[guiding] def countRays(region: Int, rays: Int): Unit = costs(region) += rays
 
     /** Counts a path and its rays. */
-    private[guiding] def finished(rays: Int): Unit =
+    private[guiding] def countPath(rays: Int): Unit =
       paths += 1
       allCosts += rays
 

@@ -34,7 +34,7 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
     extends SceneIntegrator(scene):
   import rule.*
 
-  private val walk = Walk(scene, volumes)
+  private val walk = SurfaceWalk(scene, volumes)
   private val shadowRay = Ray()
   private val shadowHit = Hit()
   private var shadowRays = 0L
@@ -53,11 +53,11 @@ final class AmbientOcclusion(scene: Scene, rule: Occlusion, volumes: VolumeMarch
       walk.marchThroughVolumes(sampler)
       if isHit && walk.vertex.isInterface then walk.passThrough()
       else if isHit then
-        walk.add(open * openness(walk.vertex, sampler))
+        walk.addScattered(open * openness(walk.vertex, sampler))
         walk.end()
       else if showsSky then walk.addEnvironment()
       else walk.end()
-    walk.radiance.toRgb
+    walk.radiance
 
   /** Of the hemisphere around the geometric normal. */
   private def openness(vertex: SurfaceVertex, sampler: Sampler): Float =

@@ -3,22 +3,18 @@ package candela.integrators
 import candela.geometry.{Ray, RayDifferential}
 import candela.math.*
 
-/** A ray, and the vertex at which its direction was sampled. Mutable. */
+/** A copy of a ray that has left a vertex. Mutable. */
 private[integrators] final class Departure:
-  private val p, n, origin, direction = MutableVec3()
+  private val origin, direction = MutableVec3()
   private val differential = RayDifferential()
 
-  def set(lastP: Vec3, lastN: Vec3, ray: Ray): Unit =
-    p.set(lastP)
-    n.set(lastN)
+  def set(ray: Ray): Unit =
     origin.set(ray.origin)
     direction.set(ray.direction)
     if ray.differential.isKnown then differential.copy(ray.differential)
     else differential.isKnown = false
 
-  def restore(lastP: MutableVec3, lastN: MutableVec3, ray: Ray): Unit =
-    lastP.set(p)
-    lastN.set(n)
+  def restore(ray: Ray): Unit =
     ray.set(origin, direction, Float.PositiveInfinity)
     if differential.isKnown then ray.differential.copy(differential)
     else ray.differential.isKnown = false

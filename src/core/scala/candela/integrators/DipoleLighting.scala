@@ -43,7 +43,7 @@ final class DipoleLighting(
   /** Light that enters elsewhere and leaves at `exit`. */
   private def beneath(exit: SurfaceVertex, dipole: DipoleBssrdf, sampler: Sampler): Rgb =
     val weight = probe.enter(exit.at, dipole, time, sampler, entry.at)
-    val choice = sampler.next1D(matters = light.isRandom)
+    val choice = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
     if weight.isBlack then Rgb.Black
     else
@@ -56,6 +56,10 @@ final class DipoleLighting(
   /** Light of one source that enters at `entry`, over π. */
   private def irradiance(choice: Float, sampler: Sampler): Rgb =
     val p = entry.at.p
-    if light.choose(p, entry.at.frame.n, choice) && light.samplePoint(p, sampler.x, sampler.y)
-    then light.scattered(entry, weight = _ => 1f)
+    if connection.choose(
+        p,
+        entry.at.frame.n,
+        choice
+      ) && connection.samplePoint(p, sampler.x, sampler.y)
+    then connection.scattered(entry, weight = _ => 1f)
     else Rgb.Black

@@ -39,13 +39,13 @@ class DirectLighting(
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     var sum = Rgb.Black
     if lightSamples.length == 0 then
-      val choice = sampler.next1D(matters = light.isRandom)
-      if light.choose(vertex.at.p, vertex.lightNormal, choice) then
+      val choice = sampler.next1D(matters = connection.isRandom)
+      if connection.choose(vertex.at.p, vertex.lightNormal, choice) then
         sum = estimate(vertex, sampler)
     else
       var i = 0
       while i < lightSamples.length do
-        light.choose(i)
+        connection.choose(i)
         var k = 0
         while k < lightSamples(i) do
           sum += estimate(vertex, sampler) * (1f / lightSamples(i))
@@ -57,13 +57,14 @@ class DirectLighting(
   private def estimate(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     sampler.next2D()
     val byLight =
-      if !light.samplePoint(vertex.at.p, sampler.x, sampler.y) then Rgb.Black
+      if !connection.samplePoint(vertex.at.p, sampler.x, sampler.y) then Rgb.Black
       else
-        light.scattered(
+        connection.scattered(
           vertex,
-          weight = wi => LightTransport.powerHeuristic(light.pdf, vertex.localPdf(wi))
+          weight = wi => LightTransport.powerHeuristic(connection.pdf, vertex.localPdf(wi))
         )
-    if light.isDelta || light.isShownOnly then byLight else byLight + byBsdf(vertex, sampler)
+    if connection.isDelta || connection.isShownOnly then byLight
+    else byLight + byBsdf(vertex, sampler)
 
   /** The sample of the BSDF, if it hits the chosen light. */
   private def byBsdf(vertex: SurfaceVertex, sampler: Sampler): Rgb =
@@ -76,15 +77,15 @@ class DirectLighting(
       bsdfRay.set(vertex.at.offsetOrigin(wi), wi, Float.PositiveInfinity)
       bsdfRays += 1
       val p = vertex.at.p
-      val chosen = light.probability
+      val chosen = connection.probability
       if meetsSurface() then
-        if emitter.areaLight != light.index then Rgb.Black
+        if emitter.areaLight != connection.index then Rgb.Black
         else
           val source = scene.surfaceLight(emitter)
           val weight = LightTransport.powerHeuristic(bounce.pdf, chosen * source.pdf(p, emitter))
           bounce.weight * attenuated(source.radiance(emitter, -wi)) * (weight / chosen)
       else
-        val found = scene.environmentIndex.indexOf(light.index)
+        val found = scene.environmentIndex.indexOf(connection.index)
         if found < 0 then Rgb.Black
         else
           val source = scene.environments(found)
@@ -99,6 +100,7 @@ class DirectLighting(
       if found then scene.surface(bsdfRay, bsdfHit, emitter)
       found
 
-  private def attenuated(light: Rgb): Rgb =
+  private def attenuated(radiance: Rgb): Rgb =
     val march = volumes
-    if march == null then light else light * march.transmittance(bsdfRay, VolumeMarch.StepsToLights)
+    if march == null then radiance
+    else radiance * march.transmittance(bsdfRay, VolumeMarch.StepsToLights)

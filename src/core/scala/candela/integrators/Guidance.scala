@@ -19,8 +19,8 @@ import candela.sampling.Sampler
 private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   import Guidance.*
   private val path = GuidePath()
-  private var lesson = guide.lesson
-  private var ownPart: GuideRecords.Part | Null = lesson.newPart()
+  private var pass = guide.pass
+  private var ownPart: GuideRecords.Part | Null = pass.newPart()
 
   /** Where the path records; null: nowhere. */
   private var part = ownPart
@@ -47,7 +47,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Light that paths like this one find on average, as the region of its first event knows it; 0:
     * not known.
     */
-  private var whole = 0f
+  private var measurement = 0f
 
   /** Has the field decided at this vertex whether the path ends? */
   private var isExpected = false
@@ -62,7 +62,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     to.ratio = ratio
     to.chances = chances
     to.splits = splits
-    to.whole = whole
+    to.measurement = measurement
     to.place = path.place
 
   /** Keeps where the random numbers of a branch go on. */
@@ -73,24 +73,24 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     ratio = from.ratio
     chances = from.chances
     splits = from.splits
-    whole = from.whole
+    measurement = from.measurement
     path.follow(from.place, found)
 
   /** Starts a path with a camera ray. */
   def begin(ray: Ray): Unit =
-    if lesson ne guide.lesson then
-      lesson = guide.lesson
-      ownPart = lesson.newPart()
-    part = if lesson.learnsFrom(ray.origin, ray.direction) then ownPart else null
+    if pass ne guide.pass then
+      pass = guide.pass
+      ownPart = pass.newPart()
+    part = if pass.learnsFrom(ray.origin, ray.direction) then ownPart else null
     path.clear()
     ratio = 1f
     chances = 1f
     splits = 1f
-    whole = 0f
+    measurement = 0f
 
   /** The vertex has its BSDF. */
   def arrive(): Unit =
-    val field = lesson.field
+    val field = pass.field
     leaveAlone()
     path.step()
     isKept = (part != null || field.guides) && !vertex.bsdf.isSpecular
@@ -148,7 +148,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
       val byBsdf =
         if x < share then drawBsdf(points.choice(branch), belowOne(x / share), y)
         else drawField(belowOne((x - share) / (1f - share)), y)
-      if byBsdf > 0f then take(byBsdf, throughput, found)
+      if byBsdf > 0f then turn(byBsdf, throughput, found)
 
   /** @return the BSDF's density of the direction; 0: the bounce is as it shall be */
   private def drawBsdf(choice: Float, x: Float, y: Float): Float =
@@ -180,7 +180,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
   /** Goes on in the direction `wi`, which is also that of the bounce, whose weight is f·|cos|, or
     * an estimate of it.
     */
-  private def take(byBsdf: Float, throughput: Float, found: Float): Unit =
+  private def turn(byBsdf: Float, throughput: Float, found: Float): Unit =
     val bounce = vertex.bounce
     val byField = if isFitted then fieldPdf(bounce.wi, wi) else 0f
     val pdf = share * byBsdf + (1f - share) * byField
@@ -188,7 +188,7 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     ratio *= pdf / byBsdf
     val to = part
     if to != null && !crosses(bounce.wi) then
-      to.saw(region)
+      to.countEvent(region)
       path.add(
         region,
         vertex.at.p,
@@ -226,14 +226,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     isExpected = false
     if region < 0 || !guide.settings.divides then 1f
     else
-      val field = lesson.field
-      val worth = field.worth(region)
-      if whole == 0f then whole = field.whole(region) * throughput
-      if worth == 0f || whole == 0f || !vertex.isInMedium && vertex.bsdf.isTransmissive then 1f
+      val field = pass.field
+      val factor = field.splittingFactors(region)
+      if measurement == 0f then measurement = field.measurements(region) * throughput
+      val transmits = !vertex.isInMedium && vertex.bsdf.isTransmissive
+      if factor == 0f || measurement == 0f || transmits then 1f
       else
         isExpected = true
         val most = Math.min(BranchPoints.Most.toFloat, MostInAll / splits)
-        val n = Math.max(LeastSurvival, Math.min(throughput * worth / whole, most))
+        val n = Math.max(LeastSurvival, Math.min(throughput * factor / measurement, most))
         chances *= n
         splits *= Math.max(1f, n)
         n
@@ -248,15 +249,15 @@ private[integrators] final class Guidance(guide: Guide, vertex: SurfaceVertex):
     if isExpected then 1f else LightTransport.roulette(largest * ratio * splits, threshold, sampler)
 
 private object Guidance:
-  /** Branches in which a path leaves a vertex, on average, where it is worth little. */
+  /** Branches in which a path leaves a vertex, on average, where it is expected to find little. */
   inline val LeastSurvival = 0.5f
 
-  /** Branches of a whole path. */
+  /** Branches of a path. */
   inline val MostInAll = 64f
 
   /** What is known of a branch that is followed later. Mutable. */
   final class Mark:
-    var ratio, chances, splits, whole = 0f
+    var ratio, chances, splits, measurement = 0f
     var place = -1
 
     /** Where its random numbers go on ([[Sampler.goTo]]). */

@@ -36,6 +36,13 @@ abstract class SceneIntegrator(scene: Scene) extends Integrator:
   final def copy(): Integrator = over(scene)
   final def reported(report: PathReport): Integrator = over(scene.reported(report))
 
+/** Base of integrators that follow one unidirectional path per sample. */
+abstract class CameraPathIntegrator(scene: Scene) extends SceneIntegrator(scene):
+  protected def walk: Walk
+  final def raysTraced: Long = walk.raysTraced
+  override final def lastMaterial: Int = walk.vertex.at.material
+  override final def lightParts: LightParts | Null = walk.parts
+
 /** The passes of one rendering, shared by all workers: sample k of every pixel uses what pass k has
   * prepared. At most [[SharedPasses.Open]] passes are in use at a time.
   */

@@ -114,8 +114,8 @@ final class LightConnection(
 
   /** f · radiance · factor, attenuated by volumes. */
   def arriving(f: Rgb, factor: Float): Rgb =
-    val light = sample.radiance
-    val arrived = Rgb(f.r * light.r * factor, f.g * light.g * factor, f.b * light.b * factor)
+    val sent = sample.radiance
+    val arrived = Rgb(f.r * sent.r * factor, f.g * sent.g * factor, f.b * sent.b * factor)
     val march = volumes
     if march == null then arrived else arrived * transmittance(march)
 

@@ -24,7 +24,7 @@ final class PartlyGuided(
   private var last = itsPlain
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
-    last = if guide.lesson.takes(ray.origin, ray.direction) then itsGuided else itsPlain
+    last = if guide.pass.includes(ray.origin, ray.direction) then itsGuided else itsPlain
     last.radiance(ray, sampler)
 
   def raysTraced: Long = itsGuided.raysTraced + itsPlain.raysTraced

@@ -28,7 +28,7 @@ final class SimplePathTracer(
     onward: Onward,
     crosses: Boolean = true
 ) extends CameraPathIntegrator(scene):
-  protected val walk: Walk = Walk(
+  protected val walk: SurfaceWalk = SurfaceWalk(
     scene,
     options = WalkOptions(
       samplesLights = samplesLights,
@@ -44,7 +44,7 @@ final class SimplePathTracer(
     walk.begin(ray, sampler)
     while walk.goesOn do
       val isHit = walk.intersect()
-      val isSampled = walk.directionPdf > 0f
+      val isSampled = walk.path.competes
       if isHit then
         if !isSampled then walk.addEmission()
         if walk.vertex.isInterface then
@@ -52,7 +52,7 @@ final class SimplePathTracer(
         else if walk.hasHad(maxDepth) then walk.end()
         else
           walk.evaluate()
-          if walk.sampleOneLight(sampler) then walk.addLight(weight = _ => 1f)
+          if walk.sampleLight(sampler) then walk.connectBy(weight = _ => 1f)
           onward match
             case Onward.Bsdf => walk.scatter(sampler)
             case Onward.Hemisphere =>
@@ -61,4 +61,4 @@ final class SimplePathTracer(
           walk.leave()
       else if isSampled then walk.end()
       else walk.addEnvironment()
-    walk.radiance.toRgb
+    walk.radiance

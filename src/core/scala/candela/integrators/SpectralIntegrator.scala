@@ -30,7 +30,7 @@ final class SpectralIntegrator(
 
   def radiance(ray: Ray, sampler: Sampler): Rgb =
     current = SpectralIntegrator.choose(sampler.next1D(), bases.length)
-    for r <- report do r.takes(bases(current))
+    for r <- report do r.components(bases(current))
     components = integrators(current).radiance(ray, sampler)
     if parts != null then
       val found = integrators(current).lightParts

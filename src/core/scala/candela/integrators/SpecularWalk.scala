@@ -9,7 +9,7 @@ import candela.scene.Scene
   * transmission, and gather direct light at every vertex.
   *
   * @param maxDepth specular bounces plus one, at most
-  * @param steps    as in [[Walk]]
+  * @param steps    as in [[SurfaceWalk]]
   * @param interfaces what they are to light sampling; unless they are open, lamps without a BSDF
   *                   are invisible
   */
@@ -20,8 +20,9 @@ abstract class SpecularWalk(
     steps: Float = VolumeMarch.StepsToLights,
     interfaces: Interfaces = Interfaces.Open
 ) extends SceneIntegrator(scene):
-  protected val walk: Walk = Walk(scene, volumes, steps, WalkOptions(interfaces = interfaces))
-  protected val light: LightConnection = walk.light
+  protected val walk: SurfaceWalk =
+    SurfaceWalk(scene, volumes, steps, WalkOptions(interfaces = interfaces))
+  protected val connection: LightConnection = walk.connection
 
   /** Direct light that `vertex`, which is not specular alone, scatters to its `wo`. */
   protected def direct(vertex: SurfaceVertex, sampler: Sampler): Rgb
@@ -45,6 +46,6 @@ abstract class SpecularWalk(
         if passes then walk.passThrough()
         else
           walk.evaluate()
-          walk.add(gathered(walk.vertex, sampler))
+          walk.addScattered(gathered(walk.vertex, sampler))
           if walk.depth == maxDepth then walk.end() else walk.leaveSpecularly(sampler)
-    walk.radiance.toRgb
+    walk.radiance

@@ -20,18 +20,18 @@ import candela.scene.Scene
   */
 final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatters: Boolean):
   private val work = regions.newWork()
-  private val light = LightConnection(scene)
+  private val connection = LightConnection(scene)
   private val random = RandomStream()
 
   /** What the volumes add along the ray of the last [[march]], and their transmittance. */
   var added, transmitted: Rgb = Rgb.Black
 
-  def raysTraced: Long = light.raysTraced
+  def raysTraced: Long = connection.raysTraced
   def copy(): VolumeMarch = VolumeMarch(scene, regions, stepSize, scatters)
 
   /** Starts a new camera path. */
   def start(ray: Ray, sampler: Sampler): Unit =
-    light.begin(ray.time)
+    connection.begin(ray.time)
     random.seed(sampler.next1D(), sampler.next1D())
 
   /** Marches along the ray up to `ray.tMax`.
@@ -86,20 +86,21 @@ final class VolumeMarch(scene: Scene, regions: Regions, stepSize: Float, scatter
             sumR += here.r * arrived.r
             sumG += here.g * arrived.g
             sumB += here.b * arrived.b
-            if parts != null then parts.addLight(light.index, 1, here * arrived * (step * unit))
+            if parts != null then
+              parts.addLight(connection.index, 1, here * arrived * (step * unit))
         i += 1
       added = Rgb(sumR, sumG, sumB) * (step * unit)
       transmitted = work.transmittance * boost
 
   /** Direct light of one sampled light, scattered to `wo`, per scene unit. */
   private def scattered(p: Vec3, wo: Vec3): Rgb =
-    if !light.choose(p, Vec3.Zero, random.next()) ||
-      !light.samplePoint(p, random.next(), random.next()) || light.isBlocked(p)
+    if !connection.choose(p, Vec3.Zero, random.next()) ||
+      !connection.samplePoint(p, random.next(), random.next()) || connection.isBlocked(p)
     then Rgb.Black
     else
-      val phase = regions.phase(wo, light.wi, work)
-      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * light.sample.radiance.toRgb
-      sent * light.transmittance(this) * (phase / light.pdf)
+      val phase = regions.phase(wo, connection.wi, work)
+      val sent = Rgb(work.scatterR, work.scatterG, work.scatterB) * connection.sample.radiance.toRgb
+      sent * connection.transmittance(this) * (phase / connection.pdf)
 
   /** Transmittance along the ray up to `ray.tMax`.
     *

@@ -4,207 +4,158 @@ import candela.bsdf.Bssrdf
 import candela.color.{MutableRgb, Rgb}
 import candela.film.LightParts
 import candela.geometry.{Hit, Ray}
+import candela.guiding.Guide
 import candela.math.*
 import candela.sampling.Sampler
 import candela.scene.Scene
 
-/** Which optional steps a path takes.
+/** A path from the camera, and the steps of which integrators are made. [[PathState]] says why its
+  * estimate is unbiased. Mutable, one per worker.
   *
-  * @param regularizes   roughen BSDFs after the first non-specular bounce
-  * @param subsurface    does light travel beneath surfaces?
-  * @param samplesLights does light sampling look for lights, too?
-  * @param crossesPanes  do paths and light samples through media pass panes without a scattering
-  *   event, as they pass interfaces?
-  * @param hidesLamps    does the camera see through lamps, and no sky?
-  * @param interfaces    what interfaces are to light sampling
-  * @param countsPassed  is passing an interface one of the events that a path may have?
-  */
-final case class WalkOptions(
-    regularizes: Boolean = false,
-    subsurface: Boolean = false,
-    samplesLights: Boolean = true,
-    crossesPanes: Boolean = false,
-    hidesLamps: Boolean = false,
-    interfaces: Interfaces = Interfaces.Open,
-    countsPassed: Boolean = false
-)
-
-/** A path from the camera over surfaces: its state, and the steps of which integrators are made.
-  * Mutable, one per worker. Each step that adds light multiplies it by the throughput.
+  * At each vertex: [[trace]] and [[travel]] get there; [[addEnvironment]], or [[meetSurface]] and
+  * [[addEmission]], add what the ray has met; [[evaluate]] prepares the vertex; [[sampleLight]] and
+  * [[connect]] add light of a lamp; [[scatter]] samples the next direction, and [[leave]] takes it;
+  * [[roulette]] may end the path. [[StepOrder]] checks the order.
   *
-  * @param volumes pbrt-v2's volumes between surfaces, if any
-  * @param steps   their step size towards lights, in units of that towards the camera
+  * [[SurfaceWalk]] and [[VolumeWalk]] say what is between surfaces, and how light samples get to a
+  * vertex. Few programs load both, so the JIT compiler knows which of them is meant.
+  *
+  * @param path        what the path carries
+  * @param connection  samples lights
+  * @param guide       null: directions are sampled from BSDFs and phase functions alone
   * @param sharedParts where to divide the light, if another walk does it there, too
   */
-class Walk(
+abstract class Walk(
     scene: Scene,
-    volumes: VolumeMarch | Null = null,
-    steps: Float = VolumeMarch.StepsToLights,
-    options: WalkOptions = WalkOptions(),
-    sharedParts: LightParts | Null = null
-) extends CameraPath:
-  /** Light found so far. */
-  final val radiance: MutableRgb = MutableRgb()
-
-  /** Product of f·|cos|/pdf, and of what volumes let through. */
-  final val throughput: MutableRgb = MutableRgb()
-
-  /** Scattering events so far. */
-  var depth: Int = 0
-
-  /** Product of squared relative indices of refraction: throughput · etaScale is free of radiance
-    * scaling, so Russian roulette sees the energy.
-    */
-  var etaScale: Float = 1f
-
-  /** Interfaces passed so far, if they count. */
-  var passed: Int = 0
-
-  /** Solid-angle density of the current direction; 0 if light sampling did not compete with it;
-    * negative if what it finds is lost.
-    */
-  var directionPdf: Float = 0f
-
-  /** Has the path bounced off a non-specular surface? Followed only if paths are regularized. */
-  var isSpread: Boolean = false
-
-  var goesOn: Boolean = false
-
+    options: WalkOptions,
+    final val path: PathState,
+    final val connection: LightConnection,
+    guide: Guide | Null,
+    sharedParts: LightParts | Null
+):
   /** Where the path is. */
   final val vertex: SurfaceVertex = SurfaceVertex(scene)
 
-  /** Next-event estimation from there. */
-  final val light: LightConnection =
-    LightConnection(scene, volumes, steps, crosses = !options.interfaces.stopsLight)
-
-  // Where the current direction was sampled
-  private val lastP, lastN = MutableVec3()
-
-  private var ray = Ray()
-  private val hit = Hit()
-  private var rays = 0L
-  private val regularizes = options.regularizes
-  private val samplesLights = options.samplesLights
-  private val hidesLamps = options.hidesLamps
-  private val interfaces = options.interfaces
-  private val countsPassed = options.countsPassed
-  private val disperses = scene.isDispersive
-
-  /** The light found so far, divided, if the scene asks for it. */
-  val parts: LightParts | Null =
+  /** The light found so far, divided; null: the scene doesn't ask for it. */
+  final val parts: LightParts | Null =
     if sharedParts != null then sharedParts else scene.lightGroups.map(LightParts(_)).orNull
 
-  /** Does the path carry its hero wavelength only? */
-  private var isAlone = false
+  protected final val found: MutableRgb = MutableRgb()
+  protected final val order: StepOrder = StepOrder()
+
+  /** The direction of the path, and what it has met there. */
+  protected final var ray: Ray = Ray()
+  protected final val hit: Hit = Hit()
+
+  protected final val guiding: GuidedScattering | Null =
+    if guide == null then null else GuidedScattering(guide, this)
+  protected final val samplesLights: Boolean = options.samplesLights
+  protected final val regularizes: Boolean = options.regularizes
+  private val hidesLamps = options.hidesLamps
+  private val countsPassed = options.countsPassed
+  private val disperses = scene.isDispersive
+  private val hasLights = scene.lights.length > 0
   private val probe: SubsurfaceProbe | Null =
     if options.subsurface then SubsurfaceProbe(scene) else null
+  private var rays = 0L
+  private var isFollowed = false
 
-  def raysTraced: Long =
-    val march = volumes
+  /** Has the path not ended yet? */
+  final def goesOn: Boolean = isFollowed
+
+  /** Scattering events so far. */
+  final def depth: Int = path.depth
+
+  /** All light found. */
+  def radiance: Rgb = found.toRgb
+
+  final def raysTraced: Long =
     val beneath = probe
-    rays + light.raysTraced + (if march == null then 0L else march.raysTraced) +
-      (if beneath == null then 0L else beneath.raysTraced)
+    rays + otherRays + (if beneath == null then 0L else beneath.raysTraced)
+
+  /** Rays of light samples, and of what is between surfaces. */
+  protected def otherRays: Long
 
   /** Starts a path along a camera ray, which the walk overwrites. */
-  def begin(cameraRay: Ray, sampler: Sampler): Unit =
+  final def begin(cameraRay: Ray, sampler: Sampler): Unit =
+    order.set(Stage.Departed)
     ray = cameraRay
-    radiance.set(Rgb.Black)
+    found.set(Rgb.Black)
     if parts != null then parts.clear()
-    throughput.set(Rgb.White)
-    depth = 0
-    passed = 0
-    etaScale = 1f
-    directionPdf = 0f
-    isSpread = false
-    goesOn = true
-    light.begin(ray.time)
-    isAlone = false
-    val march = volumes
-    if march != null then march.start(ray, sampler)
+    path.start()
+    start(sampler)
+    if guiding != null then guiding.begin(ray)
+    isFollowed = true
 
-  def end(): Unit = goesOn = false
+  /** Starts what is between surfaces. */
+  protected def start(sampler: Sampler): Unit
 
-  /** Keeps the path as it is, to follow it again from here. */
-  protected final def keep(to: Walk.State): Unit =
-    to.throughput.set(throughput.toRgb)
-    to.depth = depth
-    to.passed = passed
-    to.etaScale = etaScale
-    to.directionPdf = directionPdf
-    to.isSpread = isSpread
-    to.isAlone = isAlone
-    to.from.set(lastP, lastN, ray)
+  final def end(): Unit =
+    order.set(Stage.Ended)
+    isFollowed = false
 
-  /** Goes on with the path as it was; the light found stays. */
-  protected final def goOn(from: Walk.State): Unit =
-    throughput.set(from.throughput.toRgb)
-    depth = from.depth
-    passed = from.passed
-    etaScale = from.etaScale
-    directionPdf = from.directionPdf
-    isSpread = from.isSpread
-    isAlone = from.isAlone
-    from.from.restore(lastP, lastN, ray)
-    goesOn = true
+  /** Goes on where the path has just been sent, unless it carries nothing. */
+  protected final def goOn(): Unit = isFollowed = !path.isDead
 
-  /** Traces the ray to the next vertex; false if it leaves the scene. */
-  def intersect(): Boolean =
+  /** Traces the ray to the next surface; false if it leaves the scene. */
+  final def trace(): Boolean =
     rays += 1
-    val found = scene.closest(ray, hit)
-    if found then vertex.hit(ray, hit)
-    found
+    val isHit = scene.closest(ray, hit)
+    order.step(to = if isHit then Stage.Hit else Stage.Escaped, Stage.Departed)
+    isHit
 
-  /** Adds what volumes emit and scatter along the ray just traced, and attenuates the path. */
-  def marchThroughVolumes(sampler: Sampler): Unit =
-    val march = volumes
-    if march != null then
-      march.march(ray, sampler, parts)
-      radiance.addProduct(throughput, march.added)
-      throughput.scale(march.transmitted)
-
-  /** Attenuates the path along the ray just traced. */
-  def attenuateByVolumes(): Unit =
-    val march = volumes
-    if march != null then throughput.scale(march.transmittance(ray, steps))
-
-  /** Adds the environment's radiance and ends the path. Weight: BSDF sampling against light
-    * sampling.
+  /** Goes along the ray just traced through what is between surfaces, which attenuates the path,
+    * may add light to it, and may scatter it.
+    *
+    * @return does the path come to the end of the ray? Else it was scattered before, or has ended
     */
-  def addEnvironment(): Unit =
+  def travel(limits: PathLimits, sampler: Sampler): Boolean
+
+  /** Computes the vertex where the ray has met a surface. */
+  final def meetSurface(): Unit =
+    order.step(to = Stage.Arrived, Stage.Hit)
+    vertex.hit(ray, hit)
+
+  /** Adds the environment's radiance and ends the path. */
+  final def addEnvironment(): Unit =
+    order.step(to = Stage.Ended, Stage.Escaped)
     if !hidesLamps || depth > 0 then
-      val found = LightTransport.environment(
+      val throughput = path.throughput
+      val weighted = LightTransport.environment(
         scene,
         ray,
-        (i, source) => emissionWeight(i, source.pdf(lastP, ray.direction)),
-        (i, light) => if parts != null then parts.addEnvironment(i, depth, throughput.toRgb * light)
+        weight = (i, source) => emissionWeight(i, source.pdf(path.lastP, ray.direction)),
+        found = (i, arriving) =>
+          if parts != null then parts.addEnvironment(i, depth, throughput * arriving)
       )
-      radiance.addProduct(throughput, found)
+      found.add(throughput * weighted)
     end()
 
-  /** Adds what the surface emits. Weight: BSDF sampling against light sampling. */
-  def addEmission(): Unit =
+  /** Adds what the surface emits. */
+  final def addEmission(): Unit =
+    order.step(to = Stage.Arrived, Stage.Arrived)
     val at = vertex.at
     if at.areaLight >= 0 && !isHidden then
       val source = scene.surfaceLight(at)
       val emitted = source.radiance(at, vertex.wo)
       if !emitted.isBlack then
         val weight =
-          if source.isShownOnly then shownWeight
-          else emissionWeight(at.areaLight, source.pdf(lastP, at))
-        val found = throughput.toRgb * emitted * weight
-        radiance.add(found)
-        if parts != null then parts.addLight(at.areaLight, depth, found)
+          // Only the camera and specular scattering see it
+          if source.isShownOnly then (if path.competes then 0f else 1f)
+          else emissionWeight(at.areaLight, source.pdf(path.lastP, at))
+        val carried = path.carried(emitted, weight)
+        found.add(carried)
+        if parts != null then parts.addLight(at.areaLight, depth, carried)
 
-  /** Of light that only the camera and specular scattering see. */
-  private def shownWeight: Float = if directionPdf != 0f then 0f else 1f
-
-  /** @param pointPdf solid-angle density with which light sampling finds the point of the light */
-  private inline def emissionWeight(light: Int, inline pointPdf: Float): Float =
-    if directionPdf > 0f then
-      val chosen = scene.selection.probability(lastP, lastN, light)
-      LightTransport.powerHeuristic(directionPdf, chosen * pointPdf)
-    else if directionPdf == 0f then 1f
-    else 0f
+  /** Weight of light that the path meets against light sampling.
+    *
+    * @param pointPdf solid-angle density with which light sampling finds the point of the light
+    */
+  private inline def emissionWeight(lightIndex: Int, inline pointPdf: Float): Float =
+    if path.competes then
+      val choice = scene.selection.probability(path.lastP, path.lastN, lightIndex)
+      path.emissionWeight(choice, pointPdf)
+    else 1f
 
   /** Does the path go on behind the surface as if it weren't there? */
   final def isPassed: Boolean = isAtInterface || isHidden
@@ -215,122 +166,156 @@ class Walk(
   private def isHidden = hidesLamps && depth == 0 && vertex.at.areaLight >= 0
 
   /** Has the path had as many events? */
-  final def hasHad(most: Int): Boolean = depth + passed == most
+  final def hasHad(most: Int): Boolean = depth + path.passed == most
 
   /** Continues through an interface or a hidden lamp, unless the path has had `most` events that
     * count.
     */
-  def passThrough(most: Int = Int.MaxValue): Unit =
-    if countsPassed && !isHidden then if hasHad(most) then end() else passed += 1
-    if directionPdf > 0f then
-      interfaces match
-        case Interfaces.Closed => directionPdf = 0f
-        case Interfaces.Lossy => directionPdf = Walk.Lost
-        case _ => ()
+  final def passThrough(most: Int = Int.MaxValue): Unit =
+    order.step(to = Stage.Departed, Stage.Arrived)
+    if countsPassed && !isHidden then if hasHad(most) then end() else path.passed += 1
+    keepDirection()
+
+  private def keepDirection(): Unit =
     vertex.passThrough(ray)
+    afterPassing()
+
+  /** The path has passed the surface of the vertex unscattered. */
+  protected def afterPassing(): Unit
+
+  /** Is the surface a pane that the path may cross? */
+  def isAtPane: Boolean = false
+
+  /** Continues through a pane, as through an interface and without an event, or is scattered. */
+  final def crossPane(sampler: Sampler): Unit =
+    scatter(sampler)
+    if vertex.isStraight then
+      order.step(to = Stage.Departed, Stage.Scattered)
+      path.depth -= 1
+      keepDirection()
+      goOn()
+    else leave()
 
   /** Evaluates the BSDF of the vertex: a scattering event. A dispersive one ends the companions of
     * the hero wavelength.
+    *
+    * @param isGuided may the direction be guided?
     */
-  def evaluate(): Unit =
-    depth += 1
-    vertex.evaluate(isSpread)
-    if disperses && !isAlone && vertex.bsdf.isDispersive then keepHero()
+  final def evaluate(isGuided: Boolean = true): Unit =
+    order.step(to = Stage.Evaluated, Stage.Arrived)
+    path.depth += 1
+    vertex.evaluate(path.isSpread)
+    if disperses && !path.isAlone && vertex.bsdf.isDispersive then path.keepHero()
+    if guiding != null then if isGuided then guiding.arrive() else guiding.leaveAlone()
 
-  /** Goes on with the hero wavelength only, in place of all three. */
-  def keepHero(): Unit =
-    isAlone = true
-    throughput.scale(LightTransport.Hero)
-
-  /** Chooses one light and samples a point on it; false if it contributes nothing. Takes no random
-    * numbers where the BSDF is specular or the scene has no lights.
-    */
-  def sampleOneLight(sampler: Sampler): Boolean =
-    if !samplesLights || vertex.bsdf.isSpecular || scene.lights.length == 0 then false
+  /** Chooses one light and samples a point on it; false if it contributes nothing. */
+  final def sampleLight(sampler: Sampler): Boolean =
+    order.step(to = Stage.Evaluated, Stage.Evaluated)
+    val finds = samplesLights && hasLights && !vertex.bsdf.isSpecular
+    if !finds && !drawsAlways then false
     else
-      val choice = sampler.next1D(matters = light.isRandom)
+      val choice = sampler.next1D(matters = connection.isRandom)
       sampler.next2D()
       val p = vertex.at.p
-      light.choose(p, vertex.lightNormal, choice) && light.samplePoint(p, sampler.x, sampler.y)
+      val isLit = finds && connection.choose(p, vertex.lightNormal, choice) &&
+        connection.samplePoint(p, sampler.x, sampler.y)
+      if isLit then order.step(to = Stage.Sampled, Stage.Evaluated)
+      isLit
 
-  /** Adds the light sample. Weight: light sampling against BSDF sampling, as given. */
-  inline def addLight(inline weight: Vec3 => Float): Unit =
-    val found = light.scattered(vertex, weight)
-    radiance.addProduct(throughput, found)
-    if parts != null then parts.addLight(light.index, depth, throughput.toRgb * found)
-
-  /** Solid-angle density with which [[scatter]] takes the local direction of the light sample. */
-  def scatterPdf(localWi: Vec3): Float = vertex.localPdf(localWi)
-
-  /** Adds light that leaves the vertex towards the path. */
-  def add(light: Rgb): Unit = radiance.addProduct(throughput, light)
-
-  /** Samples the BSDF: `vertex.bounce`. */
-  def scatter(sampler: Sampler): Unit =
-    vertex.draw(sampler)
-    throughput.scale(vertex.bounce.weight)
-
-  /** Samples a direction in place of the BSDF: `vertex.bounce`.
-    *
-    * @param bothSides of the surface, with equal density; else of the side where the path came from
+  /** Are the random numbers of light sampling drawn at surfaces where it finds nothing, too? Then
+    * later ones have the same dimension whatever the path has met.
     */
-  def scatterUniformly(bothSides: Boolean, sampler: Sampler): Unit =
-    vertex.drawUniformly(bothSides, sampler)
-    throughput.scale(vertex.bounce.weight)
+  protected def drawsAlways: Boolean
+
+  /** Adds the light sample, if it is visible. Weight: light sampling against the density with which
+    * the path takes that direction.
+    *
+    * @param isBoundary does light sampling alone find light straight through the surface?
+    */
+  def connect(isBoundary: Boolean): Unit
+
+  /** Solid-angle density with which the path itself finds what is in the direction of the light
+    * sample, which is local to a surface.
+    */
+  protected final def competingPdf(localWi: Vec3, isBoundary: Boolean): Float =
+    if isBoundary && vertex.crosses(localWi) then 0f
+    else takenPdf(localWi, vertex.localPdf(localWi))
+
+  /** Likewise, if the BSDF or phase function has the density `pdf`. */
+  protected final def takenPdf(localWi: Vec3, pdf: Float): Float =
+    if guiding == null then pdf else guiding.pdf(localWi, connection.wi, pdf)
+
+  /** Adds what the path carries of the light sample. */
+  protected final def addSample(carried: Rgb): Unit =
+    found.add(carried)
+    if parts != null then parts.addLight(connection.index, depth, carried)
+
+  /** Samples the next direction: `vertex.bounce`. */
+  final def scatter(sampler: Sampler): Unit =
+    order.step(to = Stage.Scattered, Stage.Evaluated, Stage.Sampled)
+    if guiding != null then guiding.scatter(sampler)
+    else
+      vertex.draw(sampler)
+      path.scale(vertex.bounce.weight)
 
   /** How light travels beneath the surface that the path was just refracted into; null: it goes
     * straight on.
     */
-  def beneath: Bssrdf | Null =
-    if probe == null || throughput.isBlack then null else vertex.beneath
+  final def beneath: Bssrdf | Null =
+    if probe == null || path.isDead then null else vertex.beneath
 
   /** Lets the path emerge elsewhere on the surface, as part of the same scattering event; false if
     * it doesn't.
     */
-  def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
+  final def emerge(inside: Bssrdf, sampler: Sampler): Boolean =
     val finder = probe
     if finder == null then false
     else
-      throughput.scale(finder.enter(vertex.at, inside, ray.time, sampler, vertex.at))
-      val emerges = !throughput.isBlack
+      if guiding != null then guiding.leaveAlone()
+      path.scale(finder.enter(vertex.at, inside, ray.time, sampler, vertex.at))
+      val emerges = !path.isDead
       if emerges then
+        order.step(to = Stage.Evaluated, Stage.Scattered)
         vertex.scatterBy(inside.entry, vertex.at.frame.n)
-        isSpread = regularizes
+        path.isSpread = regularizes
       emerges
 
   /** Leaves in the sampled direction, or ends. */
   def leave(): Unit =
+    order.step(to = Stage.Departed, Stage.Scattered)
     val bounce = vertex.bounce
-    isSpread ||= regularizes && !bounce.isSpecular
-    directionPdf = if bounce.isSpecular || !samplesLights then 0f else bounce.pdf
-    lastP.set(vertex.at.p)
-    lastN.set(vertex.lightNormal)
-    etaScale *= square(bounce.eta)
+    val isUnsampled = bounce.isSpecular || !samplesLights
+    path.isSpread ||= regularizes && !bounce.isSpecular
+    path.turn(vertex.at.p, vertex.lightNormal, pdf = if isUnsampled then 0f else bounce.pdf)
+    path.etaScale *= square(bounce.eta)
     val isOpen = vertex.leave(ray)
-    goesOn = isOpen && !throughput.isBlack
+    afterLeaving()
+    if isOpen then goOn() else end()
 
-  /** Samples a specular direction and leaves in it, or ends. */
-  def leaveSpecularly(sampler: Sampler): Unit =
-    val sample = vertex.bsdf.sampleSpecular(vertex.localWo, sampler.next1D())
-    throughput.scale(sample.weight)
-    goesOn = !throughput.isBlack
-    vertex.leave(ray, sample.wi, sample.isSpecular, sample.eta): Unit
+  /** The path has left a surface. */
+  protected def afterLeaving(): Unit
 
-  /** Russian roulette. */
-  def roulette(threshold: Float, sampler: Sampler): Unit =
-    throughput.scale(
-      LightTransport.roulette(throughput.largest * etaScale, threshold, sampler)
+  /** Russian roulette, by the throughput. */
+  final def roulette(threshold: Float, sampler: Sampler): Unit =
+    order.step(to = Stage.Departed, Stage.Departed)
+    val largest = path.throughput.largest * path.etaScale
+    path.scale(
+      if guiding != null then guiding.roulette(largest, threshold, sampler)
+      else LightTransport.roulette(largest, threshold, sampler)
     )
-    goesOn = !throughput.isBlack
+    goOn()
 
-object Walk:
-  /** The density of directions in which light is lost. */
-  private inline val Lost = -1f
+  /** Goes on with the next branch of a guided path; false: there is none, all light is found. */
+  final def followNext(sampler: Sampler): Boolean = guiding != null && guiding.followNext(sampler)
 
-  /** What a walk keeps of a path that it will follow later. Mutable. */
-  private[integrators] final class State:
-    val throughput: MutableRgb = MutableRgb()
-    var depth, passed = 0
-    var etaScale, directionPdf = 0f
-    var isSpread, isAlone = false
-    val from: Departure = Departure()
+  /** Keeps the path as it is, to follow it from here again. */
+  private[integrators] final def keep(to: Branches.Branch): Unit =
+    to.path.set(path)
+    to.departure.set(ray)
+
+  /** Goes on with the path as it was; the light found stays. */
+  private[integrators] final def restore(from: Branches.Branch, stage: Stage): Unit =
+    order.set(stage)
+    path.set(from.path)
+    from.departure.restore(ray)
+    isFollowed = true

@@ -28,8 +28,8 @@ final class Whitted(
     var i = 0
     while i < scene.lights.length do
       sampler.next2D()
-      light.choose(i)
-      if light.samplePoint(vertex.at.p, sampler.x, sampler.y) then
-        sum += light.scattered(vertex, weight = _ => 1f)
+      connection.choose(i)
+      if connection.samplePoint(vertex.at.p, sampler.x, sampler.y) then
+        sum += connection.scattered(vertex, weight = _ => 1f)
       i += 1
     sum

@@ -18,13 +18,13 @@ final class PathWeights:
   /** The colour that drives sampling: 0, 1 or 2. */
   var hero: Int = 0
 
-  /** Throughput. */
+  /** Throughput (in pbrt-v4 `beta`). */
   var r, g, b = 1f
 
-  /** Pdf of this path by each colour. */
+  /** Pdf of this path by each colour (`r_u`). */
   var ur, ug, ub = 1f
 
-  /** Pdf of this path by light sampling, without that of the point on the light; 0 if light
+  /** Pdf of this path by light sampling (`r_l`), without that of the point on the light; 0 if light
     * sampling could not generate it.
     */
   var lr, lg, lb = 0f

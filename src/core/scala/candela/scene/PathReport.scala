@@ -16,7 +16,7 @@ final class PathReport(say: String => Unit):
   private var throughput = Rgb.White
 
   /** Reports what the three components of all following colours are. */
-  def takes(basis: Wavelengths): Unit =
+  def components(basis: Wavelengths): Unit =
     val nm = basis.nm.map(w => Math.round(w * 10) / 10f)
     say(s"colours are at ${nm(0)}, ${nm(1)} and ${nm(2)} nm: the first is the hero")
 

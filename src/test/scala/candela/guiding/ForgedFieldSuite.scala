@@ -18,7 +18,8 @@ class ForgedFieldSuite extends AnyFunSuite:
 
   private def field(axis: Array[Int], nodes: Array[Int]): GuideField =
     GuideField(
-      axis, Start.split, nodes, Start.shares, Start.centres, Start.lobes, Start.worth, Start.whole
+      axis, Start.split, nodes, Start.shares, Start.centres, Start.lobes, Start.splittingFactors,
+      Start.measurements
     )
 
   test("a field is read as it was written"):

@@ -98,9 +98,9 @@ class GuideFieldSuite extends AnyFunSuite:
   test("a part of the paths is guided, and a part of these records, with any camera"):
     def chosen(origin: Int => Vec3, direction: Int => Vec3) =
       val records = GuideRecords(rate = 0.25f, regions = GuideField.Start.regions)
-      val lesson = Guide.Lesson(GuideField.Start, begun = 1, part = 0.4f, records)
-      val guided = (0 until 10000).filter(i => lesson.takes(origin(i), direction(i)))
-      val learning = guided.filter(i => lesson.learnsFrom(origin(i), direction(i)))
+      val pass = Guide.Pass(GuideField.Start, begun = 1, part = 0.4f, records)
+      val guided = (0 until 10000).filter(i => pass.includes(origin(i), direction(i)))
+      val learning = guided.filter(i => pass.learnsFrom(origin(i), direction(i)))
       // Deviations of 49 and 30
       assert(Math.abs(guided.length - 4000) < 250)
       assert(Math.abs(learning.length - 1000) < 150)
@@ -120,17 +120,17 @@ class GuideFieldSuite extends AnyFunSuite:
         found(GuideRecords.Total) = found(GuideRecords.Light) + 3f
         found(GuideRecords.Before) = 3f
       (if i % 3 == 0 then one else other).add(found)
-    for i <- 0 until 40000 do (if i % 3 == 0 then one else other).saw(GuideField.side(Up))
+    for i <- 0 until 40000 do (if i % 3 == 0 then one else other).countEvent(GuideField.side(Up))
     val counts = records.counts
     assert(counts(GuideField.side(Up)) == 40000 && counts.sum == 40000)
     val growth = grown(GuideField.Start, records.sorted(), settings, everything = 40000f)
     val field = growth.result()
     val region = GuideMixture().region(field, Vec3.Zero, GuideField.side(Up))
-    assert(Math.abs(field.whole(region) - (1.05f / 4 + 3f)) < 0.01f)
+    assert(Math.abs(field.measurements(region) - (1.05f / 4 + 3f)) < 0.01f)
     // The second moment of numbers between 1 and 1.1, where one of four is not 0
     val moment = (1.331 - 1.0) / 0.3 / 4
-    val worth = Math.sqrt(moment / EventCost / (growth.verdict.noise / PathCost))
-    assert(Math.abs(field.worth(region) / worth - 1) < 0.005)
+    val factor = Math.sqrt(moment / EventCost / (growth.verdict.noise / PathCost))
+    assert(Math.abs(field.splittingFactors(region) / factor - 1) < 0.005)
 
 private object GuideFieldSuite:
   val Samples: Int = 1 << 16

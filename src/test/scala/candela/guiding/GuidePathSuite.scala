@@ -106,7 +106,7 @@ private object GuidePathSuite:
       path.clear()
       path.step()
       event(path, FirstRegion, before, 1.0, p1, q1, p1 / q1)
-      part.saw(FirstRegion)
+      part.countEvent(FirstRegion)
       val place = path.place
       var found = before + after * first
       for _ <- 0 until branches do
@@ -116,7 +116,7 @@ private object GuidePathSuite:
         path.follow(place, found.toFloat)
         path.step()
         event(path, SecondRegion, found, share, p2, q2, p1 * p2 / (q1 * q2) * branches)
-        part.saw(SecondRegion)
+        part.countEvent(SecondRegion)
         found += light(a, b)._3 * share * q2 / p2
       path.record(found.toFloat, part)
     records

@@ -163,7 +163,7 @@ private[build] object BidirectionalPlans:
       media: SceneMedia,
       depth: Int,
       regularizes: Boolean
-  )(using site: Site): VolumePathTracer =
+  )(using site: Site): PathTracer =
     site.warn(s"\"$name\" does not support $what yet; using \"volpath\", which $Lack")
     VolumePathTracer(
       scene,

@@ -41,13 +41,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           interfaces = interfaces,
           countsPassed = countsPassed
         )
-        def plain(over: Scene, parts: LightParts | Null) =
-          PathTracer(over, limits, options, parts = parts)
-        GuidedMethod(
-          plain(scene, null),
-          guide =>
-            PartlyGuided(scene, guide, GuidedPathTracer(_, limits, options, guide, _), plain)
-        )
+        GuidedMethod(scene): (over, guide, parts) =>
+          PathTracer(over, limits, options, guide = guide, parts = parts)
       ,
       samplesBsdf = true,
       s"$name, up to $depth scattering events" + (if regularizes then ", regularised" else ""),
@@ -64,11 +59,8 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           crossesPanes = crossesPanes,
           hidesLamps = hidesLamps
         )
-        def plain(over: Scene, parts: LightParts | Null) =
-          VolumePathTracer(over, media, limits, options, parts)
-        def guided(guide: Guide)(over: Scene, parts: LightParts | Null) =
-          GuidedVolumePathTracer(over, media, limits, options, guide, parts)
-        GuidedMethod(plain(scene, null), guide => PartlyGuided(scene, guide, guided(guide), plain))
+        GuidedMethod(scene): (over, guide, parts) =>
+          VolumePathTracer(over, media, limits, options, guide, parts)
       ,
       throughVolumes = Some((scene, _, march) =>
         PathTracer(scene, limits, volumes = march)
@@ -77,10 +69,19 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
 
 /** Methods of integrators that can be guided. */
 private object GuidedMethod:
-  def apply(unguided: Integrator, guided: Guide => Integrator)(using site: Site): RenderMethod =
+  /** @param tracer that is guided, or not if there is no guide, and where it divides light */
+  def apply(scene: Scene)(tracer: (Scene, Guide | Null, LightParts | Null) => Integrator)(
+      using site: Site
+  ): RenderMethod =
+    val unguided = tracer(scene, null, null)
     GuideSettings.of(site.resources.switches.guiding) match
       case None => RenderMethod.Tiles(unguided)
-      case Some(settings) => RenderMethod.Guided(unguided, settings, guided)
+      case Some(settings) =>
+        RenderMethod.Guided(
+          unguided,
+          settings,
+          guide => PartlyGuided(scene, guide, tracer(_, guide, _), tracer(_, null, _))
+        )
 
 object SimplePathRecipe extends IntegratorRecipe("simplepath", "simple path tracing", onlyV4):
   private val samplesLights =

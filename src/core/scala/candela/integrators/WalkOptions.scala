@@ -1,0 +1,38 @@
+package candela.integrators
+
+/** Which optional steps a path takes.
+  *
+  * @param regularizes   roughen BSDFs after the first non-specular bounce
+  * @param subsurface    does light travel beneath surfaces?
+  * @param samplesLights does light sampling look for lights, too?
+  * @param crossesPanes  do paths and light samples through media pass panes without a scattering
+  *   event, as they pass interfaces?
+  * @param hidesLamps    does the camera see through lamps, and no sky?
+  * @param interfaces    what interfaces are to light sampling; in media they are open
+  * @param countsPassed  is passing an interface one of the events that a path may have?
+  */
+final case class WalkOptions(
+    regularizes: Boolean = false,
+    subsurface: Boolean = false,
+    samplesLights: Boolean = true,
+    crossesPanes: Boolean = false,
+    hidesLamps: Boolean = false,
+    interfaces: Interfaces = Interfaces.Open,
+    countsPassed: Boolean = false
+)
+
+/** Limits of a path tracer's paths.
+  *
+  * @param maxDepth          scattering events of a path, at most
+  * @param rouletteThreshold throughput below which Russian roulette may end a path
+  * @param rouletteAfter     scattering events before that
+  * @param seesThrough       does light sampling alone find light straight through the boundary of a
+  *                          subsurface medium? So in pbrt-v3; v4 weights it against BSDF sampling,
+  *                          which does not find it, and loses that part
+  */
+final case class PathLimits(
+    maxDepth: Int,
+    rouletteThreshold: Float = 1f,
+    rouletteAfter: Int = LightTransport.RouletteAfter,
+    seesThrough: Boolean = false
+)
