@@ -128,9 +128,9 @@ lazy val root: Project = (project in file("."))
     Test / testQuick / testResultLogger := CountedTests((Test / testQuick / testResultLogger).value)
   )
 
-/** Renders on Apache Spark. The program doesn't depend on it: it looks for it at run time. */
+/** Renders on Apache Spark. Neither depends on the other: the program looks for it at run time. */
 lazy val cluster: Project = (project in file("cluster"))
-  .dependsOn(root % "compile->compile;test->test")
+  .dependsOn(core, root % "test->test")
   .settings(
     name := "candela-cluster",
     compiled,
@@ -142,10 +142,11 @@ lazy val cluster: Project = (project in file("cluster"))
       "scala-xml_3"
     ), // Spark's is 2.13's
     sparkJar := {
-      val jars = (Runtime / fullClasspathAsJars).value.map(_.data)
+      val own = (Runtime / fullClasspathAsJars).value
+      val jars = (own ++ (root / Runtime / fullClasspathAsJars).value).map(_.data).distinct
       val jar = (root / target).value / "universal" / "stage" / "lib" / "candela-spark.jar"
       val make = FileFunction.cached(streams.value.cacheDirectory / "jar") { _ =>
-        ProgramJar.write(jars, jar, Some("candela.cluster.SparkMain"))
+        ProgramJar.write(jars, jar, Some("candela.cli.SparkMain"))
         Set(jar)
       }
       make(jars.toSet).head

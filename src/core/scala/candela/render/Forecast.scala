@@ -9,19 +9,19 @@ private[render] final class Forecast(
     schedule: Schedule,
     pixels: Double,
     earlier: Int,
-    passObserver: Option[PassObserver]
+    listener: RenderListener
 ):
   private val timeLeft = TimeLeft()
 
   /** @param done    samples taken
     * @param planned samples per pixel at which it ends in any case
-    * @param seconds since the start of rendering, without the observer's time
-    * @param clock   with the observer's time
+    * @param seconds since the start of rendering, without the listeners' time
+    * @param clock   with the listeners' time
     */
   def outlook(done: Long, planned: Int, seconds: Double, clock: Double): Outlook =
     val samples = earlier + done / Math.max(1, pixels)
     timeLeft.add(samples, sweep(samples), seconds)
-    val goal = passObserver.flatMap(_.goal)
+    val goal = listener.goal
     val end = goal.flatMap(_.samples).map(schedule.wholeWaves)
     val last = Math.min(planned, end.getOrElse(planned))
     val isKnown = last < RenderPlan.Endless
@@ -30,7 +30,7 @@ private[render] final class Forecast(
     Outlook(
       (bySamples ++ byTime).minOption,
       timeLeft.rate.map(_ * pixels),
-      passObserver.flatMap(_.errorAt(samples)),
+      listener.errorAt(samples),
       goal.isDefined
     )
 

@@ -9,22 +9,18 @@ object Renderer:
   /** Renders with `threads` workers. The image is deterministic, bit-identical for any thread
     * count: sums are exact, or of one tile, which adds its samples in order.
     *
-    * @param onProgress     called about ten times a second, and at the end, in the caller's thread
-    * @param passObserver   image observer; doesn't affect the image
-    * @param shard          part of the samples to take
-    * @param checkpointer   keeps the state, if it is to be kept
-    * @param onStart        receives the rendering before its first sample
+    * @param listener     follows the rendering, in the caller's thread
+    * @param shard        part of the samples to take
+    * @param checkpointer keeps the state, if it is to be kept
     * @throws RenderFailure if a sample fails; all workers then stop
     */
   def render(
       plan: RenderPlan,
       threads: Int,
       cancellation: Cancellation = Cancellation(),
-      onProgress: Progress => Unit = _ => (),
-      passObserver: Option[PassObserver] = None,
+      listener: RenderListener = RenderListener.Silent,
       shard: Shard = Shard.Whole,
-      checkpointer: Option[Checkpointer] = None,
-      onStart: Live => Unit = _ => ()
+      checkpointer: Option[Checkpointer] = None
   ): Rendering =
     require(threads >= 1, s"`threads` must be at least 1, found $threads")
     val started = System.nanoTime
@@ -46,12 +42,12 @@ object Renderer:
     val canKeepOn = plan.method.canKeepOn && shard.isWhole && checkpointer.isEmpty &&
       samplesPerPixel < RenderPlan.Endless
     val live = Live(plan, job, queue, workers, state, total, canKeepOn, () => seconds)
-    val forecast = Forecast(schedule, pixels.toDouble / shard.count, earlier, passObserver)
+    val forecast = Forecast(schedule, pixels.toDouble / shard.count, earlier, listener)
     def progress() =
       val now = live.progress
       live.expect(forecast.outlook(now.done, live.samplesPerPixel, now.seconds, clock))
-      onProgress(live.progress)
-    onStart(live)
+      listener.progressed(live.progress)
+    listener.started(live)
     var beats = 0L
     var lastBeat = started
     def isMoving() =
@@ -63,7 +59,7 @@ object Renderer:
       progress()
       if isMoving() then lastBeat = System.nanoTime
       val still = (System.nanoTime - lastBeat) * 1e-9
-      if passObserver.exists(_.isOver(clock, still)) then queue.stop()
+      if listener.isOver(clock, still) then queue.stop()
     def tick() =
       observe()
       for k <- checkpointer if k.isDue && !queue.isStopped do
@@ -71,10 +67,10 @@ object Renderer:
         k.finish()
     // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost.
     def isWorthWaiting() = checkpointer.isDefined && isMoving()
-    def isEnough = passObserver.exists(_.isEnough)
-    passObserver.foreach(_.begins(earlier, job.film))
+    val looks = listener.looks
+    listener.begins(earlier, job.film)
     def isNew(end: Int) = schedule.firstSample(end) > earlier
-    def goesOn = !queue.isStopped && !isEnough
+    def goesOn = !queue.isStopped && !listener.isEnough
 
     /** Takes all samples before the wave `end`, until there are `done` per pixel. */
     def take(end: Int, done: Int): Unit =
@@ -82,25 +78,25 @@ object Renderer:
       val begin = seconds
       lastBeat = System.nanoTime
       Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
-      for w <- passObserver if !queue.isStopped do
+      if looks != Looks.Never && !queue.isStopped then
         val isWhole = done == schedule.firstSample(end)
         val isLast = isWhole && end >= schedule.waves
         val busy = workers.map(_.seconds)
         val step = if isWhole then schedule.step else 1
         val pass = Pass(done, begin, seconds, busy, isLast, isWhole, clock, step)
         val stopped = System.nanoTime
-        w.passed(pass, job.film)
+        listener.passed(pass, job.film)
         paused += System.nanoTime - stopped
 
     def run(end: Int): Unit =
       val all = schedule.firstSample(end)
-      val observer = passObserver.filter(o => o.seesWaves && schedule.step > 0)
+      val mayDivide = looks == Looks.Waves && schedule.step > 0
       var done = Math.max(earlier, schedule.firstSample(end - 1))
       while done < all && goesOn do
-        val most = observer.fold(Int.MaxValue)(_.most)
-        done = if observer.isEmpty || most >= all - done then all else done + Math.max(1, most)
+        val most = if mayDivide then listener.most else Int.MaxValue
+        done = if most >= all - done then all else done + Math.max(1, most)
         take(end, done)
-    ends(schedule, passObserver).filter(isNew).takeWhile(_ => goesOn).foreach(run)
+    ends(schedule, looks).filter(isNew).takeWhile(_ => goesOn).foreach(run)
     var wave = schedule.waves
     while live.keepsOn && goesOn do
       // A third of all samples is new: seldom enough for the workers to wait for each other
@@ -115,7 +111,7 @@ object Renderer:
 
     val result = live.rendering.copy(earlier = earlier)
     val hasAll = result.samplesDone >= samplesPerPixel
-    val isDone = hasAll || (isEnough && result.samplesDone > 0)
+    val isDone = hasAll || (listener.isEnough && result.samplesDone > 0)
     if isDone then result.copy(samplesPerPixel = result.samplesDone) else result
 
   /** The image of a saved state, or of several that add up to one.
@@ -148,11 +144,10 @@ object Renderer:
     )
 
   /** The waves after which the workers wait for each other. */
-  private def ends(schedule: Schedule, passObserver: Option[PassObserver]): Iterator[Int] =
-    passObserver match
-      case None => Iterator(schedule.waves)
-      case Some(w) if w.seesWaves => Iterator.range(0, schedule.waves).map(_ + 1)
-      case Some(_) => schedule.passes.iterator
+  private def ends(schedule: Schedule, looks: Looks): Iterator[Int] = looks match
+    case Looks.Never => Iterator(schedule.waves)
+    case Looks.Doublings => schedule.passes.iterator
+    case Looks.Waves => Iterator.range(0, schedule.waves).map(_ + 1)
 
   /** Traces a single sample, identical to that of [[render]], and reports its path to `report`.
     *

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{SceneError, Severity}
+import candela.job.{Prepared, SceneLoader}
 
 /** `candela check`: parses and builds scenes, prints their contents, and reports problems. */
 final class CheckCommand(
@@ -34,7 +35,7 @@ final class CheckCommand(
     terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
   private def check(scene: String): ExitCode =
-    val read = loader.load(scene, options)
+    val read = loader.load(scene, options.preparation)
     val film = FilmName.problem(read.description)
     for p <- film if p.severity == Severity.Error do throw SceneError(read.warnings :+ p)
     val loaded = read.copy(warnings = read.warnings ++ film)
@@ -46,7 +47,7 @@ final class CheckCommand(
     terminal.out.flush()
     ExitCode.Done
 
-  private def contents(loaded: LoadedScene): String =
+  private def contents(loaded: Prepared): String =
     val d = loaded.description
     val crop = loaded.plan.crop
     val shapes = d.shapes.size + d.objects.values.map(_.size).sum

@@ -1,8 +1,12 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Scratch}
-import candela.render.{Cancellation, Outlook, Progress, Renderer, RenderState}
-import candela.render.storage.{FilmHeader, FilmWriter}
+import candela.job.{
+  Cluster, ClusterFailure, ClusterRun, ClusterWork, FilmHeaders, Prepared, SceneLoader,
+  ShardRenderer
+}
+import candela.render.{Cancellation, Outlook, Progress, RenderState}
+import candela.render.storage.FilmHeader
 import candela.scenefile.SceneFiles
 
 import java.nio.file.Path
@@ -66,18 +70,18 @@ private[cli] final class ClusterCommand(
   /** Sends a scene to the cluster, unless its image is done. */
   private def submit(frame: Frame, cluster: Cluster): Unit =
     val Frame(scene, outfiles) = frame
-    val loaded = renderer.load(scene, outfiles)
-    val paths = renderer.outputs(scene, loaded, outfiles)
+    val prepared = renderer.load(scene, outfiles)
+    val writer = renderer.images(scene, prepared, outfiles)
     val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
-    val digest = renderer.digest(scene, loaded, paths)
-    if digest.exists(Sequence.isDone(paths, _)) then sequence.skip(scene)
+    if writer.isDone then sequence.skip(scene)
     else
-      val header = FilmHeaders.of(options, scene, loaded, film.getOrElse(Path.of("film")), paths)
-      val total = loaded.plan.sampled.pixels * header.samples
-      val files = SceneFiles.of(loaded.description)
+      val path = film.getOrElse(Path.of("film"))
+      val header = FilmHeaders.of(options.settings, scene, prepared, path, writer.paths)
+      val total = prepared.plan.sampled.pixels * header.samples
+      val files = SceneFiles.of(prepared.description)
       val work = ClusterWork(header, Path.of(scene), files, options.cluster.shards, total)
       samplesAsked += total
-      open :+= Submitted(scene, loaded, paths, film, digest, work, cluster.submit(work))
+      open :+= Submitted(scene, prepared, writer, film, work, cluster.submit(work))
 
   /** Waits for one of the renderings, and writes its image. */
   private def finishOne(): Unit =
@@ -111,20 +115,17 @@ private[cli] final class ClusterCommand(
       def load(state: RenderState): Unit =
         films.foreach(_.load(state))
         for path <- submitted.film do
-          val part = header.copy(shards = shards, count = count, done = state.samplesDone)
+          val part = header.of(shards, count, state)
           save(path, if isWhole then part.copy(shards = Set(0), count = 1) else part, state)
-      val rendering = Renderer.gather(submitted.loaded.plan, load)
+      val rendering = submitted.prepared.gather(load)
       val samples = films.map(_.header.done).minOption.getOrElse(0).toLong * shards.size / count
       val done = rendering.copy(samplesDone = samples.toInt, samplesPerPixel = header.samples)
-      val Submitted(scene, loaded, paths, _, digest, _, _) = submitted
-      renderer.finish(scene, loaded, paths, done, digest)
+      renderer.finish(submitted.writer, submitted.prepared, done)
         .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
 
   private def save(path: Path, header: FilmHeader, state: RenderState): Unit =
     Using.resource(FilmKeeping.locked(path)): _ =>
-      val writer = FilmWriter(path)
-      writer.write(header, state)
-      writer.commit()
+      Prepared.write(header, state, path)
     if !options.quiet then terminal.out.println(s"wrote $path")
 
 private object ClusterCommand:
@@ -139,10 +140,9 @@ private object ClusterCommand:
 
   final case class Submitted(
       scene: String,
-      loaded: LoadedScene,
-      paths: Vector[Path],
+      prepared: Prepared,
+      writer: ImageWriter,
       film: Option[Path],
-      digest: Option[String],
       work: ClusterWork,
       run: ClusterRun
   )

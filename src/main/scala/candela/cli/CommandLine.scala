@@ -3,10 +3,12 @@ package candela.cli
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.{Problem, Suggest, Version}
-import candela.build.{RenderRegion, RenderSettings}
+import candela.build.{BuildControl, RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.convert.Baking
 import candela.image.DisplayTransform
+import candela.job.{Preparation, SceneLimits}
+import candela.render.ThreadPool
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
 
@@ -179,7 +181,6 @@ final case class Options(
     notes: Vector[String] = Vector.empty,
     sample: Int = 0,
     debug: Boolean = false,
-    world: Int = 0,
     thumbnail: Option[ThumbnailKind] = None,
     columns: Option[Int] = None,
     film: FilmOptions = FilmOptions(),
@@ -197,9 +198,19 @@ final case class Options(
     to: Option[Dialect] = None,
     toPly: Option[Int] = None,
     bake: Option[Int] = None,
-    limits: LimitOptions = LimitOptions()
+    limits: SceneLimits = SceneLimits()
 ):
   def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
+
+  /** How the scenes are prepared. */
+  def preparation: Preparation =
+    // A traced pixel is one of the whole image
+    val region = if debug then RenderRegion.Whole else settings.region
+    val shown = if pixelMaterial.isEmpty then Vector.empty else PixelMaterial.Layers
+    val asked = settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
+    val pool = ThreadPool(threadCount, worksAside = command != Command.Check)
+    val control = BuildControl(pool, taken, footprint)
+    Preparation(asked, limits, control, isFirst = command != Command.Render)
 
   /** How pictures show linear light: those of renderings, and of images that are there. */
   def display: DisplayTransform = settings.output.display

@@ -3,6 +3,7 @@ package candela.cli
 import candela.base.{Problem, SceneError, Severity, WholeFile}
 import candela.build.TextureValues
 import candela.convert.{Baking, Converter, SceneText, SideFiles}
+import candela.job.SceneLoader
 import candela.mitsuba.MitsubaScene
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}
 
@@ -26,8 +27,8 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     if options.limits.sandbox then register.confine(Vector(folder))
     register.read(options.files.map(OutputFiles.path))
     register.check(output)
-    val scene =
-      Parser.whole(SceneLoader.readable(SceneLoader.existing(options.files.head), options))
+    val file = SceneLoader.existing(options.files.head)
+    val scene = Parser.whole(SceneLoader.readable(file, options.preparation))
     // The output keeps neither comments nor includes.
     register.read(SceneFiles.of(scene))
     register.write(output)

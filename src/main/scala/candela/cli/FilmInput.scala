@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, SceneFolder, Version}
-import candela.job.SettingsCodec
+import candela.job.{FilmHeaders, SceneLoader}
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
@@ -36,23 +36,15 @@ private[cli] object FilmInput:
     if now.limits.sandbox then
       val folder = SceneFolder.of(film.path, isConfined = true)
       val _ = SceneLoader.refusing(folder.scene(OutputFiles.path(scene)))
-    val saved = options(film.header, scene)
-    saved.copy(
-      settings = saved.settings.copy(goal = now.settings.goal),
+    Options(
+      files = Vector(scene),
+      settings = FilmHeaders.settings(film.header).copy(goal = now.settings.goal),
       limits = now.limits,
       threads = now.threads,
       quiet = now.quiet,
       verbose = now.verbose,
       film = now.film
     )
-
-  /** The options of a rendering, with its scene as found here. */
-  def options(header: FilmHeader, scene: String): Options =
-    SettingsCodec.settings(header.words) match
-      case Right(saved) =>
-        Options(files = Vector(scene), settings = saved.copy(samples = Some(header.samples)))
-      // Only of a forged film
-      case Left(why) => fail(s"the film of `$scene` has settings that are none: $why")
 
   /** A file named by the rendering, as found from here. */
   def at(film: FilmFile, name: String): String =

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.job.{FilmHeaders, Prepared}
 import candela.render.storage.{Checkpoints, FilmFile, FilmHeader, FilmLock, FilmWriter}
 
 import java.nio.file.{Files, Path}
@@ -74,13 +75,13 @@ private[cli] object FilmKeeping:
       options: Options,
       report: Report,
       scene: String,
-      loaded: LoadedScene,
+      loaded: Prepared,
       outfiles: Vector[String],
       images: Vector[Path],
       resumed: Option[FilmFile]
   ): Option[FilmKeeping] =
     for path <- path(options, outfiles, images, resumed) yield
-      val now = FilmHeaders.of(options, scene, loaded, path, images)
+      val now = FilmHeaders.of(options.settings, scene, loaded, path, images, options.film.shard)
       resumed match
         case Some(film) =>
           val obstacle = film.header.obstacle(loaded.plan)

@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.build.RenderGoal
 import candela.film.Film
-import candela.render.{ExpectedEnd, Pass, PassObserver, Rendering}
+import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
 
 /** Ends a rendering at a time, or at an error, whichever comes first, with a whole number of
   * samples in every pixel.
@@ -10,20 +10,21 @@ import candela.render.{ExpectedEnd, Pass, PassObserver, Rendering}
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
-final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder) extends PassObserver:
+final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder) 
+    extends RenderListener:
   private var isReached = false
   private var seen, step, parts = 0
   private var now, perSample = 0.0
 
   override def isEnough: Boolean = isReached
-  override def seesWaves: Boolean = true
+  override def looks: Looks = Looks.Waves
 
   override def begins(samples: Int, film: Film): Unit =
     seen = samples
     step = 1
     recorder.begins(samples, film)
 
-  def passed(pass: Pass, film: Film): Unit =
+  override def passed(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
     // Where an error is looked at must not depend on the time
     if pass.isWhole then

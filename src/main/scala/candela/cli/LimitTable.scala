@@ -1,32 +1,9 @@
 package candela.cli
 
-import candela.base.{Allowance, Limit, SceneFolder}
+import candela.base.Limit
 import candela.job.TextForm
 
-import java.nio.file.Path
-
 import scopt.{OParser, Read}
-
-/** What scenes may do.
-  *
-  * @param sandbox whether they are of strangers
-  * @param changed limits of `--limit`; None lifts one
-  * @param endsAt  when the time is over, in nanoseconds of the system's clock
-  */
-final case class LimitOptions(
-    sandbox: Boolean = false,
-    changed: Map[Limit, Option[Long]] = Map.empty,
-    endsAt: Option[Long] = None
-):
-  /** The limits that hold. */
-  def all: Map[Limit, Long] =
-    val usual = if sandbox then Limit.values.map(l => l -> l.inSandbox).toMap else Map.empty
-    changed.foldLeft(usual):
-      case (limits, (limit, Some(most))) => limits + (limit -> most)
-      case (limits, (limit, None)) => limits - limit
-
-  /** The folder of a scene, through which it reads its files. */
-  def folder(scene: Path): SceneFolder = SceneFolder.of(scene, sandbox, Allowance(all, endsAt))
 
 /** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
 private[cli] object LimitTable:

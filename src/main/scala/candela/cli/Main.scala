@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.base.{Problem, Severity}
 import candela.image.Natives
+import candela.job.SceneLoader
 
 import java.io.{IOException, PrintStream}
 

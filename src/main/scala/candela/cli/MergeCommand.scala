@@ -1,8 +1,9 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, Severity}
-import candela.render.{RenderState, Renderer}
-import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}
+import candela.job.{FilmHeaders, Prepared, SceneLoader}
+import candela.render.RenderState
+import candela.render.storage.{FilmFile, FilmHeader}
 import candela.scenefile.SceneFiles
 
 import scala.collection.mutable
@@ -31,10 +32,10 @@ final class MergeCommand(
         merged.map(Output.film(_, first.path.toString))
       outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
-      val loaded = loader.load(saved.files.head, saved)
+      val loaded = loader.load(saved.files.head, saved.preparation)
       val header = first.header
       val images = header.outfiles.map(OutputFiles.path)
-      val now = FilmHeaders.of(saved, header.scene, loaded, first.path, images)
+      val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
       register.read(SceneFiles.of(loaded.description))
       outputs.foreach(register.write)
       FilmInput.verify(first, now.copy(count = header.count))
@@ -49,7 +50,7 @@ final class MergeCommand(
       header: FilmHeader,
       films: Vector[FilmFile],
       outfiles: OutputFiles,
-      loaded: LoadedScene,
+      loaded: Prepared,
       saved: Options,
       done: Int
   ): ExitCode =
@@ -58,22 +59,18 @@ final class MergeCommand(
       films.foreach(_.load(state))
       for path <- merged do
         Using.resource(FilmKeeping.locked(path)): _ =>
-          val writer = FilmWriter(path)
-          writer.write(
-            if header.isWhole then header.copy(shards = Set(0), count = 1) else header,
-            state
-          )
-          writer.commit()
+          val whole = if header.isWhole then header.copy(shards = Set(0), count = 1) else header
+          Prepared.write(whole, state, path)
         if !options.quiet then terminal.out.println(s"wrote $path")
-    val rendering = Renderer.gather(loaded.plan, load)
+    val rendering = loaded.gather(load)
     val planned = if options.film.partial then done else header.samples
-    RenderCommand(saved, terminal, report, loader)
-      .finish(
-        header.scene,
-        loaded,
-        outfiles.paths,
-        rendering.copy(samplesDone = done, samplesPerPixel = planned)
-      )
+    val command = RenderCommand(saved, terminal, report, loader)
+    val writer = command.writer(header.scene, loaded, outfiles.paths)
+    command.finish(
+      writer,
+      loaded,
+      rendering.copy(samplesDone = done, samplesPerPixel = planned)
+    )
 
   /** The films that can be merged. With `--partial`, the others are left out with a warning;
     * otherwise they are errors, all of them.

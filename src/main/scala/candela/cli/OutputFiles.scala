@@ -4,6 +4,7 @@ import candela.base.{FileName, Problem, SceneError, Severity}
 import candela.build.film.FilmRecipe
 import candela.film.Layer
 import candela.image.{Contents, Image, ImageEdits, OutputFormat}
+import candela.job.{ImageName, Prepared}
 import candela.render.RenderPlan
 
 import java.nio.file.{InvalidPathException, Path}
@@ -81,7 +82,7 @@ object OutputFiles:
   /** The file named by the scene's Film, or else after the scene: all scenes without a name would
     * write pbrt's `pbrt.exr`.
     */
-  def ofScene(scene: String, loaded: LoadedScene): OutputFiles =
+  def ofScene(scene: String, loaded: Prepared): OutputFiles =
     val description = loaded.description
     // A confined scene writes where it reads
     val folder = if description.folder.isConfined then description.folder.path else Path.of("")
@@ -95,6 +96,10 @@ object OutputFiles:
       val files = ofName(scene, folder)
       val message = s"`$scene` names no image file; writing `${files.paths.head}`"
       files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
+
+  /** Of a scene that is not loaded yet. */
+  def named(scene: String, image: ImageName): OutputFiles =
+    image.file.fold(ofName(scene, image.folder))(ofFilm(_, image.folder))
 
   /** Files named after the scene, in a folder. */
   def ofName(scene: String, folder: Path): OutputFiles =

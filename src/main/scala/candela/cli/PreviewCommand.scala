@@ -3,6 +3,7 @@ package candela.cli
 import candela.base.FileName
 import candela.build.RenderGoal
 import candela.image.OutputFormat
+import candela.job.SceneLoader
 
 /** `candela preview`: a first look at scenes, within seconds: few pixels, headlight shading, and
   * placeholders for what is missing.

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.film.Layer
+import candela.job.{Prepared, SceneLoader}
 import candela.render.storage.FilmFile
 import candela.scenefile.SceneFiles
 
@@ -25,7 +26,7 @@ private[cli] final class RenderOutputs(
       for Frame(scene, outfiles) <- frames do
         val images =
           if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
-          else loader.images(scene, options)
+          else loader.imageName(scene, options.preparation).map(OutputFiles.named(scene, _))
         for files <- images do together.note(Output(files.paths, "image", scene))
         for film <- outfiles.find(FilmOptions.isFilm) do
           together.note(Output.film(OutputFiles.path(film), scene))
@@ -52,7 +53,7 @@ private[cli] final class RenderOutputs(
     *
     * @throws SceneError if a file can't be written, or is one of the scene's
     */
-  def images(scene: String, loaded: LoadedScene, outfiles: Vector[String]): Vector[Path] =
+  def images(scene: String, loaded: Prepared, outfiles: Vector[String]): Vector[Path] =
     val plan = loaded.plan
     register.read(SceneFiles.of(loaded.description) ++
       plan.errors.map(e => OutputFiles.path(e.reference)))

@@ -4,14 +4,15 @@ import candela.base.{Problem, SceneError}
 import candela.film.{Development, Film}
 import candela.image.{Image, ImageFiles}
 import candela.measure.{CurvePoint, ErrorEstimate, Errors, PixelWindow}
-import candela.render.{Pass, RenderPlan, PassObserver}
+import candela.render.{Looks, Pass, RenderListener, RenderPlan}
 import candela.report.{PassSpan, Picture}
 
 /** Measures the error of the image after 1, 2, 4, 8, … samples per pixel, and at the end.
   *
   * @param reference same size as the image; None: errors are estimated from the noise
   */
-final class RenderRecorder(development: Development, reference: Option[Image]) extends PassObserver:
+final class RenderRecorder(development: Development, reference: Option[Image])
+    extends RenderListener:
   private val foundPoints = Vector.newBuilder[CurvePoint]
   private val foundPasses = Vector.newBuilder[PassSpan]
   private var first, last: Option[(Image, Int)] = None
@@ -32,7 +33,7 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
       reference.map(Picture("reference", _, isReference = true))
 
   /** The estimate compares parts of the samples. */
-  override def seesWaves: Boolean = reference.isEmpty
+  override def looks: Looks = if reference.isEmpty then Looks.Waves else Looks.Doublings
 
   override def begins(samples: Int, film: Film): Unit =
     if reference.isEmpty && samples > 0 then
@@ -53,13 +54,12 @@ final class RenderRecorder(development: Development, reference: Option[Image]) e
     if reference.isEmpty then estimate.samplesUntil(relativeMse)
     else points.lastOption.map(p => p.samples * p.errors.relativeMse / relativeMse)
 
-  def passed(pass: Pass, film: Film): Unit =
+  override def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime
     val weights = new Array[Float](film.width * film.height)
     val image = development(film, Some(weights))
-    val isMain = pass.isLast || Integer.bitCount(pass.samples) == 1
     val errors = reference match
-      case Some(r) => Option.when(isMain)(Errors.against(r)(image))
+      case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
       case None =>
         val anew = estimate.add(pass.samples, image, weights, pass.isLast)
         anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)

@@ -5,12 +5,12 @@ import java.nio.file.Path
 
 import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
 import candela.build.RenderRegion
-import candela.job.TextForm
+import candela.job.{Prepared, TextForm}
 import candela.render.Rendering
 import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
 
 /** Report about one rendering: checked before rendering starts, written when it ends. */
-final class Reporting(options: Options, scene: String, loaded: LoadedScene):
+final class Reporting(options: Options, scene: String, loaded: Prepared):
   private val paths: Vector[Path] = ReportFiles.checked(options.reports)
   private val machine = Machine.here()
 
@@ -60,7 +60,7 @@ final class Reporting(options: Options, scene: String, loaded: LoadedScene):
       denoised: Option[Denoised]
   ): Vector[Span] =
     val phases = Vector(
-      "parse" -> loaded.parseSeconds,
+      "parse" -> loaded.readSeconds,
       "build" -> loaded.buildSeconds,
       "render" -> rendering.seconds,
       "measure errors" -> recorder.seconds

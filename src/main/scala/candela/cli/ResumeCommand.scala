@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.job.SceneLoader
 import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmFile
 

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.job.Prepared
 import candela.render.{Refused, Rendering}
 import candela.render.storage.FilmFile
 
@@ -67,10 +68,33 @@ object Summary:
   def continues(film: FilmFile): String =
     s"continuing ${film.path} at ${film.header.done} samples per pixel"
 
-  def phases(loaded: LoadedScene, rendering: Rendering, writeSeconds: Double): String =
+  /** The last lines of a rendering.
+    *
+    * @param written its files
+    * @param isLate  whether its time was over
+    */
+  def print(
+      options: Options,
+      terminal: Terminal,
+      written: Vector[Path],
+      prepared: Prepared,
+      rendering: Rendering,
+      writeSeconds: Double = 0,
+      isLate: Boolean = false
+  ): Unit =
+    for r <- rendering.refused do
+      terminal.err.println(refused(r, isTraceable = !options.settings.preview))
+    if !options.quiet && written.nonEmpty then
+      if options.verbose then
+        terminal.err.println(phases(prepared, rendering, writeSeconds))
+        rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
+      terminal.out.println(result(written, rendering, prepared.standIns, isLate))
+      terminal.out.flush()
+
+  private def phases(prepared: Prepared, rendering: Rendering, writeSeconds: Double): String =
     Vector(
-      "parse" -> loaded.parseSeconds,
-      "build" -> loaded.buildSeconds,
+      "parse" -> prepared.readSeconds,
+      "build" -> prepared.buildSeconds,
       "render" -> rendering.seconds,
       "write" -> writeSeconds
     ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")

@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.job.{Cluster, ClusterFailure, ClusterService}
+
 import org.scalatest.funsuite.AnyFunSuite
 
 import java.nio.file.Files

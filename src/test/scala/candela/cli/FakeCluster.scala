@@ -1,6 +1,9 @@
 package candela.cli
 
-import candela.render.{Cancellation, Shard}
+import candela.job.{
+  Cluster, ClusterFailure, ClusterRun, ClusterService, ClusterWork, RenderControl, ShardRenderer
+}
+import candela.render.Shard
 
 import java.nio.file.{Files, Path}
 
@@ -26,7 +29,7 @@ final class FakeCluster extends Cluster:
       val count = work.shards.getOrElse(3)
       val shards = Vector.tabulate(count): i =>
         val file = folder.resolve(s"$i.film")
-        val _ = renderer.render(Shard(i, count), file, Cancellation(), _ => ())
+        val _ = renderer.render(file, RenderControl(shard = Shard(i, count)))
         file
       val sum = folder.resolve("sum.film")
       val _ = renderer.merge(shards.init, sum)

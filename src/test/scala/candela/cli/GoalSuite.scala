@@ -15,7 +15,7 @@ class GoalSuite extends AnyFunSuite:
   private def goal(options: RenderGoal) =
     Goal(options, 1000, RenderRecorder(Development(), None))
 
-  private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, passObserver = Some(goal))
+  private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, listener = goal)
 
   test("a rendering ends at the first samples whose error is low enough, with whole passes"):
     // The root of 0.0833 / 44: past 32, before 64

@@ -7,6 +7,7 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.image.{Image, ImageFiles, OutputFormat}
+import candela.job.Prepared
 
 /** No command destroys its input, takes half a file for a whole one, or loses its output. */
 class LostDataSuite extends AnyFunSuite:
@@ -261,6 +262,6 @@ object LostDataSuite:
   private object Loaded:
     import candela.scenefile.{Dialect, SceneDescription}
 
-    def nameless: LoadedScene =
+    def nameless: Prepared =
       val plan = candela.render.TinyPlan()((_, _) => candela.color.Rgb.White)
-      LoadedScene(SceneDescription(Dialect.V3), plan, Vector.empty, 0, 0)
+      Prepared(SceneDescription(Dialect.V3), plan, Vector.empty)

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.{Image, ImageFiles}
+import candela.job.{Preparation, SceneLoader}
 import candela.measure.Metrics
 import candela.render.Renderer
 
@@ -121,10 +122,10 @@ final class PbrtHabitsSuite extends AnyFunSuite:
   test("partial images are written before the last, which is the same as without them"):
     TempFolder.use: folder =>
       val plain = rendered(folder, "")
-      val plan = SceneLoader.FromFile.load(scene(folder), Options()).plan
+      val plan = SceneLoader.FromFile.load(scene(folder), Preparation()).plan
       var written = 0
-      val partly = PartialImages(() => written += 1, None)
-      val _ = Renderer.render(plan, threads = 1, passObserver = Some(partly))
+      val partly = PartialImages(_ => written += 1)
+      val _ = Renderer.render(plan, threads = 1, listener = partly)
       assert(written == 3) // at 1, 2 and 4 of 8 samples
       assert(rendered(folder, "", "--write-partial-images").data.sameElements(plain.data))
 

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.color.Rgb
 import candela.image.ImageFiles
+import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.TinyPlan
 import candela.scenefile.{Dialect, SceneDescription}
 
@@ -54,8 +55,8 @@ class PreviewCommandSuite extends AnyFunSuite:
       object Sick extends SceneLoader:
         private val plan = TinyPlan(): (where, _) =>
           if where.x == 3 && where.sample == 2 then Rgb(Float.NaN, 0f, 0f) else Rgb.White
-        def load(scene: String, options: Options): LoadedScene =
-          LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+        def load(scene: String, how: Preparation): Prepared =
+          Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
       val captured = Captured()
       val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png")
       assert(Main.run(words, captured.terminal, Sick) == 0)
@@ -68,8 +69,8 @@ class PreviewCommandSuite extends AnyFunSuite:
         private val plan = TinyPlan(): (_, _) =>
           Thread.sleep(400)
           Rgb.White
-        def load(scene: String, options: Options): LoadedScene =
-          LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+        def load(scene: String, how: Preparation): Prepared =
+          Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
       val captured = Captured()
       val words = Seq("preview", "s.pbrt", "--outfile", s"$folder/a.png", "--nthreads", "1")
       assert(Main.run(words, captured.terminal, Slow) == 130)

@@ -3,6 +3,7 @@ package candela.cli
 import candela.base.{Problem, SceneError, SourcePos, Version}
 import candela.color.Rgb
 import candela.image.ImageFiles
+import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
 import candela.scenefile.{Dialect, SceneDescription}
 
@@ -17,11 +18,11 @@ class RenderCommandSuite extends AnyFunSuite:
   /** Knows scenes by name; writes nothing but where it is told. */
   private final class Known(scenes: (String, RenderPlan)*) extends SceneLoader:
     var loaded = Vector.empty[String]
-    def load(scene: String, options: Options): LoadedScene =
+    def load(scene: String, how: Preparation): Prepared =
       loaded :+= scene
       val plan = scenes.toMap.getOrElse(scene, throw SceneError(Problem.general(s"no $scene")))
       val warning = Problem.warning(SourcePos(scene, 3, 1), "planted")
-      LoadedScene(SceneDescription(Dialect.V3), plan, Vector(warning, warning), 0.5, 0.25)
+      Prepared(SceneDescription(Dialect.V3), plan, Vector(warning, warning), 0.5, 0.25)
 
   private def plan(file: Path) = TinyPlan(filename = file.toString)((_, _) => gray)
 

@@ -28,7 +28,7 @@ class RenderRecorderSuite extends AnyFunSuite:
 
   private def recorded(reference: Option[Image], threads: Int = 2): RenderRecorder =
     val recorder = RenderRecorder(Development(), reference)
-    val _ = Renderer.render(plan, threads, passObserver = Some(recorder))
+    val _ = Renderer.render(plan, threads, listener = recorder)
     recorder
 
   test("against the truth, the error is variance / samples at every point"):

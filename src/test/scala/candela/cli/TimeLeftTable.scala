@@ -1,6 +1,7 @@
 package candela.cli
 
-import candela.render.{Progress, Renderer}
+import candela.job.SceneLoader
+import candela.render.{Progress, RenderListener, Renderer}
 
 /** Renders scenes, and tells how far off the time left was at a part of the time.
   *
@@ -28,14 +29,13 @@ object TimeLeftTable:
   private def rendered(words: Vector[String]): Vector[Progress] =
     val options = CommandLine.parse(words)
       .getOrElse(throw IllegalArgumentException(words.mkString(" ")))
-    val plan = SceneLoader.FromFile.load(options.files.head, options).plan
+    val plan = SceneLoader.FromFile.load(options.files.head, options.preparation).plan
     val looks = Vector.newBuilder[Progress]
     val goal = Option.when(options.settings.goal.isGiven):
       Goal(options.settings.goal, plan.samplesPerPixel, RenderRecorder.of(plan, None))
     val _ = Renderer.render(
       plan,
       options.threadCount,
-      onProgress = p => looks += p: Unit,
-      passObserver = goal
+      listener = RenderListener.all(goal ++ Some(RenderListener.onProgress(p => looks += p: Unit)))
     )
     looks.result()

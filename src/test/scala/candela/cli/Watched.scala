@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.RenderPlan
 import candela.scenefile.{Dialect, SceneDescription}
 import candela.testing.Chromium
@@ -12,8 +13,8 @@ final class Watched(plan: RenderPlan, args: String*):
   private val code = AtomicReference[Option[Int]](None)
 
   private object Loader extends SceneLoader:
-    def load(scene: String, options: Options): LoadedScene =
-      LoadedScene(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
+    def load(scene: String, how: Preparation): Prepared =
+      Prepared(SceneDescription(Dialect.V4), plan, Vector.empty, 0.5, 0.25)
 
   private val thread = Thread: () =>
     code.set(Some(Main.run("s.pbrt" +: args, captured.terminal, Loader)))

@@ -5,7 +5,9 @@ import candela.build.RenderSettings
 import candela.film.Fireflies
 import candela.guiding.GuidingMode
 import candela.image.Image
-import candela.render.{Cancellation, Checkpointer, Renderer, RenderPlan, RenderState}
+import candela.render.{
+  Cancellation, Checkpointer, Renderer, RenderListener, RenderPlan, RenderState
+}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -131,7 +133,7 @@ final class GuidedWalkSuite extends AnyFunSuite:
           plan(rooms(Dialect.V4), Dialect.V4, GuidingMode.On, All),
           threads = 2,
           cancellation,
-          onProgress = _ => if cancels then cancellation.request(),
+          RenderListener.onProgress(_ => if cancels then cancellation.request()),
           checkpointer = Some(FileKeeper(from, to))
         )
         .samplesDone

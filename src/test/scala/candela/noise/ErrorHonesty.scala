@@ -4,7 +4,7 @@ import candela.build.RenderSettings
 import candela.build.sampling.PointChoice
 import candela.cli.RenderRecorder
 import candela.measure.Metrics
-import candela.render.{Pass, Renderer, PassObserver}
+import candela.render.{Looks, Pass, Renderer, RenderListener}
 import candela.film.Film
 import candela.image.Image
 
@@ -36,7 +36,7 @@ object ErrorHonesty:
       val truth = Renderer.render(most, 2).image(most.development)
       val seen = (1 to number("seeds", 20)).toVector.map: seed =>
         val eye = HonestyOf(plan(samples.max, seed).development, truth)
-        val _ = Renderer.render(plan(samples.max, seed), 2, passObserver = Some(eye))
+        val _ = Renderer.render(plan(samples.max, seed), 2, listener = eye)
         eye.ratios
       for n <- samples do
         val found = seen.flatMap(_.get(n))
@@ -55,14 +55,14 @@ object ErrorHonesty:
 
 /** Records the true relative error of each pass, and its ratio to the estimate. */
 private final class HonestyOf(development: candela.film.Development, truth: Image)
-    extends PassObserver:
+    extends RenderListener:
   private val recorder = RenderRecorder(development, None)
   private var found = Map.empty[Int, (Double, Double)]
 
   def ratios: Map[Int, (Double, Double)] = found
-  override def seesWaves: Boolean = true
+  override def looks: Looks = Looks.Waves
 
-  def passed(pass: Pass, film: Film): Unit =
+  override def passed(pass: Pass, film: Film): Unit =
     recorder.passed(pass, film)
     for estimate <- recorder.errorAt(pass.samples) do
       val error = Math.sqrt(Metrics.compare(development(film), truth).relativeMse)

@@ -13,7 +13,7 @@ class EndlessSamplesSuite extends AnyFunSuite:
   /** Seconds until a rendering whose first samples wait for ever ends, and its result. */
   private def rendered(
       threads: Int,
-      passObserver: Option[PassObserver] = None,
+      listener: RenderListener = RenderListener.Silent,
       checkpointer: Option[Checkpointer] = None,
       stopAfter: Double = Double.PositiveInfinity
   ): (Double, Rendering) =
@@ -25,10 +25,15 @@ class EndlessSamplesSuite extends AnyFunSuite:
     val cancellation = Cancellation()
     val started = System.nanoTime
     def seconds = (System.nanoTime - started) * 1e-9
-    val stop: Progress => Unit = _ => if seconds > stopAfter then cancellation.request()
+    val stop =
+      RenderListener.onProgress(_ => if seconds > stopAfter then cancellation.request())
     try
       val result = Renderer.render(
-        plan, threads, cancellation, stop, passObserver, checkpointer = checkpointer
+        plan,
+        threads,
+        cancellation,
+        RenderListener.all(Vector(stop, listener)),
+        checkpointer = checkpointer
       )
       (seconds, result)
     finally latch.countDown()
@@ -43,14 +48,14 @@ class EndlessSamplesSuite extends AnyFunSuite:
       assert(rendering.samplesDone == 0 && !rendering.isComplete)
 
   test("nor does one that ends at a time"):
-    val observer = new PassObserver:
+    val timed = new RenderListener:
       var isEnded = false
-      def passed(pass: Pass, film: candela.film.Film): Unit = ()
+      override def looks: Looks = Looks.Doublings
       override def isEnough: Boolean = isEnded
       override def isOver(seconds: Double, still: Double): Boolean =
         isEnded = seconds > 0.2 && still > 0.1
         isEnded
-    assert(rendered(2, Some(observer))._1 < 0.2 + Soon)
+    assert(rendered(2, timed)._1 < 0.2 + Soon)
 
   test("nor one that keeps copies, the last of which is then not replaced"):
     final class Counting(due: Boolean) extends Checkpointer:

@@ -17,7 +17,7 @@ class LiveSuite extends AnyFunSuite:
         assert(now.progress.done == 2 * 20 * 16 && now.progress.total == 4 * 20 * 16)
         val _ = assert(now.rendering.film.toImage(1f)(19, 15, 0) == 1f)
       Rgb(where.sample + 0.5f, 1f, 1f)
-    val result = Renderer.render(plan, 1, onStart = l => live = Some(l))
+    val result = Renderer.render(plan, 1, listener = RenderListener.onStart(l => live = Some(l)))
     val seen = live.get.rendering
     assert(seen.isComplete && live.get.tiles.isEmpty)
     assert(seen.film.toImage(1f).data.sameElements(result.film.toImage(1f).data))
@@ -34,7 +34,7 @@ class LiveSuite extends AnyFunSuite:
     val result = Renderer.render(
       plan,
       1,
-      onStart = l =>
+      listener = RenderListener.onStart: l =>
         live = Some(l)
         l.keepOn(until > 0)
     )
@@ -56,5 +56,6 @@ class LiveSuite extends AnyFunSuite:
   test("shards and saved renderings don't keep on"):
     val plan = TinyPlan(spp = 2)((_, _) => Rgb.White)
     var can = true
-    val _ = Renderer.render(plan, 1, shard = Shard(0, 2), onStart = l => can = l.canKeepOn)
+    val listener = RenderListener.onStart(l => can = l.canKeepOn)
+    val _ = Renderer.render(plan, 1, listener = listener, shard = Shard(0, 2))
     assert(!can)

@@ -125,8 +125,7 @@ class RendererSuite extends AnyFunSuite:
     val _ = Renderer.render(
       plan,
       threads = 2,
-      onProgress = p =>
-        val _ = reports += p
+      listener = RenderListener.onProgress(p => reports += p: Unit)
     )
     val done = reports.result().map(_.done)
     assert(done == done.sorted)
@@ -136,7 +135,9 @@ class RendererSuite extends AnyFunSuite:
   test("a failing report of progress stops the workers and is passed on"):
     val plan = TinyPlan(spp = 1_000_000_000)((_, _) => gray)
     val failure = intercept[IllegalStateException]:
-      Renderer.render(plan, 2, onProgress = p => throw IllegalStateException(s"broken ${p.total}"))
+      val broken =
+        RenderListener.onProgress(p => throw IllegalStateException(s"broken ${p.total}"))
+      Renderer.render(plan, 2, listener = broken)
     assert(failure.getMessage == s"broken ${40L * 27 * 1_000_000_000}")
 
   test("an observer of passes sees whole passes, and the image is the same, bit for bit"):
@@ -145,10 +146,11 @@ class RendererSuite extends AnyFunSuite:
     val plain = Renderer.render(plan, threads = 2)
     for threads <- 1 to 3 do
       val seen = Vector.newBuilder[(Int, Vector[Float])]
-      object Eye extends PassObserver:
-        def passed(pass: Pass, film: Film): Unit =
+      object Eye extends RenderListener:
+        override def looks: Looks = Looks.Doublings
+        override def passed(pass: Pass, film: Film): Unit =
           val _ = seen += pass.samples -> film.toImage(1f).data.toVector
-      val watched = Renderer.render(plan, threads, passObserver = Some(Eye))
+      val watched = Renderer.render(plan, threads, listener = Eye)
       assert(watched.film.toImage(1f).data.sameElements(plain.film.toImage(1f).data))
       assert(watched.samplesTaken == plain.samplesTaken && watched.isComplete)
       assert(seen.result().map(_._1) == Vector(1, 2, 4, 8, 11))
@@ -160,9 +162,10 @@ class RendererSuite extends AnyFunSuite:
       if where.sample == 5 then cancellation.request()
       gray
     val samples = Vector.newBuilder[Int]
-    object Eye extends PassObserver:
-      def passed(pass: Pass, film: Film): Unit =
+    object Eye extends RenderListener:
+      override def looks: Looks = Looks.Doublings
+      override def passed(pass: Pass, film: Film): Unit =
         val _ = samples += pass.samples
-    val rendering = Renderer.render(plan, 2, cancellation, passObserver = Some(Eye))
+    val rendering = Renderer.render(plan, 2, cancellation, listener = Eye)
     assert(samples.result() == Vector(1, 2, 4))
     assert(rendering.samplesDone == 4)

@@ -26,11 +26,12 @@ class SharedSamplesSuite extends AnyFunSuite:
   test("the image is the same, bit for bit, whatever the number of threads, seen or not"):
     val shared = plan(shares = true)(noise)
     val one = Renderer.render(shared, threads = 1).film.toImage(1f).data.toVector
-    object Eye extends PassObserver:
-      def passed(pass: Pass, film: Film): Unit =
+    object Eye extends RenderListener:
+      override def looks: Looks = Looks.Doublings
+      override def passed(pass: Pass, film: Film): Unit =
         val _ = film.toImage(1f)
-    for threads <- Vector(2, 3, 7); eye <- Vector(None, Some(Eye)) do
-      val many = Renderer.render(shared, threads, passObserver = eye)
+    for threads <- Vector(2, 3, 7); eye <- Vector(RenderListener.Silent, Eye) do
+      val many = Renderer.render(shared, threads, listener = eye)
       assert(many.film.toImage(1f).data.toVector == one, s"$threads threads")
       assert(many.isComplete)
 

@@ -1,7 +1,8 @@
 package candela.bench
 
 import candela.base.Version
-import candela.cli.{CommandLine, SceneLoader}
+import candela.cli.CommandLine
+import candela.job.SceneLoader
 import candela.render.*
 import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}
 import candela.report.{LogLogChart, Mark, Series}
@@ -71,7 +72,7 @@ object ClusterScaling:
     val options =
       CommandLine.parse(words).fold(e => throw IllegalArgumentException(e.err), identity)
     val begin = cpu()
-    val loaded = SceneLoader.FromFile.load(o("scene"), options)
+    val loaded = SceneLoader.FromFile.load(o("scene"), options.preparation)
     val building = cpu() - begin
     val plan = loaded.plan
     val count = o("shards").toInt

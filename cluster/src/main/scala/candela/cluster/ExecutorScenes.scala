@@ -1,7 +1,7 @@
 package candela.cluster
 
 import candela.base.Scratch
-import candela.cli.ShardRenderer
+import candela.job.ShardRenderer
 
 import java.nio.file.{Files, Path}
 

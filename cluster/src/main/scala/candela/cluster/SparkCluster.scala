@@ -1,6 +1,6 @@
 package candela.cluster
 
-import candela.cli.{Cluster, ClusterFailure, ClusterRun, ClusterWork, ShardRenderer}
+import candela.job.{Cluster, ClusterFailure, ClusterRun, ClusterWork, ShardRenderer}
 
 import org.apache.spark.rdd.RDD
 import org.apache.spark.{HashPartitioner, SparkContext}

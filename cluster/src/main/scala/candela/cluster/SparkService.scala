@@ -1,6 +1,6 @@
 package candela.cluster
 
-import candela.cli.{Cluster, ClusterFailure, ClusterService, Main}
+import candela.job.{Cluster, ClusterFailure, ClusterService}
 
 import org.apache.spark.{SparkConf, SparkContext}
 
@@ -36,10 +36,3 @@ object SparkService:
     )
     for (name, value) <- options do conf.setIfMissing(name, value): Unit
     conf
-
-/** Entry point for `spark-submit`: renders on the master that was given to it. */
-object SparkMain:
-  def main(args: Array[String]): Unit =
-    val master = new SparkConf().get("spark.master", "local[*]")
-    val words = if args.headOption.contains("render") then args.drop(1) else args
-    Main.main(Array("render", "--spark", master) ++ words)

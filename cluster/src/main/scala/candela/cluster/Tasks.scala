@@ -1,8 +1,8 @@
 package candela.cluster
 
-import candela.cli.ShardRenderer
+import candela.job.{RenderControl, ShardRenderer}
 import candela.render.storage.FilmHeader
-import candela.render.{Cancellation, Shard}
+import candela.render.{Cancellation, RenderListener, Shard}
 
 import org.apache.spark.TaskContext
 import org.apache.spark.broadcast.Broadcast
@@ -40,14 +40,14 @@ final class RenderShards(work: Assignment, count: Int, samples: LongAccumulator)
     val cancellation = Cancellation()
     var reported = 0L
     val file = ExecutorScenes.newFile()
+    val listener = RenderListener.onProgress: progress =>
+      samples.add(progress.done - reported)
+      reported = progress.done
+      if context.isInterrupted() then cancellation.request()
+    val shard = Shard(index, count)
     val _ = work.renderer.render(
-      Shard(index, count),
       file,
-      cancellation,
-      progress =>
-        samples.add(progress.done - reported)
-        reported = progress.done
-        if context.isInterrupted() then cancellation.request()
+      RenderControl(cancellation = cancellation, listener = listener, shard = shard)
     )
     if cancellation.isRequested then throw InterruptedException(s"shard $index was cancelled")
     FilmChunks.read(index, file)

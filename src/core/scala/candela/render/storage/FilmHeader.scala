@@ -1,7 +1,7 @@
 package candela.render.storage
 
 import candela.base.{CheckedInput, CheckedOutput}
-import candela.render.RenderPlan
+import candela.render.{RenderPlan, RenderState}
 
 /** What a saved rendering is a rendering of.
   *
@@ -34,6 +34,10 @@ final case class FilmHeader(
 ):
   def isWhole: Boolean = shards.size == count
   def isComplete: Boolean = done >= samples
+
+  /** That of a part of it. */
+  def of(shards: Set[Int], count: Int, state: RenderState): FilmHeader =
+    copy(shards = shards, count = count, done = state.samplesDone)
 
   /** `shard 3/16`, or all of several. */
   def part: String = FilmHeader.named(FilmHeader.runs(shards.toVector.sorted), count)

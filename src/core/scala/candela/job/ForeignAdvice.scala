@@ -1,4 +1,4 @@
-package candela.cli
+package candela.job
 
 import candela.base.{ForeignFile, ForeignKind, InputFile, Problem}
 import candela.scenefile.Source
@@ -6,7 +6,7 @@ import candela.scenefile.Source
 import java.nio.file.{Files, Path}
 
 /** Tells what else to do with files that are no scenes. */
-private[cli] object ForeignAdvice:
+private[job] object ForeignAdvice:
   import ForeignKind.*
 
   /** What is wrong with a file that should be a scene, if it is another kind of file. */

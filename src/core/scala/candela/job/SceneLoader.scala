@@ -1,9 +1,8 @@
-package candela.cli
+package candela.job
 
 import candela.base.{Problem, Refusal, SceneError, Severity, Suggest}
-import candela.build.{BuildControl, DialectChoice, RenderRegion, SceneBuilder}
+import candela.build.{DialectChoice, SceneBuilder}
 import candela.mitsuba.MitsubaScene
-import candela.render.{RenderPlan, ThreadPool}
 import candela.scenefile.{Excerpts, Parser, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -11,67 +10,56 @@ import java.nio.file.{Files, InvalidPathException, Path}
 import scala.jdk.CollectionConverters.*
 import scala.util.{Try, Using}
 
-/** A scene ready to render, its description, and the load times.
-  *
-  * @param warnings of parser and builder
-  */
-final case class LoadedScene(
-    description: SceneDescription,
-    plan: RenderPlan,
-    warnings: Vector[Problem],
-    parseSeconds: Double,
-    buildSeconds: Double
-):
-  /** Number of missing items replaced by placeholders. */
-  def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
-
 /** Parses and builds a scene. */
 abstract class SceneLoader:
 
   /** @throws SceneError if the scene has errors */
-  def load(scene: String, options: Options): LoadedScene
+  def load(scene: String, how: Preparation): Prepared
 
-  /** The images of a scene that is not loaded yet, if they can be told. */
-  def images(scene: String, options: Options): Option[OutputFiles] = None
+  /** The name of a scene's image before it is loaded, if it can be told. */
+  def imageName(scene: String, how: Preparation): Option[ImageName] = None
+
+/** The image that a scene names.
+  *
+  * @param file   as its film names it; none: it names none
+  * @param folder of images
+  */
+final case class ImageName(file: Option[String], folder: Path)
 
 object SceneLoader:
 
   object FromFile extends SceneLoader:
-    def load(scene: String, options: Options): LoadedScene = refusing:
+    def load(scene: String, how: Preparation): Prepared = refusing:
       val file = existing(scene)
       val started = System.nanoTime
-      val description = readable(file, options)
-      val parsed = System.nanoTime
-      val (plan, warnings) = build(description, options)
+      val description = readable(file, how)
+      val read = System.nanoTime
+      val (plan, warnings) = SceneBuilder.build(description, how.settings, how.control)
       val built = System.nanoTime
       val all = description.warnings ++ warnings
-      LoadedScene(description, plan, all, (parsed - started) * 1e-9, (built - parsed) * 1e-9)
+      Prepared(description, plan, all, (read - started) * 1e-9, (built - read) * 1e-9)
 
-    override def images(scene: String, options: Options): Option[OutputFiles] =
+    override def imageName(scene: String, how: Preparation): Option[ImageName] =
       // A refusal is told when the scene is loaded
-      Try(refusing(named(scene, existing(scene), options))).toOption.flatten
+      Try(refusing(named(existing(scene), how))).toOption.flatten
 
-    private def named(scene: String, file: Path, options: Options): Option[OutputFiles] =
-      val within = options.limits.folder(file)
+    private def named(file: Path, how: Preparation): Option[ImageName] =
+      val within = how.limits.folder(file)
       val folder = if within.isConfined then within.path else Path.of("")
-      if MitsubaScene.isNamed(file) then Some(OutputFiles.ofName(scene, folder))
+      if MitsubaScene.isNamed(file) then Some(ImageName(None, folder))
       else if !Files.isRegularFile(file) then None // it can be read once
       else
-        Parser.film(
-          file,
-          options.settings.reading.dialect,
-          within
-        ).flatMap(_.param("filename")) match
-          case Some(name) => name.strings.headOption.map(OutputFiles.ofFilm(_, folder))
-          case None => Some(OutputFiles.ofName(scene, folder))
+        Parser.film(file, how.settings.reading.dialect, within).flatMap(_.param("filename")) match
+          case Some(name) => name.strings.headOption.map(n => ImageName(Some(n), folder))
+          case None => Some(ImageName(None, folder))
 
   /** Makes an error of what a scene must not do. */
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
 
   /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
-  def readable(file: Path, options: Options): SceneDescription =
-    val folder = options.limits.folder(file)
-    val reading = options.settings.reading
+  def readable(file: Path, how: Preparation): SceneDescription =
+    val folder = how.limits.folder(file)
+    val reading = how.settings.reading
     // What is not to be read is not looked at either
     if folder.isConfined then folder.scene(file): Unit
     for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
@@ -82,20 +70,12 @@ object SceneLoader:
       throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
     else
       val within = Some(folder)
-      val read = Parser.readable(file, reading.dialect, reading.keepGoing, options.world, within)
+      val read = Parser.readable(file, reading.dialect, reading.keepGoing, how.world, within)
       val scene = DialectChoice.of(read, reading.dialect)
-      if !scene.isFollowed || options.command == Command.Render then scene
+      if !scene.isFollowed || !how.isFirst then scene
       else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
 
   private val FirstOnly = "the file has several worlds; this is about the first"
-
-  private def build(d: SceneDescription, o: Options): (RenderPlan, Vector[Problem]) =
-    // A traced pixel is one of the whole image
-    val region = if o.debug then RenderRegion.Whole else o.settings.region
-    val shown = if o.pixelMaterial.isEmpty then Vector.empty else PixelMaterial.Layers
-    val settings = o.settings.copy(region = region, layers = (o.settings.layers ++ shown).distinct)
-    val pool = ThreadPool(o.threadCount, worksAside = o.command != Command.Check)
-    SceneBuilder.build(d, settings, BuildControl(pool, o.taken, o.footprint))
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =

@@ -1,10 +1,9 @@
-package candela.cli
+package candela.job
 
-import candela.base.Version
-import candela.build.RenderGoal
+import candela.base.{Problem, SceneError, Version}
+import candela.build.{RenderGoal, RenderSettings}
 import candela.film.PixelBounds
-import candela.job.SettingsCodec
-import candela.render.RenderPlan
+import candela.render.{RenderPlan, Shard}
 import candela.render.storage.FilmHeader
 import candela.scenefile.{SceneDescription, SceneFiles}
 
@@ -15,27 +14,28 @@ import java.util.HexFormat
 import scala.util.{Try, Using}
 
 /** Describes renderings for their film files. */
-private[cli] object FilmHeaders:
+object FilmHeaders:
 
-  /** @param film  the film file
+  /** @param scene as it was named
+    * @param film  the film file
     * @param files image files to write
     */
   def of(
-      options: Options,
+      settings: RenderSettings,
       scene: String,
-      loaded: LoadedScene,
+      prepared: Prepared,
       film: Path,
-      files: Vector[Path]
+      files: Vector[Path] = Vector.empty,
+      shard: Shard = Shard.Whole
   ): FilmHeader =
-    val plan = loaded.plan
-    val shard = options.film.shard
+    val plan = prepared.plan
     FilmHeader(
       Version.current,
       scene,
       relative(film.toAbsolutePath.getParent, here).toString,
-      SettingsCodec.identity(options.settings),
+      SettingsCodec.identity(settings),
       files.map(_.toString),
-      digests(loaded.description),
+      digests(prepared.description),
       size(plan),
       plan.sampler.samplesPerPixel,
       done = 0,
@@ -43,6 +43,17 @@ private[cli] object FilmHeaders:
       Set(shard.index),
       shard.count
     )
+
+  /** The settings of a saved rendering.
+    *
+    * @throws SceneError if the film is forged
+    */
+  def settings(header: FilmHeader): RenderSettings =
+    SettingsCodec.settings(header.words) match
+      case Right(saved) => saved.copy(samples = Some(header.samples))
+      case Left(why) =>
+        val message = s"the film of `${header.scene}` has settings that are none: $why"
+        throw SceneError(Problem.general(message))
 
   private def here: Path = Path.of("").toAbsolutePath
 

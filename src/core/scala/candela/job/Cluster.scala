@@ -1,4 +1,4 @@
-package candela.cli
+package candela.job
 
 import candela.render.storage.FilmHeader
 
@@ -59,7 +59,7 @@ abstract class ClusterRun:
 final class ClusterFailure(message: String, cause: Throwable | Null = null)
     extends RuntimeException(message, cause)
 
-private[cli] object Cluster:
+object Cluster:
   /** @throws ClusterFailure if there is no such cluster, or nothing that can connect to it */
   def connect(
       master: String,

@@ -1,0 +1,100 @@
+package candela.job
+
+import candela.base.Problem
+import candela.build.{BuildControl, RenderSettings}
+import candela.color.Rgb
+import candela.render.{
+  Cancellation, Checkpointer, Renderer, Rendering, RenderListener, RenderPlan, RenderState, Shard
+}
+import candela.render.storage.{FilmHeader, FilmWriter}
+import candela.scene.PathReport
+import candela.scenefile.SceneDescription
+
+import java.nio.file.Path
+
+/** How a scene is prepared for rendering.
+  *
+  * @param limits     what it may do
+  * @param control    of building
+  * @param world      which of the file's worlds, from 0
+  * @param isFirst    whether the others are not looked at, which is then told
+  */
+final case class Preparation(
+    settings: RenderSettings = RenderSettings(),
+    limits: SceneLimits = SceneLimits(),
+    control: BuildControl = BuildControl(),
+    world: Int = 0,
+    isFirst: Boolean = false
+)
+
+/** How a prepared scene is rendered; the image is the same.
+  *
+  * @param listener     follows the rendering
+  * @param checkpointer keeps its state, if it is to be kept
+  */
+final case class RenderControl(
+    threads: Int = 1,
+    cancellation: Cancellation = Cancellation(),
+    listener: RenderListener = RenderListener.Silent,
+    shard: Shard = Shard.Whole,
+    checkpointer: Option[Checkpointer] = None
+)
+
+/** A scene that is ready to be rendered.
+  *
+  * @param warnings of reading and building
+  */
+final case class Prepared(
+    description: SceneDescription,
+    plan: RenderPlan,
+    warnings: Vector[Problem],
+    readSeconds: Double = 0,
+    buildSeconds: Double = 0
+):
+  /** Number of missing items replaced by placeholders. */
+  def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
+
+  def render(control: RenderControl): Rendering =
+    Renderer.render(
+      plan,
+      control.threads,
+      control.cancellation,
+      control.listener,
+      control.shard,
+      control.checkpointer
+    )
+
+  /** Traces a single sample, identical to that of [[render]].
+    *
+    * @return its light; none if it was discarded
+    */
+  def trace(x: Int, y: Int, sample: Int, report: PathReport): Option[Rgb] =
+    Renderer.trace(plan, x, y, sample, report)
+
+  /** Renders a part of the samples to a film file.
+    *
+    * @param header of the whole
+    */
+  def shard(header: FilmHeader, to: Path, control: RenderControl): Rendering =
+    val part = control.shard
+    val keeper = new Checkpointer:
+      def restore(state: RenderState): Unit = ()
+      def isDue: Boolean = false
+      def save(state: RenderState): Unit =
+        Prepared.write(header.of(Set(part.index), part.count, state), state, to)
+      def lose(): Unit = ()
+      def finish(): Unit = ()
+    render(control.copy(checkpointer = Some(keeper)))
+
+  /** What saved states add up to.
+    *
+    * @param load loads them
+    */
+  def gather(load: RenderState => Unit): Rendering = Renderer.gather(plan, load)
+
+object Prepared:
+  /** Writes a film file. */
+  def write(header: FilmHeader, state: RenderState, to: Path): Unit =
+    val writer = FilmWriter(to)
+    writer.write(header, state)
+    writer.commit()
