@@ -1,9 +1,11 @@
 package candela.job
 
-import candela.base.{ForeignFile, ForeignKind, InputFile, Problem}
-import candela.scenefile.Source
+import candela.base.{ForeignKind, InputFile, Problem, Suggest}
+import candela.scenefile.{Directives, Source, Token, Tokenizer}
 
 import java.nio.file.{Files, Path}
+
+import scala.util.Try
 
 /** Tells what else to do with files that are no scenes. */
 private[job] object ForeignAdvice:
@@ -12,15 +14,33 @@ private[job] object ForeignAdvice:
   /** What is wrong with a file that should be a scene, if it is another kind of file. */
   def problem(file: Path): Option[Problem] =
     // A pipe can be read only once
-    for
-      source <- Option.when(Files.isRegularFile(file))(Source.read(InputFile.asked(file)))
-        .flatMap(_.toOption)
-      found <- recognised(file, source)
-    yield Problem.general(s"`$file` is ${found.what}, not a scene", advice(found.kind, file))
+    Option.when(Files.isRegularFile(file))(Source.read(InputFile.asked(file)))
+      .flatMap(_.toOption).flatMap(problem(file, _))
 
-  private def recognised(file: Path, source: Source): Option[ForeignFile] =
-    try source.foreign(file)
+  private def problem(file: Path, source: Source): Option[Problem] =
+    try
+      source.foreign(file) match
+        case Some(found) =>
+          val what = s"`$file` is ${found.what}, not a scene"
+          Some(Problem.general(what, advice(found.kind, file)))
+        case None =>
+          Option.when(SceneFormat.named(file).isEmpty && !mayBeOurs(source)):
+            val what = s"`$file` is no scene: it begins with no directive of pbrt"
+            Problem.general(what, Some(Formats))
     finally source.close()
+
+  /** Whether a text begins with a directive, though a mistyped one; or has nothing to tell by. */
+  private def mayBeOurs(source: Source): Boolean =
+    val words = Tokenizer(source, None)
+    val first = Try:
+      words.advance()
+      words.current match
+        case Token.End => None
+        case Token.Word => Some(words.text)
+        case _ => Some("")
+    first.toOption.flatten.forall(Suggest.nearest(_, Directives.all.keys).isDefined)
+
+  private val Formats = s"scenes are of ${SceneFormat.inWords}"
 
   private def advice(kind: ForeignKind, file: Path): Option[String] = kind match
     case Picture => Some(s"`candela view $file` shows it")
@@ -32,11 +52,11 @@ private[job] object ForeignAdvice:
       Some("a scene of Mitsuba's shows it by <shape type=\"serialized\"> in an .xml file")
     case Model =>
       Some(
-        "export it as a scene of pbrt or Mitsuba, for example from Blender; OBJ and PLY meshes " +
-          "may be shapes of Mitsuba's scenes"
+        s"export it as a scene of ${SceneFormat.inWords}, for example from Blender; OBJ and " +
+          "PLY meshes may be shapes of Mitsuba's scenes"
       )
     case Volume => Some("a scene shows it as a medium")
     case Lamp => Some("a LightSource \"goniometric\" takes it as its \"string filename\"")
     case Packed => Some("unpack it, and name the scene in it")
     case Mitsuba => Some("its name must end with .xml")
-    case Other => None
+    case Other => Some(Formats)

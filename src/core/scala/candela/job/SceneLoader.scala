@@ -1,9 +1,8 @@
 package candela.job
 
-import candela.base.{Problem, Refusal, SceneError, Severity, Suggest}
-import candela.build.{DialectChoice, SceneBuilder}
-import candela.mitsuba.MitsubaScene
-import candela.scenefile.{Excerpts, Parser, SceneDescription}
+import candela.base.{Problem, Refusal, SceneError, Suggest}
+import candela.build.SceneBuilder
+import candela.scenefile.{Excerpts, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
 
@@ -46,36 +45,18 @@ object SceneLoader:
     private def named(file: Path, how: Preparation): Option[ImageName] =
       val within = how.limits.folder(file)
       val folder = if within.isConfined then within.path else Path.of("")
-      if MitsubaScene.isNamed(file) then Some(ImageName(None, folder))
-      else if !Files.isRegularFile(file) then None // it can be read once
-      else
-        Parser.film(file, how.settings.reading.dialect, within).flatMap(_.param("filename")) match
-          case Some(name) => name.strings.headOption.map(n => ImageName(Some(n), folder))
-          case None => Some(ImageName(None, folder))
+      SceneFormat.of(file).imageName(file, within, how).map(ImageName(_, folder))
 
   /** Makes an error of what a scene must not do. */
   def refusing[A](body: => A): A = Refusal.told(Excerpts.fill(_))(body)
 
-  /** The readable part of a scene: XML is Mitsuba's, everything else pbrt's. */
+  /** The readable part of a scene, of any format. */
   def readable(file: Path, how: Preparation): SceneDescription =
     val folder = how.limits.folder(file)
-    val reading = how.settings.reading
     // What is not to be read is not looked at either
     if folder.isConfined then folder.scene(file): Unit
     for problem <- ForeignAdvice.problem(file) do throw SceneError(problem)
-    if MitsubaScene.isNamed(file) then
-      MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(folder))
-    else if reading.defines.nonEmpty then
-      val help = "-D sets parameters of Mitsuba's XML files"
-      throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
-    else
-      val within = Some(folder)
-      val read = Parser.readable(file, reading.dialect, reading.keepGoing, how.world, within)
-      val scene = DialectChoice.of(read, reading.dialect)
-      if !scene.isFollowed || !how.isFirst then scene
-      else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
-
-  private val FirstOnly = "the file has several worlds; this is about the first"
+    SceneFormat.of(file).read(file, folder, how)
 
   /** The path of an existing scene file. */
   def existing(scene: String): Path =
@@ -98,5 +79,5 @@ object SceneLoader:
     if !Files.isDirectory(folder) then Vector.empty
     else
       Using.resource(Files.list(folder)): files =>
-        val names = files.iterator.asScala.map(_.getFileName.toString)
-        names.filter(n => n.endsWith(".pbrt") || n.endsWith(".xml")).toVector.sorted
+        val scenes = files.iterator.asScala.filter(SceneFormat.named(_).isDefined)
+        scenes.map(_.getFileName.toString).toVector.sorted

@@ -1,15 +1,12 @@
 package candela.mitsuba
 
-import candela.base.{FileName, SceneError, SceneFolder, Severity, SourcePos}
+import candela.base.{SceneError, SceneFolder, Severity, SourcePos}
 import candela.scenefile.{Declaration, Dialect, Excerpts, SceneDescription}
 
 import java.nio.file.Path
 
 /** Reads scenes of Mitsuba 3: XML files. */
 object MitsubaScene:
-
-  /** Whether a file is one, by its name. */
-  def isNamed(file: Path): Boolean = FileName.suffix(file) == "xml"
 
   /** The scene, as pbrt-v4 describes the same; types that only v3 has are declared as such.
     *

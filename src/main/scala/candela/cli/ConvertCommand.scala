@@ -3,8 +3,7 @@ package candela.cli
 import candela.base.{Problem, SceneError, Severity, WholeFile}
 import candela.build.TextureValues
 import candela.convert.{Baking, Converter, SceneText, SideFiles}
-import candela.job.SceneLoader
-import candela.mitsuba.MitsubaScene
+import candela.job.{SceneFormat, SceneLoader}
 import candela.scenefile.{Dialect, Excerpts, Parser, SceneDescription, SceneFiles}
 
 import java.io.{BufferedWriter, OutputStreamWriter, Writer}
@@ -56,9 +55,10 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
 
   private def folderOf(file: Path): Path = Option(file.getParent).getOrElse(Path.of(""))
 
-  /** Meshes of Mitsuba scenes come from files, and go to files. */
+  /** Meshes that come from files go to files. */
   private def meshSize: Option[Int] =
-    Option.when(MitsubaScene.isNamed(Path.of(options.files.head)))(ConvertCommand.LargeMesh)
+    Option.when(SceneFormat.of(Path.of(options.files.head)).keepsMeshesApart):
+      ConvertCommand.LargeMesh
 
   private def summary(to: Dialect, warnings: Vector[Problem]): String =
     val dialect = to.toString.toLowerCase
@@ -71,5 +71,5 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     writer.flush()
 
 object ConvertCommand:
-  /** Triangles from which on a mesh of a Mitsuba scene becomes a PLY file. */
+  /** Triangles from which on such a mesh becomes a PLY file. */
   private val LargeMesh = 100

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.{Contents, DisplayTransform, Exposure, OutputFormat}
+import candela.job.SceneFormat
 
 import java.nio.file.Path
 
@@ -27,9 +28,10 @@ private[cli] object IdleOptions:
     Option.when(isSo)(s"--$option has no effect$why").toVector
 
   private def scenes(o: Options): Vector[String] =
-    val areMitsubas = o.files.nonEmpty && o.files.forall(_.toLowerCase.endsWith(".xml"))
-    idle("dialect", ": scenes of Mitsuba's have none of pbrt's dialects")(
-      areMitsubas && o.settings.reading.dialect.isDefined
+    val formats = o.files.flatMap(f => Try(SceneFormat.of(Path.of(f))).toOption).distinct
+    val names = formats.map(_.name).mkString(" and ")
+    idle("dialect", s": scenes of $names's have none of pbrt's dialects")(
+      formats.nonEmpty && !formats.exists(_.hasDialects) && o.settings.reading.dialect.isDefined
     )
 
   private def rendering(o: Options): Vector[String] =

@@ -42,6 +42,30 @@ class ForeignSceneSuite extends AnyFunSuite:
       val mitsuba = Files.writeString(folder.resolve("m.pbrt"), "<scene version=\"3.0.0\"></scene>")
       assert(refusal(s"$mitsuba")(1) == " its name must end with .xml")
 
+  test("a model in place of a scene is told the formats that scenes have"):
+    TempFolder.use: folder =>
+      val model = Files.writeString(folder.resolve("model.obj"), "v 0 0 0\nv 1 0 0\nf 1 2 1\n")
+      for command <- commands do
+        val lines = refusal(command, s"$model")
+        assert(lines(0) == s"error: `$model` is an OBJ mesh, not a scene")
+        assert(lines(1).contains("a scene of pbrt (.pbrt) or Mitsuba (.xml)"), lines(1))
+
+  test("a text by another name is a scene if it begins as one"):
+    TempFolder.use: folder =>
+      val notes = Files.writeString(folder.resolve("notes.txt"), "# mine\nto do: lights\n")
+      for command <- commands do
+        assert(refusal(command, s"$notes") == Vector(
+          s"error: `$notes` is no scene: it begins with no directive of pbrt",
+          " scenes are of pbrt (.pbrt) or Mitsuba (.xml)"
+        ))
+      val scene = "# mine\nCamera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"
+      val file = Files.writeString(folder.resolve("scene.txt"), scene)
+      assert(Captured.run("check", s"$file")._1 == 0)
+      val mistyped = Files.writeString(folder.resolve("b.txt"), scene.replace("Camera", "Camra"))
+      assert(refusal("check", s"$mistyped").head.startsWith(s"$mistyped:2:1: error: unknown"))
+      val ours = Files.writeString(folder.resolve("c.pbrt"), "to do: lights\n")
+      assert(refusal("check", s"$ours").head.startsWith(s"$ours:1:1: error: unknown"))
+
   test("a packed scene is a scene"):
     TempFolder.use: folder =>
       val scene = "Camera \"perspective\"\nWorldBegin\nLightSource \"infinite\"\n"

@@ -1,0 +1,81 @@
+package candela.job
+
+import candela.base.{FileName, Problem, SceneError, SceneFolder, Severity}
+import candela.build.DialectChoice
+import candela.mitsuba.MitsubaScene
+import candela.scenefile.{Parser, SceneDescription}
+
+import java.nio.file.{Files, Path}
+
+/** A format of scene files; all are listed in [[SceneFormat.all]].
+  *
+  * @param name     whose it is
+  * @param suffixes of its files, in lower case; those of packed files have `.gz` behind
+  */
+abstract class SceneFormat(val name: String, val suffixes: Vector[String]):
+
+  /** Whether the dialect may be asked for. */
+  def hasDialects: Boolean
+
+  /** Whether its meshes usually come from other files. */
+  def keepsMeshesApart: Boolean
+
+  /** The readable part of a scene; see [[SceneDescription.errors]]. */
+  def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription
+
+  /** The image that a scene names, if that can be told before it is read.
+    *
+    * @return none: it can't; a missing file name: it names none
+    */
+  def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]]
+
+object SceneFormat:
+  val all: Vector[SceneFormat] = Vector(Pbrt, Mitsuba)
+
+  /** The format that a file has by its name, if it is one's. */
+  def named(file: Path): Option[SceneFormat] =
+    val plain = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
+    all.find(_.suffixes.contains(FileName.suffix(plain)))
+
+  /** The format to read a file as: by any other name, it is pbrt's. */
+  def of(file: Path): SceneFormat = named(file).getOrElse(Pbrt)
+
+  /** `pbrt (.pbrt) or Mitsuba (.xml)` */
+  def inWords: String =
+    val each = all.map(f => s"${f.name} (${f.suffixes.map("." + _).mkString(", ")})")
+    s"${each.init.mkString(", ")} or ${each.last}"
+
+  private object Pbrt extends SceneFormat("pbrt", Vector("pbrt")):
+    def hasDialects: Boolean = true
+    def keepsMeshesApart: Boolean = false
+
+    def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
+      val reading = how.settings.reading
+      if reading.defines.nonEmpty then
+        val help = "-D sets parameters of Mitsuba's XML files"
+        throw SceneError(Problem.general(s"`$file` has no parameters", Some(help)))
+      val read =
+        Parser.readable(file, reading.dialect, reading.keepGoing, how.world, Some(within))
+      val scene = DialectChoice.of(read, reading.dialect)
+      if !scene.isFollowed || !how.isFirst then scene
+      else scene.copy(warnings = scene.warnings :+ Problem(Severity.Warning, None, FirstOnly))
+
+    def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
+      if !Files.isRegularFile(file) then None // it can be read once
+      else
+        Parser.film(file, how.settings.reading.dialect, within).flatMap(_.param("filename")) match
+          case Some(name) => name.strings.headOption.map(Some(_))
+          case None => Some(None)
+
+    private val FirstOnly = "the file has several worlds; this is about the first"
+
+  private object Mitsuba extends SceneFormat("Mitsuba", Vector("xml")):
+    def hasDialects: Boolean = false
+    def keepsMeshesApart: Boolean = true
+
+    def read(file: Path, within: SceneFolder, how: Preparation): SceneDescription =
+      val reading = how.settings.reading
+      MitsubaScene.readable(file, reading.defines, reading.keepGoing, Some(within))
+
+    def imageName(file: Path, within: SceneFolder, how: Preparation): Option[Option[String]] =
+      Some(None)
