@@ -66,7 +66,7 @@ object SceneBuilder:
       )
     checkLimits(context, image, crop, sampling)
     val samples = crop.pixels * taken.getOrElse(sampling.sampler.samplesPerPixel)
-    Hierarchies.expect(samples, control.pool)
+    Hierarchies.expect(samples, control.pool, context.resources.warmUps)
     val world =
       WorldBuilder(
         context,

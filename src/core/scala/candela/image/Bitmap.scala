@@ -12,10 +12,6 @@ import java.awt.Transparency
 /** Display-referred images of 8 or 16 bits, sRGB-encoded: clamped to [0, 1], NaN black. */
 private[image] object Bitmap:
 
-  // Before the first class of AWT loads: a renderer must not open a display.
-  if System.getProperty("java.awt.headless") == null then
-    val _ = System.setProperty("java.awt.headless", "true")
-
   /** Luminance alone is written as grey, but with alpha as three channels. */
   def of(
       image: Image,

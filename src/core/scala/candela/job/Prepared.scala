@@ -1,10 +1,11 @@
 package candela.job
 
 import candela.base.Problem
-import candela.build.{BuildControl, RenderSettings}
+import candela.build.RenderSettings
 import candela.color.Rgb
 import candela.render.{
-  Cancellation, Checkpointer, Renderer, Rendering, RenderListener, RenderPlan, RenderState, Shard
+  Cancellation, Checkpointer, Renderer, Rendering, RenderListener, RenderPlan, RenderState, Shard,
+  ThreadPool
 }
 import candela.render.storage.{FilmHeader, FilmWriter}
 import candela.scene.PathReport
@@ -15,14 +16,20 @@ import java.nio.file.Path
 /** How a scene is prepared for rendering.
   *
   * @param limits     what it may do
-  * @param control    of building
+  * @param threads    that build it
+  * @param isRendered whether it is rendered, for which a thread prepares
+  * @param taken      samples per pixel to take, if not as many as the points are made for
+  * @param footprint  size of a sample's footprint, in pixels, if not that of their number
   * @param world      which of the file's worlds, from 0
   * @param isFirst    whether the others are not looked at, which is then told
   */
 final case class Preparation(
     settings: RenderSettings = RenderSettings(),
     limits: SceneLimits = SceneLimits(),
-    control: BuildControl = BuildControl(),
+    threads: Int = 1,
+    isRendered: Boolean = true,
+    taken: Option[Int] = None,
+    footprint: Option[Float] = None,
     world: Int = 0,
     isFirst: Boolean = false
 )
@@ -40,17 +47,22 @@ final case class RenderControl(
     checkpointer: Option[Checkpointer] = None
 )
 
-/** A scene that is ready to be rendered.
+/** A scene that is ready to be rendered: a job of its own, beside which others may be prepared and
+  * rendered in one process. Its threads end when it is closed.
   *
   * @param warnings of reading and building
+  * @param pool     of its threads
   */
 final case class Prepared(
     description: SceneDescription,
     plan: RenderPlan,
     warnings: Vector[Problem],
     readSeconds: Double = 0,
-    buildSeconds: Double = 0
-):
+    buildSeconds: Double = 0,
+    pool: ThreadPool = ThreadPool(1)
+) extends AutoCloseable:
+  def close(): Unit = pool.close()
+
   /** Number of missing items replaced by placeholders. */
   def standIns: Int = warnings.distinct.count(_.standIn.nonEmpty)
 

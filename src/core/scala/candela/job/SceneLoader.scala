@@ -1,7 +1,8 @@
 package candela.job
 
 import candela.base.{Problem, Refusal, SceneError, Suggest}
-import candela.build.SceneBuilder
+import candela.build.{BuildControl, SceneBuilder}
+import candela.render.ThreadPool
 import candela.scenefile.{Excerpts, SceneDescription}
 
 import java.nio.file.{Files, InvalidPathException, Path}
@@ -33,10 +34,17 @@ object SceneLoader:
       val started = System.nanoTime
       val description = readable(file, how)
       val read = System.nanoTime
-      val (plan, warnings) = SceneBuilder.build(description, how.settings, how.control)
-      val built = System.nanoTime
-      val all = description.warnings ++ warnings
-      Prepared(description, plan, all, (read - started) * 1e-9, (built - read) * 1e-9)
+      val pool = ThreadPool(how.threads, worksAside = how.isRendered)
+      try
+        val control = BuildControl(pool, how.taken, how.footprint)
+        val (plan, warnings) = SceneBuilder.build(description, how.settings, control)
+        val built = System.nanoTime
+        val all = description.warnings ++ warnings
+        Prepared(description, plan, all, (read - started) * 1e-9, (built - read) * 1e-9, pool)
+      catch
+        case e: Throwable =>
+          pool.close()
+          throw e
 
     override def imageName(scene: String, how: Preparation): Option[ImageName] =
       // A refusal is told when the scene is loaded

@@ -1,8 +1,7 @@
 package candela.job
 
 import candela.base.{Problem, SceneError}
-import candela.build.BuildControl
-import candela.render.{Rendering, ThreadPool}
+import candela.render.Rendering
 import candela.render.storage.{FilmFile, FilmHeader}
 
 import java.io.IOException
@@ -17,11 +16,12 @@ import scala.util.Try
   * @param threads of each shard
   * @throws SceneError if the scene here is not what the header describes
   */
-final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int):
+final class ShardRenderer(header: FilmHeader, scene: Path, threads: Int) extends AutoCloseable:
   private val settings = FilmHeaders.settings(header)
   private val prepared =
-    val how = Preparation(settings, control = BuildControl(ThreadPool(threads)))
-    SceneLoader.FromFile.load(scene.toString, how)
+    SceneLoader.FromFile.load(scene.toString, Preparation(settings, threads = threads))
+
+  def close(): Unit = prepared.close()
 
   for difference <- header.difference(FilmHeaders.of(settings, header.scene, prepared, scene)) do
     val help = "all files must be in one folder or below it, named relative to the scene"

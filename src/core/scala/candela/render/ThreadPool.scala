@@ -10,14 +10,26 @@ import java.util.concurrent.atomic.{AtomicInteger, AtomicReference}
   *
   * Callers never wait for a helper that has not begun: starting or waking one takes milliseconds
   * where the JIT compiler keeps all processors busy, and building a scene divides hundreds of small
-  * tasks. Helpers that find nothing to do for some seconds end; there is nothing to shut down.
+  * tasks. Helpers that find nothing to do for some seconds end. Whose pool it is closes it: all of
+  * its threads then end.
   *
   * @param worksAside false where nothing is rendered, for which work aside prepares
   */
-final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends Parallel:
+final class ThreadPool(val threads: Int, val worksAside: Boolean = true)
+    extends Parallel, AutoCloseable:
   require(threads >= 1, s"`threads` must be at least 1, found $threads")
 
-  private lazy val helpers =
+  private var isClosed = false
+  private var asides = Vector.empty[Thread]
+  private var working = Option.empty[ThreadPoolExecutor]
+
+  private def helpers: Option[ThreadPoolExecutor] = synchronized:
+    if isClosed then None
+    else
+      if working.isEmpty then working = Some(made())
+      working
+
+  private def made(): ThreadPoolExecutor =
     val started = AtomicInteger()
     val made = ThreadPoolExecutor(
       threads - 1,
@@ -25,7 +37,8 @@ final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends
       ThreadPool.Patience,
       SECONDS,
       LinkedBlockingQueue[Runnable](),
-      task => ThreadPool.thread(s"helper-${started.incrementAndGet()}", task)
+      task => ThreadPool.thread(s"helper-${started.incrementAndGet()}", task),
+      ThreadPoolExecutor.DiscardPolicy() // of what is asked once it is closed: the caller does it
     )
     made.allowCoreThreadTimeOut(true)
     made
@@ -46,16 +59,30 @@ final class ThreadPool(val threads: Int, val worksAside: Boolean = true) extends
           finally left.countDown()
           i = next.getAndIncrement()
       var more = Math.min(threads, count) - 1
-      while more > 0 do
-        helpers.execute(work)
-        more -= 1
+      for pool <- helpers do
+        while more > 0 do
+          pool.execute(work)
+          more -= 1
       work.run()
       left.await()
       val thrown = failure.get
       if thrown != null then throw thrown
 
   def aside(name: String)(task: => Unit): Unit =
-    if worksAside then ThreadPool.thread(name, () => task).start()
+    val work: Runnable = () =>
+      try task
+      catch case _: InterruptedException => ()
+    val thread = ThreadPool.thread(name, work)
+    synchronized:
+      if worksAside && !isClosed then
+        asides :+= thread
+        thread.start()
+
+  /** Ends its threads, soon; what is asked of it later, its callers do alone. */
+  def close(): Unit = synchronized:
+    isClosed = true
+    working.foreach(_.shutdown())
+    asides.foreach(_.interrupt())
 
 object ThreadPool:
   /** For textures within each other, in bytes; memory is taken only as it is used. */

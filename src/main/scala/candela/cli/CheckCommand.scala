@@ -3,6 +3,8 @@ package candela.cli
 import candela.base.{SceneError, Severity}
 import candela.job.{Prepared, SceneLoader}
 
+import scala.util.Using
+
 /** `candela check`: parses and builds scenes, prints their contents, and reports problems. */
 final class CheckCommand(
     options: Options,
@@ -35,7 +37,9 @@ final class CheckCommand(
     terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
 
   private def check(scene: String): ExitCode =
-    val read = loader.load(scene, options.preparation)
+    Using.resource(loader.load(scene, options.preparation))(check(scene, _))
+
+  private def check(scene: String, read: Prepared): ExitCode =
     val film = FilmName.problem(read.description)
     for p <- film if p.severity == Severity.Error do throw SceneError(read.warnings :+ p)
     val loaded = read.copy(warnings = read.warnings ++ film)

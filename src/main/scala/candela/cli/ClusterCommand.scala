@@ -73,7 +73,9 @@ private[cli] final class ClusterCommand(
     val prepared = renderer.load(scene, outfiles)
     val writer = renderer.images(scene, prepared, outfiles)
     val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
-    if writer.isDone then sequence.skip(scene)
+    if writer.isDone then
+      prepared.close()
+      sequence.skip(scene)
     else
       val path = film.getOrElse(Path.of("film"))
       val header = FilmHeaders.of(options.settings, scene, prepared, path, writer.paths)
@@ -94,6 +96,7 @@ private[cli] final class ClusterCommand(
       open = open.filterNot(_ eq next)
       samplesDone += next.work.total
       sequence.ended(next.scene)(guarded(finish(next)))
+      next.prepared.close()
 
   private def show(): Unit =
     if !options.quiet then

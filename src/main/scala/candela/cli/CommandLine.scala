@@ -3,12 +3,11 @@ package candela.cli
 import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
 
 import candela.base.{Problem, Suggest, Version}
-import candela.build.{BuildControl, RenderRegion, RenderSettings}
+import candela.build.{RenderRegion, RenderSettings}
 import candela.build.sampling.PointChoice
 import candela.convert.Baking
 import candela.image.DisplayTransform
 import candela.job.{Preparation, SceneLimits}
-import candela.render.ThreadPool
 import candela.scenefile.Dialect
 import candela.watch.WatchAddress
 
@@ -208,9 +207,15 @@ final case class Options(
     val region = if debug then RenderRegion.Whole else settings.region
     val shown = if pixelMaterial.isEmpty then Vector.empty else PixelMaterial.Layers
     val asked = settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
-    val pool = ThreadPool(threadCount, worksAside = command != Command.Check)
-    val control = BuildControl(pool, taken, footprint)
-    Preparation(asked, limits, control, isFirst = command != Command.Render)
+    Preparation(
+      asked,
+      limits,
+      threadCount,
+      isRendered = command != Command.Check,
+      taken,
+      footprint,
+      isFirst = command != Command.Render
+    )
 
   /** How pictures show linear light: those of renderings, and of images that are there. */
   def display: DisplayTransform = settings.output.display

@@ -10,7 +10,7 @@ import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
   * @param planned  samples per pixel at which it ends in any case
   * @param recorder measures the error
   */
-final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder) 
+final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
     extends RenderListener:
   private var isReached = false
   private var seen, step, parts = 0

@@ -14,9 +14,14 @@ object Main:
   def main(args: Array[String]): Unit =
     JavaWarnings.hush()
     Natives.find()
+    // Before the first class of AWT loads: a renderer must not open a display
+    if sys.props.get(Headless).isEmpty then
+      val _ = System.setProperty(Headless, "true")
     val code = run(args.toVector, Terminal.ofProcess)
     System.err.flush()
     System.exit(code)
+
+  private val Headless = "java.awt.headless"
 
   /** Runs a command line within another program; returns the exit code. */
   def run(args: Seq[String], out: PrintStream, err: PrintStream): Int =

@@ -32,19 +32,30 @@ final class MergeCommand(
         merged.map(Output.film(_, first.path.toString))
       outputs.foreach(register.check)
       val saved = FilmInput.options(first, options)
-      val loaded = loader.load(saved.files.head, saved.preparation)
-      val header = first.header
-      val images = header.outfiles.map(OutputFiles.path)
-      val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
-      register.read(SceneFiles.of(loaded.description))
-      outputs.foreach(register.write)
-      FilmInput.verify(first, now.copy(count = header.count))
-      val shards = films.flatMap(_.header.shards).toSet
-      val all = films.map(_.header.done).min
-      val done =
-        if shards.size == header.count then all else (all.toLong * shards.size / header.count).toInt
-      val film = header.copy(shards = shards, done = all)
-      write(film, films, outfiles, loaded, saved, done)
+      Using.resource(loader.load(saved.files.head, saved.preparation)): loaded =>
+        merge(films, loaded, saved, outfiles, outputs, register)
+
+  private def merge(
+      films: Vector[FilmFile],
+      loaded: Prepared,
+      saved: Options,
+      outfiles: OutputFiles,
+      outputs: Vector[Output],
+      register: FileRegister
+  ): ExitCode =
+    val first = films.head
+    val header = first.header
+    val images = header.outfiles.map(OutputFiles.path)
+    val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
+    register.read(SceneFiles.of(loaded.description))
+    outputs.foreach(register.write)
+    FilmInput.verify(first, now.copy(count = header.count))
+    val shards = films.flatMap(_.header.shards).toSet
+    val all = films.map(_.header.done).min
+    val done =
+      if shards.size == header.count then all else (all.toLong * shards.size / header.count).toInt
+    val film = header.copy(shards = shards, done = all)
+    write(film, films, outfiles, loaded, saved, done)
 
   private def write(
       header: FilmHeader,

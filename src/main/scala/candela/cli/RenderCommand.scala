@@ -10,6 +10,8 @@ import candela.scene.PathReport
 
 import java.nio.file.Path
 
+import scala.util.Using
+
 /** `candela render`: renders scenes to image files.
   *
   * @param resumed  the saved rendering to continue, if any
@@ -47,13 +49,13 @@ final class RenderCommand(
         world = None
         sequence.ended(frame.scene):
           report.guarded:
-            val prepared = load(frame.scene, frame.outfiles, n)
-            if isLookedAt then look(prepared)
-            else
-              val isFollowed = prepared.description.isFollowed
-              val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
-              world = Option.when(isFollowed)(n + 1)
-              render(frame.scene, prepared, names, sequence)
+            Using.resource(load(frame.scene, frame.outfiles, n)): prepared =>
+              if isLookedAt then look(prepared)
+              else
+                val isFollowed = prepared.description.isFollowed
+                val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
+                world = Option.when(isFollowed)(n + 1)
+                render(frame.scene, prepared, names, sequence)
     if !options.quiet && !cancellation.isRequested then
       sequence.summary.foreach(terminal.out.println)
     terminal.out.flush()

@@ -73,6 +73,30 @@ class ThreadPoolSuite extends AnyFunSuite:
     val found = thread.get(10, java.util.concurrent.TimeUnit.SECONDS)
     assert(found.getName == "candela-some-task" && found.isDaemon)
 
+  test("the threads of a pool that is closed end, and what it is asked then is done all the same"):
+    import java.util.concurrent.ConcurrentHashMap
+    val seen = ConcurrentHashMap.newKeySet[Thread]()
+    val pool = ThreadPool(3)
+    def work(): Int =
+      val done = AtomicInteger()
+      pool.each(100): _ =>
+        seen.add(Thread.currentThread): Unit
+        done.incrementAndGet(): Unit
+      done.get
+    assert(work() == 100)
+    val begun = CountDownLatch(1)
+    pool.aside("endless"):
+      seen.add(Thread.currentThread): Unit
+      begun.countDown()
+      Thread.sleep(Long.MaxValue)
+    begun.await()
+    pool.close()
+    seen.remove(Thread.currentThread): Unit
+    for thread <- seen.toArray(Array.empty[Thread]) do
+      thread.join(10_000)
+      assert(!thread.isAlive, thread.getName)
+    assert(work() == 100)
+
   test("nothing runs aside where nothing is rendered"):
     val hasRun = CountDownLatch(1)
     ThreadPool(2, worksAside = false).aside("some-task")(hasRun.countDown())

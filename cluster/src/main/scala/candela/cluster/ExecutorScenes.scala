@@ -30,7 +30,10 @@ object ExecutorScenes:
       finally delete(folder)
     scenes += key -> renderer
     // A sequence renders a few at a time.
-    while scenes.size > Kept do scenes -= scenes.head._1
+    while scenes.size > Kept do
+      val (oldest, its) = scenes.head
+      scenes -= oldest
+      its.close()
     renderer
 
   def newFolder(): Path = Files.createTempDirectory(root, "work")

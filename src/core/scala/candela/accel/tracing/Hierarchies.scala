@@ -10,18 +10,21 @@ object Hierarchies:
   /** Prepares for hierarchies of a scene with this many camera samples, while it is built; where
     * the number of primitives decides, that waits until it is known.
     */
-  def expect(samples: Long, parallel: Parallel): Unit =
-    if samples >= Many then WarmUp.begin(parallel, hasVectors)
+  def expect(samples: Long, parallel: Parallel, warmUps: WarmUps): Unit =
+    if samples >= Many then warmUps.begin(parallel, hasVectors)
 
-  /** @param samples upper bound of the number of camera samples */
+  /** @param samples upper bound of the number of camera samples
+    * @param warmUps those of the job
+    */
   def of(
       primitives: Primitives,
       parallel: Parallel = Parallel.Alone,
-      samples: Long = Long.MaxValue
+      samples: Long = Long.MaxValue,
+      warmUps: WarmUps = WarmUps()
   ): Accelerator =
     if primitives.count > Most then Bvh(primitives, parallel = parallel)
     else if isWorthIt(primitives.count, samples) && hasVectors then
-      vector(primitives, parallel = parallel)
+      vector(primitives, parallel = parallel, warmUps = warmUps)
     else scalar(primitives, parallel = parallel)
 
   /** Whether SIMD code repays its loading and compilation, of about a second of processor time. */
@@ -42,11 +45,12 @@ object Hierarchies:
   def vector(
       primitives: Primitives,
       atOnce: Boolean = false,
-      parallel: Parallel = Parallel.Alone
+      parallel: Parallel = Parallel.Alone,
+      warmUps: WarmUps = WarmUps()
   ): Accelerator =
-    if !atOnce then WarmUp.begin(parallel, true)
+    if !atOnce then warmUps.begin(parallel, true)
     val tree = WideBuilder.of(primitives, VectorKernel.width, VectorKernel.lanes, MaxLeaf, parallel)
-    WideBvh(tree, VectorKernel, atOnce)
+    WideBvh(tree, VectorKernel, atOnce, warmUps)
 
   private[tracing] def careful(primitives: Primitives): Accelerator =
     WideBvh(WideBuilder.of(primitives, 8, 8, MaxLeaf, Parallel.Alone), CarefulKernel, atOnce = true)

@@ -24,7 +24,7 @@ private[tracing] final class WarmUp(
 ):
   import WarmUp.*
 
-  /** Whether the kernel has been faster, for all scenes of the process. Never reverts. */
+  /** Whether the kernel has been faster. Never reverts. */
   @volatile var isOver = false
 
   /** Traces a batch of rays by both kernels; the SIMD kernel must be faster for most of them.
@@ -56,16 +56,16 @@ private[tracing] object WarmUp:
   /** Batches after which the launcher's JVM compiles the kernel (see `lib/options`; others do after
     * 5,000 calls).
     */
-  private final val Enough = 20
+  final val Enough = 20
 
   /** Rest after each later batch, relative to its time. */
-  private final val Rest = 3L
+  final val Rest = 3L
 
   /** Longest rest in milliseconds: a batch takes long if it waits for the compiler. */
-  private final val Longest = 20L
+  final val Longest = 20L
 
   /** Seconds after which a kernel that is not faster is given up. */
-  private final val Patience = 60L
+  final val Patience = 60L
 
   private final val Triangles = 500
 
@@ -77,29 +77,6 @@ private[tracing] object WarmUp:
   /** Either query of a kernel. */
   trait Query:
     def apply(kernel: WideKernel, tree: WideTree, ray: Ray, hit: Hit): Boolean
-
-  val closest: WarmUp = WarmUp(_.closest(_, _, _))
-  val occluded: WarmUp = WarmUp(_.isOccluded(_, _, _))
-
-  private val hasBegun = AtomicBoolean()
-
-  /** Begins, unless it did before. The thread asks whether there are vectors: that takes time. */
-  def begin(parallel: Parallel, hasVectors: => Boolean): Unit =
-    if parallel.worksAside && hasBegun.compareAndSet(false, true) then
-      parallel.aside("warm-up")(if hasVectors then run(VectorKernel))
-
-  private def run(fast: VectorKernel.type): Unit =
-    val random = SplittableRandom(1)
-    val tree = testTree(random, fast.width, fast.lanes)
-    val rays = TestRays(random)
-    val end = System.nanoTime + Patience * 1000000000L
-    var batches = 0
-    while !(closest.isOver && occluded.isOver) && System.nanoTime < end do
-      var nanos = 0L
-      if !closest.isOver then nanos += closest.attempt(tree, fast, rays)
-      if !occluded.isOver then nanos += occluded.attempt(tree, fast, rays)
-      batches += 1
-      if batches > Enough then Thread.sleep(Math.min(nanos * Rest / 1000000L, Longest))
 
   /** Small random triangles with corners at multiples of 1/[[Steps]], and a few spheres, in the
     * unit cube. Rays miss whole nodes, pass through edges and corners, hit two triangles at once
@@ -142,3 +119,33 @@ private[tracing] object WarmUp:
       def next() =
         if isCorner then random.nextInt(Steps + 1).toFloat / Steps else random.nextDouble().toFloat
       Vec3(next(), next(), next())
+
+/** The warm-ups of both queries, of one job: it ends with the job's threads. What the JVM has
+  * compiled for another job is known at once, after a batch.
+  */
+final class WarmUps:
+  import WarmUp.*
+
+  private[tracing] val closest = WarmUp(_.closest(_, _, _))
+  private[tracing] val occluded = WarmUp(_.isOccluded(_, _, _))
+  private val hasBegun = AtomicBoolean()
+
+  private[tracing] def areOver: Boolean = closest.isOver && occluded.isOver
+
+  /** Begins, unless it did before. The thread asks whether there are vectors: that takes time. */
+  private[tracing] def begin(parallel: Parallel, hasVectors: => Boolean): Unit =
+    if parallel.worksAside && hasBegun.compareAndSet(false, true) then
+      parallel.aside("warm-up")(if hasVectors then run(VectorKernel))
+
+  private def run(fast: VectorKernel.type): Unit =
+    val random = SplittableRandom(1)
+    val tree = testTree(random, fast.width, fast.lanes)
+    val rays = TestRays(random)
+    val end = System.nanoTime + Patience * 1000000000L
+    var batches = 0
+    while !areOver && System.nanoTime < end && !Thread.currentThread.isInterrupted do
+      var nanos = 0L
+      if !closest.isOver then nanos += closest.attempt(tree, fast, rays)
+      if !occluded.isOver then nanos += occluded.attempt(tree, fast, rays)
+      batches += 1
+      if batches > Enough then Thread.sleep(Math.min(nanos * Rest / 1000000L, Longest))

@@ -11,9 +11,14 @@ import candela.math.magnitudeBits
   *
   * @param fast   kernel for all rays once it is faster
   * @param atOnce whether `fast` is used without a warm-up
+  * @param warmUps those of the job, otherwise
   */
-final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, atOnce: Boolean)
-    extends Accelerator:
+final class WideBvh private[tracing] (
+    tree: WideTree,
+    fast: WideKernel,
+    atOnce: Boolean,
+    warmUps: WarmUps = WarmUps()
+) extends Accelerator:
   val bounds: Bounds3 = tree.bounds
   private val isTame = WideKernel.isTame(bounds)
 
@@ -24,10 +29,10 @@ final class WideBvh private[tracing] (tree: WideTree, fast: WideKernel, atOnce: 
 
   def closest(ray: Ray, hit: Hit): Boolean =
     hit.primitive = -1
-    traverse(ray, WarmUp.closest, _.closest(tree, ray, hit))
+    traverse(ray, warmUps.closest, _.closest(tree, ray, hit))
 
   def isOccluded(ray: Ray, hit: Hit): Boolean =
-    traverse(ray, WarmUp.occluded, _.isOccluded(tree, ray, hit))
+    traverse(ray, warmUps.occluded, _.isOccluded(tree, ray, hit))
 
   private inline def traverse(
       ray: Ray,

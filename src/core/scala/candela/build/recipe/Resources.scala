@@ -9,7 +9,7 @@ import candela.color.ColorBasis
 import candela.scenefile.{Declaration, NameKind, Param}
 import candela.textures.{FloatTexture, RgbTexture}
 
-/** Resources that statements of a scene file refer to: textures, materials and files.
+/** What statements of a scene file refer to: textures, materials and files.
   *
   * @param basis colour basis of the runtime scene
   * @param pool  executes divisible work

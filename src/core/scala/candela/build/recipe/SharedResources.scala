@@ -5,6 +5,7 @@ import java.util.concurrent.ConcurrentHashMap
 
 import scala.collection.mutable
 
+import candela.accel.tracing.WarmUps
 import candela.base.{Allowance, InputFile, Limit, SceneFolder, SourcePos}
 import candela.color.ColorBasis
 import candela.bsdf.layered.Coats
@@ -30,6 +31,9 @@ final class SharedResources(
 
   /** Tables of coated materials, shared by materials with equal parameters. */
   val coats = Coats()
+
+  /** Of the SIMD kernels. */
+  val warmUps = WarmUps()
 
   /** BSSRDF profile tables, shared by materials with equal parameters. */
   val profiles = ProfileTables()

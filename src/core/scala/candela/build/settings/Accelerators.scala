@@ -22,7 +22,8 @@ object BvhRecipe
 
   /** The default accelerator. */
   def accelerator(resources: Resources): AcceleratorPlan =
-    (primitives, samples) => Hierarchies.of(primitives, resources.pool, samples)
+    (primitives, samples) =>
+      Hierarchies.of(primitives, resources.pool, samples, resources.warmUps)
 
 object GridRecipe
     extends Recipe[AcceleratorPlan]("grid", "uniform grid", onlyV2):
