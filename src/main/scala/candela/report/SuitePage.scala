@@ -48,7 +48,7 @@ object SuitePage:
     )
 
   private def warnings(r: SuiteReport): Option[Frag] =
-    val all = r.machine.business.toVector ++ r.disturbances
+    val all = r.business.toVector ++ r.disturbances
     Option.when(all.nonEmpty):
       div(
         cls := "warning",
@@ -74,7 +74,7 @@ object SuitePage:
           case None => td()
           case Some((None, _)) => td("–")
           case Some((Some((number, text)), isDisturbed)) =>
-            val mark = Option.when(isDisturbed || r.machine.business.isDefined)(" ⚠")
+            val mark = Option.when(isDisturbed || r.business.isDefined)(" ⚠")
             td(Option.when(best.contains(number))(cls := "best"), text, mark)
       tr(td(s.title), td(key(s).getOrElse("–")), cells)
     Page.scrolling(head, rows)

@@ -68,6 +68,12 @@ final case class SuiteReport(
     scenes: Vector[SceneResult],
     leftOut: Vector[(String, String)]
 ):
+  /** What the load at the start tells. It may be that of what had just ended: where the share of
+    * other programs is known of all runs, that tells.
+    */
+  def business: Option[String] =
+    machine.business.filter(_ => scenes.exists(_.programs.exists(_.others.isEmpty)))
+
   /** Where other programs took much of the machine, in words. */
   def disturbances: Vector[String] = scenes.flatMap: s =>
     val shares =

@@ -109,6 +109,7 @@ class MaskSuite extends AnyFunSuite:
     val n = 20000
     val met = (0 until n).count: _ =>
       world.isOccluded(down(draws.between(-0.5f, 0.5f), draws.between(-0.5f, 0.5f)), hit)
+    // Five standard deviations of a binomial count
     assert(Math.abs(met - 0.75 * n) < 5 * Math.sqrt(n * 0.75 * 0.25))
 
   test("scenes without holes are traced through primitives that know of none"):

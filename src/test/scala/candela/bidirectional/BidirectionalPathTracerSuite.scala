@@ -164,6 +164,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       meanAndVariance(means(text, Dialect.V3))
     val (a, va) = found("\"bdpt\" \"integer maxdepth\" 4")
     val (b, vb) = found("\"path\" \"integer maxdepth\" 4")
+    // Five deviations, as above
     assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
     assert(Math.sqrt(va + vb) < 0.005 * b, "too much noise to tell")
 
@@ -183,6 +184,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       meanAndVariance(means(text, Dialect.V4))
     val (a, va) = found("\"bdpt\" \"integer maxdepth\" 12")
     val (b, vb) = found("\"path\" \"integer maxdepth\" 12")
+    // Five deviations, as above
     assert(Math.abs(a - b) / Math.sqrt(va + vb) < 5, s"$a, expected $b")
     assert(Math.sqrt(va + vb) < 0.002 * b, "too much noise to tell")
 
@@ -245,6 +247,7 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
     val expected = SceneTexts.mean(text("SurfaceIntegrator \"path\"", ""), Dialect.V2)
     for integrator <- Seq("SurfaceIntegrator \"photonmap\"", "Renderer \"metropolis\"") do
       val found = SceneTexts.mean(text(integrator, glass), Dialect.V2)
+      // Of light paths 2 % reach the view: of 32,000 photons that leaves 4 %, of 100,000 paths 2 %
       assert(Math.abs(found.g / expected.g - 1f) < 0.04f, s"$found, expected $expected")
 
   test("the image is the same bit for bit by one thread and by three"):
@@ -287,4 +290,5 @@ final class BidirectionalPathTracerSuite extends AnyFunSuite:
       (for y <- 4 until 8; x <- 2 until 6 yield whole(x, y, 1)).sum,
       (for y <- 0 until 4; x <- 0 until 4 yield crop(x, y, 1)).sum
     )
+    // 32,000 paths of the whole and 128,000 of the crop: at deviations of 2, 1.1 and 0.6 %
     assert(Math.abs(a / b - 1f) < 0.03f)

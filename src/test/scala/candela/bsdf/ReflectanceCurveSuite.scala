@@ -27,12 +27,12 @@ class ReflectanceCurveSuite extends AnyFunSuite:
     assert(line(1f) == Rgb(1f, 0f, 0.5f))
     assert(line(1.0000001f) == line(1f))
 
-  test("a metal's curve is within 0.002 of its table of 64 values"):
+  test("a metal's curve is within 0.0005 of its table of 64 values"):
     val metal = ConductorReflectance(Rgb(0.2f, 0.9f, 1.1f), Rgb(3.9f, 2.6f, 2.4f))
     val table = TabulatedReflectance(64, metal.apply)
     for i <- 0 to 1000 do
       val c = i / 1000f
-      assert((table(c) - metal(c)).map(x => Math.abs(x)).max < 0.002f, s"at $c")
+      assert((table(c) - metal(c)).map(x => Math.abs(x)).max < 5e-4f, s"at $c")
 
   test("a table is computed when it is first asked, once"):
     var count = 0

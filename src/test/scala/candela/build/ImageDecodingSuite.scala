@@ -48,6 +48,7 @@ final class ImageDecodingSuite extends AnyFunSuite:
   test("raw images of Mitsuba's scenes are read as they are, JPEG as PNG"):
     Samples.inFolder: folder =>
       for name <- Vector("a.png", "a.jpg") do
+        // A code of 8 bits is 1 / 255, and JPEG is off by up to two
         assert(Math.abs(wall(folder, name, raw = true) - 0.5f) < 0.01f, name)
         assert(Math.abs(wall(folder, name, raw = false) - 0.214f) < 0.01f, name)
 

@@ -221,7 +221,7 @@ final class SceneBuilderSuite extends AnyFunSuite:
     val film = "Film \"rgb\" \"integer xresolution\" 2 \"integer yresolution\" 2 " +
       "Sampler \"independent\" \"integer pixelsamples\" 1 Camera \"perspective\" WorldBegin "
     val light = "LightSource \"infinite\" \"rgb L\" [.5 1 .25]"
-    def close(c: Rgb, wanted: Rgb) = (c - wanted).map(Math.abs).max < 1e-4f
+    def close(c: Rgb, wanted: Rgb) = (c - wanted).map(Math.abs).max < 2e-5f
     for space <- ColorSpace.all do
       val own = SceneTexts.mean(s"ColorSpace \"$space\" $film $light", Dialect.V4)
       assert(close(own, Rgb(.5f, 1f, .25f)), s"$space: $own")

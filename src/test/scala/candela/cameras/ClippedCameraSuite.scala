@@ -21,10 +21,10 @@ class ClippedCameraSuite extends AnyFunSuite:
         camera.generate(x, y, u, v, whole)
         clipped.generate(x, y, u, v, ray)
         def inside(t: Float) = toWorld.inverse.point(ray.origin + ray.direction * t)
-        assert(Math.abs(inside(0f).z - 0.5f) < 1e-5f && Math.abs(inside(ray.tMax).z - 4f) < 1e-4f)
+        assert(Math.abs(inside(0f).z - 0.5f) < 1e-5f && Math.abs(inside(ray.tMax).z - 4f) < 1e-5f)
         assert((ray.direction - whole.direction).length == 0f)
         val onWay = (ray.origin - whole.origin).normalized
-        assert((onWay - ray.direction.normalized).length < 1e-4f): Unit
+        assert((onWay - ray.direction.normalized).length < 1e-5f): Unit
 
   test("points in front of the near plane and behind the far one are not seen"):
     val setup = ProjectiveSetup(Transform.Identity, 10, 10, (-1f, 1f, -1f, 1f), 0f, 1f)

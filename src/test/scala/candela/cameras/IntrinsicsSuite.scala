@@ -87,7 +87,7 @@ final class IntrinsicsSuite extends AnyFunSuite:
            |""".stripMargin
       near(centre(SceneTexts.plan(text, Dialect.V4)), fx * x / z + cx, fy * y / z + cy)
 
-  test("Mitsuba's field of view by the focal length, without an offset"):
+  test("Mitsuba's field of view follows from the focal length, without an offset"):
     val f = 60.0
     val fov = Math.toDegrees(2 * Math.atan(width / (2 * f)))
     for (x, y, z) <- points do

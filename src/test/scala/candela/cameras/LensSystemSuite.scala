@@ -28,6 +28,7 @@ final class LensSystemSuite extends AnyFunSuite:
 
   test("the double Gauss lens has the focal length it is sold for"):
     val thick = LensFocus.thickLens(Lenses.doubleGauss(), 1e-5).get
+    // Focal lengths are sold in whole millimetres
     assert(Math.abs(thick.focalLength - 0.05) < 0.0005)
 
   test("paraxial rays from the focused film meet where the focus is"):
@@ -48,7 +49,7 @@ final class LensSystemSuite extends AnyFunSuite:
     val focused = LensFocus.focused(lens, 2, 0.035).toOption.get
     val thick = LensFocus.thickLens(focused, 1e-5).get
     val found = 1 / (2 - thick.scenePlane) + 1 / thick.filmPlane
-    assert(Math.abs(found - 1 / thick.focalLength) < 1e-2)
+    assert(Math.abs(found - 1 / thick.focalLength) < 2e-4)
 
   test("what is too near can't be focused, and it is said which is the nearest"):
     val why = LensFocus.focused(Lenses.doubleGauss(), 0.1, 0.035).left.toOption.get

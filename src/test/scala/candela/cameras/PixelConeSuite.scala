@@ -31,9 +31,9 @@ class PixelConeSuite extends AnyFunSuite:
       val at = facing(5f)
       at.p = ray.at(5f / (ray.direction dot toWorld.vector(Vec3.Z)))
       assert(ray.differential.meet(at))
-      assert(abs(at.dpdx.length - step / 4) < 2e-3f * step)
-      assert(abs(at.dpdy.length - step / 4) < 2e-3f * step)
-      assert(abs(at.dpdx.normalized dot at.dpdy.normalized) < 1e-2f)
+      assert(abs(at.dpdx.length - step / 4) < 2e-4f * step)
+      assert(abs(at.dpdy.length - step / 4) < 2e-4f * step)
+      assert(abs(at.dpdx.normalized dot at.dpdy.normalized) < 1e-3f)
 
   test("without a differential, the footprint is that of the sharpest pixel at the same distance"):
     val camera = PerspectiveCamera(setup(0f), 60f)
@@ -50,4 +50,4 @@ class PixelConeSuite extends AnyFunSuite:
     for distance <- Seq(1f, 10f) do
       val at = facing(distance)
       cone.meet(at)
-      assert(abs(at.dpdx.length - 2f / 60) < 1e-4f && abs(at.dpdy.length - 2f / 60) < 1e-4f)
+      assert(abs(at.dpdx.length - 2f / 60) < 2e-5f && abs(at.dpdy.length - 2f / 60) < 2e-5f)

@@ -57,6 +57,7 @@ final class SphericalCameraSuite extends AnyFunSuite:
     for y <- 0 until 64 do
       val found = (0 until 64).map(x => solidAngle(latLong, x.toFloat, y.toFloat, 1f)).sum
       val (top, bottom) = (Math.cos(Math.PI * y / 64), Math.cos(Math.PI * (y + 1) / 64))
+      // Great circles cut corners: at a pole, by (2π / 64)² / 6 = 0.16 %
       assert(Math.abs(found / (2 * Math.PI * (top - bottom)) - 1) < 0.005)
 
   test("beyond a border an image goes on where the sphere does"):
@@ -68,7 +69,7 @@ final class SphericalCameraSuite extends AnyFunSuite:
           (direction(camera, i.toFloat, e), direction(camera, i.toFloat, -e)),
           (direction(camera, i.toFloat, size - e), direction(camera, i.toFloat, size + e))
         )
-      do assert((a - b).length < 1e-3f)
+      do assert((a - b).length < 3e-4f)
 
   test("differentials are as wide as pixels"):
     val (ray, scratch) = (Ray(), Ray())
@@ -76,5 +77,5 @@ final class SphericalCameraSuite extends AnyFunSuite:
     latLong.differential(20f, 30f, 0.5f, 0.5f, 0.5f, ray, scratch)
     val d = ray.differential
     val wide = 2 * Math.PI / 64 * Math.sin(Math.PI * 30 / 64) / 2
-    assert(Math.abs((d.xDirection - ray.direction).length - wide) < 1e-3 * wide + 1e-5)
-    assert(Math.abs((d.yDirection - ray.direction).length - Math.PI / 128) < 1e-4)
+    assert(Math.abs((d.xDirection - ray.direction).length - wide) < 2e-4 * wide)
+    assert(Math.abs((d.yDirection - ray.direction).length - Math.PI / 128) < 2e-6)

@@ -52,7 +52,7 @@ class FilmNameSuite extends AnyFunSuite:
         val (code, captured) = Captured.run(words*)
         assert(code == 0 && !captured.err.contains("names its image"), captured.err)
 
-  test("frames warn each"):
+  test("each frame warns of its name"):
     TempFolder.use: folder =>
       for i <- 1 to 2 do
         val name = folder.resolve(s"a$i.exr").toString

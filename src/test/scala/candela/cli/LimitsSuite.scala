@@ -138,7 +138,7 @@ class LimitsSuite extends AnyFunSuite:
         Captured.run("check", "--explain", "--limit", "depth=77", file.toString)
       assert(code == 0 && captured.out.contains("77"), captured.out + captured.err)
 
-  test("samples"):
+  test("samples have a limit"):
     val many = scene("").replace("\"integer pixelsamples\" 1", "\"integer pixelsamples\" 65537")
     refused("samples=65536", "65537 samples per pixel, where at most 65536 are allowed", ":2:9")(
       "s.pbrt" -> many

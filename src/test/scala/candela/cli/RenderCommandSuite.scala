@@ -62,6 +62,7 @@ class RenderCommandSuite extends AnyFunSuite:
       assert((exr(3, 2, 0), exr(3, 2, 1), exr(3, 2, 2)) == (0.5f, 0.25f, 2f))
       val png = ImageFiles.read(folder.resolve("a.png")).linear
       for (wanted, c) <- Vector(0.125f, 0.0625f, 0.5f).zipWithIndex do
+        // Half a code of 8 bits: 0.003 of light at 0.5
         assert(Math.abs(png(3, 2, c) - wanted) < 0.005f)
       assert(captured.out.count(_ == '▀') == 40 * 14)
       def has(file: String) =
@@ -176,6 +177,7 @@ class RenderCommandSuite extends AnyFunSuite:
             Denoising.Channels(i)
           )
         )
+        // A network denoises: it returns even a flat colour only to a percent or two
         assert(Math.abs(image(8, 8, denoised) - image(8, 8, noisy)) < 0.02f, c)
 
   test("--denoise adds a layer, marks it as biased, and pictures show it"):

@@ -41,7 +41,7 @@ class SeveralScenesSuite extends AnyFunSuite:
     val why = refused("a/x.pbrt" -> text, "b/x.pbrt" -> text)()
     assert(why.contains("the image of `b/x.pbrt` would overwrite that of `a/x.pbrt`: x.exr"), why)
 
-  test("previews, too"):
+  test("previews that would overwrite one another are refused, too"):
     TempFolder.use: folder =>
       for name <- Vector("a", "b") do
         val _ = Files.createDirectory(folder.resolve(name))

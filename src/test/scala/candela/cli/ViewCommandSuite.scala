@@ -34,6 +34,7 @@ class ViewCommandSuite extends AnyFunSuite:
         run(images ++ Seq("--outfile", out, "--exposure", "auto", "--columns", "3")*)
       assert(code == 0)
       val read = ImageFiles.read(Path.of(out)).linear
+      // Half a code of 8 bits: 0.0016 of light at 0.18
       val grey = read.data.count(v => Math.abs(v - 0.18f) < 2e-3f)
       assert(grey == 3 * 40 * 20 * 3)
 

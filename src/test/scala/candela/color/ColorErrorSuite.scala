@@ -109,4 +109,5 @@ class ColorErrorSuite extends AnyFunSuite:
     assert(median <= 3)
 
   test("without colours there is no error"):
+    // Digits of sRGB's and the basis' matrices
     assert(ColorError.bound(Seq(light(Colorimetry.D65(_))), Seq(grey), basis, depth) < 1e-4)

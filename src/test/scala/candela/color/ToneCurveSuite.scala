@@ -25,7 +25,8 @@ class ToneCurveSuite extends AnyFunSuite:
     for curve <- ToneCurve.values.filter(_ != ToneCurve.Linear) do
       val grays = (0 to 400).map(i => curve(Rgb.gray(Math.pow(2, i / 20.0 - 12).toFloat)))
       assert(grays.sliding(2).forall(p => p(1).luminance >= p(0).luminance - 1e-6f), curve)
-      assert(curve(Rgb.Black).largest < 1e-3f, curve)
+      assert(curve(Rgb.Black).largest < 1e-6f, curve)
+      // AgX's polynomial ends at 0.9986, which its exponent of 2.2 makes 0.997
       assert((curve(Rgb.gray(1e30f)) - Rgb.White).largest < 5e-3f, curve)
 
   test("values stay in [0, 1], whatever the light"):

@@ -14,6 +14,7 @@ class WavelengthsSuite extends AnyFunSuite:
   test("daylight is white, whatever light wavelengths are chosen for"):
     for light <- Seq(Colorimetry.D65, Spectrum.blackbody(2400f)) do
       val bases = Wavelengths.covering(64, smooth, light(_).toDouble)
+      // 192 wavelengths are the quadrature, chosen for another light than this in one case
       assert(relative(seen(bases)(_.ofLight(Rgb.White)), Rgb.White) < 6e-3f)
 
   test("light that is looked up has its colour, however dark, as images of skies are"):
@@ -21,6 +22,7 @@ class WavelengthsSuite extends AnyFunSuite:
     val sky = Rgb(.0072f, .0386f, .0748f)
     for color <- Seq(sky, sky * 10f, sky * 100f) do
       val found = seen(bases)(b => b.lookUpLight(color) * b.ofLight(Rgb.White))
+      // The quadrature of 192 wavelengths, as above, and a table of spectra
       assert(relative(found, color) < 6e-3f, s"$found, not $color")
 
   test("lamps have their colours, and bands between the observer's samples, too"):
@@ -29,6 +31,7 @@ class WavelengthsSuite extends AnyFunSuite:
       val color = Colorimetry.unitLuminance(lamp)
       val bases = Wavelengths.covering(64, smooth, nm => 0.1 + lamp(nm))
       val found = seen(bases)(_.ofLight(lamp(_), color))
+      // Few of the 192 wavelengths lie in a band of 8 nm or the lines of a fluorescent lamp
       assert(relative(found, color) < 1e-2f, s"$found, not $color")
 
   test("wavelengths lie where the scene's light is"):

@@ -45,6 +45,7 @@ class MeaningSuite extends AnyFunSuite:
     val a = SceneTexts.mean(start + light, from)
     val b = SceneTexts.mean(Descriptions.text(made.scene), to)
     for (x, y) <- Seq(a.r -> b.r, a.g -> b.g, a.b -> b.b) do
+      // Before and after, spectra have their colours to 1e-3: see ColorimetrySuite
       assert(Math.abs(x - y) < 2e-3 * Math.max(1f, Math.abs(x)), s"$light: $a and $b")
 
   test("flat spectra of media stay grey"):
@@ -53,6 +54,7 @@ class MeaningSuite extends AnyFunSuite:
     val made = converted(fog, Dialect.V4, Dialect.V3)
     val scattered = made.scene.media.head._2.param("sigma_s").get
     assert(scattered.paramType == ParamType.Rgb)
+    // White is right to 1e-3: see ColorimetrySuite
     assert(scattered.floats.forall(x => Math.abs(x - 0.6f) < 1e-3f))
 
   test("lights are as bright and have the same colour, however they are written"):

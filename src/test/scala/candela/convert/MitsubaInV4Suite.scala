@@ -94,6 +94,7 @@ class MitsubaInV4Suite extends AnyFunSuite:
         val written = file("a.jpg")
         assert(written.endsWith(".exr"))
         val image = ImageFiles.read(folder.resolve(written)).linear
+        // A code of 8 bits is 1 / 255, and JPEG is off by up to two
         assert(image.data.forall(x => Math.abs(x - 0.5f) < 0.01f))
 
   test("a metal whose reflection is scaled keeps its albedo"):

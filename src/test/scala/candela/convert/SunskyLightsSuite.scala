@@ -61,7 +61,7 @@ class SunskyLightsSuite extends AnyFunSuite:
   test("the sun's map has the sun's irradiance, at its place"):
     val expected = Rgb(1.5f, 1f, 0.5f)
     val (image, scale) = SunImage(toSun, 0.5358f, expected)
-    assert((irradiance(image, scale) - expected).map(Math.abs(_)).max < 1e-4f)
+    assert((irradiance(image, scale) - expected).map(Math.abs(_)).max < 1e-5f)
     assert(image.data.max <= 1f)
     val lit = image.data.indices.by(3).filter(i => image.data(i) > 0f).map(_ / 3)
     val side = image.width
@@ -71,6 +71,7 @@ class SunskyLightsSuite extends AnyFunSuite:
 
   test("half of a sun at the horizon is dark"):
     val (image, scale) = SunImage(Vec3.Y, 2f, Rgb.White)
+    // The horizon crosses 160 of the disk's 20,000 directions, half of which are 0.4 %
     assert(Math.abs(irradiance(image, scale).r - 0.5f) < 0.005f)
 
   test("half of a pixel of the sky at the horizon is dark"):
@@ -78,4 +79,5 @@ class SunskyLightsSuite extends AnyFunSuite:
     def mean(parts: Int) =
       val sky = SunAndSky.picture(model, toSun, 32, 32, EqualAreaMap, parts)
       sky.data.foldLeft(0.0)(_ + _)
+    // Four directions a pixel for its mean; whole pixels at the horizon would add 6 %
     assert(Math.abs(mean(2) / mean(16) - 1) < 0.02)

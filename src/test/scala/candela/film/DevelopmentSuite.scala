@@ -23,6 +23,7 @@ final class DevelopmentSuite extends AnyFunSuite:
 
   test("balanced for daylight of 6500 K, sRGB's white stays; for warm light it becomes blue"):
     val near = developed(Rgb.White, Development(balance = Some(WhiteBalance.ofDaylight(6500f))))
+    // Daylight of nominally 6500 K differs from D65 in the fourth digit
     assert(near.forall(v => Math.abs(v - 1f) < 2e-3f), near)
     val cold = developed(Rgb.White, Development(balance = Some(WhiteBalance.ofDaylight(4500f))))
     assert(cold(2) > 1.2f && cold(0) < 1f)

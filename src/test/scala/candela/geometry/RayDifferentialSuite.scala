@@ -82,6 +82,7 @@ class RayDifferentialSuite extends AnyFunSuite:
       if (at.dpdu.normalized cross at.dpdv.normalized).length > 0.2f then
         at.footprintInUv()
         val found = Seq(at.dudx, at.dvdx, at.dudy, at.dvdy)
+        // 6e-8 over the squared sine between the tangents, 0.04, times the ratio of their lengths
         assert(found.zip(Seq(a, b, c, d)).forall((x, y) => abs(x - y) < 1e-4f), s"$found"): Unit
 
   test("a ray along the surface has no footprint, and says so"):

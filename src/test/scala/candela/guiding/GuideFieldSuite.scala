@@ -52,6 +52,7 @@ class GuideFieldSuite extends AnyFunSuite:
   test("exponentials are exact to five digits"):
     for i <- 0 to 2000 do
       val x = -0.02f * i
+      // The series of `Lobe.exp` is right to five digits
       assert(Math.abs(Lobe.exp(x) / Math.exp(x) - 1.0) < 5e-6, x)
 
   test("what is recorded is the same in any order, by any number of workers"):

@@ -50,7 +50,7 @@ class DisplayTransformSuite extends AnyFunSuite:
     val view = DisplayTransform(falseColor = true)
     val shown = view(gray(0.18f, 0.18f * 64, 0.18f / 64, 1e9f, 0f, Float.NaN))
     for (place, x) <- Vector(0.5, 1.0, 0.0, 1.0, 0.0, 0.0).zipWithIndex; c <- 0 until 3 do
-      assert(Math.abs(shown(x, 0, c) - Magma(place, c)) < 1e-4f, s"pixel $x")
+      assert(Math.abs(shown(x, 0, c) - Magma(place, c)) < 1e-5f, s"pixel $x")
 
   test("dithering keeps the mean between two codes, and values that are codes"):
     val value = Srgb.decode(100.25f / 255)

@@ -13,6 +13,7 @@ class JpegSuite extends AnyFunSuite:
     val back = StbReader.read(Jpeg.write(slope, Vector.empty)).toImage
     assert((back.width, back.height) == (64, 48))
     val errors = back.data.indices.map(i => Math.abs(back.data(i) - Srgb.encode(slope.data(i))))
+    // Two codes, and half a one of rounding
     assert(errors.max < 2.5f / 255)
 
   test("metadata is stored as a comment"):
@@ -23,6 +24,7 @@ class JpegSuite extends AnyFunSuite:
     val options =
       WriteOptions(display = DisplayTransform(bits = 16, exposure = Exposure.Stops(-1f)))
     val back = StbReader.read(Jpeg.write(slope, Vector.empty, options)).toImage
+    // Two codes, as above
     assert(Math.abs(back(63, 20, 0) - Srgb.encode(0.5f)) < 2.5f / 255)
 
   test("both extensions select it"):

@@ -63,7 +63,7 @@ final class AmbientOcclusionSuite extends AnyFunSuite:
     for (dialect, seen) <- Seq(Dialect.V2 -> 0.5f, Dialect.V3 -> 0f, Dialect.V4 -> 0f) do
       val text = scene(dialect, "", "LightSource \"infinite\" \"rgb L\" [.5 .5 .5]")
         .replace("Shape \"disk\" \"float radius\" 1000", "")
-      assert(Math.abs(SceneTexts.mean(text, dialect).r - seen) < 1e-4f)
+      assert(Math.abs(SceneTexts.mean(text, dialect).r - seen) < 1e-5f)
 
   test("a scene without lights is no mistake"):
     val text = scene(Dialect.V3, "", "") + "WorldEnd\n"

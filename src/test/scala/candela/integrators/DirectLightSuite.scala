@@ -99,6 +99,7 @@ final class DirectLightSuite extends AnyFunSuite:
 
     test(s"\"$name\" of depth 1 follows no mirror"):
       val scene = LitPlane.scene(s"\"$name\" \"integer maxdepth\" 1", spp = 4096, sky, glossy)
+      // As above: 1 % is 5 deviations
       assertRadiance(scene, 0.5f, 0.02f)
 
     test(s"\"$name\" sees lights in a plain mirror, and the light's shape itself"):

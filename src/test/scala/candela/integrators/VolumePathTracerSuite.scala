@@ -55,6 +55,7 @@ final class VolumePathTracerSuite extends AnyFunSuite:
     for (kind, more) <- Seq("homogeneous" -> "", "heterogeneous" -> grid.replace("point3", "point"))
     do
       val medium = s""""string type" "$kind" "rgb sigma_s" [1 1 1] "rgb sigma_a" [0 0 0] $more"""
+      // 4096 paths that deviate by less than 1, as above: below 1.6 %
       isGrey(SceneTexts.mean(furnace(Dialect.V3, medium)), 1f, 0.03f)
 
   test("what only absorbs shows the transmittance: exactly, if it is homogeneous"):

@@ -105,9 +105,9 @@ final class EmittedRaySuite extends AnyFunSuite:
     val hits = (1 to 2000).map: _ =>
       light.emit(scene, draws.unit(), draws.unit(), 0f, 0f, out)
       val d = out.p - scene.center
-      assert(Math.abs((d dot out.direction) + scene.radius) < 1e-4f)
+      assert(Math.abs((d dot out.direction) + scene.radius) < 1e-5f)
       (d + out.direction * scene.radius).length
-    assert(hits.max > 0.99f * scene.radius && hits.max <= scene.radius * 1.0001f)
+    assert(hits.max > 0.99f * scene.radius && hits.max <= scene.radius * 1.00001f)
 
   test("a scene without surfaces gets no light from afar"):
     val out = EmittedRay()

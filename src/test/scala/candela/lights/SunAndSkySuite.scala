@@ -44,6 +44,7 @@ final class SunAndSkySuite extends AnyFunSuite:
     test(s"$name: the irradiance by sampling is that of all directions"):
       val expected = Skies.irradiance(env.radiance(Vec3.Zero, _).g.toDouble)
       val found = Skies.sampled(env, Vec3.Zero, 200000)
+      // 1,000 cells in the sun's disk, a hundred on its edge: 0.3 %; as much by 200,000 samples
       assert(Math.abs(found / expected - 1) < 0.02, s"$found, expected $expected")
 
   test("the sun's irradiance does not depend on its size"):
@@ -53,4 +54,4 @@ final class SunAndSkySuite extends AnyFunSuite:
       val out = LightSample()
       env.sample(Vec3.Zero, 0.3f, 0.6f, out)
       val found = out.radiance.toRgb.g / out.pdf
-      assert(Math.abs(found / expected.g - 1) < 1e-3, s"$aperture°: $found")
+      assert(Math.abs(found / expected.g - 1) < 1e-5, s"$aperture°: $found")

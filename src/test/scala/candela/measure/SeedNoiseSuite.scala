@@ -12,6 +12,7 @@ class SeedNoiseSuite extends AnyFunSuite:
     java.util.Arrays.fill(image.data, value)
     image
 
+  // Squares of differences of 0.1 between Floats that are rounded to 3e-8
   private def close(a: Double, b: Double) = Math.abs(a - b) < 1e-6 * Math.abs(b) + 1e-12
 
   test("the mean of the errors is the variance between the seeds, that of one its distance"):

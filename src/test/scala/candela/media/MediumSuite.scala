@@ -79,7 +79,7 @@ final class MediumSuite extends AnyFunSuite:
       check(medium, (Vec3(0f, 0f, -3f), Vec3(0f, 0f, 2f)), colors, Rgb.Black): t =>
         linear(-3 + 5 * t)
 
-  test("a grid of colours"):
+  test("a grid of colours lets through what its coefficients say"):
     val size = 2
     def channel(v: Float) = SampledGrid(size, size, size, Array.fill(8)(v))
     val absorption = ColorGrid(channel(0.2f), channel(0.5f), channel(1f))

@@ -27,11 +27,13 @@ final class RegionsSuite extends AnyFunSuite:
 
   test("the depth of a uniform box is exact, whatever the step"):
     val found = depth(Regions(Array(uniform(2f))), Vec3(0f, 1f, 0.5f), Vec3(9f, 1f, 0.5f), 5f)
+    // 200 Floats are added: 200 · 6e-8 of the sum
     assert(Math.abs(found - 2f) < 1e-4f)
 
   test("depths of boxes that overlap add up"):
     val both = Regions(Array(uniform(2f), uniform(0.5f)))
     val found = depth(both, Vec3(3.5f, 1f, 0.5f), Vec3(9f, 1f, 0.5f), 1f)
+    // As above, 400 Floats
     assert(Math.abs(found - 0.5f * 2.5f) < 1e-4f)
 
   test("the exponential medium's depth is the integral of its density"):

@@ -46,6 +46,7 @@ class CurvesSuite extends AnyFunSuite:
     assert(all.map(_.x).min == 1f && all.map(_.x).max == 3f)
     for (p, n) <- all.zip(vectors(mesh.normals)) do
       val out = Vec3(0f, p.y, p.z)
+      // Polygons are as long as their circles: 32 corners lie 0.16 % outside
       assert(Math.abs(out.length - 0.5f) < 0.002f)
       assert((n - out.normalized).length < 1e-5f)
     for t <- mesh.indices.grouped(3) do

@@ -72,6 +72,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
         val d = scene.lights.head.light
         val own = d.param("L").orElse(d.param("I")).get
         assert(own.floats.toSeq == Seq(360f, 2f, 830f, 2f), kind)
+        // Digits of sRGB's matrix and the observer's table: see ColorimetrySuite
         assert(Math.abs(d.param("scale").get.floats.head - 2f) < 1e-3f, kind)
 
   test("pairs of a medium's coefficients are lit by D65, and at most 1 outside volumes"):
@@ -81,6 +82,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
       inFile(s"${sensor()}<shape type=\"sphere\"><bsdf type=\"null\"/>$medium</shape>"):
         _.media.head.medium.param("sigma_a").get.floats.toVector.map(_.toDouble)
     def pairs(name: String, x: String) = s"<spectrum name=\"$name\" value=\"360:$x, 830:$x\"/>"
+    // White under D65 is right to 1e-3: see ColorimetrySuite; below, 2 to twice that
     isNear(sigmaT(pairs("sigma_t", ".5")), .5, .5, .5)(1e-3)
     isNear(sigmaT(pairs("sigma_t", "2")), 1, 1, 1)(1e-6)
     isNear(sigmaT("<spectrum name=\"sigma_t\" value=\"2\"/>"), 2, 2, 2)(1e-6)
@@ -193,6 +195,7 @@ class MitsubaRulesSuite extends AnyFunSuite:
     ): scene =>
       val m = scene.shapes.head.objectToWorld.start.m
       val right = Seq(.9063, .4226, -.4226, 0, -.4226, 1, .0937, 0, .4226, .0937, 1)
+      // Four digits are written above
       assert(right.zip(m).forall((a, b) => Math.abs(a - b) < 1e-4), m.mkString(" "))
 
   test("a depth of 0 is black, lamps and sky included"):

@@ -139,7 +139,7 @@ class MitsubaSceneSuite extends AnyFunSuite:
         MitsubaScene.readable(file.resolveSibling("old.xml"), Map.empty, keepGoing = false)
       )
       assert(scene.warnings.isEmpty)
-      assert(Math.abs(scene.camera.get.param("fov").get.floats.head - 50f) < 1e-3f)
+      assert(Math.abs(scene.camera.get.param("fov").get.floats.head - 50f) < 1e-4f)
     assert(OldNames.snake("intIOR") == "int_ior")
     assert(OldNames.snake("alphaU") == "alpha_u")
 

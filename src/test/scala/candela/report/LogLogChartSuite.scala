@@ -42,6 +42,7 @@ class LogLogChartSuite extends AnyFunSuite:
     def number(name: String) = guide.getAttribute(name).toDouble
     val places = elements(parsed(chart.svg.render).getElementsByTagName("polyline"))
       .head.getAttribute("points").split(' ').map(_.split(',').map(_.toDouble))
+    // Rounded to a tenth of a pixel, as above
     assert(Math.abs(number("x2") - places(2)(0)) < 0.25)
     assert(Math.abs(number("y2") - places(2)(1)) < 0.25)
 

@@ -22,9 +22,9 @@ final class PhaseFunctionSuite extends AnyFunSuite:
       val n = 200000
       val cosines = Vector.tabulate(n)(k => -1.0 + (k + 0.5) * 2.0 / n)
       val values = cosines.map(c => phase.value(c.toFloat).toDouble)
-      assert(Math.abs(values.sum * 4.0 * Math.PI / n - 1) < 1e-4)
+      assert(Math.abs(values.sum * 4.0 * Math.PI / n - 1) < 1e-5)
       val mean = values.zip(cosines).map((v, c) => -v * c).sum * 4.0 * Math.PI / n
-      assert(Math.abs(mean - phase.asymmetry) < 1e-4)
+      assert(Math.abs(mean - phase.asymmetry) < 1e-5)
 
     test(s"$name: samples are as dense as its values"):
       val result = ChiSquare.directions(seed = 17 + i)(

@@ -28,7 +28,7 @@ class ZSobolSamplerSuite extends SamplerLaws(ZSobolSampler(_, 64, 64, _), sharpe
           (s.x, s.y)
       assert(ElementaryIntervals.allHoldOne(joint), s"set $set")
 
-  test("so have single dimensions"):
+  test("single dimensions are stratified over pixels, too"):
     for spp <- Seq(1, 2, 4, 8); side <- Seq(1, 2, 4) do
       val s = ZSobolSampler(spp, 64, 64, 5)
       val pixels = for px <- 0 until side; py <- 0 until side yield (px, py)

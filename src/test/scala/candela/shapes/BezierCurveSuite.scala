@@ -12,7 +12,7 @@ class BezierCurveSuite extends AnyFunSuite:
     val w = Seq(m * m * m, 3 * m * m * u, 3 * m * u * u, u * u * u)
     (0 until 3).map(k => (0 until 4).map(i => w(i) * c(3 * i + k)).sum)
 
-  private def near(a: Seq[Double], b: Seq[Double], slack: Double = 1e-6): Unit =
+  private def near(a: Seq[Double], b: Seq[Double], slack: Double = 1e-12): Unit =
     assert(a.lazyZip(b).forall((x, y) => Math.abs(x - y) < slack), s"$a $b"): Unit
 
   private def points(draws: Draws, n: Int): Array[Float] = Array.fill(3 * n)(draws.between(-1, 1))

@@ -135,7 +135,7 @@ class CurveSuite extends AnyFunSuite:
       val found = first(s)
       assert(found >= 0)
       s.surface(found, ray, hit, at)
-      assert(abs((at.geometricNormal dot -Vec3.Z) - cosine) < 0.02f)
+      assert(abs((at.geometricNormal dot -Vec3.Z) - cosine) < 2e-3f)
       assert(y == 0f || at.geometricNormal.y * y > 0f)
       assert(abs(at.u - 1.3f / 3) < 1e-5f && abs(ray.tMax - 5f) < 1e-5f)
 

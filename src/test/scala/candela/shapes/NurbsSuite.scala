@@ -68,4 +68,4 @@ class NurbsSuite extends AnyFunSuite:
           val (i, j) = ((k + 1) % 3, (k + 2) % 3)
           u(i) * v(j) - u(j) * v(i)
         val size = n.map(Math.abs).max
-        for k <- 0 until 3 do assert(Math.abs(p(0, 0)(3 + k) - n(k)) < 1e-4 * (1 + size))
+        for k <- 0 until 3 do assert(Math.abs(p(0, 0)(3 + k) - n(k)) < 1e-6 * (1 + size))

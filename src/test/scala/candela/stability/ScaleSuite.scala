@@ -63,4 +63,5 @@ class ScaleSuite extends AnyFunSuite:
 
   test("moving a scene of a thousand units by a million changes no more than that"):
     val off = apart(plain, image(1e3, 1e6))
+    // As above
     assert(off < 0.05, s"$off")

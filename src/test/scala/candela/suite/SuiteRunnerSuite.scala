@@ -146,16 +146,16 @@ class SuiteRunnerSuite extends AnyFunSuite:
       val two = seeded("two").copy(ownFamily = Some("another"))
       val report = unjudged(folder, 3, seeded("one"), two, still)
       val scene = report.scenes.head
-      assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-3)
+      assert(scene.referenceName.isEmpty && Math.abs(scene.reference(0, 0, 0) - 0.3f) < 1e-6)
       assert(scene.programs.map(_.name) == Vector("one", "two"))
       for (p, variance, ratio) <- scene.programs.zip(Seq(0.01, 0.04)).zip(Seq(2 / 3.0, 4 / 3.0))
           .map((a, b) => (a._1, a._2, b))
       do
         assert(p.curve.points.map(_.samples) == Vector(1, 2) && p.firstImage.isDefined)
         for point <- p.curve.points do
-          assert(Math.abs(point(Metric.Mse).get.estimate - variance) < 1e-4)
+          assert(Math.abs(point(Metric.Mse).get.estimate - variance) < 1e-6)
           assert(point(Metric.Flip).isEmpty)
-        assert(Math.abs(p.curve.meanRatio.head - ratio) < 1e-3)
+        assert(Math.abs(p.curve.meanRatio.head - ratio) < 1e-6)
       val why = "it has no seeds: without a reference, its noise is unknown"
       assert(report.leftOut == Vector("still on Flat" -> why))
       val page = SuitePage.html(report)

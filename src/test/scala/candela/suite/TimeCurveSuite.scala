@@ -20,11 +20,13 @@ class TimeCurveSuite extends AnyFunSuite:
     def seconds(n: Int) = 0.5 + 0.01 * n + 2 * (1 - Math.exp(-n / 10.0))
     for budget <- Seq(8.0, 20.0, 60.0) do
       val (trials, taken) = filled(budget)(seconds)
+      // Linear from trials of less than half the budget, past most of what is compiled
       assert(Math.abs(taken / budget - 1) < 0.05, s"$budget s: $trials, $taken s")
 
   test("trials take no longer together than the budget"):
     for each <- Seq(1e-3, 0.01, 0.1, 1.0); start <- Seq(0.0, 0.5) do
       val (trials, taken) = filled(20)(n => start + each * n)
+      // Whole samples: of 1 s, a twentieth of the budget
       assert(Math.abs(taken / 20 - 1) < 0.06, s"$trials, $taken s")
       assert(trials.map(n => start + each * n).sum <= 20, s"$trials")
 

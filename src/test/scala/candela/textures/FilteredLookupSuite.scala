@@ -112,8 +112,8 @@ class FilteredLookupSuite extends AnyFunSuite:
     val levels = pyramid(12, 5, Wrap.Clamp)((s, _) => if s < 0.5f then 0f else 1f)
     assert(levels(0).width == 16 && levels(0).height == 8)
     def value(x: Int) = levels(0)(3 * 16 + x, 0)
-    assert((0 until 6).forall(x => abs(value(x)) < 0.1f))
-    assert((10 until 16).forall(x => abs(value(x) - 1) < 0.1f))
+    assert((0 until 6).forall(x => abs(value(x)) < 1e-5f))
+    assert((10 until 16).forall(x => abs(value(x) - 1) < 1e-5f))
     assert(value(7) < 0.5f && value(8) > 0.5f)
 
   test("three channels are filtered as one is"):

@@ -29,13 +29,13 @@ class MappingSuite extends AnyFunSuite:
       // Each octave's coordinates are rounded to 1/2048 of a step of its noise, whose slope is 2
       assert(Math.abs(a - b) < 1e-2, s"$octaves octaves at $p: $a, $b")
 
-  test("uv: scaled, then moved"):
+  test("uv coordinates are scaled, then moved"):
     val point = ShadingPoint()
     point.u = 0.5f
     point.v = 0.25f
     assertIs(UvMapping(2f, 4f, 0.5f, -3f)(point), 1.5, -2)
 
-  test("affine: each coordinate of both parameters, in the footprint, too"):
+  test("each coordinate of an affine mapping is of both parameters, in the footprint, too"):
     val point = ShadingPoint()
     point.u = 0.5f
     point.v = 0.25f
@@ -60,6 +60,6 @@ class MappingSuite extends AnyFunSuite:
     assertIs(CylindricalMapping(moved, onUnitSphere = true)(point), 0.5, 0.8)
     assertIs(CylindricalMapping(moved, onUnitSphere = false)(at(Vec3(10f, 19f, 30f))), 0.25, 0)
 
-  test("planar: along two axes"):
+  test("a planar mapping goes along two axes"):
     val map = PlanarMapping(moved, Vec3(0f, 2f, 0f), Vec3(1f, 0f, 1f), 0.5f, -1f)
     assertIs(map(at(Vec3(11f, 22f, 33f))), 4.5, 3)

@@ -26,6 +26,7 @@ final class DisneyBssrdfSuite extends AnyFunSuite:
       assert(Math.abs(found - right) < 1e-4, s"$found, not $right")
 
   test("distances are drawn with the density of the mean of the channels"):
+    // As above: what is nearer than 1e-6
     assert(Math.abs(integral(1e-6, 60)(bssrdf.density(_).toDouble) - 1) < 1e-4)
     val draws = Draws(7)
     val n = 60000

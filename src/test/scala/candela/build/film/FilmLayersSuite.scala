@@ -32,7 +32,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     names.map(n => image(x, y, image.channelNames.indexOf(n)))
 
   private def assertClose(found: Seq[Float], expected: Float*): Unit =
-    assert(found.lazyZip(expected).forall((a, b) => Math.abs(a - b) < 2e-3f), s"$found"): Unit
+    assert(found.lazyZip(expected).forall((a, b) => Math.abs(a - b) < 1e-4f), s"$found"): Unit
 
   test("the film gbuffer has the disk's place, normal, albedo and parameters"):
     val image = render(s"$view\n${film("gbuffer")}\n$world")
@@ -193,6 +193,7 @@ final class FilmLayersSuite extends AnyFunSuite:
     val disk = plan.layers.get.names.objects.head
     assert(disk.startsWith("disk test.pbrt:"))
     assert(plan.layers.get.names.objects.tail == Vector("thing.1", "thing.2"))
+    // Four samples leave 0.2 in each pixel of an edge: of 27 such pixels 1, of 11 0.7
     assert(Math.abs(coverage("CryptoObject", disk).sum - area(.5f, 4)) < 2)
     for name <- Vector("thing.1", "thing.2") do
       assert(Math.abs(coverage("CryptoObject", name).sum - area(.25f, 5)) < 1, name)

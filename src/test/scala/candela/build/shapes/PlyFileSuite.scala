@@ -103,7 +103,7 @@ class PlyFileSuite extends AnyFunSuite:
     val little = s"ply\nformat binary_little_endian 1.0\n$rich"
     checkRich(mesh(binary(little, ByteOrder.LITTLE_ENDIAN)(writeRich)))
 
-  test("the same in ASCII"):
+  test("a mesh with all its properties is the same in ASCII"):
     checkRich(
       mesh(
         s"ply\nformat ascii 1.0\n$rich" + "60 2 1 2\n0.25 0 0 2 0 0 1 0 0 255\n" +
