@@ -10,17 +10,21 @@ import candela.sampling.{SampleHash, Warp}
   * @param transmits whether it also reflects what `inner` transmits
   */
 final class DiffuseEquivalent(inner: Material, transmits: Boolean) extends Material:
-  def bsdf(at: ShadingPoint): Bsdf = DiffuseEquivalent.Lobe(inner.bsdf(at), at.p, transmits)
+  def bsdf(at: ShadingPoint): Bsdf =
+    DiffuseEquivalent.Lobe(inner.bsdf(at), DiffuseEquivalent.hash(at.p), transmits)
   override def isAnisotropic: Boolean = inner.isAnisotropic
   override def isDispersive: Boolean = inner.isDispersive
 
 object DiffuseEquivalent:
   private def bits(f: Float) = java.lang.Float.floatToRawIntBits(f) & 0xffffffffL
 
-  /** @param p position, from which the random numbers of the estimated albedo follow */
-  private final class Lobe(inner: Bsdf, p: Vec3, transmits: Boolean) extends Bsdf:
-    private val place =
-      SampleHash.mix64(bits(p.x) << 32 | bits(p.y)) ^ SampleHash.mix64(bits(p.z))
+  private def hash(p: Vec3) =
+    SampleHash.mix64(bits(p.x) << 32 | bits(p.y)) ^ SampleHash.mix64(bits(p.z))
+
+  /** @param place hash of the position, from which the random numbers of the estimated albedo
+    *              follow
+    */
+  private final class Lobe(inner: Bsdf, place: Long, transmits: Boolean) extends Bsdf:
 
     /** Estimated by one sample, which is right on average, as paths use it once. */
     private def albedo(wo: Vec3): Rgb =

@@ -1,7 +1,7 @@
 package candela.cameras
 
 import candela.geometry.Ray
-import candela.math.Vec3
+import candela.math.{MutableVec3, Vec3}
 
 /** Film size.
   *
@@ -14,14 +14,19 @@ final case class FilmFrame(width: Int, height: Int, diagonal: Float = 0.035f)
   * per worker.
   */
 final class FilmPlace:
+  private val ownEye = MutableVec3()
+  private val ownDirection = MutableVec3(0f, 0f, 1f)
+
   /** Raster position in the coordinates of [[Camera.generate]]; may be outside the film. */
   var x, y: Float = 0f
 
   /** The point of the aperture, in world space. */
-  var eye: Vec3 = Vec3.Zero
+  def eye: MutableVec3 = ownEye
+  def eye_=(v: Vec3): Unit = ownEye.set(v)
 
   /** Direction from the visible point to the eye. */
-  var direction: Vec3 = Vec3.Z
+  def direction: MutableVec3 = ownDirection
+  def direction_=(v: Vec3): Unit = ownDirection.set(v)
 
   /** If film positions are uniformly sampled: the pdf with which a ray from `eye` arrives, per area
     * perpendicular to the ray.

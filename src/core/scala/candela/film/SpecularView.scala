@@ -17,7 +17,7 @@ private[film] final class SpecularView(scene: Scene):
   private val hit = Hit()
   private var found = false
   private var color = Rgb.Black
-  private var normal = Vec3.Z
+  private val normal = MutableVec3()
 
   val at: ShadingPoint = scene.newPoint()
 
@@ -28,7 +28,7 @@ private[film] final class SpecularView(scene: Scene):
   def albedo: Rgb = color
 
   /** Its shading normal, towards the path. */
-  def n: Vec3 = normal
+  def n: MutableVec3 = normal
 
   /** Follows the specular path from its first surface. */
   def follow(from: Ray, start: ShadingPoint, startWo: Vec3, first: Bsdf, sample: Int): Unit =
@@ -56,7 +56,7 @@ private[film] final class SpecularView(scene: Scene):
             goesOn = false
             found = true
             color = color * DirectionalAlbedo(bsdf, at.frame.toLocal(wo))
-            normal = at.frame.n.facing(wo)
+            normal.set(at.frame.n.facing(wo))
 
 private object SpecularView:
   private val MaxDepth = 8

@@ -27,7 +27,7 @@ final class VisibleSurface(
 ):
   private val ray = Ray()
   private val map = new Array[Double](Motion.Work)
-  private var wo = Vec3.Zero
+  private val wo = MutableVec3()
   private var bsdf: Bsdf | Null = null
   private var isHit = false
   private var distance = 0f
@@ -71,7 +71,7 @@ final class VisibleSurface(
     isHit = true
     isReflectionKnown = false
     bsdf = scattering
-    wo = -from.direction
+    wo.set(-from.dx, -from.dy, -from.dz)
     distance = (at.p - from.origin).length
     output.write(from.time, map, 0)
 

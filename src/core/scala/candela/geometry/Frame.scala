@@ -2,7 +2,9 @@ package candela.geometry
 
 import candela.math.*
 
-/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. Immutable. */
+/** A right-handed orthonormal basis; `toLocal` gives coordinates in which `n` is +z. Immutable, as
+  * its vectors are.
+  */
 final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
   def toLocal(v: Vec3): Vec3 = Vec3(v dot s, v dot t, v dot n)
   def toWorld(v: Vec3): Vec3 = Vec3(
@@ -12,7 +14,8 @@ final class Frame(val s: Vec3, val t: Vec3, val n: Vec3):
   )
 
 object Frame:
-  /** Some basis around the unit vector `n`, continuous except at n.z = 0.
+  /** Some basis around the unit vector `n`, continuous except at n.z = 0. It keeps `n` itself, for
+    * immediate use: of one that is mutable, keep the basis around its `toVec3`.
     *
     * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     */

@@ -66,7 +66,7 @@ final class LightConnection(
   def probability: Float = choice.probability
 
   /** Unit vector towards the point. */
-  def wi: Vec3 = sample.wi
+  def wi: MutableVec3 = sample.wi
 
   /** Density of the sample: probability of the light times solid-angle density of the point. */
   def pdf: Float = choice.probability * sample.pdf

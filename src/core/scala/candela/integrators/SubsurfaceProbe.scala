@@ -19,7 +19,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
   private val point = ShadingPoint()
   private var hit = Hit()
   private var chosen = Hit()
-  private var chosenFrom = Vec3.Zero
+  private val chosenFrom = MutableVec3()
   private var chosenAt = 0f
   private var traced = 0L
 
@@ -93,7 +93,7 @@ final class SubsurfaceProbe(scene: Scene, acrossMaterials: Boolean = false):
             val free = chosen
             chosen = hit
             hit = free
-            chosenFrom = from
+            chosenFrom.set(from)
             chosenAt = ray.tMax
           else choice = (choice * found - 1f) / (found - 1)
         from = point.offsetOrigin(direction)

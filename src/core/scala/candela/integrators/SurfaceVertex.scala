@@ -30,15 +30,15 @@ class SurfaceVertex(scene: Scene):
   /** Normal for the choice of lights, on the side of `wo`; zero where light may come from both
     * sides, and in a medium.
     */
-  final def lightNormal: Vec3 =
-    if isInMedium || bsdf.isTransmissive then Vec3.Zero
+  final def lightNormal: MutableVec3 =
+    if isInMedium || bsdf.isTransmissive then sided.set(Vec3.Zero)
     else
       val n = at.frame.n
       val isFront =
         if !scene.sidesByGeometry then localWo.z > 0f
         else ((wo dot at.geometricNormal) > 0f) == ((n dot at.geometricNormal) > 0f)
       if !isFront then sided.set(-n.x, -n.y, -n.z) else sided.set(n)
-      sided
+    sided
 
   /** Puts the vertex in a medium, whose phase function is `phase`. */
   final def scatterAt(p: Vec3, wo: Vec3, phase: Bsdf): Unit =

@@ -8,14 +8,22 @@ import candela.shapes.SurfaceSample
 
 /** A ray leaving a light, sampled by [[Light.emit]]; mutable, one per worker. */
 final class EmittedRay:
+  private val ownP, ownPError, ownN = MutableVec3()
+  private val ownDirection = MutableVec3(0f, 0f, 1f)
+
   /** Origin on the light; for a light at infinity, a point outside the scene. */
-  var p, pError: Vec3 = Vec3.Zero
+  def p: MutableVec3 = ownP
+  def p_=(v: Vec3): Unit = ownP.set(v)
+  def pError: MutableVec3 = ownPError
+  def pError_=(v: Vec3): Unit = ownPError.set(v)
 
   /** Normal of the light's surface at `p`; zero if the light has no surface. */
-  var n: Vec3 = Vec3.Zero
+  def n: MutableVec3 = ownN
+  def n_=(v: Vec3): Unit = ownN.set(v)
 
   /** Direction of travel. */
-  var direction: Vec3 = Vec3.Z
+  def direction: MutableVec3 = ownDirection
+  def direction_=(v: Vec3): Unit = ownDirection.set(v)
 
   /** Radiance of surfaces and infinite lights, intensity of point lights, irradiance of directional
     * lights.
@@ -38,7 +46,7 @@ final class EmittedRay:
   /** Power carried by this ray: the Monte Carlo weight of the sample. */
   def power: Rgb = if pdf > 0f then radiance * (cosine / pdf) else Rgb.Black
 
-  def origin: Vec3 = if n.isZero then p else ShadingPoint.offset(p, pError, n, direction)
+  def origin: Vec3 = if n.isZero then p.toVec3 else ShadingPoint.offset(p, pError, n, direction)
 
   /** Sets the ray to leave a point uniformly in all directions. */
   private[lights] def fromPoint(position: Vec3): Unit =

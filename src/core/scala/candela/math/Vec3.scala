@@ -4,9 +4,9 @@ package candela.math
   * method for each.
   *
   * Read-only, and immutable unless created as a [[MutableVec3]]: reused records such as
-  * [[candela.geometry.ShadingPoint]] hold those, and the types of their members say so. A method
-  * may read any `Vec3`; code that stores a possibly mutable one must store its
-  * [[MutableVec3.toVec3]].
+  * [[candela.geometry.ShadingPoint]] hold those, and the types of their members say so, which
+  * `ArchitectureSuite` checks. A method may read any `Vec3`; code that keeps a possibly mutable one
+  * must keep its [[toVec3]]. What the methods here return is immutable.
   */
 sealed class Vec3(startX: Float, startY: Float, startZ: Float):
   private[math] var ownX = startX
@@ -50,7 +50,12 @@ sealed class Vec3(startX: Float, startY: Float, startZ: Float):
     java.lang.Float.isFinite(x) && java.lang.Float.isFinite(y) && java.lang.Float.isFinite(z)
 
   /** This vector, negated if necessary to be in the hemisphere of `n`. */
-  def facing(n: Vec3): Vec3 = if dot(n) < 0f then -this else this
+  def facing(n: Vec3): Vec3 =
+    val sign = if dot(n) < 0f then -1f else 1f
+    Vec3(x * sign, y * sign, z * sign)
+
+  /** The current value: this vector itself, if it is immutable. */
+  def toVec3: Vec3 = this
 
   def apply(axis: Int): Float = if axis == 0 then x else if axis == 1 then y else z
 
@@ -74,8 +79,7 @@ final class MutableVec3(x0: Float, y0: Float, z0: Float) extends Vec3(x0, y0, z0
     ownY = y
     ownZ = z
 
-  /** An immutable copy of the current value. */
-  def toVec3: Vec3 = Vec3(x, y, z)
+  override def toVec3: Vec3 = Vec3(x, y, z)
 
 object Vec3:
   val Zero: Vec3 = Vec3(0f, 0f, 0f)

@@ -43,6 +43,14 @@ class Vec3Suite extends AnyFunSuite:
     val n = Vec3(0.6f, 0f, 0.8f)
     assert(n.facing(Vec3.Z) == n && n.facing(-Vec3.Z) == -n)
 
+  test("what was computed of a mutable vector stays when that is overwritten"):
+    for side <- Vector(Vec3.Z, -Vec3.Z) do
+      val n = MutableVec3(0.6f, 0f, 0.8f)
+      val (faces, copy) = (n.facing(side), n.toVec3)
+      val expected = (Vec3(0.6f, 0f, 0.8f * side.z), Vec3(0.6f, 0f, 0.8f))
+      n.set(Vec3.X)
+      assert(faces == Vec3(expected._1.x * side.z, 0f, expected._1.z) && copy == expected._2)
+
   test("components are found by axis, and infinities are seen"):
     val v = Vec3(1f, 2f, 3f)
     assert(v(0) == 1f && v(1) == 2f && v(2) == 3f)

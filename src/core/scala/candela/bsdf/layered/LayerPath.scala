@@ -13,12 +13,14 @@ import candela.sampling.SampleHash
   */
 private[bsdf] final class LayerPath(layers: Layers, seed: Long):
   private val top = layers.top
+  private val ownW = MutableVec3()
   private var counter = SampleHash.mix64(seed)
 
   var throughput: Rgb = Rgb.White
 
   /** Direction of propagation: upwards if z > 0; zero once the walk has ended. */
-  var w: Vec3 = Vec3.Zero
+  def w: MutableVec3 = ownW
+  def w_=(v: Vec3): Unit = ownW.set(v)
 
   /** Height above the base, in mean free paths. */
   var height: Float = layers.thickness

@@ -128,9 +128,9 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
               sum += path.throughput * kept
               if top.isSmooth && layers.base.isSpecular then
                 sum += path.throughput * mirrored(path, exit) * (passed / exit.z)
-              val before = path.w
+              val back = -path.w
               path.scatterInMedium()
-              pdf = layers.phase.value(-before, path.w)
+              pdf = layers.phase.value(back, path.w)
             if !top.isSmooth && path.w.z > 0f then
               val crossing = top.crossing(i, -path.w)
               if crossing > 0f then

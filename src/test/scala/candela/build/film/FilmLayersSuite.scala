@@ -145,6 +145,17 @@ final class FilmLayersSuite extends AnyFunSuite:
     assertClose(pixel(image, 10, 10)(albedo*), .1f, .2f, .3f)
     assertClose(pixel(image, 10, 10)("DenoisingNormal.Z", "Ns.Z", "Albedo.R"), 1, -1, .5f)
 
+  test("what a mirror shows doesn't depend on which other layers are asked for, in which order"):
+    // Tilted, so that its normal is not the mirror's
+    val tilted = mirror.replace("Translate 0 0 -6", "Translate 0 0 -6 Rotate 30 0 1 0")
+    val names = Vector("X", "Y", "Z").map("DenoisingNormal." + _)
+    def normal(layers: Layer*) =
+      pixel(layered(s"$view\n${film("rgb")}\n$tilted", layers*), 10, 10)(names*)
+    val alone = normal(Layer.DenoisingNormal)
+    assertClose(alone, .5f, 0, .866f)
+    for order <- Vector(Layer.DenoisingAlbedo, Layer.Motion, Layer.DenoisingNormal).permutations do
+      assert(normal(order*) == alone, order)
+
   test("behind glass both branches count, by their weights"):
     val glass = mirror.replace(
       "\"conductor\" \"float roughness\" 0 \"rgb reflectance\" [.5 .5 .5]",
