@@ -193,6 +193,84 @@ object Architecture:
       read.findFirstIn(line).filter(_ => ofScenes(home)).map: what =>
         s"only SceneFolder may open what a scene names, but here is `$what`"
 
+  private val documented =
+    raw"(?s)/\*\*((?:(?!\*/).)*)\*/\s*((?:[a-z]+(?:\[\w+\])? )*class (\w+))".r
+  private val saysMutable = raw"(?:^|[.;,:] )[Mm]utable\b".r
+  private val vectorMember =
+    raw"\b(var|val|def) (\w+(?:, \w+)*)(\(.*\))?(?:: Vec3\b| = (?=Vec3\b))".r
+  private val name = raw"([a-z]\w*(?:\.[a-z]\w*)*)"
+  private val branch = raw"\b(?:then|else|=>) $name(?= else |$$)".r
+  private val whole = raw"^(?: =)? +$name$$".r
+
+  /** Vectors that a class documented as mutable overwrites are typed so: who gets a `Vec3` from it
+    * may keep it.
+    */
+  def scratch(sources: Vector[SourceText]): Vector[String] =
+    for
+      source <- sources
+      found <- documented.findAllMatchIn(source.text).toVector
+      comment = found.group(1).replaceAll(raw"\s*\n\s*\*", "").trim
+      if saysMutable.findFirstIn(comment).isDefined || found.group(3).startsWith("Mutable")
+      start = source.text.take(found.start(2)).count(_ == '\n')
+      (line, wrong) <- scratch(source.code.drop(start), found.group(3))
+    yield s"${source.path}:${start + line + 1}: $wrong"
+
+  /** @param code a class and what follows it */
+  private def scratch(code: Vector[String], of: String): Vector[(Int, String)] =
+    def depth(line: String) = line.takeWhile(_ == ' ').length
+    val outer = depth(code(0))
+    def within(line: String, depths: Int) =
+      line.isBlank || depth(line) > depths || depth(line) == depths && line.trim.startsWith(")")
+    val body = (code.head +: code.tail.takeWhile(within(_, outer))).zipWithIndex
+    val members = body.filter((line, i) => i == 0 || depth(line) == outer + 2).flatMap: (line, i) =>
+      vectorMember.findFirstMatchIn(line).map((_, i))
+    val methods = members.collect { case (m, _) if m.group(1) == "def" => m.group(2) }.toSet
+    members.flatMap: (member, i) =>
+      val name = member.group(2)
+      val rest = body.drop(i + 1).map(_._1).takeWhile(within(_, outer + 2)).filterNot(_.isBlank)
+      val lines = (member.after.toString +: rest).filterNot(_.trim.matches("va[lr] .*"))
+      val results = lines.flatMap(branch.findAllMatchIn) ++
+        lines.lastOption.flatMap(whole.findFirstMatchIn)
+      val kept = results.map(_.group(1)).filterNot: path =>
+        methods(path) || path.endsWith(".toVec3") || path.endsWith(".normalized") ||
+          rest.exists(_.trim.startsWith(s"val $path = ")) ||
+          Option(member.group(3)).exists(_.contains(s"$path: Vec3"))
+      if member.group(1) == "var" then
+        Some(i -> s"$of overwrites `$name`: a MutableVec3 says so")
+      else
+        kept.headOption.map: path =>
+          val help = "a MutableVec3 says so, toVec3 copies it"
+          i -> s"$of may overwrite `$path`, which `$name` is: $help"
+
+  private val wrapping = raw"\bclass (\w+)[^(\n]*\(".r
+  private val wrapped = raw"(\w+): (?:Bsdf|Material|\w*Light)\b(?! =>)".r
+  private val wrapper =
+    raw"(?s)^\s*extends\b.*?\b\w*(?:Bsdf|CosineSampled|Material|Light)\b.*?:\n".r
+
+  /** A BSDF, material or light made of another one answers as that does what it doesn't change: it
+    * hands the other to a base class, which does so, or derives its flags from the other's.
+    */
+  def wrappers(sources: Vector[SourceText]): Vector[String] =
+    for
+      source <- sources
+      code = source.code.mkString("", "\n", "\n")
+      found <- wrapping.findAllMatchIn(code).toVector
+      close = closing(code, found.end)
+      parents <- wrapper.findFirstIn(code.drop(close)).toVector
+      body = code.drop(close + parents.length)
+      rest = wrapping.findFirstMatchIn(body).fold(body)(m => body.take(m.start))
+      inner <- wrapped.findAllMatchIn(code.slice(found.end, close)).map(_.group(1))
+      if !raw"[(,] *$inner *[,)]".r.findFirstIn(parents).isDefined
+      if !raw"\b$inner\.flags\b|Flags\.of\($inner\)".r.findFirstIn(rest).isDefined
+      line = code.take(found.start).count(_ == '\n') + 1
+    yield s"${source.path}:$line: ${found.group(1)} loses the flags of `$inner`"
+
+  /** Where the parenthesis before `from` is closed, behind it. */
+  private def closing(code: String, from: Int): Int =
+    val depths = code.drop(from).scanLeft(1): (depth, c) =>
+      if c == '(' then depth + 1 else if c == ')' then depth - 1 else depth
+    from + depths.indexOf(0)
+
   private val definition =
     (raw"^(?:(?:private|protected)(?:\[\w+\])? |final |abstract |sealed |case |" +
       raw"opaque )*(?:class|object|trait|enum|type) (\w+)").r

@@ -46,6 +46,12 @@ class ArchitectureSuite extends AnyFunSuite:
   test("no class of build has the name of one of the runtime"):
     holds(Architecture.names(main))
 
+  test("what a mutable class overwrites is typed as mutable"):
+    holds(Architecture.scratch(main))
+
+  test("what wraps a BSDF, a material or a light loses nothing that is known of it"):
+    holds(Architecture.wrappers(core))
+
   test("no file and no line is too long, in tests neither"):
     holds(Architecture.sizes(main) ++ Architecture.sizes(tests))
 
@@ -265,6 +271,54 @@ class ArchitectureSuite extends AnyFunSuite:
     for line <- Vector("ImageFiles.load(file)", "folder.find(name, at)", "SceneFiles.of(scene)") do
       assert(Architecture.reads(planted("build/recipe/A.scala", line)).isEmpty, line)
     assert(Architecture.reads(planted("cli/A.scala", bad.head)).isEmpty)
+
+  test("vectors that are overwritten, but typed as if they were not, are found"):
+    def inside(doc: String, lines: String*) = Architecture.scratch(planted(
+      "film/A.scala",
+      s"/** $doc */" +: "private[film] final class A(scene: Scene):" +: lines.map("  " + _)*
+    ))
+    val bad = Vector(
+      "var p, n: Vec3 = Vec3.Zero" -> "A overwrites `p, n`: a MutableVec3 says so",
+      "private var normal = Vec3.Z" -> "A overwrites `normal`: a MutableVec3 says so",
+      "def n: Vec3 = normal" -> "A may overwrite `normal`, which `n` is",
+      "final def wi: Vec3 = sample.wi" -> "A may overwrite `sample.wi`, which `wi` is",
+      "def from: Vec3 = if n.isZero then p else offset(p)" -> "A may overwrite `p`",
+      "def side(i: Int): Vec3 =\n    own.set(i)\n    own" -> "A may overwrite `own`",
+      "def to: Vec3 =\n    if a then Vec3.Z\n    else\n      b.set(1)\n      b" ->
+        "A may overwrite `b`"
+    )
+    for
+      doc <- Vector("A path. Mutable, one per worker.", "A hit; mutable.", "Mutable.")
+      (line, wrong) <- bad
+    do
+      val found = inside(doc, "", line)
+      assert(found.size == 1 && found.head.startsWith(s"film/A.scala:4: $wrong"), s"$line: $found")
+      assert(inside("A hit. Immutable.", line).isEmpty, line)
+    val good = Vector(
+      "private val normal = MutableVec3()",
+      "def n: MutableVec3 = normal",
+      "def origin: Vec3 = Vec3(ox, oy, oz)",
+      "def n: Vec3 = normal.toVec3",
+      "def n: Vec3 = toOutput(normal.facing(wo))\n  def faces: Vec3 = if b then n else -n",
+      "def turned(w: Vec3): Vec3 = if b then w else -w",
+      "def walk() =\n    var from = Vec3.Zero\n    from"
+    )
+    for line <- good do assert(inside("A path. Mutable.", line).isEmpty, line)
+
+  test("wrappers that lose flags are found"):
+    def inside(lines: String*) = Architecture.wrappers(planted("bsdf/A.scala", lines*))
+    def wrong(name: String) = Vector(s"bsdf/A.scala:1: A loses the flags of `$name`")
+    val flags = "  def flags: BsdfFlags = BsdfFlags.Glossy"
+    assert(inside("final class A(inner: Bsdf) extends LeanBsdf:", flags) == wrong("inner"))
+    assert(inside("class A(a: Bsdf, b: Bsdf) extends WrappedBsdf(a):", flags) == wrong("b"))
+    assert(inside("class A(", "    x: F = F(1),", "    m: Material", ") extends Material,",
+      "      Textured(x):", flags) == wrong("m"))
+    assert(inside("class A(light: SurfaceLight) extends SurfaceLight:", flags) == wrong("light"))
+    val after = "class B(inner: Bsdf) extends Bsdf:\n  def flags: BsdfFlags = inner.flags"
+    assert(inside("class A(inner: Bsdf) extends Bsdf:", flags, after) == wrong("inner"))
+    assert(inside(after).isEmpty)
+    assert(inside("class A(a: Material, b: Material) extends JoinedMaterial(a, b):", flags).isEmpty)
+    assert(inside("class A(base: Bsdf):", "  val b = base").isEmpty)
 
   test("long files and long lines are found, counting characters and not bytes"):
     val exact = Vector.fill(Architecture.MaxLines)("π" * Architecture.MaxColumns)

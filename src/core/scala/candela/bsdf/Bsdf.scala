@@ -24,9 +24,6 @@ abstract class Bsdf:
     */
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample
 
-  /** Whether directions depend on the `choice`. */
-  def choosesLobes: Boolean = true
-
   /** As [[sample]], written to `out`. */
   def draw(wo: Vec3, choice: Float, u1: Float, u2: Float, out: Bounce): Unit =
     out.take(sample(wo, choice, u1, u2))
@@ -35,24 +32,19 @@ abstract class Bsdf:
   def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if isSpecular then sample(wo, choice, 0.5f, 0.5f) else BsdfSample.Absorbed
 
+  /** What light transport must know of it beside its values. */
+  def flags: BsdfFlags
+
   /** Whether all scattering is perfectly specular, so that light sampling can't contribute. */
-  def isSpecular: Boolean
+  final def isSpecular: Boolean = !flags.has(BsdfFlags.Diffuse | BsdfFlags.Glossy)
+  final def isTransmissive: Boolean = flags.has(BsdfFlags.Transmissive)
+  final def isDiffuse: Boolean = flags.has(BsdfFlags.Diffuse)
+  final def isReciprocal: Boolean = !flags.has(BsdfFlags.OneWay)
+  final def isDispersive: Boolean = flags.has(BsdfFlags.Dispersive)
+  final def choosesLobes: Boolean = flags.has(BsdfFlags.Choosing)
+  final def isPane: Boolean = flags.has(BsdfFlags.Pane)
 
-  /** Whether light is scattered to the other side of the surface. */
-  def isTransmissive: Boolean
-
-  /** Whether a part of the light is scattered evenly, by a diffuse lobe. */
-  def isDiffuse: Boolean = false
-
-  /** Whether values are the same when `wo` and `wi` change places, but for the square of the index
-    * in refraction. If not, light subpaths are weighted by the values that the camera sees.
-    */
-  def isReciprocal: Boolean = true
-
-  /** Whether a specular part of the light keeps its direction on its way through, as in panes. */
-  def isPane: Boolean = false
-
-  /** That part. */
+  /** The part of the light that keeps its direction on its way through a pane. */
   def straight(@unused wo: Vec3): Rgb = Rgb.Black
 
   /** The BSDF with specular and narrow lobes roughened, so that next-event estimation can sample
@@ -63,24 +55,25 @@ abstract class Bsdf:
     */
   def regularized: Bsdf = this
 
-  /** Whether light of other wavelengths is scattered to other directions (dispersion). Only the
-    * first component of its values, that of the hero wavelength, is right.
-    */
-  def isDispersive: Boolean = false
-
-/** Delegates to `inner`. A subclass that changes the value must also override `regularized`.
+/** Answers as `inner` does. A subclass overrides what it changes: the value, the density, the
+  * samples of either kind in [[changed]].
   */
 abstract class WrappedBsdf(inner: Bsdf) extends Bsdf:
   def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi)
   def pdf(wo: Vec3, wi: Vec3): Float = inner.pdf(wo, wi)
-  def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    inner.sample(wo, choice, u1, u2)
-  def isSpecular: Boolean = inner.isSpecular
-  def isTransmissive: Boolean = inner.isTransmissive
-  override def isDiffuse: Boolean = inner.isDiffuse
-  override def isReciprocal: Boolean = inner.isReciprocal
+
+  final def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
+    changed(wo, inner.sample(wo, choice, u1, u2))
+
+  final override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    changed(wo, inner.sampleSpecular(wo, choice))
+
+  /** What becomes of a sample of `inner`. */
+  protected def changed(@unused wo: Vec3, sample: BsdfSample): BsdfSample = sample
+
+  def flags: BsdfFlags = inner.flags
+  override def straight(wo: Vec3): Rgb = inner.straight(wo)
   override def regularized: Bsdf
-  override def isDispersive: Boolean = inner.isDispersive
 
 /** @param weight f·|cos θi|/pdf
   * @param pdf    with respect to solid angle; for a specular direction the probability of its

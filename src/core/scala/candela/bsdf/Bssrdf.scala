@@ -24,5 +24,11 @@ abstract class Bssrdf:
   /** Truncation radius of [[sample]]; contains almost all of the profile. */
   def reach(channel: Int): Float
 
+  /** Fresnel transmittance on exit at this angle, for light that no BSDF refracts. */
+  def leaving(cosine: Float): Float = 1f - Fresnel.dielectric(Math.abs(cosine), eta)
+
+  /** Index of refraction inside over that outside. */
+  def eta: Float
+
   /** BSDF of the entering light, seen from inside the medium. */
   def entry: Bsdf

@@ -20,7 +20,4 @@ abstract class CosineSampled extends LeanBsdf:
     if !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, value(wo, wi) * Pi, Hemisphere.cosinePdf(wi), isSpecular = false)
 
-  override def choosesLobes: Boolean = false
-  final def isSpecular: Boolean = false
-  final def isTransmissive: Boolean = false
-  final override def isDiffuse: Boolean = true
+  final def flags: BsdfFlags = BsdfFlags.Diffuse

@@ -9,11 +9,11 @@ import candela.sampling.{SampleHash, Warp}
   *
   * @param transmits whether it also reflects what `inner` transmits
   */
-final class DiffuseEquivalent(inner: Material, transmits: Boolean) extends Material:
+final class DiffuseEquivalent(inner: Material, transmits: Boolean) extends WrappedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf =
     DiffuseEquivalent.Lobe(inner.bsdf(at), DiffuseEquivalent.hash(at.p), transmits)
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDispersive: Boolean = inner.isDispersive
+  override val isConstant: Boolean = false
+  override def flags: MaterialFlags = inner.flags.only(MaterialFlags.Dispersive)
 
 object DiffuseEquivalent:
   private def bits(f: Float) = java.lang.Float.floatToRawIntBits(f) & 0xffffffffL
@@ -49,8 +49,5 @@ object DiffuseEquivalent:
       if weight.isBlack then BsdfSample.Absorbed
       else BsdfSample(wi, weight, pdf(wo, wi), isSpecular = false)
 
-    def isSpecular: Boolean = false
-    def isTransmissive: Boolean = false
-    override def isDiffuse: Boolean = true
-    override def isReciprocal: Boolean = false
-    override def isDispersive: Boolean = inner.isDispersive
+    def flags: BsdfFlags =
+      BsdfFlags.Diffuse | BsdfFlags.OneWay | inner.flags.only(BsdfFlags.Dispersive)

@@ -39,9 +39,9 @@ final class DiffuseTransmission(reflectance: Rgb, transmittance: Rgb) extends Le
       val density = transmits * Hemisphere.cosinePdf(far)
       out.set(far, transmittance * (1f / transmits), density, isSpecular = false)
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = !transmittance.isBlack
-  override def isDiffuse: Boolean = true
+  val flags: BsdfFlags =
+    val own = BsdfFlags.Diffuse | BsdfFlags.Choosing
+    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
 
 /** [[DiffuseTransmission]]; textures times `scale` are clamped to [0, 1]. */
 final class DiffuseTransmissionMaterial(

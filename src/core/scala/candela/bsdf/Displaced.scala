@@ -5,12 +5,8 @@ import candela.math.*
 import candela.textures.{FloatTexture, Mapping2D, MipLevel, Slopes}
 
 /** Base of materials that perturb the shading frame at each point. */
-abstract class DisplacedMaterial(inner: Material) extends Material:
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDirected: Boolean = inner.isDirected
-  override def isDispersive: Boolean = inner.isDispersive
-  override def isSubsurface: Boolean = inner.isSubsurface
-  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
+abstract class DisplacedMaterial(inner: Material) extends WrappedMaterial(inner):
+  override val isConstant: Boolean = false
 
 /** Bump mapping: perturbs the shading frame as if the surface were displaced along its normal.
   *

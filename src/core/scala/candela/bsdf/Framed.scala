@@ -9,6 +9,7 @@ import candela.math.*
   */
 final class FramedMaterial(inner: Material) extends DisplacedMaterial(inner):
   override def isDirected: Boolean = true
+  override def flags: MaterialFlags = inner.flags.without(MaterialFlags.OwnFrame)
 
   def bsdf(at: ShadingPoint): Bsdf =
     val outer = at.frame.toFrame
@@ -19,9 +20,8 @@ final class FramedMaterial(inner: Material) extends DisplacedMaterial(inner):
 
 object FramedMaterial:
   /** Where `inner` perturbs normals as Mitsuba does. */
-  def of(inner: Material): Material = inner match
-    case relief: SoftTerminatorMaterial => FramedMaterial(relief)
-    case other => other
+  def of(inner: Material): Material =
+    if inner.flags.has(MaterialFlags.OwnFrame) then FramedMaterial(inner) else inner
 
 /** `inner` in a frame of its own. */
 final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
@@ -44,9 +44,6 @@ final class Framed(inner: Bsdf, frame: Frame) extends LeanBsdf:
     val s = inner.sampleSpecular(frame.toLocal(wo), choice)
     BsdfSample(frame.toWorld(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
-  def isSpecular: Boolean = inner.isSpecular
-  def isTransmissive: Boolean = inner.isTransmissive
-  override def isDiffuse: Boolean = inner.isDiffuse
-  override def isReciprocal: Boolean = false
+  def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
+  override def straight(wo: Vec3): Rgb = inner.straight(frame.toLocal(wo))
   override def regularized: Bsdf = Framed(inner.regularized, frame)
-  override def isDispersive: Boolean = inner.isDispersive

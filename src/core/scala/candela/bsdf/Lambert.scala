@@ -23,10 +23,7 @@ final class Lambert(albedo: Rgb) extends LeanBsdf:
     if absorbs || !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, albedo, Hemisphere.cosinePdf(wi), isSpecular = false)
 
-  override def choosesLobes: Boolean = false
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = true
+  def flags: BsdfFlags = BsdfFlags.Diffuse
 
 object Lambert:
   /** Scatters nothing. */

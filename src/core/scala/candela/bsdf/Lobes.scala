@@ -71,10 +71,16 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       val s = lobes(chosen).sample(wo, within, 0.5f, 0.5f)
       BsdfSample(s.wi, s.weight * (1f / p), s.pdf * p, s.isSpecular, s.eta)
 
-  val isSpecular: Boolean = lobes.forall(_.isSpecular)
-  val isTransmissive: Boolean = lobes.exists(_.isTransmissive)
-  override def isDiffuse: Boolean = lobes.exists(_.isDiffuse)
-  override val isPane: Boolean = lobes.exists(_.isPane)
+  val flags: BsdfFlags =
+    var all = BsdfFlags.Choosing
+    var transmissive = 0
+    var i = 0
+    while i < lobes.length do
+      all = all | lobes(i).flags
+      if lobes(i).isTransmissive then transmissive += 1
+      i += 1
+    // Light may be compressed by one of two lobes that transmit it, and not by the other
+    if transmissive < 2 then all else all | BsdfFlags.OneWay
 
   override def straight(wo: Vec3): Rgb =
     var sum = Rgb.Black
@@ -84,12 +90,7 @@ final class Lobes(lobes: Array[Bsdf], probabilities: Array[Float]) extends Bsdf:
       i += 1
     sum
 
-  // Light may be compressed by one of two lobes that transmit it, and not by the other
-  override val isReciprocal: Boolean =
-    lobes.forall(_.isReciprocal) && lobes.count(_.isTransmissive) < 2
-
   override def regularized: Bsdf = Lobes(lobes.map(_.regularized), probabilities)
-  override def isDispersive: Boolean = lobes.exists(_.isDispersive)
 
 object Lobes:
 
@@ -130,11 +131,9 @@ object Lobes:
 final class Scaled(inner: Bsdf, scale: Rgb) extends WrappedBsdf(inner):
   override def f(wo: Vec3, wi: Vec3): Rgb = inner.f(wo, wi) * scale
 
-  override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val s = inner.sample(wo, choice, u1, u2)
+  override protected def changed(wo: Vec3, s: BsdfSample): BsdfSample =
     BsdfSample(s.wi, s.weight * scale, s.pdf, s.isSpecular, s.eta)
 
-  override def isPane: Boolean = inner.isPane
   override def straight(wo: Vec3): Rgb = inner.straight(wo) * scale
   override def regularized: Bsdf = Scaled(inner.regularized, scale)
 
@@ -146,9 +145,8 @@ final class SentThrough(reflection: Bsdf) extends WrappedBsdf(reflection):
   override def f(wo: Vec3, wi: Vec3): Rgb = reflection.f(wo, Hemisphere.flipped(wi))
   override def pdf(wo: Vec3, wi: Vec3): Float = reflection.pdf(wo, Hemisphere.flipped(wi))
 
-  override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val s = reflection.sample(wo, choice, u1, u2)
+  override protected def changed(wo: Vec3, s: BsdfSample): BsdfSample =
     BsdfSample(Hemisphere.flipped(s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
-  override def isTransmissive: Boolean = true
+  override def flags: BsdfFlags = reflection.flags | BsdfFlags.Transmissive
   override def regularized: Bsdf = SentThrough(reflection.regularized)

@@ -1,7 +1,7 @@
 package candela.bsdf
 
 import candela.geometry.ShadingPoint
-import candela.textures.Varying
+import candela.textures.{Textured, Varying}
 
 /** Evaluates the [[Bsdf]] at surface points.
   *
@@ -13,35 +13,59 @@ abstract class Material extends Varying:
 
   def isConstant: Boolean = false
 
+  /** What must be known of it beforehand. */
+  def flags: MaterialFlags = MaterialFlags.Plain
+
+  final def isDispersive: Boolean = flags.has(MaterialFlags.Dispersive)
+  final def isPane: Boolean = flags.has(MaterialFlags.Pane)
+  final def isSubsurface: Boolean = flags.has(MaterialFlags.Subsurface)
+  final def isInterface: Boolean = flags.has(MaterialFlags.Interface)
+
   /** This material with its BSDF precomputed if it is constant. */
   def folded: Material =
-    if isConstant then ConstantMaterial(bsdf(ShadingPoint()), isAnisotropic) else this
+    if isConstant && !isSubsurface && !isInterface then
+      ConstantMaterial(bsdf(ShadingPoint()), isAnisotropic, isDirected)
+    else this
 
-  /** Whether any of its BSDFs is dispersive. */
-  def isDispersive: Boolean = false
+  /** This material where it is seen from above, black from behind. */
+  def oneSided: Material = if isInterface then this else OneSidedMaterial(this).folded
 
   /** The BSSRDF; null if light is not scattered beneath the surface here. Evaluated after [[bsdf]],
     * which may perturb the shading frame.
     */
   def bssrdf(at: ShadingPoint): Bssrdf | Null = null
 
-  /** Whether [[bssrdf]] may return one. */
-  def isSubsurface: Boolean = false
-
-  /** Whether its BSDFs are panes, or have a part that is. */
-  def isPane: Boolean = false
-
 /** A medium interface: rays pass through unscattered (pbrt's "interface" and "none"). */
 object InterfaceMaterial extends Material:
   def bsdf(at: ShadingPoint): Bsdf = throw IllegalStateException("a medium interface has no BSDF")
   override def isConstant: Boolean = true
-  override def folded: Material = this
+  override def flags: MaterialFlags = MaterialFlags.Interface
 
 /** A material with one BSDF everywhere. */
-final class ConstantMaterial(value: Bsdf, override val isAnisotropic: Boolean = false)
-    extends Material:
+final class ConstantMaterial(
+    value: Bsdf,
+    override val isAnisotropic: Boolean = false,
+    override val isDirected: Boolean = false
+) extends Material:
   def bsdf(at: ShadingPoint): Bsdf = value
   override def isConstant: Boolean = true
   override def folded: Material = this
-  override def isDispersive: Boolean = value.isDispersive
-  override def isPane: Boolean = value.isPane
+  override def flags: MaterialFlags = MaterialFlags.of(value)
+
+/** A material made of another one, of which all holds but for what a subclass changes. */
+abstract class WrappedMaterial(inner: Material) extends Material, Textured(inner):
+  override def flags: MaterialFlags = inner.flags
+  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
+
+/** A material made of two, and of what else it depends on. Light beneath the surface is scattered
+  * by neither.
+  */
+abstract class JoinedMaterial(first: Material, second: Material, by: Varying*)
+    extends Material,
+      Textured((Vector(first, second) ++ by)*):
+  // Asked once: blends of blends have many parts
+  private val joined = (first.flags | second.flags).only(JoinedMaterial.Shared)
+  override def flags: MaterialFlags = joined
+
+private object JoinedMaterial:
+  def Shared: MaterialFlags = MaterialFlags.Dispersive | MaterialFlags.Pane

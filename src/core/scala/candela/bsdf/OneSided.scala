@@ -5,20 +5,9 @@ import candela.geometry.ShadingPoint
 import candela.math.*
 
 /** A surface that is black from behind, as Mitsuba's are. */
-final class OneSidedMaterial(inner: Material) extends Material:
+private[bsdf] final class OneSidedMaterial(inner: Material) extends WrappedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf = OneSided(inner.bsdf(at))
-  override def isConstant: Boolean = inner.isConstant
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDirected: Boolean = inner.isDirected
-  override def isDispersive: Boolean = inner.isDispersive
-  override def isSubsurface: Boolean = inner.isSubsurface
-  override def bssrdf(at: ShadingPoint): Bssrdf | Null = inner.bssrdf(at)
-
-object OneSidedMaterial:
-  def of(inner: Material): Material = inner match
-    case InterfaceMaterial => inner
-    case relief: SoftTerminatorMaterial => relief.oneSided
-    case _ => new OneSidedMaterial(inner).folded
+  override def flags: MaterialFlags = inner.flags.without(MaterialFlags.Pane)
 
 /** Scatters only between directions above the surface. */
 final class OneSided(inner: Bsdf) extends LeanBsdf:
@@ -36,9 +25,5 @@ final class OneSided(inner: Bsdf) extends LeanBsdf:
   override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
     if wo.z > 0f then inner.sampleSpecular(wo, choice) else BsdfSample.Absorbed
 
-  def isSpecular: Boolean = inner.isSpecular
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = inner.isDiffuse
-  override def isReciprocal: Boolean = inner.isReciprocal
+  def flags: BsdfFlags = inner.flags.without(BsdfFlags.Transmissive | BsdfFlags.Pane)
   override def regularized: Bsdf = OneSided(inner.regularized)
-  override def isDispersive: Boolean = inner.isDispersive

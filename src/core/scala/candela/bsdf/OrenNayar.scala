@@ -38,10 +38,7 @@ final class OrenNayar(albedo: Rgb, sigma: Float) extends LeanBsdf:
     if !Hemisphere.same(wo, wi) then out.absorb()
     else out.set(wi, albedo * shape(wo, wi), Hemisphere.cosinePdf(wi), isSpecular = false)
 
-  override def choosesLobes: Boolean = false
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = true
+  def flags: BsdfFlags = BsdfFlags.Diffuse
 
 /** Diffuse reflection; [[OrenNayar]] where `sigma` (degrees, clamped to [0, 90]) is not 0. */
 final class MatteMaterial(kd: RgbTexture, sigma: FloatTexture)

@@ -11,6 +11,4 @@ final class PhaseLobe(phase: PhaseFunction) extends Bsdf:
   def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
     val wi = phase.sample(wo, u1, u2)
     BsdfSample(wi, Rgb.White, phase.value(wo, wi), isSpecular = false)
-  override def choosesLobes: Boolean = false
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = true
+  def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.Transmissive

@@ -32,9 +32,14 @@ final class SoftTerminatorMaterial(
     val base = at.frame.toLocal(flat.n)
     SoftTerminator(inner.bsdf(at), base, alpha2, turns, inner.isDirected)
 
-  /** Black from behind, by the side of the surface that `wo` is on. */
-  def oneSided: SoftTerminatorMaterial =
-    SoftTerminatorMaterial(OneSidedMaterial(inner), relief, shadows, turns)
+  /** Light samples of Mitsuba don't pass a pane whose normals are perturbed. */
+  override def flags: MaterialFlags =
+    inner.flags.without(MaterialFlags.Pane) | MaterialFlags.OwnFrame
+
+  /** By the side of the surface that `wo` is on. */
+  override def oneSided: Material =
+    if isInterface then this
+    else SoftTerminatorMaterial(OneSidedMaterial(inner), relief, shadows, turns)
 
   /** Stands for the inner material while the frame is perturbed. */
   private object NormalsOnly extends Material:
@@ -107,12 +112,20 @@ final class SoftTerminator(
       val there = if away then turned(wi) else wi
       out.set(there, out.weight * part, out.pdf, out.isSpecular, out.eta)
 
-  def isSpecular: Boolean = inner.isSpecular
+  override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
+    val away = isAway(wo)
+    val s = inner.sampleSpecular(within(if away then turned(wo) else wo, away), choice)
+    val wi = within(s.wi, away)
+    val part = passed(wi)
+    if part == 0f || away && !turns then BsdfSample.Absorbed
+    else
+      val there = if away then turned(wi) else wi
+      BsdfSample(there, s.weight * part, s.pdf, s.isSpecular, s.eta)
 
-  /** Through the perturbed surface, where its normals are turned. */
-  def isTransmissive: Boolean = inner.isTransmissive || base.z < 1f
-  override def isDiffuse: Boolean = inner.isDiffuse
-  override def isReciprocal: Boolean = false
+  val flags: BsdfFlags =
+    val changed = inner.flags.without(BsdfFlags.Pane) | BsdfFlags.OneWay
+    // Through the perturbed surface, where its normals are turned
+    if base.z < 1f then changed | BsdfFlags.Transmissive else changed
+
   override def regularized: Bsdf =
     SoftTerminator(inner.regularized, base, alpha2, turns, isDirected)
-  override def isDispersive: Boolean = inner.isDispersive

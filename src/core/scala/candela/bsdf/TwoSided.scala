@@ -3,16 +3,13 @@ package candela.bsdf
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
-import candela.textures.Textured
 
 /** A surface that looks like `back` from behind, as if that were in front, as in Mitsuba. */
-final class TwoSidedMaterial(front: Material, back: Material)
-    extends Material,
-      Textured(front, back):
+final class TwoSidedMaterial(front: Material, back: Material) extends JoinedMaterial(front, back):
   def bsdf(at: ShadingPoint): Bsdf =
     val facing = front.bsdf(at)
     TwoSided(facing, if back eq front then facing else back.bsdf(at))
-  override val isDispersive: Boolean = front.isDispersive || back.isDispersive
+  override def flags: MaterialFlags = super.flags.without(MaterialFlags.Pane)
 
 /** Reflects by `front` above the surface and by `back`, mirrored, below it. */
 final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
@@ -39,11 +36,8 @@ final class TwoSided(front: Bsdf, back: Bsdf) extends LeanBsdf:
     val s = (if wo.z > 0f then front else back).sampleSpecular(Hemisphere.above(wo), choice)
     BsdfSample(Hemisphere.seenFrom(wo, s.wi), s.weight, s.pdf, s.isSpecular, s.eta)
 
-  val isSpecular: Boolean = front.isSpecular && back.isSpecular
-  def isTransmissive: Boolean = false
-  override val isDiffuse: Boolean = front.isDiffuse || back.isDiffuse
-  override val isReciprocal: Boolean = front.isReciprocal && back.isReciprocal
+  val flags: BsdfFlags =
+    (front.flags | back.flags).without(BsdfFlags.Transmissive | BsdfFlags.Pane)
   override def regularized: Bsdf =
     val facing = front.regularized
     TwoSided(facing, if back eq front then facing else back.regularized)
-  override val isDispersive: Boolean = front.isDispersive || back.isDispersive

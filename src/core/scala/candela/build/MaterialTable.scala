@@ -2,7 +2,7 @@ package candela.build
 
 import scala.collection.mutable
 
-import candela.bsdf.{DiffuseEquivalent, InterfaceMaterial, Material, OneSidedMaterial}
+import candela.bsdf.{DiffuseEquivalent, Material}
 import candela.build.integrators.IntegratorPlan
 import candela.build.materials.{Materials, ShapeMaterials}
 import candela.media.MediumBorder
@@ -92,7 +92,7 @@ private[build] object MaterialTable:
   /** A material and whether it is black from behind. */
   private final case class Finish(ref: MaterialRef, isOneSided: Boolean):
     def of(made: Material): Material =
-      if isOneSided then OneSidedMaterial.of(made) else made
+      if isOneSided then made.oneSided else made
 
   private def name(ref: MaterialRef): String = ref match
     case MaterialRef.Default => "default"
@@ -105,7 +105,7 @@ private[build] object MaterialTable:
       ref: MaterialRef
   ): Material =
     material(context, ref) match
-      case InterfaceMaterial => InterfaceMaterial
+      case made if made.isInterface => made
       case made if context.resources.switches.diffuse =>
         integrator.finish(DiffuseEquivalent(made, transmits = true))
       case made => integrator.finish(made)

@@ -3,7 +3,6 @@ package candela.build
 import scala.collection.mutable.ArrayBuffer
 
 import candela.accel.{Mask, Masks, SolidMask}
-import candela.bsdf.InterfaceMaterial
 import candela.build.integrators.IntegratorPlan
 import candela.build.lights.{AreaLightPlan, MeshLights}
 import candela.build.recipe.*
@@ -95,7 +94,7 @@ private[build] final class SurfaceBuilder(
 
   private def isUnlit(material: Int, here: Site): Boolean =
     val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&
-      (materials.materials(material) eq InterfaceMaterial)
+      materials.materials(material).isInterface
     if is then here.warn("a shape of material \"interface\" gives no light, as in pbrt-v4")
     is
 
@@ -125,7 +124,7 @@ private[build] final class SurfaceBuilder(
 
     /** Does the surface stop light samples, though paths pass it? */
     private def isShadowing: Boolean = integrator.interfaces.stopsLight &&
-      ((veil ne SolidMask) || (materials.materials(dressed.material) eq InterfaceMaterial))
+      ((veil ne SolidMask) || materials.materials(dressed.material).isInterface)
 
     /** In Mitsuba's scenes, samples of a lamp lie on the side that rays see. */
     private val isConsistent = context.description.isMitsubas

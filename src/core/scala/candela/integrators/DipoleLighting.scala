@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.bsdf.subsurface.DipoleBssrdf
+import candela.bsdf.Bssrdf
 import candela.color.Rgb
 import candela.geometry.{Frame, Ray}
 import candela.sampling.Sampler
@@ -36,21 +36,20 @@ final class DipoleLighting(
 
   override protected def gathered(vertex: SurfaceVertex, sampler: Sampler): Rgb =
     val fromSurface = super.gathered(vertex, sampler)
-    scene.bssrdf(vertex.at) match
-      case dipole: DipoleBssrdf => fromSurface + beneath(vertex, dipole, sampler)
-      case _ => fromSurface
+    val inside = scene.bssrdf(vertex.at)
+    if inside == null then fromSurface else fromSurface + beneath(vertex, inside, sampler)
 
   /** Light that enters elsewhere and leaves at `exit`. */
-  private def beneath(exit: SurfaceVertex, dipole: DipoleBssrdf, sampler: Sampler): Rgb =
-    val weight = probe.enter(exit.at, dipole, time, sampler, entry.at)
+  private def beneath(exit: SurfaceVertex, inside: Bssrdf, sampler: Sampler): Rgb =
+    val weight = probe.enter(exit.at, inside, time, sampler, entry.at)
     val choice = sampler.next1D(matters = connection.isRandom)
     sampler.next2D()
     if weight.isBlack then Rgb.Black
     else
-      val leaving = dipole.leaving(exit.wo dot exit.at.frame.n)
+      val leaving = inside.leaving(exit.wo dot exit.at.frame.n)
       // Light arrives at the true surface
       entry.at.frame.set(Frame.around(entry.at.geometricNormal))
-      entry.scatterBy(dipole.entry, entry.at.frame.n)
+      entry.scatterBy(inside.entry, entry.at.frame.n)
       weight * irradiance(choice, sampler) * leaving
 
   /** Light of one source that enters at `entry`, over π. */

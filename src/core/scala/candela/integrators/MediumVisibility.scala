@@ -57,8 +57,7 @@ private[candela] final class MediumVisibility(
   /** Whether light passes the border in its direction, which then attenuates it. */
   private def isPane: Boolean =
     scene.isPane(border) && {
-      val bsdf = scene.bsdf(border)
-      val passed = bsdf.straight(border.frame.toLocal(ray.direction.normalized))
+      val passed = scene.straight(border, ray.direction.normalized)
       work.shadow.scale(passed)
       !passed.isBlack
     }

@@ -79,30 +79,30 @@ final class AreaLight(
 /** A surface that is seen to emit, but lights nothing: an area light on a shape of an object, in
   * pbrt-v2 and v3.
   */
-final class ShownLight(light: SurfaceLight) extends SurfaceLight:
+final class ShownLight(light: SurfaceLight) extends SurfaceLight, WrappedLight(light):
   override def isShownOnly: Boolean = true
   override def isSampled: Boolean = false
   def radiance(at: ShadingPoint, w: Vec3): Rgb = light.radiance(at, w)
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit = out.pdf = 0f
   def pdf(from: Vec3, at: ShadingPoint): Float = 0f
   def bounds: Option[LightBounds] = None
-  def power(scene: Ball): Float = 0f
-  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit = ()
-  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
-  def connectionPdf(from: Vec3, ray: EmittedRay): Float = 0f
+  override def power(scene: Ball): Float = 0f
+  override def emit(
+      scene: Ball,
+      u1: Float,
+      u2: Float,
+      v1: Float,
+      v2: Float,
+      out: EmittedRay
+  ): Unit = ()
+  override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float = 0f
+  override def connectionPdf(from: Vec3, ray: EmittedRay): Float = 0f
 
 /** A light-emitting but invisible surface: pbrt-v4's emitters with `alpha` 0. Rays never hit it;
   * only [[sample]] finds it.
   */
-final class HiddenLight(light: SurfaceLight) extends Light:
+final class HiddenLight(light: SurfaceLight) extends Light, WrappedLight(light):
   def isDelta: Boolean = true
-  override def isContrary: Boolean = light.isContrary
   def bounds: Option[LightBounds] = light.bounds
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     light.sample(from, u1, u2, out)
-  def power(scene: Ball): Float = light.power(scene)
-  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
-    light.emit(scene, u1, u2, v1, v2, out)
-  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
-    light.emissionPdf(scene, p, n, w)
-  def connectionPdf(from: Vec3, ray: EmittedRay): Float = light.connectionPdf(from, ray)

@@ -84,6 +84,7 @@ final class PointLight(position: Vec3, all: Rgb) extends RoundLight(position):
   */
 final class DistantLight(toLight: Vec3, irradiance: Rgb) extends Light:
   def isDelta: Boolean = true
+  override def isInfinite: Boolean = true
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     out.wi = toLight

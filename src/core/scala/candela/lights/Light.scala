@@ -23,6 +23,15 @@ abstract class Light:
   /** Whether only the camera sees the light, directly or by specular scattering. */
   def isShownOnly: Boolean = false
 
+  /** Whether the light comes from infinity, through the border of the scene. */
+  def isInfinite: Boolean = false
+
+  /** This light, if it is on a surface of the scene. */
+  def asSurface: SurfaceLight | Null = null
+
+  /** This light, if rays that escape the scene find it. */
+  def asEnvironment: EnvironmentLight | Null = null
+
   /** Whether rays can never hit the light, and only `sample` finds it. */
   def isDelta: Boolean
 
@@ -48,6 +57,25 @@ abstract class Light:
     * solid angle.
     */
   def connectionPdf(from: Vec3, ray: EmittedRay): Float
+
+/** Answers as `source` does whatever is asked of all lights, but for their samples and bounds. */
+trait WrappedLight(source: Light) extends Light:
+  override def isSampled: Boolean = source.isSampled
+  override def isContrary: Boolean = source.isContrary
+  override def isShownOnly: Boolean = source.isShownOnly
+  override def isInfinite: Boolean = source.isInfinite
+  override def power(scene: Ball): Float = source.power(scene)
+  override def emit(
+      scene: Ball,
+      u1: Float,
+      u2: Float,
+      v1: Float,
+      v2: Float,
+      out: EmittedRay
+  ): Unit = source.emit(scene, u1, u2, v1, v2, out)
+  override def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
+    source.emissionPdf(scene, p, n, w)
+  override def connectionPdf(from: Vec3, ray: EmittedRay): Float = source.connectionPdf(from, ray)
 
 /** Result of [[Light.sample]]; mutable, one per worker. It owns its vectors. */
 final class LightSample:
@@ -101,6 +129,7 @@ final class LightSample:
 /** A light that is a surface in the scene. */
 abstract class SurfaceLight extends Light:
   final def isDelta: Boolean = false
+  final override def asSurface: SurfaceLight = this
 
   /** Radiance emitted at `at` in direction `w`. */
   def radiance(at: ShadingPoint, w: Vec3): Rgb
@@ -111,6 +140,8 @@ abstract class SurfaceLight extends Light:
 /** An infinite light: the radiance of rays that escape the scene. */
 abstract class EnvironmentLight extends Light:
   final def isDelta: Boolean = false
+  override def isInfinite: Boolean = true
+  final override def asEnvironment: EnvironmentLight = this
   final def bounds: Option[LightBounds] = None
 
   /** ∫ of the radiance over all directions, of the largest or the mean component. */

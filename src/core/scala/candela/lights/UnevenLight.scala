@@ -11,15 +11,15 @@ import candela.textures.{Mapping2D, UvMapping}
   *
   * @param even uniform light on the same surface
   */
-abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends SurfaceLight:
+abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler)
+    extends SurfaceLight,
+      WrappedLight(even):
 
   /** Scale of the emission at the sampled point. */
   protected def factor(at: ShadingPoint): Rgb
 
   /** Upper bound or mean of the scale, for light selection. */
   protected def strength: Float
-
-  override def isContrary: Boolean = even.isContrary
 
   def sample(from: Vec3, u1: Float, u2: Float, out: LightSample): Unit =
     even.sample(from, u1, u2, out)
@@ -31,9 +31,16 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
 
   def pdf(from: Vec3, at: ShadingPoint): Float = even.pdf(from, at)
 
-  def power(scene: Ball): Float = even.power(scene) * strength
+  override def power(scene: Ball): Float = even.power(scene) * strength
 
-  def emit(scene: Ball, u1: Float, u2: Float, v1: Float, v2: Float, out: EmittedRay): Unit =
+  override def emit(
+      scene: Ball,
+      u1: Float,
+      u2: Float,
+      v1: Float,
+      v2: Float,
+      out: EmittedRay
+  ): Unit =
     even.emit(scene, u1, u2, v1, v2, out)
     if out.pdf > 0f then
       // Traces back to the point, from so close that no smooth surface occludes it
@@ -43,11 +50,6 @@ abstract class UnevenLight(even: SurfaceLight, surface: SurfaceSampler) extends 
       if surface.meets(work.ray, work.hit, work.at) then
         out.radiance = out.radiance * factor(work.at)
       else out.pdf = 0f
-
-  def emissionPdf(scene: Ball, p: Vec3, n: Vec3, w: Vec3): Float =
-    even.emissionPdf(scene, p, n, w)
-
-  def connectionPdf(from: Vec3, ray: EmittedRay): Float = even.connectionPdf(from, ray)
 
   def bounds: Option[LightBounds] =
     even.bounds.map(b => b.copy(power = b.power * strength))

@@ -27,6 +27,9 @@ final class PathReport(say: String => Unit):
     say(s"   normal ${at.geometricNormal}, shading normal ${at.frame.n}; u ${at.u}, v ${at.v}")
     ReportedBsdf(bsdf, this)
 
+  /** Reports light that passes a pane on its way to a vertex. */
+  def passes(at: ShadingPoint, part: Rgb): Unit = say(s"   a pane at ${at.p} lets through $part")
+
   def value(wo: Vec3, wi: Vec3, f: Rgb): Unit = say(s"   wo $wo, wi $wi: f $f")
 
   def density(pdf: Float): Unit = say(s"   pdf $pdf")
@@ -67,13 +70,7 @@ private final class ReportedBsdf(bsdf: Bsdf, report: PathReport) extends Wrapped
     report.density(density)
     density
 
-  override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    reported(wo, bsdf.sample(wo, choice, u1, u2))
-
-  override def sampleSpecular(wo: Vec3, choice: Float): BsdfSample =
-    reported(wo, bsdf.sampleSpecular(wo, choice))
-
-  private def reported(wo: Vec3, sample: BsdfSample): BsdfSample =
+  override protected def changed(wo: Vec3, sample: BsdfSample): BsdfSample =
     report.bounce(wo, sample)
     sample
 

@@ -1,7 +1,8 @@
 package candela.scene
 
 import candela.accel.Accelerator
-import candela.bsdf.{Bsdf, Bssrdf, InterfaceMaterial, Material}
+import candela.bsdf.{Bsdf, Bssrdf, Material}
+import candela.color.Rgb
 import candela.geometry.{Ball, Hit, Ray, ShadingPoint}
 import candela.lights.{EnvironmentLight, Light, LightGroups, LightSelection, SurfaceLight}
 import candela.math.Vec3
@@ -50,13 +51,11 @@ final class Scene(
   private val hasFootprints = footprints.isDefined
 
   /** The infinite lights among `lights`, with their indices. */
-  val environments: Array[EnvironmentLight] = lights.collect { case e: EnvironmentLight => e }
+  val environments: Array[EnvironmentLight] = lights.map(_.asEnvironment).filter(_ != null)
   val environmentIndex: Array[Int] =
-    lights.indices.filter(i => lights(i).isInstanceOf[EnvironmentLight]).toArray
+    lights.indices.filter(lights(_).asEnvironment != null).toArray
 
-  private val surfaceLights: Array[SurfaceLight] = lights.map:
-    case s: SurfaceLight => s
-    case _ => null
+  private val surfaceLights: Array[SurfaceLight] = lights.map(_.asSurface)
 
   /** Bounding sphere of all surfaces. */
   lazy val ball: Ball = Ball.around(accelerator.bounds)
@@ -113,8 +112,9 @@ final class Scene(
     else surfaces.parts + hit.primitive - firstInstance
 
   /** Whether light passes this surface unscattered. */
-  def isInterface(at: ShadingPoint): Boolean = materials(at.material) eq InterfaceMaterial
+  def isInterface(at: ShadingPoint): Boolean = interfaces(at.material)
 
+  private val interfaces = materials.map(_.isInterface)
   private val hasVeils = !surfaces.veils.isEmpty || instanced.hasVeils
 
   /** Whether paths pass the surface that `ray` just hit, at `at`, unscattered. */
@@ -128,13 +128,21 @@ final class Scene(
     else instanced.isOpen(primitive - firstInstance, ray, hit, at)
 
   /** Whether any surface is an interface; shadow rays must then examine their hits. */
-  val hasInterfaces: Boolean = materials.exists(_ eq InterfaceMaterial)
+  val hasInterfaces: Boolean = interfaces.contains(true)
 
   /** Whether light that passes this surface keeps its direction, though some may be reflected. */
   def isPane(at: ShadingPoint): Boolean = panes(at.material)
 
   private val panes = materials.map(_.isPane)
   val hasPanes: Boolean = panes.contains(true)
+
+  /** The part of light on its way in direction `w` that keeps it at the pane `at`. */
+  def straight(at: ShadingPoint, w: Vec3): Rgb =
+    val pane = materials(at.material).bsdf(at)
+    val passed = pane.straight(at.frame.toLocal(w))
+    val report = pathReport
+    if report != null then report.passes(at, passed)
+    passed
 
   /** Traces a ray through interfaces to the closest other surface and computes its geometry; false
     * if the ray escapes.

@@ -6,7 +6,7 @@ import scala.collection.mutable.ArrayBuffer
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.build.{RenderRegion, RenderSettings}
+import candela.build.{RenderRegion, RenderSettings, SceneBuilder}
 import candela.color.Rgb
 import candela.integrators.LitPlane
 import candela.render.{Renderer, TinyPlan}
@@ -117,6 +117,18 @@ class ReportedPathSuite extends AnyFunSuite:
         val rendered = Rgb(image(x, y, 0), image(x, y, 1), image(x, y, 2))
         assert(light.contains(rendered), s"at $x, $y")
       assert(lines.exists(_.contains(words)), lines.mkString("\n"))
+
+  test("so it is through panes, which Mitsuba's light passes"):
+    val floor = onFloor(V4, "\"volpath\" \"integer maxdepth\" 3", "Material \"thindielectric\"")
+      .replace("Shape \"sphere\"", "Translate 0 0 1 Shape \"disk\" \"float radius\" 2")
+    val scene = SceneTexts.parse(floor, V4).copy(isMitsubas = true)
+    val plan = SceneBuilder.build(scene, RenderSettings())._1
+    val image = Renderer.render(plan, threads = 1).film.toImage(1f)
+    val lines = ArrayBuffer.empty[String]
+    for y <- 0 until plan.height; x <- 0 until plan.width do
+      val light = Renderer.trace(plan, x, y, 0, PathReport(line => lines += line))
+      assert(light.contains(Rgb(image(x, y, 0), image(x, y, 1), image(x, y, 2))), s"at $x, $y")
+    assert(lines.exists(_.contains("a pane at")), lines.mkString("\n"))
 
   test("a sample that is no number is none, and the first one is named with its material"):
     val bad = Seq(Float.NaN, Float.PositiveInfinity, Float.NegativeInfinity)

@@ -1,6 +1,6 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, Lobes, Material}
+import candela.bsdf.{Bsdf, Lobes, Material, WrappedMaterial}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.sampling.SampleHash
@@ -11,11 +11,8 @@ import java.lang.Float.floatToRawIntBits
   * chosen at random by its share. The choice is a function of the point, as in PBRT 4; the mean
   * over points is the blend.
   */
-final class ChosenMaterial(blend: MixedMaterial) extends Material:
-  override def isAnisotropic: Boolean = blend.isAnisotropic
-  override def isDirected: Boolean = blend.isDirected
-  override def isPane: Boolean = blend.isPane
-  override def isDispersive: Boolean = blend.isDispersive
+final class ChosenMaterial(blend: MixedMaterial) extends WrappedMaterial(blend):
+  override val isConstant: Boolean = false
 
   def bsdf(at: ShadingPoint): Bsdf =
     var part: Material = blend

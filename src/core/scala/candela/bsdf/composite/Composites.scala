@@ -1,7 +1,7 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{
-  Bsdf, DielectricReflectance, DiffuseTransmission, Fresnel, InterfaceMaterial, Lambert, Lobes,
+  Bsdf, DielectricReflectance, DiffuseTransmission, Fresnel, JoinedMaterial, Lambert, Lobes,
   Material, SentThrough
 }
 import candela.bsdf.microfacet.{
@@ -125,8 +125,7 @@ final class MixedMaterial(
     private[composite] val first: Material,
     private[composite] val second: Material,
     private[composite] val amount: RgbTexture
-) extends Material,
-      Textured(first, second, amount):
+) extends JoinedMaterial(first, second, amount):
   def bsdf(at: ShadingPoint): Bsdf =
     if first eq second then MixedMaterial.scatter(first, at)
     else
@@ -140,13 +139,9 @@ final class MixedMaterial(
         .addScaled(other, rest)
         .result
 
-  // Asked once: blends of blends have many parts
-  override val isPane: Boolean = first.isPane || second.isPane
-  override val isDispersive: Boolean = first.isDispersive || second.isDispersive
-
 object MixedMaterial:
   private val clear = Passthrough(Rgb.White)
 
   /** Within a blend, an interface is a transparent lobe, not the absence of a surface. */
   private[composite] def scatter(material: Material, at: ShadingPoint): Bsdf =
-    if material eq InterfaceMaterial then clear else material.bsdf(at)
+    if material.isInterface then clear else material.bsdf(at)

@@ -19,7 +19,7 @@ import candela.textures.Textured
   * @param distance shape parameter d, in scene units; a channel with 0 is black
   * @param eta      index of refraction inside over that outside
   */
-final class DisneyBssrdf(color: Rgb, distance: Rgb, eta: Float) extends Bssrdf:
+final class DisneyBssrdf(color: Rgb, distance: Rgb, val eta: Float) extends Bssrdf:
   import DisneyBssrdf.*
   private val lengths = Array(distance.r, distance.g, distance.b)
   private val colors = Array(color.r, color.g, color.b)

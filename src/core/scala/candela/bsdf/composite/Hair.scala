@@ -1,6 +1,6 @@
 package candela.bsdf.composite
 
-import candela.bsdf.{Bsdf, BsdfSample, Fresnel, Hemisphere, Material}
+import candela.bsdf.{Bsdf, BsdfFlags, BsdfSample, Fresnel, Hemisphere, Material}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
@@ -151,9 +151,8 @@ final class Hair(h: Float, eta: Float, sigmaA: Rgb, shape: HairShape) extends Bs
       if weight.isFinite then BsdfSample(wi, weight, density, isSpecular = false)
       else BsdfSample.Absorbed
 
-  def isSpecular: Boolean = false
-  override def isReciprocal: Boolean = false
-  def isTransmissive: Boolean = true
+  def flags: BsdfFlags =
+    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.OneWay | BsdfFlags.Choosing
 
 object Hair:
   /** R, TT, TRT, and the rest. */

@@ -1,7 +1,8 @@
 package candela.bsdf.composite
 
 import candela.bsdf.{
-  Bsdf, BsdfSample, DiffuseTransmission, Fresnel, Hemisphere, Lobes, Material, ReflectanceCurve,
+  Bsdf, BsdfFlags, BsdfSample, DiffuseTransmission, Fresnel, Hemisphere, Lobes, Material,
+  ReflectanceCurve,
   SentThrough, WrappedBsdf
 }
 import candela.bsdf.microfacet.MicrofacetReflection
@@ -70,12 +71,11 @@ private final class FacetsBetween(inner: Bsdf) extends WrappedBsdf(inner):
     val i = Hemisphere.above(wi)
     (Hemisphere.flipped(i) dot (Hemisphere.above(wo) + i)) < 0f
 
-  override def isReciprocal: Boolean = false
+  override def flags: BsdfFlags = inner.flags | BsdfFlags.OneWay
   override def f(wo: Vec3, wi: Vec3): Rgb = if isBehind(wo, wi) then inner.f(wo, wi) else Rgb.Black
   override def pdf(wo: Vec3, wi: Vec3): Float = if isBehind(wo, wi) then inner.pdf(wo, wi) else 0f
 
-  override def sample(wo: Vec3, choice: Float, u1: Float, u2: Float): BsdfSample =
-    val s = inner.sample(wo, choice, u1, u2)
+  override protected def changed(wo: Vec3, s: BsdfSample): BsdfSample =
     if s.pdf > 0f && !isBehind(wo, s.wi) then BsdfSample.Absorbed else s
 
   override def regularized: Bsdf = FacetsBetween(inner.regularized)

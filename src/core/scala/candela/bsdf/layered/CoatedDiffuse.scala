@@ -1,6 +1,6 @@
 package candela.bsdf.layered
 
-import candela.bsdf.{Bounce, Bsdf, Fresnel, Hemisphere, LeanBsdf, Material}
+import candela.bsdf.{Bounce, Bsdf, BsdfFlags, Fresnel, Hemisphere, LeanBsdf, Material}
 import candela.bsdf.microfacet.{
   MicrofacetDistribution, MicrofacetReflection, Roughness, TrowbridgeReitz
 }
@@ -90,9 +90,7 @@ final class CoatedDiffuse(
       val weight = value * (Hemisphere.absCos(wi) / density)
       out.set(wi, weight, density, isSpecular = false)
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = true
+  def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.Glossy | BsdfFlags.Choosing
 
   // Cached: the series of a spectrum is expensive
   override lazy val regularized: Bsdf =

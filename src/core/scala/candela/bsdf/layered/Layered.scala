@@ -1,6 +1,6 @@
 package candela.bsdf.layered
 
-import candela.bsdf.{Bsdf, BsdfSample, Fresnel, Hemisphere}
+import candela.bsdf.{Bsdf, BsdfFlags, BsdfSample, Fresnel, Hemisphere}
 import candela.bsdf.microfacet.{MicrofacetReflection, TrowbridgeReitz}
 import candela.color.Rgb
 import candela.math.*
@@ -226,9 +226,9 @@ final class Layered(layers: Layers, seed: Long) extends Bsdf:
     if density > 0f && !weight.isBlack then BsdfSample(wi, weight, density, isSpecular)
     else BsdfSample.Absorbed
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = layers.base.isDiffuse || !layers.albedo.isBlack
+  def flags: BsdfFlags =
+    val own = BsdfFlags.Glossy | BsdfFlags.Choosing
+    if layers.base.isDiffuse || !layers.albedo.isBlack then own | BsdfFlags.Diffuse else own
   override def regularized: Bsdf = Layered(layers.regularized, seed)
 
 private object Layered:

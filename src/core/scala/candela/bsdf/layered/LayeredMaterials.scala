@@ -1,6 +1,6 @@
 package candela.bsdf.layered
 
-import candela.bsdf.{Bsdf, Lambert, Material, TabulatedReflectance, WrappedBsdf}
+import candela.bsdf.{Bsdf, Lambert, Material, TabulatedReflectance, WrappedBsdf, WrappedMaterial}
 import candela.bsdf.microfacet.{Conductor, MetalTexture, Mirror, Roughness, TrowbridgeReitz}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -86,7 +86,7 @@ final class ConductorLayers(
 final class LayeredMaterial(layers: LayersTexture) extends Material:
   private val fixed: Layers | Null = if layers.isConstant then layers(ShadingPoint()) else null
 
-  def bsdf(at: ShadingPoint): Bsdf =
+  def bsdf(at: ShadingPoint): Layered =
     val here = fixed
     Layered(if here != null then here else layers(at), Layered.hash(0L, at.p))
 
@@ -98,10 +98,11 @@ final class LayeredMaterial(layers: LayersTexture) extends Material:
   * @param mirror closed form of all interreflection
   * @param walked the same layers
   */
-final class SummedConductorMaterial(mirror: Mirror, walked: Material) extends Material:
+final class SummedConductorMaterial(mirror: Mirror, walked: LayeredMaterial)
+    extends WrappedMaterial(walked):
   def bsdf(at: ShadingPoint): Bsdf = SummedLayers(mirror, walked.bsdf(at))
 
-private final class SummedLayers(mirror: Mirror, walked: Bsdf) extends WrappedBsdf(mirror):
+private final class SummedLayers(mirror: Mirror, walked: Layered) extends WrappedBsdf(mirror):
   override def regularized: Bsdf = walked.regularized
 
 object CoatedConductorMaterial:

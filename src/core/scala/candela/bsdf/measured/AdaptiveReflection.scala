@@ -1,6 +1,6 @@
 package candela.bsdf.measured
 
-import candela.bsdf.{Bsdf, BsdfSample, Hemisphere}
+import candela.bsdf.{Bsdf, BsdfFlags, BsdfSample, Hemisphere}
 import candela.color.Rgb
 import candela.math.*
 import candela.sampling.WarpTable
@@ -98,9 +98,7 @@ final class AdaptiveReflection(
       if color.isBlack || !color.isFinite then BsdfSample.Absorbed
       else BsdfSample(wi, color, found, isSpecular = false)
 
-  def isSpecular: Boolean = false
-  override def isReciprocal: Boolean = false
-  def isTransmissive: Boolean = false
+  def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.OneWay | BsdfFlags.Choosing
 
 object AdaptiveReflection:
 

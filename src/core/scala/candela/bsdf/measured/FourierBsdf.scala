@@ -1,6 +1,6 @@
 package candela.bsdf.measured
 
-import candela.bsdf.{Bsdf, BsdfSample, Hemisphere}
+import candela.bsdf.{Bsdf, BsdfFlags, BsdfSample, Hemisphere}
 import candela.color.Rgb
 import candela.math.*
 
@@ -148,9 +148,8 @@ final class FourierBsdf(table: FourierTable) extends Bsdf:
       val weight = color(series, count, c) * (1f / (pdf * eta * eta))
       BsdfSample(wi, weight, pdf, isSpecular = false, eta)
 
-  def isSpecular: Boolean = false
-  override def isReciprocal: Boolean = false
-  def isTransmissive: Boolean = true
+  def flags: BsdfFlags =
+    BsdfFlags.Glossy | BsdfFlags.Transmissive | BsdfFlags.OneWay | BsdfFlags.Choosing
 
 object FourierBsdf:
   /** Cosine of the azimuth between the light's propagation direction and `wo`. */

@@ -1,6 +1,9 @@
 package candela.bsdf.microfacet
 
-import candela.bsdf.{Bounce, Bsdf, Fresnel, Hemisphere, LeanBsdf, Material, WrappedBsdf}
+import candela.bsdf.{
+  Bounce, Bsdf, BsdfFlags, Fresnel, Hemisphere, LeanBsdf, Material, MaterialFlags, WrappedBsdf,
+  WrappedMaterial
+}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
@@ -106,8 +109,10 @@ final class RoughDielectric(
       out.set(wi, weight * distribution.sampleWeight(o, i, m), pdf, false, sampleEta)
     else out.absorb()
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = !transmittance.isBlack
+  val flags: BsdfFlags =
+    val own = BsdfFlags.Glossy | BsdfFlags.Choosing
+    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
+
   override def regularized: Bsdf =
     RoughDielectric(distribution.regularized, eta, reflectance, transmittance)
 
@@ -186,13 +191,10 @@ object DielectricMaterial:
 
 /** A BSDF at one wavelength, whose light of other wavelengths is scattered to other directions. */
 final class Dispersive(inner: Bsdf) extends WrappedBsdf(inner):
-  override def isDispersive: Boolean = true
+  override def flags: BsdfFlags = inner.flags | BsdfFlags.Dispersive
   override def regularized: Bsdf = Dispersive(inner.regularized)
 
 /** A material whose scattering depends on the wavelength; `inner` is that for the hero's. */
-final class DispersiveMaterial(inner: Material) extends Material:
+final class DispersiveMaterial(inner: Material) extends WrappedMaterial(inner):
   def bsdf(at: ShadingPoint): Bsdf = Dispersive(inner.bsdf(at))
-  override def isConstant: Boolean = inner.isConstant
-  override def isAnisotropic: Boolean = inner.isAnisotropic
-  override def isDirected: Boolean = inner.isDirected
-  override def isDispersive: Boolean = true
+  override def flags: MaterialFlags = inner.flags | MaterialFlags.Dispersive

@@ -1,6 +1,6 @@
 package candela.bsdf.microfacet
 
-import candela.bsdf.{Bounce, Bsdf, Hemisphere, LeanBsdf, Material}
+import candela.bsdf.{Bounce, Bsdf, BsdfFlags, Hemisphere, LeanBsdf, Material}
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
 import candela.math.*
@@ -69,8 +69,7 @@ final class FresnelBlend(diffuse: Rgb, specular: Rgb, distribution: MicrofacetDi
     val i = Hemisphere.reflected(o, m, o dot m)
     Hemisphere.seenFrom(wo, i)
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
+  def flags: BsdfFlags = BsdfFlags.Glossy | BsdfFlags.Choosing
   override def regularized: Bsdf = FresnelBlend(diffuse, specular, distribution.regularized)
 
 /** [[FresnelBlend]]; colours are clamped to ≥ 0. */

@@ -1,6 +1,6 @@
 package candela.bsdf.microfacet
 
-import candela.bsdf.{Bounce, Bsdf, Hemisphere, LeanBsdf, ReflectanceCurve}
+import candela.bsdf.{Bounce, Bsdf, BsdfFlags, Hemisphere, LeanBsdf, ReflectanceCurve}
 import candela.color.Rgb
 import candela.math.*
 
@@ -52,9 +52,7 @@ final class MicrofacetReflection(
 
   private def oriented(cosM: Float, wo: Vec3): Float = if wo.z < 0f then -cosM else cosM
 
-  override def choosesLobes: Boolean = false
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
+  def flags: BsdfFlags = BsdfFlags.Glossy
   override def regularized: Bsdf = MicrofacetReflection(distribution.regularized, curve, scale)
 
 object MicrofacetReflection:

@@ -1,8 +1,8 @@
 package candela.bsdf.microfacet
 
 import candela.bsdf.{
-  Bounce, Bsdf, DielectricReflectance, Fresnel, FullReflectance, Hemisphere, Lambert, LeanBsdf,
-  Material, ReflectanceCurve
+  Bounce, Bsdf, BsdfFlags, DielectricReflectance, Fresnel, FullReflectance, Hemisphere, Lambert,
+  LeanBsdf, Material, MaterialFlags, ReflectanceCurve
 }
 import candela.color.Rgb
 import candela.geometry.ShadingPoint
@@ -13,7 +13,6 @@ import candela.textures.{FloatTexture, RgbTexture, Textured}
 sealed abstract class Specular extends LeanBsdf:
   final def f(wo: Vec3, wi: Vec3): Rgb = Rgb.Black
   final def pdf(wo: Vec3, wi: Vec3): Float = 0f
-  final def isSpecular: Boolean = true
 
 /** A perfect mirror on both sides.
   *
@@ -25,7 +24,7 @@ final class Mirror(scale: Rgb, curve: ReflectanceCurve = FullReflectance) extend
     if weight.isBlack then out.absorb()
     else out.set(Hemisphere.mirrored(wo), weight, 1f, isSpecular = true)
 
-  def isTransmissive: Boolean = false
+  def flags: BsdfFlags = BsdfFlags.Specular
   override def regularized: Bsdf =
     MicrofacetReflection(TrowbridgeReitz.RegularizedMirror, curve, scale)
 
@@ -71,7 +70,9 @@ final class SmoothDielectric(
       val scale = if compresses then weight / (relative * relative) else weight
       out.set(wi, transmittance * scale, probability, isSpecular = true, eta = relative)
 
-  def isTransmissive: Boolean = !transmittance.isBlack
+  val flags: BsdfFlags =
+    val own = BsdfFlags.Specular | BsdfFlags.Choosing
+    if transmittance.isBlack then own else own | BsdfFlags.Transmissive
 
   /** Unchanged unless `compresses`: [[RoughDielectric]] always scales radiance. */
   override def regularized: Bsdf =
@@ -100,7 +101,9 @@ final class ThinDielectric(
       out.set(Hemisphere.mirrored(wo), reflectance, back, isSpecular = true)
     else out.set(-wo, transmittance, 1f - back, isSpecular = true)
 
-  override def isPane: Boolean = true
+  def flags: BsdfFlags =
+    BsdfFlags.Specular | BsdfFlags.Transmissive | BsdfFlags.Pane | BsdfFlags.Choosing
+
   override def straight(wo: Vec3): Rgb = transmittance * (1f - reflected(wo))
 
   /** The geometric series of inner reflections. */
@@ -108,14 +111,12 @@ final class ThinDielectric(
     val once = Fresnel.dielectric(Math.abs(wo.z), eta)
     2f * once / (1f + once)
 
-  def isTransmissive: Boolean = true
-
 /** A thin pane; its colours as in [[ThinDielectric]]. */
 final class ThinDielectricMaterial(eta: Float, kr: RgbTexture, kt: RgbTexture)
     extends Material,
       Textured(kr, kt):
   def bsdf(at: ShadingPoint): Bsdf = ThinDielectric(eta, kr.positive(at), kt.positive(at))
-  override def isPane: Boolean = true
+  override def flags: MaterialFlags = MaterialFlags.Pane
 
 /** Transmits a fraction of the light unscattered. */
 final class Passthrough(transmittance: Rgb) extends Specular:
@@ -123,7 +124,7 @@ final class Passthrough(transmittance: Rgb) extends Specular:
     if transmittance.isBlack then out.absorb()
     else out.set(-wo, transmittance, 1f, isSpecular = true)
 
-  def isTransmissive: Boolean = true
+  def flags: BsdfFlags = BsdfFlags.Specular | BsdfFlags.Transmissive
 
 /** A perfect mirror of constant reflectance. */
 final class MirrorMaterial(kr: RgbTexture) extends Material, Textured(kr):

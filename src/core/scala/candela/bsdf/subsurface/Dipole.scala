@@ -1,6 +1,6 @@
 package candela.bsdf.subsurface
 
-import candela.bsdf.{Bsdf, Bssrdf, DiffuseTransmission, Fresnel}
+import candela.bsdf.{Bsdf, Bssrdf, DiffuseTransmission}
 import candela.color.Rgb
 import candela.math.*
 
@@ -84,7 +84,7 @@ final class DipoleBssrdf(
     r: DipoleProfile,
     g: DipoleProfile,
     b: DipoleProfile,
-    eta: Float,
+    val eta: Float,
     counted: Float
 ) extends Bssrdf:
   private val profiles = Array(r, g, b)
@@ -108,9 +108,6 @@ final class DipoleBssrdf(
     * others.
     */
   def reach(channel: Int): Float = farthest
-
-  /** Fresnel transmittance on exit at this angle. */
-  def leaving(cosine: Float): Float = 1f - Fresnel.dielectric(Math.abs(cosine), eta)
 
   /** Accepts light from either side: in a closed body the inner side is dark. PBRT 2 selects the
     * side of the point at random.

@@ -1,6 +1,6 @@
 package candela.bsdf.subsurface
 
-import candela.bsdf.{Bounce, Fresnel, Hemisphere, LeanBsdf}
+import candela.bsdf.{Bounce, BsdfFlags, Fresnel, Hemisphere, LeanBsdf}
 import candela.color.Rgb
 import candela.math.*
 
@@ -73,7 +73,4 @@ final class NormalizedFresnel(eta: Float) extends LeanBsdf:
       out.set(wi, Rgb.gray(passed(wi) * Pi), Hemisphere.cosinePdf(wi), isSpecular = false)
     else out.absorb()
 
-  def isSpecular: Boolean = false
-  def isTransmissive: Boolean = false
-  override def isDiffuse: Boolean = true
-  override def isReciprocal: Boolean = false
+  def flags: BsdfFlags = BsdfFlags.Diffuse | BsdfFlags.OneWay

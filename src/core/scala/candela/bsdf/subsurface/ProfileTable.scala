@@ -181,7 +181,7 @@ object BeamDiffusion:
 final class TabulatedBssrdf(
     profiles: Array[RadialProfile],
     extinction: Rgb,
-    eta: Float,
+    val eta: Float,
     val entry: Bsdf
 ) extends Bssrdf:
   private val perLength = Array(extinction.r, extinction.g, extinction.b)

@@ -1,6 +1,6 @@
 package candela.bsdf.subsurface
 
-import candela.bsdf.{Bsdf, Bssrdf, Material}
+import candela.bsdf.{Bsdf, Bssrdf, Material, MaterialFlags}
 import candela.geometry.ShadingPoint
 import candela.math.*
 import candela.textures.{FloatTexture, RgbTexture, Textured, Varying}
@@ -23,9 +23,7 @@ final class SubsurfaceMaterial(
 
   def bsdf(at: ShadingPoint): Bsdf = boundary.bsdf(at)
   override def bssrdf(at: ShadingPoint): Bssrdf | Null = interior.bssrdf(at)
-  override def isSubsurface: Boolean = true
-  override def folded: Material = this
-  override def isDispersive: Boolean = boundary.isDispersive
+  override def flags: MaterialFlags = surface.flags | MaterialFlags.Subsurface
   override def isAnisotropic: Boolean = alongTangents || boundary.isAnisotropic
 
 /** Evaluates the [[Bssrdf]] at surface points; null where there is none. */

@@ -5,7 +5,6 @@ import candela.build.recipe.*
 import candela.film.{Splats, View}
 import candela.integrators.{Interfaces, PathLimits, PathTracer, VolumePathTracer, WalkOptions}
 import candela.integrators.LightTransport.RouletteAfter
-import candela.lights.{DistantLight, EnvironmentLight}
 import candela.media.SceneMedia
 import candela.render.RenderMethod
 import candela.render.RenderMethod.SplattedTiles
@@ -147,10 +146,7 @@ private[build] object BidirectionalPlans:
   /** What of a scene with media is not supported. */
   private def limit(scene: Scene, media: SceneMedia): Option[String] =
     // Such light would be traced from the border of the scene, through less of the medium
-    def comesFromInfinity = scene.lights.exists:
-      case _: DistantLight | _: EnvironmentLight => true
-      case _ => false
-    if comesFromInfinity && PathMedia.beyondAll(scene, media) >= 0 then
+    if scene.lights.exists(_.isInfinite) && PathMedia.beyondAll(scene, media) >= 0 then
       Some("light from infinity in a medium without end")
     else if scene.isDispersive then Some("dispersion beside media")
     else if scene.hasSubsurface then Some("subsurface scattering beside media")

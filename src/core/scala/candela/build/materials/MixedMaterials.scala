@@ -1,8 +1,6 @@
 package candela.build.materials
 
-import candela.bsdf.{
-  FramedMaterial, InterfaceMaterial, Material, OneSidedMaterial, TwoSidedMaterial
-}
+import candela.bsdf.{FramedMaterial, InterfaceMaterial, Material, TwoSidedMaterial}
 import candela.bsdf.composite.MixedMaterial
 import candela.build.recipe.*
 import candela.color.Rgb
@@ -68,7 +66,7 @@ private def pair(a: String, parameter: String, b: String, other: String)(using
 private def named(name: String, parameter: String)(using site: Site): Material =
   val at = site.declaration.param(parameter).fold(site.declaration.at)(_.valuesAt)
   val found = site.resources.materials(name, at, site.resources, site.problems)
-  if site.dialect == Dialect.V4 && (found eq InterfaceMaterial) then
+  if site.dialect == Dialect.V4 && found.isInterface then
     val whole = site.declaration.name
     site.problems.error(at, s"`$parameter` of \"$whole\" must not name an interface, found `$name`")
   FramedMaterial.of(found)
@@ -80,7 +78,7 @@ object NestedRecipe
 
   protected def make()(using site: Site): Material =
     val inner = named(within(), "material")
-    if onesided() then OneSidedMaterial.of(inner) else inner
+    if onesided() then inner.oneSided else inner
 
 /** A medium interface without a surface. */
 final class InterfaceRecipe(name: String, dialects: Set[Dialect])

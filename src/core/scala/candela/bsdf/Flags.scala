@@ -1,0 +1,80 @@
+package candela.bsdf
+
+/** What light transport must know of a [[Bsdf]] beside its values: a set of flags.
+  *
+  * That of a sum is the union of its parts', so no flag says that something is missing everywhere.
+  * Whatever wraps a BSDF derives its own flags from the other's, and loses none by oversight, nor
+  * one that is added here.
+  */
+final class BsdfFlags private (private val bits: Int) extends AnyVal:
+  def |(other: BsdfFlags): BsdfFlags = new BsdfFlags(bits | other.bits)
+  def only(these: BsdfFlags): BsdfFlags = new BsdfFlags(bits & these.bits)
+  def without(these: BsdfFlags): BsdfFlags = new BsdfFlags(bits & ~these.bits)
+
+  /** Any of these? */
+  def has(these: BsdfFlags): Boolean = (bits & these.bits) != 0
+
+object BsdfFlags:
+  /** A part of the light is scattered evenly, by a diffuse lobe. */
+  def Diffuse: BsdfFlags = new BsdfFlags(1)
+
+  /** A part of it is scattered otherwise, to a range of directions. */
+  def Glossy: BsdfFlags = new BsdfFlags(2)
+
+  /** A part of it is scattered to single directions, which light sampling can't find. */
+  def Specular: BsdfFlags = new BsdfFlags(4)
+
+  /** Light is scattered to the other side of the surface. */
+  def Transmissive: BsdfFlags = new BsdfFlags(8)
+
+  /** A specular part of the light keeps its direction on its way through ([[Bsdf.straight]]). */
+  def Pane: BsdfFlags = new BsdfFlags(16)
+
+  /** Light of other wavelengths is scattered to other directions (dispersion). Only the first
+    * component of the values, that of the hero wavelength, is right.
+    */
+  def Dispersive: BsdfFlags = new BsdfFlags(32)
+
+  /** Values change when `wo` and `wi` change places, by more than the square of the index in
+    * refraction. Light subpaths are then weighted by the values that the camera sees.
+    */
+  def OneWay: BsdfFlags = new BsdfFlags(64)
+
+  /** Directions depend on the `choice` of [[Bsdf.sample]]. */
+  def Choosing: BsdfFlags = new BsdfFlags(128)
+
+  def All: BsdfFlags = new BsdfFlags(255)
+
+/** What must be known of a [[Material]] beforehand: what some of its BSDFs are, and more. */
+final class MaterialFlags private (private val bits: Int) extends AnyVal:
+  def |(other: MaterialFlags): MaterialFlags = new MaterialFlags(bits | other.bits)
+  def only(these: MaterialFlags): MaterialFlags = new MaterialFlags(bits & these.bits)
+  def without(these: MaterialFlags): MaterialFlags = new MaterialFlags(bits & ~these.bits)
+  def has(these: MaterialFlags): Boolean = (bits & these.bits) != 0
+
+object MaterialFlags:
+  def Plain: MaterialFlags = new MaterialFlags(0)
+
+  /** Some of its BSDFs are dispersive. */
+  def Dispersive: MaterialFlags = new MaterialFlags(1)
+
+  /** Some of its BSDFs are panes, or have a part that is. */
+  def Pane: MaterialFlags = new MaterialFlags(2)
+
+  /** [[Material.bssrdf]] may return one. */
+  def Subsurface: MaterialFlags = new MaterialFlags(4)
+
+  /** Light passes unscattered, and there is no BSDF. */
+  def Interface: MaterialFlags = new MaterialFlags(8)
+
+  /** Perturbs the shading frame, but for itself alone: what it is blended with, or what is on the
+    * other side, keeps that of the surface, as in Mitsuba.
+    */
+  def OwnFrame: MaterialFlags = new MaterialFlags(16)
+
+  def All: MaterialFlags = new MaterialFlags(31)
+
+  /** Of a material with this BSDF everywhere. */
+  def of(bsdf: Bsdf): MaterialFlags =
+    val dispersive = if bsdf.isDispersive then Dispersive else Plain
+    if bsdf.isPane then dispersive | Pane else dispersive
