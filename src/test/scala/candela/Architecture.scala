@@ -69,6 +69,10 @@ object Architecture:
   private val towers = (runtime ++ file).toSet
   private val job = towers ++ bridge + "mitsuba"
 
+  /** Rooms of the program. */
+  val program: Vector[String] =
+    floors("cli.terminal cli.options cli.files cli.rendering cli.commands cli")
+
   /** What each package may use beside itself. */
   val allowed: Map[String, Set[String]] =
     def below(tower: Vector[String]) = tower.indices.map(i => tower(i) -> tower.take(i).toSet)
@@ -80,15 +84,15 @@ object Architecture:
       "job" -> job,
       "report" -> report,
       "suite" -> (report + "report"),
-      "watch" -> (report ++ Set("film", "render", "report")),
-      "cli" -> (job ++ Set("job", "measure", "convert", "report", "suite", "watch"))
-    )
+      "watch" -> (report ++ Set("film", "render", "report"))
+    ) ++ below(program).map: (room, lower) =>
+      room -> (job ++ lower ++ Set("job", "measure", "convert", "report", "suite", "watch"))
 
   /** Libraries beside Java's and Scala's own, by the first part of their names: who knows them. */
   private val libraries = Map(
     "org" -> Set("image"),
-    "scopt" -> Set("cli"),
-    "sun" -> Set("cli"),
+    "scopt" -> Set("cli.options"),
+    "sun" -> Set("cli", "cli.terminal"),
     "scalatags" -> Set("report"),
     "ujson" -> Set("report"),
     "com" -> Set("suite"),
@@ -159,14 +163,15 @@ object Architecture:
   /** Results go up as values; what to tell the user, and when to stop, is for `cli` to say. */
   def prints(sources: Vector[SourceText]): Vector[String] =
     code(sources): (home, line) =>
-      val found = if home == "cli" then None else print.findFirstIn(line)
+      val found = if program.contains(home) then None else print.findFirstIn(line)
       found.map(what => s"only cli may print or exit, but here is `$what`")
 
   /** Only `render` makes threads. A shutdown hook must be one, and is `cli`'s business. */
   def threads(sources: Vector[SourceText]): Vector[String] =
-    code(sources.filterNot(s => home(s).contains("render") || s.path == "cli/Interrupts.scala")):
-      (_, line) =>
-        thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
+    def may(s: SourceText) =
+      home(s).contains("render") || s.path == "cli/terminal/Interrupts.scala"
+    code(sources.filterNot(may)): (_, line) =>
+      thread.findFirstIn(line).map(what => s"only render may make threads, but here is `$what`")
 
   private val write = (raw"\bFiles\.(?:write\w*|newOutputStream|newBufferedWriter|newByteChannel|" +
     raw"move|copy|createFile)\b|\bFileOutputStream\((?!FileDescriptor\b)|\b(?:FileWriter|" +

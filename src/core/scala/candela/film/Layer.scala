@@ -179,6 +179,12 @@ object Layer:
   val gbuffer: Vector[Layer] =
     Vector(Albedo, Position, Gradient, Normal, ShadingNormal, Uv, Variance, RelativeVariance)
 
+  /** What a denoiser takes beside the colours. */
+  val denoising: Vector[Layer] = Vector(DenoisingAlbedo, DenoisingNormal)
+
+  /** What tells surfaces apart by name. */
+  val cryptomatte: Vector[Layer] = Vector(CryptoObject, CryptoMaterial)
+
   /** Layers by the name of a film that has them. */
   val films: Map[String, Vector[Layer]] = Map("gbuffer" -> gbuffer, "rgba" -> Vector(Alpha))
 

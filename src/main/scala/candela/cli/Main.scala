@@ -1,6 +1,13 @@
 package candela.cli
 
 import candela.base.{Problem, Severity}
+import candela.cli.commands.{
+  AverageCommand, BenchCommand, CheckCommand, ClusterCommand, CompareCommand, ConvertCommand,
+  DescribeCommand, ImageCommand, InfoCommand, MergeCommand, PreviewCommand, RenderCommand,
+  ResumeCommand, ViewCommand
+}
+import candela.cli.options.{Command, CommandLine, OptionTable, Options}
+import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
 import candela.image.Natives
 import candela.job.SceneLoader
 
@@ -92,21 +99,3 @@ private object JavaWarnings:
       val isGiven = classOf[sun.misc.Unsafe].getDeclaredField("memoryAccessWarned")
       isGiven.setAccessible(true)
       isGiven.setBoolean(null, true)
-
-/** Result of a run, from best to worst; `number` is the process's exit code. */
-enum ExitCode(val number: Int):
-  case Done extends ExitCode(0)
-
-  /** A scene, image or folder is invalid; or a comparison exceeds its limit. */
-  case BadInput extends ExitCode(1)
-
-  /** The command line is invalid. */
-  case BadUsage extends ExitCode(2)
-
-  /** An internal error. */
-  case Bug extends ExitCode(3)
-
-  /** Interrupted by Ctrl-C: 128 plus the number of SIGINT, the shell convention. */
-  case Interrupted extends ExitCode(130)
-
-  def worseOf(other: ExitCode): ExitCode = if other.ordinal > ordinal then other else this

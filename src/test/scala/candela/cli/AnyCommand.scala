@@ -2,6 +2,8 @@ package candela.cli
 
 import java.util.{Timer, TimerTask}
 
+import candela.cli.options.{Command, CommandTable, PbrtOptions}
+import candela.cli.terminal.{ExitCode, Interrupts}
 import candela.render.Cancellation
 
 /** Runs command lines that may be anything, for the fuzzer. */

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.terminal.{Interrupts, Terminal}
 import candela.image.{Image, ImageFiles}
 import candela.render.Cancellation
 

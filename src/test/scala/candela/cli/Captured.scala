@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.terminal.{Interrupts, Terminal}
+
 import java.io.{ByteArrayOutputStream, PrintStream}
 import java.nio.charset.StandardCharsets.UTF_8
 

@@ -2,6 +2,10 @@ package candela.cli
 
 import candela.base.Version
 import candela.build.{LightGrouping, ReadSettings, RenderRegion}
+import candela.cli.options.{
+  BenchOptions, Command, CommandLine, CompareOptions, Limit, OptionTable, Options
+}
+import candela.cli.terminal.ExitCode
 import candela.film.Layer
 import candela.measure.{Metric, PixelWindow}
 import candela.scenefile.Dialect

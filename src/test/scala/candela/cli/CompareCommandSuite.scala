@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.options.Limit
 import candela.image.{Image, ImageFiles}
 
 import java.nio.file.Path

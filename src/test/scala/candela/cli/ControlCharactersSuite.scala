@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.terminal.{Interrupts, Printer, PrintingWriter, Terminal}
 import candela.image.{Image, ImageFiles}
 
 import java.io.{ByteArrayOutputStream, PrintStream}

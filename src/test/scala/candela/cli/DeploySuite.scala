@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.options.OptionTable
+
 import java.nio.file.attribute.PosixFilePermissions
 import java.nio.file.{Files, Path}
 

@@ -4,6 +4,7 @@ import java.nio.file.{Files, Path}
 import scala.jdk.StreamConverters.*
 
 import candela.base.SceneError
+import candela.cli.terminal.ProblemText
 import candela.scenefile.Parser
 import org.scalatest.funsuite.AnyFunSuite
 

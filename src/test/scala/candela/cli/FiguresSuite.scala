@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.terminal.Figures
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class FiguresSuite extends AnyFunSuite:

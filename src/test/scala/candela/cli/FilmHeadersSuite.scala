@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.build.RenderSettings
+import candela.cli.options.{CommandLine, OptionTable}
 import candela.guiding.GuidingMode
 import candela.job.SettingsCodec
 

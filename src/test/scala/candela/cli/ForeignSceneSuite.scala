@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.terminal.ExitCode
 import candela.image.{Image, ImageFiles}
 import candela.testing.Gzip
 

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.build.RenderGoal
+import candela.cli.rendering.{Goal, RenderRecorder}
 import candela.color.Rgb
 import candela.film.{Development, Film}
 import candela.render.{Pass, Renderer, Rendering, TinyPlan}

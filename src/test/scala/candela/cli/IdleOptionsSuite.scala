@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.options.CommandLine
+
 import java.nio.file.Files
 
 import org.scalatest.funsuite.AnyFunSuite

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.terminal.Interrupts
 import candela.color.Rgb
 import candela.render.{Cancellation, Renderer, TinyPlan}
 

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.rendering.Learning
 import candela.guiding.GuideOutcome
 
 import org.scalatest.funsuite.AnyFunSuite

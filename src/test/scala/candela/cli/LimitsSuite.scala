@@ -6,6 +6,8 @@ import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.Limit
+import candela.cli.options.{CommandLine, LimitTable}
+import candela.cli.terminal.ExitCode
 import candela.image.{Image, ImageFiles}
 import candela.testing.Gzip
 

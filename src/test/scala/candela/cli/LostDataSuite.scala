@@ -6,6 +6,8 @@ import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
 
+import candela.cli.files.OutputFiles
+import candela.cli.terminal.{Interrupts, Terminal}
 import candela.image.{Image, ImageFiles, OutputFormat}
 import candela.job.Prepared
 

@@ -3,6 +3,7 @@ package candela.cli
 import java.nio.file.{Files, Path}
 import scala.jdk.StreamConverters.*
 
+import candela.cli.terminal.ExitCode
 import candela.image.ImageFiles
 import org.scalatest.funsuite.AnyFunSuite
 

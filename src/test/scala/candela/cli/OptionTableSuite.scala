@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.options.{Command, CommandLine, OptionTable}
+
 import java.nio.file.{Files, Path}
 
 import scala.jdk.CollectionConverters.*

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.SceneError
+import candela.cli.files.OutputFiles
 import candela.image.OutputFormat
 
 import java.nio.file.{Files, Path}

@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.rendering.PartialImages
 import candela.image.{Image, ImageFiles}
 import candela.job.{Preparation, SceneLoader}
 import candela.measure.Metrics

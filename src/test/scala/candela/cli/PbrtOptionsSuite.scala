@@ -2,6 +2,8 @@ package candela.cli
 
 import candela.build.{OutputSettings, RenderRegion, RenderSettings}
 import candela.build.recipe.Dialects
+import candela.cli.options.{Command, CommandLine, Here, OptionTable, Options, PbrtOptions}
+import candela.cli.terminal.ExitCode
 import candela.film.PixelBounds
 import candela.scenefile.Dialect
 

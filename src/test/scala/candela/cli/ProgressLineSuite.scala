@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.terminal.ProgressLine
 import candela.render.{Outlook, Progress}
 
 import org.scalatest.funsuite.AnyFunSuite

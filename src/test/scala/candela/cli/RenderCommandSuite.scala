@@ -1,7 +1,10 @@
 package candela.cli
 
 import candela.base.{Problem, SceneError, SourcePos, Version}
+import candela.cli.files.Denoising
+import candela.cli.terminal.Interrupts
 import candela.color.Rgb
+import candela.film.Layer
 import candela.image.ImageFiles
 import candela.job.{Preparation, Prepared, SceneLoader}
 import candela.render.{Cancellation, RenderPlan, TinyPlan}
@@ -206,9 +209,8 @@ class RenderCommandSuite extends AnyFunSuite:
         s"$folder/r.json,$folder/r.html"
       )
       val exr = ImageFiles.read(folder.resolve("a.exr"))
-      val layers = Denoising.Layers.flatMap(_.channels)
-      val channels = candela.image.Image.RgbNames ++ layers ++ Denoising.Channels
-      assert(exr.channelNames.toSet == channels.toSet)
+      val layers = Layer.denoising.flatMap(_.channels) ++ Denoising.Channels
+      assert(exr.channelNames.toSet == (candela.image.Image.RgbNames ++ layers).toSet)
       val line = "relative MSE  (\\S+) noisy, (\\S+) noisy in the same time, (\\S+) denoised".r
       val errors = line.findFirstMatchIn(said).get
       val Vector(before, sameTime, after) = errors.subgroups.map(_.toDouble).toVector: @unchecked

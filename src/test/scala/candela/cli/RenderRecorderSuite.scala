@@ -1,5 +1,6 @@
 package candela.cli
 
+import candela.cli.rendering.RenderRecorder
 import candela.color.Rgb
 import candela.film.Development
 import candela.image.Image

@@ -5,6 +5,7 @@ import java.io.IOException
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{Problem, SceneError, SourcePos}
+import candela.cli.terminal.{ExitCode, Interrupts, ProblemText, Report, Terminal}
 import candela.image.ImageError
 import candela.render.RenderFailure
 

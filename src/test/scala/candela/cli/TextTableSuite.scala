@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.terminal.TextTable
+
 import org.scalatest.funsuite.AnyFunSuite
 
 class TextTableSuite extends AnyFunSuite:

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.base.SceneError
+import candela.cli.terminal.{Interrupts, Terminal, Thumbnail, ThumbnailKind}
 import candela.color.Srgb
 import candela.image.{DisplayTransform, Image}
 

@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.cli.options.CommandLine
+import candela.cli.rendering.{Goal, RenderRecorder}
 import candela.job.SceneLoader
 import candela.render.{Progress, RenderListener, Renderer}
 

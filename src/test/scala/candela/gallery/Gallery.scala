@@ -5,7 +5,8 @@ import java.nio.file.{Files, Path}
 import candela.base.Problem
 import candela.build.{Category, RenderSettings, SceneBuilder}
 import candela.build.recipe.Recipe
-import candela.cli.Denoising
+import candela.cli.files.Denoising
+import candela.film.Layer
 import candela.image.{Image, ImageFiles, Oidn}
 import candela.render.{ReferenceScenes, Renderer, RenderPlan}
 import candela.scenefile.{Dialect, Parser}
@@ -69,7 +70,7 @@ object Gallery:
   def main(words: Array[String]): Unit =
     val _ = Files.createDirectories(Pictures)
     val denoising = Denoising(Oidn.load(), threads)
-    val options = RenderSettings(samples = Some(SamplesPerPixel), layers = Denoising.Layers)
+    val options = RenderSettings(samples = Some(SamplesPerPixel), layers = Layer.denoising)
     for e <- exhibits if e.isShown && (words.isEmpty || words.exists(e.file.contains)) do
       val (plan, problems) = e.plan(Width, options)
       problems.foreach(p => println(s"${e.file}: ${p.message}"))

@@ -1,7 +1,7 @@
 package candela.gallery
 
 import candela.build.Category
-import candela.cli.{Described, DescribedType}
+import candela.cli.commands.{Described, DescribedType}
 import candela.scenefile.Dialect
 
 /** The gallery as a documentation page. */

@@ -2,7 +2,7 @@ package candela.noise
 
 import candela.build.RenderSettings
 import candela.build.sampling.PointChoice
-import candela.cli.RenderRecorder
+import candela.cli.rendering.RenderRecorder
 import candela.measure.Metrics
 import candela.render.{Looks, Pass, Renderer, RenderListener}
 import candela.film.Film

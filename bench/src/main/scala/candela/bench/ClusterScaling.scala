@@ -1,7 +1,7 @@
 package candela.bench
 
 import candela.base.Version
-import candela.cli.CommandLine
+import candela.cli.options.CommandLine
 import candela.job.SceneLoader
 import candela.render.*
 import candela.render.storage.{FilmFile, FilmHeader, FilmWriter}

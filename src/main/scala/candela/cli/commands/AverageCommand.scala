@@ -1,0 +1,24 @@
+package candela.cli.commands
+
+import candela.cli.files.OutputFiles
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.image.{ImageEdits, ImageFiles, WriteOptions}
+
+/** `candela average`: the mean of images, such as renderings with different seeds. */
+final class AverageCommand(options: Options, terminal: Terminal, report: Report):
+
+  def run(): ExitCode = report.guarded:
+    val outputs = OutputFiles.asked(options.outfiles)
+    outputs.check(options.files, "mean")
+    val images = options.files.iterator.map: name =>
+      name -> ImageFiles.read(OutputFiles.path(name)).linear
+    val mean = ImageEdits.mean(images)
+    val how = WriteOptions(isHalf = options.image.isHalf, display = options.display)
+    for out <- outputs.paths do
+      ImageFiles.write(out, mean, Vector("images" -> options.files.mkString(", ")), how)
+      if !options.quiet then
+        val count = Figures.count(options.files.size, "image")
+        terminal.out.println(s"wrote $out  ${mean.width}x${mean.height}, mean of $count")
+    terminal.out.flush()
+    ExitCode.Done

@@ -1,0 +1,123 @@
+package candela.cli.commands
+
+import java.lang.management.ManagementFactory
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+import candela.base.{
+  FileName, ForeignFile, ForeignKind, Problem, SceneError, Scratch, Version, WholeFile
+}
+import candela.cli.files.{FileRegister, Output, OutputFiles}
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Report, Terminal}
+import candela.render.Cancellation
+import candela.report.{SuiteChart, SuiteData, SuitePage, SuiteReport}
+import candela.suite.{Suite, SuiteFile, SuiteFolder, SuiteResults}
+
+/** `candela bench`: measures error against time for one or more renderers. */
+final class BenchCommand(options: Options, terminal: Terminal, report: Report):
+  private val asked = options.bench
+  private val cancellation = Cancellation()
+
+  def run(): ExitCode = report.guarded:
+    val source = OutputFiles.path(options.files.head)
+    val paths = reports(source)
+    paths.foreach(checkFolder)
+    val whole = read(source)
+    val register = FileRegister()
+    register.read(source +: whole.scenes.flatMap(s => s.files.values ++ s.reference))
+    register.write(Output(paths, "report", options.files.head, "report"))
+    val suite = whole.only(asked.programs, asked.scenes)
+    val told = if asked.denoise then suite.withDenoised else suite
+    val shown = asked.work.fold(told)(work => told.copy(work = work))
+    terminal.interrupts.during(cancellation):
+      val results = inScratch(measured(seeded(withoutOwnWork(shown)), paths, _))
+      if results.scenes.nonEmpty then
+        write(paths, results)
+        for path <- paths do terminal.out.println(s"wrote $path")
+        terminal.out.flush()
+      else if !cancellation.isRequested then
+        throw SceneError(Problem.general("no program could run any scene"))
+      if cancellation.isRequested then ExitCode.Interrupted else ExitCode.Done
+
+  private def measured(suite: Suite, paths: Vector[Path], scratch: Path): SuiteReport =
+    val say: String => Unit = if options.quiet then _ => () else terminal.err.println(_)
+    SuiteResults.of(
+      suite,
+      self,
+      scratch,
+      Version.current,
+      say,
+      () => cancellation.isRequested,
+      write(paths, _)
+    )
+
+  /** Each file is written whole, so an interrupted run leaves the previous version. */
+  private def write(paths: Vector[Path], results: SuiteReport): Unit =
+    for path <- paths do
+      WholeFile.write(path, text(path, results).getBytes(UTF_8))
+
+  private def read(source: Path): Suite =
+    if Files.isDirectory(source) then
+      SuiteFolder.read(source, asked.references.fold(source)(OutputFiles.path))
+    else if Files.isRegularFile(source) then
+      for other <- notSuite(source) do
+        val help = "a suite is a .conf file, or a folder of scenes with references"
+        throw SceneError(Problem.general(s"`$source` is $other, not a suite", Some(help)))
+      SuiteFile.read(source)
+    else throw SceneError(Problem.general(s"no such suite: `$source`"))
+
+  private def notSuite(file: Path): Option[String] =
+    if Set("pbrt", "xml")(FileName.suffix(file)) then Some("a scene")
+    else ForeignFile.of(file).filter(_.kind != ForeignKind.Suite).map(_.what)
+
+  private def seeded(suite: Suite): Suite = asked.seeds.fold(suite)(n => suite.copy(seeds = n))
+
+  /** Sample counts and budgets on the command line apply to all scenes. */
+  private def withoutOwnWork(suite: Suite): Suite =
+    if asked.work.isEmpty then suite
+    else suite.copy(scenes = suite.scenes.map(_.copy(work = None)))
+
+  /** Default without `--report`: an HTML page in the current folder, named after the suite. */
+  private def reports(source: Path): Vector[Path] =
+    val name = source.toAbsolutePath.getFileName.toString.stripSuffix(".conf")
+    val names = if options.reports.isEmpty then Vector(s"$name.html") else options.reports
+    names.map(OutputFiles.path).distinct
+
+  private def checkFolder(path: Path): Unit =
+    val known = Vector("html", "json", "csv", "svg")
+    if !known.contains(FileName.suffix(path)) then
+      val help = Some("results are written as .html, .json, .csv, or .svg (the main charts)")
+      throw SceneError(Problem.general(s"can't write `$path`", help))
+    for problem <- FileRegister.obstacle(path) do throw SceneError(problem)
+
+  private def text(path: Path, results: SuiteReport): String = FileName.suffix(path) match
+    case "html" => SuitePage.html(results, asked.pictures)
+    case "json" => SuiteData.json(results)
+    case "csv" => SuiteData.csv(results)
+    case _ => SuiteChart.svg(results)
+
+  /** The command that starts this program: the launcher if known, because it chooses JVM options
+    * per scene; otherwise the same Java with the same options and class path.
+    */
+  private def self: Vector[String] =
+    sys.props.get("candela.launcher").filter(l => Files.isExecutable(Path.of(l)))
+      .fold(sameJava)(Vector(_))
+
+  private def sameJava: Vector[String] =
+    val java = Path.of(System.getProperty("java.home"), "bin", "java").toString
+    val runtime = ManagementFactory.getRuntimeMXBean
+    val flags = runtime.getInputArguments.asScala.toVector
+      .filterNot(f => f.startsWith("-agentlib") || f.startsWith("-javaagent"))
+    (java +: flags) ++ Vector("-cp", classPath(runtime.getClassPath), "candela.cli.Main")
+
+  /** Absolute paths, because the programs run in another folder. */
+  private def classPath(path: String): String =
+    val separator = java.io.File.pathSeparator
+    path.split(separator).map(p => Path.of(p).toAbsolutePath.toString).mkString(separator)
+
+  private def inScratch[A](body: Path => A): A =
+    Using.resource(Scratch.make())(scratch => body(scratch.folder))

@@ -1,0 +1,75 @@
+package candela.cli.commands
+
+import candela.base.{SceneError, Severity}
+import candela.cli.files.FilmName
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.job.{Prepared, SceneLoader}
+
+import scala.util.Using
+
+/** `candela check`: parses and builds scenes, prints their contents, and reports problems. */
+final class CheckCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+
+  private var warned = 0
+
+  def run(): ExitCode =
+    val codes = options.files.map: scene =>
+      val before = report.errors
+      val code = report.guarded(check(scene))
+      val errors = report.errors - before
+      if code != ExitCode.Done && options.files.size > 1 && !options.quiet then
+        terminal.out.println(s"$scene: rejected, ${Figures.count(errors, "error")}")
+        terminal.out.flush()
+      code
+    if options.files.size > 1 && !options.quiet then summarise(codes)
+    codes.reduce(_ worseOf _)
+
+  private def summarise(codes: Vector[ExitCode]): Unit =
+    val good = codes.count(_ == ExitCode.Done)
+    val counts = Vector(
+      good -> "accepted",
+      warned -> "of them with warnings",
+      (codes.size - good) -> "rejected"
+    ).collect { case (n, what) if n > 0 => s"$n $what" }
+    terminal.out.println(s"${codes.size} scenes: ${counts.mkString(", ")}")
+
+  private def check(scene: String): ExitCode =
+    Using.resource(loader.load(scene, options.preparation))(check(scene, _))
+
+  private def check(scene: String, read: Prepared): ExitCode =
+    val film = FilmName.problem(read.description)
+    for p <- film if p.severity == Severity.Error do throw SceneError(read.warnings :+ p)
+    val loaded = read.copy(warnings = read.warnings ++ film)
+    report.warnings(loaded.warnings, all = options.verbose)
+    if loaded.warnings.nonEmpty then warned += 1
+    if !options.quiet then terminal.out.println(s"$scene: ${contents(loaded)}")
+    if options.explain || (options.verbose && !options.quiet) then
+      Explanation.print(loaded.plan, terminal.out)
+    terminal.out.flush()
+    ExitCode.Done
+
+  private def contents(loaded: Prepared): String =
+    val d = loaded.description
+    val crop = loaded.plan.crop
+    val shapes = d.shapes.size + d.objects.values.map(_.size).sum
+    // Each triangle of a shape that emits light may be one
+    val statements = d.lights.size + d.shapes.count(_.areaLight.nonEmpty)
+    val lights = loaded.plan.lights
+    val of = if statements > 0 && lights > statements then s" (of $statements in the file)" else ""
+    val counted = Vector(
+      shapes -> "shape",
+      d.instances.size -> "instance",
+      lights -> "light",
+      d.textures.size -> "texture",
+      loaded.warnings.distinct.size -> "warning",
+      loaded.standIns -> "placeholder"
+    ).collect:
+      case (n, noun) if n > 0 => Figures.count(n, noun) + (if noun == "light" then of else "")
+    val film = s"${crop.width}x${crop.height}, ${loaded.plan.sampler.samplesPerPixel} spp"
+    (Vector(d.dialect.toString.toLowerCase, film) ++ counted).mkString(", ")

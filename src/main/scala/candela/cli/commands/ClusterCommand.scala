@@ -1,0 +1,155 @@
+package candela.cli.commands
+
+import candela.base.{Problem, SceneError, Scratch}
+import candela.cli.files.{FilmKeeping, Frame, OutputFiles, Sequence}
+import candela.cli.options.{FilmOptions, Options}
+import candela.cli.rendering.ImageWriter
+import candela.cli.terminal.{ExitCode, ProgressLine, Report, Terminal}
+import candela.job.{
+  Cluster, ClusterFailure, ClusterRun, ClusterWork, FilmHeaders, Prepared, SceneLoader,
+  ShardRenderer
+}
+import candela.render.{Cancellation, Outlook, Progress, RenderState}
+import candela.render.storage.FilmHeader
+import candela.scenefile.SceneFiles
+
+import java.nio.file.Path
+import java.util.concurrent.locks.LockSupport
+
+import scala.util.Using
+
+/** `candela render --spark MASTER`: renders on a cluster, some scenes at a time. Each image is
+  * written when it is finished.
+  */
+private[cli] final class ClusterCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  import ClusterCommand.*
+  private val renderer = RenderCommand(options, terminal, report, loader)
+  private val cancellation = Cancellation()
+  private val progress = ProgressLine(terminal.err, terminal.isInteractive)
+  private val started = System.nanoTime
+  private val sequence = Sequence(options)
+  private var open = Vector.empty[Submitted]
+  private var samplesDone, samplesAsked = 0L
+  private var looks = Vector.empty[(Double, Long)] // seconds, and samples until then
+
+  def run(): ExitCode =
+    val code = guarded:
+      renderer.checkAll(sequence.frames)
+      terminal.interrupts.during(cancellation):
+        Using.resource(Cluster.connect(options.cluster.master.mkString, note)): cluster =>
+          for frame <- sequence.frames if !cancellation.isRequested do
+            while open.size >= AtOnce do finishOne()
+            begin(frame, cluster)
+          while open.nonEmpty do finishOne()
+          if options.verbose then note(cluster.summary)
+          ExitCode.Done
+    if !options.quiet && !cancellation.isRequested then
+      sequence.summary.foreach(terminal.out.println)
+    terminal.out.flush()
+    sequence.code.worseOf(code)
+
+  private def guarded(body: => ExitCode): ExitCode =
+    report.guarded:
+      try body
+      catch
+        case e: ClusterFailure =>
+          val lines = e.getMessage.split("\n", 2)
+          val help = lines.lift(1).map(_.linesIterator.map(_.strip).mkString("; "))
+          throw SceneError(Problem.general(lines.head, help))
+
+  private def note(text: String): Unit = if !options.quiet then terminal.err.println(text)
+
+  private def begin(frame: Frame, cluster: Cluster): Unit =
+    val before = open.size
+    val code = guarded:
+      submit(frame, cluster)
+      ExitCode.Done
+    if open.size == before then sequence.ended(frame.scene)(code)
+
+  /** Sends a scene to the cluster, unless its image is done. */
+  private def submit(frame: Frame, cluster: Cluster): Unit =
+    val Frame(scene, outfiles) = frame
+    val prepared = renderer.load(scene, outfiles)
+    val writer = renderer.images(scene, prepared, outfiles)
+    val film = outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
+    if writer.isDone then
+      prepared.close()
+      sequence.skip(scene)
+    else
+      val path = film.getOrElse(Path.of("film"))
+      val header = FilmHeaders.of(options.settings, scene, prepared, path, writer.paths)
+      val total = prepared.plan.sampled.pixels * header.samples
+      val files = SceneFiles.of(prepared.description)
+      val work = ClusterWork(header, Path.of(scene), files, options.cluster.shards, total)
+      samplesAsked += total
+      open :+= Submitted(scene, prepared, writer, film, work, cluster.submit(work))
+
+  /** Waits for one of the renderings, and writes its image. */
+  private def finishOne(): Unit =
+    while !open.exists(_.run.isDone) do
+      show()
+      if cancellation.isRequested then open.foreach(_.run.cancel())
+      LockSupport.parkNanos(Tick)
+    progress.finish()
+    for next <- open.find(_.run.isDone) do
+      open = open.filterNot(_ eq next)
+      samplesDone += next.work.total
+      sequence.ended(next.scene)(guarded(finish(next)))
+      next.prepared.close()
+
+  private def show(): Unit =
+    if !options.quiet then
+      val seconds = (System.nanoTime - started) * 1e-9
+      val now = samplesDone + open.map(s => Math.min(s.run.samples, s.work.total)).sum
+      looks = looks.dropWhile((at, _) => at < seconds / 2) :+ (seconds, now)
+      val (since, before) = looks.head
+      val rate = Option((now - before) / (seconds - since)).filter(r => r > 0 && r.isFinite)
+      val left = rate.map((samplesAsked - now) / _).filter(_ => seconds > FirstSeconds)
+      progress.update(Progress(now, samplesAsked, seconds, Outlook(left, rate)))
+
+  private def finish(submitted: Submitted): ExitCode =
+    terminal.interrupts.checkTime()
+    Using.resource(Scratch.make()): scratch =>
+      val (films, shards) = ShardRenderer.distinct(submitted.run.films(scratch.folder))
+      val header = submitted.work.header
+      val count = films.headOption.fold(1)(_.header.count)
+      val isWhole = shards.size == count
+      def load(state: RenderState): Unit =
+        films.foreach(_.load(state))
+        for path <- submitted.film do
+          val part = header.of(shards, count, state)
+          save(path, if isWhole then part.copy(shards = Set(0), count = 1) else part, state)
+      val rendering = submitted.prepared.gather(load)
+      val samples = films.map(_.header.done).minOption.getOrElse(0).toLong * shards.size / count
+      val done = rendering.copy(samplesDone = samples.toInt, samplesPerPixel = header.samples)
+      renderer.finish(submitted.writer, submitted.prepared, done)
+        .worseOf(if done.isComplete then ExitCode.Done else ExitCode.Interrupted)
+
+  private def save(path: Path, header: FilmHeader, state: RenderState): Unit =
+    Using.resource(FilmKeeping.locked(path)): _ =>
+      Prepared.write(header, state, path)
+    if !options.quiet then terminal.out.println(s"wrote $path")
+
+private[cli] object ClusterCommand:
+  /** Renderings in the cluster: the next ones take over where the first leaves machines idle. */
+  val AtOnce = 3
+
+  /** In nanoseconds. */
+  val Tick = 100_000_000L
+
+  /** In which machines start. */
+  val FirstSeconds = 10.0
+
+  final case class Submitted(
+      scene: String,
+      prepared: Prepared,
+      writer: ImageWriter,
+      film: Option[Path],
+      work: ClusterWork,
+      run: ClusterRun
+  )

@@ -1,0 +1,218 @@
+package candela.cli.commands
+
+import java.nio.file.{Files, Path}
+
+import scala.jdk.CollectionConverters.*
+import scala.util.Using
+
+import candela.base.FileName
+import candela.cli.files.{FileRegister, Output, OutputFiles}
+import candela.cli.options.{Limit, Options}
+import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.image.{Contents, ImageError, ImageFiles, OutputFormat}
+import candela.measure.{ErrorMap, HeatMap, ImagePair, Metric, Metrics}
+
+/** `candela compare`: measures the error of an image, or of each image of a folder, against a
+  * reference.
+  */
+final class CompareCommand(options: Options, terminal: Terminal, report: Report):
+  private val asked = options.compare
+
+  def run(): ExitCode = report.guarded:
+    val Vector(image, reference) = options.files.map(OutputFiles.path): @unchecked
+    val register = FileRegister()
+    register.read(Vector(image, reference))
+    for (kind, name, option) <- pictures do
+      val file = OutputFiles.asked(Vector(name))
+      file.check()
+      register.write(Output(file.paths, kind, options.files.head, option))
+    val code = if Files.isDirectory(image) then compareSet(image, reference)
+    else compareTwo(image, reference)
+    terminal.out.flush()
+    code
+
+  private def pictures: Vector[(String, String, String)] =
+    asked.difference.map(("difference", _, "difference")).toVector ++
+      asked.heatMap.map(("heat map", _, "heatmap"))
+
+  private def compareTwo(image: Path, reference: Path): ExitCode =
+    val comparison = Comparison(pairOf(image, reference))
+    comparison.lines.foreach(terminal.out.println)
+    if asked.perChannel then comparison.perChannel.foreach(terminal.out.println)
+    write(comparison)
+    judge(comparison, "")
+
+  private def pairOf(image: Path, reference: Path): ImagePair =
+    val (a, b) = (ImageFiles.read(image), ImageFiles.read(reference))
+    val pair = asked.channels.fold(ImagePair(a, b))(ImagePair.of(a, b, _))
+    asked.crop.fold(pair)(pair.cropped)
+
+  private def write(comparison: Comparison): Unit =
+    for name <- asked.difference do
+      ImageFiles.write(Path.of(name), comparison.pair.difference)
+    for name <- asked.heatMap do
+      val metric = asked.heatMapMetric
+      val map = ErrorMap(metric, comparison.pair)
+      val isFalseColor = OutputFormat.of(Path.of(name)).exists(_.contents == Contents.Display)
+      if !isFalseColor then ImageFiles.write(Path.of(name), map)
+      else
+        val most = asked.heatMapMax.getOrElse(HeatMap.usualBrightest(metric, map))
+        val about = Vector("metric" -> metric.word, "brightest" -> most.toString)
+        ImageFiles.write(Path.of(name), HeatMap.of(map, most), about)
+        terminal.out.println(
+          s"heat map      ${metric.title} from 0 to ${Figures.scientific(most)}, in $name"
+        )
+
+  /** Compares each image of a folder with the reference of the same name, or all with one
+    * reference.
+    */
+  private def compareSet(images: Path, references: Path): ExitCode =
+    if asked.writesPictures then
+      throw ImageError("--difference and --heatmap need two images, not folders")
+    val set = ReferenceSet.of(images, references)
+    for file <- set.missing do terminal.err.println(s"$file: no reference in $references")
+    val comparisons =
+      set.pairs.map((image, reference) => image -> Comparison(pairOf(image, reference)))
+    ReferenceSet.table(comparisons).foreach(terminal.out.println)
+    val codes = comparisons.map((image, c) => judge(c, s"${image.getFileName}: "))
+    val unknown = if set.missing.isEmpty then ExitCode.Done else ExitCode.BadInput
+    codes.foldLeft(unknown)(_ worseOf _)
+
+  /** If limits are set, NaN and infinite pixels fail the comparison too: NaN must not pass as
+    * equal.
+    */
+  private def judge(comparison: Comparison, name: String): ExitCode =
+    val skipped = comparison.metrics.skipped
+    val wrong =
+      if asked.limits.isEmpty then Vector.empty
+      else if skipped > 0 then Vector(s"NaN or infinite in ${Figures.count(skipped, "pixel")}")
+      else asked.limits.flatMap(BrokenLimits.of(_, comparison))
+    wrong.foreach(text => terminal.err.println(name + text))
+    if wrong.isEmpty then ExitCode.Done else ExitCode.BadInput
+
+/** An image with its reference, and their error metrics.
+  *
+  * @param flip mean FLIP error; None if there are no colour channels
+  */
+final case class Comparison(pair: ImagePair, metrics: Metrics, flip: Option[Double]):
+
+  def lines: Vector[String] =
+    val m = metrics
+    val ratios = m.channels.zip(m.meanRatio).map((c, r) => s"$c ${Figures.fixed(r, 4)}")
+    val difference = Figures.scientific(m.largest.value)
+    val most = m.largest
+    Vector(
+      s"MSE           ${Figures.scientific(m.mse)}",
+      s"RMSE          ${Figures.scientific(m.rmse)}",
+      s"MAE           ${Figures.scientific(m.mae)}",
+      s"relative MSE  ${Figures.scientific(m.relativeMse)}",
+      s"PSNR          ${Comparison.decibels(m.psnr)}"
+    ) ++ flip.map(f => s"FLIP          ${Figures.scientific(f)}") ++ Vector(
+      s"mean ratio    ${ratios.mkString("  ")}",
+      s"largest       $difference in ${most.channel} at (${most.x}, ${most.y})"
+    ) ++ Option.when(m.skipped > 0):
+      s"skipped       ${Figures.count(m.skipped, "pixel")}, NaN or infinite"
+
+  /** Table of per-channel metrics. */
+  def perChannel: Vector[String] =
+    val head = Vector("channel", "MSE", "RMSE", "MAE", "relative MSE", "mean", "reference", "ratio")
+    val rows = metrics.perChannel.map: c =>
+      val figures = Vector(c.mse, c.rmse, c.mae, c.relativeMse, c.mean, c.referenceMean)
+      (c.name +: figures.map(Figures.scientific)) :+ Figures.fixed(c.meanRatio, 4)
+    Comparison.aligned(head +: rows)
+
+object Comparison:
+
+  def apply(pair: ImagePair): Comparison =
+    val metrics = Metrics.compare(pair.image, pair.reference)
+    val flip = Option.when(pair.isColor)(ErrorMap.mean(ErrorMap(Metric.Flip, pair)))
+    Comparison(pair, metrics, flip)
+
+  def decibels(psnr: Double): String =
+    if psnr.isInfinite then "infinite" else s"${Figures.fixed(psnr, 2)} dB"
+
+  /** Pads columns to their widest cell; numbers are right-aligned. */
+  def aligned(rows: Vector[Vector[String]]): Vector[String] =
+    val widths = rows.head.indices.map(i => rows.map(_(i).length).max)
+    rows.map: row =>
+      val cells = row.zip(widths).tail.map((cell, width) => " " * (width - cell.length) + cell)
+      (row.head.padTo(widths.head, ' ') +: cells).mkString("  ")
+
+/** Images paired with their references.
+  *
+  * @param missing images without a reference
+  */
+final case class ReferenceSet(pairs: Vector[(Path, Path)], missing: Vector[Path])
+
+object ReferenceSet:
+  /** Pairs images with references: one for all, or a folder searched by name without suffix.
+    *
+    * @throws ImageError if the folder contains no images
+    */
+  def of(images: Path, references: Path): ReferenceSet =
+    val found = files(images)
+    if found.isEmpty then throw ImageError(s"$images: no images in this folder")
+    if Files.isDirectory(references) then
+      val known = files(references).groupBy(FileName.stem)
+      val matched = found.map: image =>
+        // Of several candidates, prefers the image's own format, then the order of the suffixes,
+        // EXR first.
+        val same = known.getOrElse(FileName.stem(image), Vector.empty)
+        image -> same.minByOption: r =>
+          val suffix = FileName.suffix(r)
+          (suffix != FileName.suffix(image), ImageFiles.readable.indexOf(suffix))
+      ReferenceSet(
+        matched.collect { case (image, Some(reference)) => (image, reference) },
+        matched.collect { case (image, None) => image }
+      )
+    else
+      val one = references.toAbsolutePath.normalize
+      val others = found.filterNot(_.toAbsolutePath.normalize == one)
+      ReferenceSet(others.map(image => (image, references)), Vector.empty)
+
+  /** One row per comparison, and the means. */
+  def table(comparisons: Vector[(Path, Comparison)]): Vector[String] =
+    val head = Vector("image", "MSE", "MAE", "relative MSE", "PSNR", "FLIP", "bias")
+    def row(name: String, c: Comparison) =
+      val m = c.metrics
+      Vector(m.mse, m.mae, m.relativeMse).map(Figures.scientific).prepended(name) ++
+        Vector(Comparison.decibels(m.psnr), c.flip.fold("-")(Figures.scientific)) :+
+        Figures.scientific(m.bias)
+    def mean(figure: Comparison => Double) =
+      Figures.scientific(comparisons.map((_, c) => figure(c)).sum / comparisons.size)
+    val means = Option.when(comparisons.sizeIs > 1):
+      val flip = if comparisons.forall(_._2.flip.isDefined) then mean(_.flip.get) else "-"
+      Vector("mean", mean(_.metrics.mse), mean(_.metrics.mae), mean(_.metrics.relativeMse), "") ++
+        Vector(flip, mean(_.metrics.bias))
+    Comparison.aligned(
+      head +: (comparisons.map((path, c) => row(path.getFileName.toString, c)) ++ means)
+    )
+
+  private def files(folder: Path): Vector[Path] =
+    Using.resource(Files.list(folder)): all =>
+      all.iterator.asScala.toVector.filter(f =>
+        ImageFiles.readable.contains(FileName.suffix(f))
+      ).sorted
+
+/** Bounds on metrics that a comparison exceeds. */
+private object BrokenLimits:
+  /** The violation, if any; a metric that can't be computed violates its bound. */
+  def of(limit: Limit, c: Comparison): Option[String] = limit.option match
+    case "min-psnr" =>
+      Option.unless(c.metrics.psnr >= limit.value)(said(limit, c.metrics.psnr, "below"))
+    case other =>
+      val found = figures(other)(c)
+      Option.unless(found.exists(_ <= limit.value)):
+        found.fold(s"${limit.figure} can't be computed for these images")(said(limit, _, "above"))
+
+  private def said(limit: Limit, found: Double, where: String): String =
+    s"${limit.figure} ${Figures.scientific(found)} is $where --${limit.option} ${limit.value}"
+
+  private val figures: Map[String, Comparison => Option[Double]] = Map(
+    "max-mse" -> (c => Some(c.metrics.mse)),
+    "max-rmse" -> (c => Some(c.metrics.rmse)),
+    "max-mae" -> (c => Some(c.metrics.mae)),
+    "max-relmse" -> (c => Some(c.metrics.relativeMse)),
+    "max-bias" -> (c => Some(c.metrics.bias)),
+    "max-flip" -> (c => c.flip)
+  )

@@ -1,0 +1,256 @@
+package candela.cli.commands
+
+import java.nio.charset.StandardCharsets.UTF_8
+
+import candela.base.{Problem, SceneError, Suggest, WholeFile}
+import candela.build.{Category, Language}
+import candela.build.recipe.{Dialects, Field, Recipe, Support}
+import candela.cli.files.{FileRegister, Output, OutputFiles}
+import candela.cli.options.{Options, PbrtOptions}
+import candela.cli.terminal.{ExitCode, Report, Terminal, TextTable}
+import candela.scenefile.Dialect
+
+/** `candela describe`: prints the scene reference, generated from the recipes that build scenes. */
+final class DescribeCommand(options: Options, terminal: Terminal, report: Report):
+  private val described =
+    Described(options.settings.reading.dialect.fold(Dialect.values.toSet)(Set(_)))
+  private val text = ReferenceText(described, terminal.columns)
+
+  def run(): ExitCode = report.guarded:
+    val outputs = options.outfiles.map(OutputFiles.path)
+    FileRegister().write(Output(outputs, "reference", "Candela"))
+    val lines =
+      if options.pbrtOptions then PbrtOptions.page.linesIterator.toVector
+      else if options.markdown then ReferenceMarkdown(described).page
+      else answer(options.files)
+    outputs match
+      case Vector() =>
+        lines.foreach(terminal.out.println)
+        terminal.out.flush()
+      case files =>
+        for f <- files do
+          WholeFile.write(f, lines.map(_ + "\n").mkString.getBytes(UTF_8))
+    ExitCode.Done
+
+  private def answer(words: Vector[String]): Vector[String] = words match
+    case Vector() => text.categories
+    case Vector(word) =>
+      val categories = Language.categories.filter(isCalled(_, word))
+      if categories.nonEmpty then separated(categories.map(text.category))
+      else of(Language.categories, word, Language.categories.flatMap(c => c.name +: c.aliases))
+    case Vector(category, name) =>
+      val categories = Language.categories.filter(isCalled(_, category))
+      if categories.isEmpty then
+        unknown("category", category, Language.categories.flatMap(c => c.name +: c.aliases))
+      else of(categories, name, Vector.empty)
+    case _ => throw SceneError(Problem.general("describe expects a category, a type, or both"))
+
+  /** The types called `name`. */
+  private def of(in: Vector[Category], name: String, others: Vector[String]): Vector[String] =
+    val types = in.flatMap(described.types)
+    types.filter(_.name.equalsIgnoreCase(name)) match
+      case Vector() => unknown(
+          if in.size == 1 then in.head.name else "type",
+          name,
+          types.map(_.name).filter(_.nonEmpty) ++ others
+        )
+      case found => separated(found.map(text.parameters))
+
+  private def isCalled(c: Category, word: String): Boolean =
+    (c.name +: c.aliases).exists(n => n.equalsIgnoreCase(word) || (n + "s").equalsIgnoreCase(word))
+
+  private def separated(texts: Vector[Vector[String]]): Vector[String] =
+    texts.reduce((a, b) => a ++ Vector("", "") ++ b)
+
+  private def unknown(kind: String, word: String, known: Vector[String]): Nothing =
+    val start = known.find(_.toLowerCase.startsWith(word.toLowerCase))
+    val help = Suggest.nearest(word, known).orElse(start).map(k => s"did you mean `$k`?")
+    val where = options.settings.reading.dialect.fold("")(d => s" in ${d.toString.toLowerCase}")
+    throw SceneError(
+      Problem.general(
+        s"unknown ${kind.toLowerCase} `$word`$where",
+        help.orElse(Some("`candela describe` lists all categories"))
+      )
+    )
+
+/** A parameter, formatted for display.
+  *
+  * @param unsupported what happens instead, if it has no effect though it should have one
+  */
+final case class DescribedParameter(
+    name: String,
+    typeName: String,
+    default: String,
+    dialects: String,
+    meaning: String,
+    unsupported: Option[String]
+)
+
+/** A type of a category, formatted for display and restricted to the requested dialects. */
+final case class DescribedType(
+    category: Category,
+    name: String,
+    dialects: String,
+    meaning: String,
+    substitute: Option[String],
+    parameters: Vector[DescribedParameter]
+):
+  /** The statement as written in a scene file; options have no type name. */
+  def title: String = category.name match
+    case s"Texture ($values)" => s"Texture \"…\" \"$values\" \"$name\""
+    case "Option" => "Option"
+    case "MakeNamedMedium" => s"MakeNamedMedium \"…\" \"string type\" \"$name\""
+    case statement => s"$statement \"$name\""
+
+/** Formats the recipes for display. */
+final class Described(asked: Set[Dialect]):
+
+  /** The types of the requested dialects, in table order. */
+  def types(category: Category): Vector[DescribedType] =
+    for recipe <- category.recipes.all if recipe.dialects.exists(asked)
+    yield DescribedType(
+      category,
+      recipe.name,
+      named(recipe.dialects),
+      recipe.meaning,
+      recipe.substitute,
+      parameters(recipe)
+    )
+
+  private def parameters(recipe: Recipe[?]): Vector[DescribedParameter] =
+    val known = recipe.fields.filter(_.dialects.exists(d => recipe.dialects(d) && asked(d)))
+    // Parameters that affect the image come first.
+    for field <- known.sortBy(recipe.support(_).ordinal)
+    yield DescribedParameter(
+      field.name,
+      field.typeName,
+      default(field, recipe),
+      named(field.dialects.intersect(recipe.dialects)),
+      meaning(field, recipe),
+      recipe.support(field) match
+        case Support.Unsupported(instead) => Some(instead)
+        case _ => None
+    )
+
+  private def named(dialects: Set[Dialect]): String =
+    Dialect.values.filter(dialects).map(Dialects.name).mkString(" ")
+
+  /** The default, or each default with its dialects: `80 (v2 v3), 5 (v4)`. */
+  private def default(field: Field[?], recipe: Recipe[?]): String =
+    val dialects =
+      Dialect.values.toVector.filter(d => field.dialects(d) && recipe.dialects(d) && asked(d))
+    val texts = dialects.map(field.shown).distinct
+    if texts.size == 1 then texts.head
+    else
+      texts
+        .map(t => s"$t (${named(dialects.filter(field.shown(_) == t).toSet)})")
+        .mkString(", ")
+
+  private def meaning(field: Field[?], recipe: Recipe[?]): String =
+    val unit = if field.unit.isEmpty then "" else s" [${field.unit}]"
+    val support = recipe.support(field) match
+      case Support.Used => ""
+      case Support.Unsupported(instead) => s"; not supported: $instead"
+      case Support.NoMeaning(reason) => s"; no effect: $reason"
+    s"${field.doc}$unit$support"
+
+/** Formats the reference for a terminal. */
+final class ReferenceText(described: Described, columns: Int):
+  private val table = TextTable(columns)
+
+  /** Lists all categories. */
+  def categories: Vector[String] =
+    val rows =
+      for c <- Language.categories; types = described.types(c) if types.nonEmpty
+      yield
+        val counted = types.map(_.name).distinct.size
+        Vector(c.name, if counted > 1 then s"$counted types" else "", c.meaning)
+    table.lines(rows, indent = 0) ++
+      Vector(
+        "",
+        "`candela describe CATEGORY` lists types, `candela describe TYPE` parameters."
+      )
+
+  /** Lists a category's types; of a single type, its parameters. */
+  def category(c: Category): Vector[String] =
+    described.types(c) match
+      case Vector(only) => parameters(only)
+      case types =>
+        val rows = types.map: t =>
+          val later = t.substitute.fold("")(instead => s"; substituted: $instead")
+          Vector(s"\"${t.name}\"", t.dialects, t.meaning + later)
+        s"${c.name}: ${c.meaning}" +: "" +: table.lines(rows)
+
+  def parameters(t: DescribedType): Vector[String] =
+    val head = TextTable.wrap(s"${t.title} (${t.dialects}): ${t.meaning}", columns)
+    val later = t.substitute.toVector.flatMap: instead =>
+      TextTable.wrap(s"Substituted: $instead.", columns)
+    val names = Vector("name", "type", "default", "in", "meaning")
+    val rows = t.parameters.map(p => Vector(p.name, p.typeName, p.default, p.dialects, p.meaning))
+    val body =
+      if rows.isEmpty then Vector("  no parameters") else table.lines(names +: rows)
+    head ++ later ++ ("" +: body)
+
+/** Formats the reference as a Markdown page. */
+final class ReferenceMarkdown(described: Described):
+
+  def page: Vector[String] =
+    ReferenceMarkdown.Introduction.linesIterator.toVector ++ substitutes ++
+      Language.categories.filter(described.types(_).nonEmpty).flatMap(category)
+
+  /** Types that are not rendered as they are. */
+  private def substitutes: Vector[String] =
+    val rows =
+      for c <- Language.categories; t <- described.types(c); instead <- t.substitute
+      yield row(c.name, s"`${t.name}`", t.dialects, instead)
+    val parameters =
+      for
+        c <- Language.categories; t <- described.types(c); p <- t.parameters
+        if p.unsupported.nonEmpty
+      yield row(t.title, s"`${p.name}`", p.dialects, p.unsupported.get)
+    Vector("", "## What is substituted", "", ReferenceMarkdown.Substitutes, "") ++
+      (row("category", "type", "in", "instead") +: rule(4) +: rows) ++
+      Vector("", ReferenceMarkdown.Unsupported, "") ++
+      (row("statement", "parameter", "in", "instead") +: rule(4) +: parameters)
+
+  private def category(c: Category): Vector[String] =
+    val types = described.types(c)
+    val rows = types.map: t =>
+      val name = if t.name.isEmpty then t.title else t.name
+      val support = t.substitute.fold("")(instead => s"substituted: $instead")
+      row(s"`$name`", t.dialects, t.meaning, support)
+    val overview =
+      if types.size < 2 then Vector.empty
+      else "" +: row("type", "in", "meaning", "support") +: rule(4) +: rows
+    Vector("", s"## ${c.name}", "", c.meaning.capitalize + ".") ++ overview ++
+      types.filter(_.parameters.nonEmpty).flatMap(parameters)
+
+  private def parameters(t: DescribedType): Vector[String] =
+    val rows = t.parameters.map: p =>
+      row(s"`${p.name}`", p.typeName, p.default, p.dialects, p.meaning)
+    val support = t.substitute.map(instead => s" Substituted: $instead.").getOrElse("")
+    Vector("", s"### ${t.title}, ${t.dialects}", "", s"${t.meaning.capitalize}.$support", "") ++
+      (row("name", "type", "default", "in", "meaning") +: rule(5) +: rows)
+
+  private def row(cells: String*): String =
+    cells.map(_.replace("|", "\\|")).mkString("| ", " | ", " |")
+
+  private def rule(cells: Int): String = "|" + "---|" * cells
+
+private object ReferenceMarkdown:
+  val Substitutes: String =
+    "These types are replaced, with a warning at each use that says by what."
+
+  val Unsupported: String =
+    "These parameters are not supported; each use is a warning."
+
+  val Introduction: String =
+    """# Scene reference
+      |
+      |All types and parameters of pbrt-v2, v3 and v4, and Candela's support for them. This page is
+      |generated: `./sbt "run describe --markdown --outfile docs/REFERENCE.md"`.
+      |
+      |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum
+      |texture` accept a value or `"texture NAME" "TEXTURE"`. A `spectrum` is given as `rgb`,
+      |`spectrum` or `blackbody`; in v2 and v3 also as `color` or `xyz`. Units are in
+      |brackets.""".stripMargin

@@ -1,0 +1,76 @@
+package candela.cli.commands
+
+import java.nio.file.Path
+
+import candela.base.{Problem, SceneError, Severity}
+import candela.cli.files.OutputFiles
+import candela.cli.options.{MapShape, Options}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
+import candela.convert.SkyImages
+import candela.image.*
+import candela.lights.{EqualAreaMap, LatLongMap}
+
+/** `candela image`: converts an image to other formats, sizes, ranges and primaries. */
+final class ImageCommand(options: Options, terminal: Terminal, report: Report):
+  private val asked = options.image
+
+  def run(): ExitCode = report.guarded:
+    val outputs = OutputFiles.asked(options.outfiles)
+    outputs.check(options.files, "image")
+    val path = OutputFiles.path(options.files.head)
+    val whole = ImageFiles.read(path).linear
+    val made =
+      try edited(whole)
+      catch
+        case e: ImageError => throw ImageError(message(path, e))
+    // As imgtool: a crop knows its place
+    val isPlaced = asked.size.isEmpty && asked.environment.isEmpty && !asked.flips
+    val window = asked.crop.filter(_ => isPlaced).map: c =>
+      ImageWindow(c.x0, c.y0, whole.width, whole.height)
+    val how = WriteOptions(isHalf = asked.isHalf, display = options.display, window = window)
+    for out <- outputs.paths do
+      if OutputFormat.of(out).exists(_.contents != Contents.Channels) then
+        ImageFiles.colored(path, made): Unit
+      val shown =
+        if OutputFormat.of(out).exists(_.contents == Contents.Display) then
+          options.display.describe(made)
+        else Vector.empty
+      ImageFiles.write(out, made, ("image" -> path.toString) +: shown, how)
+      if !options.quiet then terminal.out.println(s"wrote $out  ${made.width}x${made.height}")
+    terminal.out.flush()
+    ExitCode.Done
+
+  private def message(path: Path, e: ImageError) =
+    if e.getMessage.startsWith(s"$path") then e.getMessage else s"$path: ${e.getMessage}"
+
+  private def edited(image: Image): Image =
+    val selected = asked.channels.fold(image)(ImageEdits.select(image, _))
+    val cropped = asked.crop.fold(selected)(_.of(selected))
+    val shaped = asked.environment match
+      case Some(shape) => environment(cropped, shape)
+      case None =>
+        asked.size.fold(cropped): size =>
+          val (w, h) = size.of(cropped.width, cropped.height)
+          Resample(cropped, w, h)
+    val scaled = if asked.scale == 1f then shaped else ImageEdits.scaled(shaped, asked.scale)
+    val clamped = asked.clamp.fold(scaled)(ImageEdits.clamped(scaled, _))
+    val placed = asked.colorSpace.fold(clamped)(ImageEdits.in(clamped, _))
+    if asked.flips then ImageEdits.flipped(placed) else placed
+
+  private def environment(image: Image, shape: MapShape): Image =
+    val source = image.toRgb
+    def fail(why: String) = throw SceneError(Problem.general(why))
+    shape match
+      case MapShape.EqualArea =>
+        if source.width != 2 * source.height then
+          val message =
+            s"${source.width}x${source.height} pixels: a latlong map is twice as wide as high"
+          report.warnings(Vector(Problem(Severity.Warning, None, message)), all = true)
+        val side = asked.size.fold(source.width)(_.of(1, 1)._1)
+        SkyImages.resampled(source, LatLongMap, side, side, EqualAreaMap, smooth = true)
+      case MapShape.LatLong =>
+        if source.width != source.height then
+          fail(s"an equalarea map is square, found ${source.width}x${source.height} pixels")
+        val (w, h) =
+          asked.size.fold((2 * source.height, source.height))(_.of(2, 1))
+        SkyImages.resampled(source, EqualAreaMap, w, h, LatLongMap, smooth = true)

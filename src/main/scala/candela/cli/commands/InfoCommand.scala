@@ -1,0 +1,88 @@
+package candela.cli.commands
+
+import java.nio.file.Path
+
+import candela.base.{ForeignFile, ForeignKind, InputFile, loop}
+import candela.cli.files.{FilmInput, OutputFiles}
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Figures, Report, Terminal}
+import candela.image.{ByteImage, Image, ImageFiles, StoredImage}
+import candela.render.storage.FilmHeader
+
+/** `candela info`: prints size, channels, metadata and statistics of images, and what saved
+  * renderings are.
+  */
+final class InfoCommand(options: Options, terminal: Terminal, report: Report):
+
+  def run(): ExitCode = report.guarded:
+    val several = options.files.size > 1
+    for (name, i) <- options.files.zipWithIndex do
+      if several && i > 0 then terminal.out.println()
+      if several then terminal.out.println(name)
+      val path = OutputFiles.path(name)
+      val found =
+        if isFilm(path) then described(FilmInput.open(name, report).header)
+        else lines(path, ImageFiles.load(InputFile.asked(path)))
+      found.foreach(terminal.out.println)
+    terminal.out.flush()
+    ExitCode.Done
+
+  private def isFilm(path: Path): Boolean =
+    ForeignFile.of(path).exists(_.kind == ForeignKind.Film)
+
+  private def described(film: FilmHeader): Vector[String] =
+    val samples = s"${film.done} of ${film.samples} per pixel"
+    val about = Vector(
+      "scene" -> film.scene,
+      "size" -> film.size,
+      "samples" -> (if film.isComplete then s"$samples: complete" else samples)
+    ) ++ Option.when(film.count > 1)("part" -> film.part) ++
+      Option.when(film.words.nonEmpty)("options" -> film.words.mkString(" ")) ++
+      Option.when(film.outfiles.nonEmpty)("images" -> film.outfiles.mkString(", ")) ++
+      Vector(
+        "files" -> s"${film.files.size} of the scene",
+        "written by" -> s"Candela ${film.version}"
+      )
+    table(about)
+
+  private def table(about: Vector[(String, String)]): Vector[String] =
+    val width = about.map(_._1.length).max.max(12)
+    about.map((name, text) => s"${name.padTo(width, ' ')}  $text")
+
+  private def lines(path: Path, stored: StoredImage): Vector[String] =
+    val bits = stored match
+      case _: ByteImage => "8 bits"
+      case _ => "floats"
+    val encoding = stored.encoding.toString.toLowerCase
+    val about = Vector(
+      "size" -> s"${stored.width}x${stored.height}",
+      "channels" -> s"${stored.channelNames.mkString(", ")}, $bits, $encoding",
+      "primaries" -> stored.colorSpace.name
+    ) ++ ImageFiles.facts(path)
+    table(about) ++ InfoCommand.statistics(stored.toImage.linear)
+
+object InfoCommand:
+
+  /** A table of the linear values of each channel. */
+  private[cli] def statistics(image: Image): Vector[String] =
+    val n = image.channels
+    val rows = image.channelNames.zipWithIndex.map: (name, c) =>
+      var least = Double.PositiveInfinity
+      var most = Double.NegativeInfinity
+      var sum = 0.0
+      var nans = 0
+      var infinities = 0
+      loop(image.width * image.height): pixel =>
+        val v = image.data(pixel * n + c).toDouble
+        if v.isNaN then nans += 1
+        else if v.isInfinite then infinities += 1
+        else
+          least = Math.min(least, v)
+          most = Math.max(most, v)
+          sum += v
+      val finite = image.width * image.height - nans - infinities
+      val figures =
+        if finite == 0 then Vector("-", "-", "-")
+        else Vector(least, most, sum / finite).map(Figures.scientific)
+      (name +: figures) ++ Vector(nans.toString, infinities.toString)
+    Comparison.aligned(Vector("channel", "least", "greatest", "mean", "NaN", "infinite") +: rows)

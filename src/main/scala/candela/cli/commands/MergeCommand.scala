@@ -1,0 +1,158 @@
+package candela.cli.commands
+
+import candela.base.{Problem, SceneError, Severity}
+import candela.cli.files.{FileRegister, FilmInput, FilmKeeping, Output, OutputFiles}
+import candela.cli.options.{FilmOptions, Options}
+import candela.cli.terminal.{ExitCode, Report, Terminal}
+import candela.job.{FilmHeaders, Prepared, SceneLoader}
+import candela.render.RenderState
+import candela.render.storage.{FilmFile, FilmHeader}
+import candela.scenefile.SceneFiles
+
+import scala.collection.mutable
+import scala.util.Using
+
+/** `candela merge`: adds up film files of the shards of a rendering. */
+final class MergeCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  def run(): ExitCode =
+    report.guarded:
+      val films = usable()
+      val first = films.head
+      val outfiles = OutputFiles.asked(options.outfiles)
+      outfiles.check()
+      val register = FileRegister()
+      if options.limits.sandbox then
+        val folders = options.outfiles.map(OutputFiles.path).map(_.toAbsolutePath.getParent)
+        register.confine(folders.distinct)
+      register.read(films.flatMap(f => Vector(f.path, FilmFile.previous(f.path))))
+      val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path).toVector
+      val outputs = Output(outfiles.paths, "image", first.path.toString) +:
+        merged.map(Output.film(_, first.path.toString))
+      outputs.foreach(register.check)
+      val saved = FilmInput.options(first, options)
+      Using.resource(loader.load(saved.files.head, saved.preparation)): loaded =>
+        merge(films, loaded, saved, outfiles, outputs, register)
+
+  private def merge(
+      films: Vector[FilmFile],
+      loaded: Prepared,
+      saved: Options,
+      outfiles: OutputFiles,
+      outputs: Vector[Output],
+      register: FileRegister
+  ): ExitCode =
+    val first = films.head
+    val header = first.header
+    val images = header.outfiles.map(OutputFiles.path)
+    val now = FilmHeaders.of(saved.settings, header.scene, loaded, first.path, images)
+    register.read(SceneFiles.of(loaded.description))
+    outputs.foreach(register.write)
+    FilmInput.verify(first, now.copy(count = header.count))
+    val shards = films.flatMap(_.header.shards).toSet
+    val all = films.map(_.header.done).min
+    val done =
+      if shards.size == header.count then all else (all.toLong * shards.size / header.count).toInt
+    val film = header.copy(shards = shards, done = all)
+    write(film, films, outfiles, loaded, saved, done)
+
+  private def write(
+      header: FilmHeader,
+      films: Vector[FilmFile],
+      outfiles: OutputFiles,
+      loaded: Prepared,
+      saved: Options,
+      done: Int
+  ): ExitCode =
+    val merged = options.outfiles.find(FilmOptions.isFilm).map(OutputFiles.path)
+    def load(state: RenderState): Unit =
+      films.foreach(_.load(state))
+      for path <- merged do
+        Using.resource(FilmKeeping.locked(path)): _ =>
+          val whole = if header.isWhole then header.copy(shards = Set(0), count = 1) else header
+          Prepared.write(whole, state, path)
+        if !options.quiet then terminal.out.println(s"wrote $path")
+    val rendering = loaded.gather(load)
+    val planned = if options.film.partial then done else header.samples
+    val command = RenderCommand(saved, terminal, report, loader)
+    val writer = command.writer(header.scene, loaded, outfiles.paths)
+    command.finish(
+      writer,
+      loaded,
+      rendering.copy(samplesDone = done, samplesPerPixel = planned)
+    )
+
+  /** The films that can be merged. With `--partial`, the others are left out with a warning;
+    * otherwise they are errors, all of them.
+    */
+  private def usable(): Vector[FilmFile] =
+    val opened = options.files.map: name =>
+      try Right(FilmInput.open(name, report))
+      catch case e: SceneError => Left(e.problems)
+    val (own, foreign) = ofOneRendering(opened.flatMap(_.toOption))
+    val (single, doubled) = withoutDoubles(own)
+    val bad = opened.flatMap(_.left.toOption).flatten ++ foreign ++ doubled
+    if options.film.partial && single.nonEmpty then
+      report.warnings(
+        bad.map(p =>
+          p.copy(severity = Severity.Warning, message = s"${p.message}; it is left out")
+        ),
+        all = true
+      )
+    else
+      val gaps = if bad.isEmpty && !options.film.partial then missing(single) else Vector.empty
+      val all = bad ++ gaps ++ (if options.film.partial then Vector.empty else unfinished(single))
+      if all.nonEmpty then throw SceneError(all)
+    single
+
+  /** The films of the rendering that most of them are of; and what is wrong with the others. */
+  private def ofOneRendering(films: Vector[FilmFile]): (Vector[FilmFile], Vector[Problem]) =
+    val groups = films.foldLeft(Vector.empty[Vector[FilmFile]]): (groups, film) =>
+      groups.indexWhere(_.head.header.difference(film.header).isEmpty) match
+        case -1 => groups :+ Vector(film)
+        case i => groups.updated(i, groups(i) :+ film)
+    val most = groups.maxByOption(_.size).getOrElse(Vector.empty)
+    val problems =
+      for first <- most.take(1); film <- films; why <- first.header.difference(film.header)
+      yield Problem.general(s"`${film.path}` is of another rendering than `${first.path}`: $why")
+    (most, problems)
+
+  /** One film for each shard: that with the most samples, or the first of equals. */
+  private def withoutDoubles(films: Vector[FilmFile]): (Vector[FilmFile], Vector[Problem]) =
+    val owners = mutable.HashMap.empty[Int, FilmFile]
+    val problems = Vector.newBuilder[Problem]
+    val kept = films.sortBy(-_.header.done).filter: film =>
+      val shards = film.header.shards
+      shards.find(owners.contains) match
+        case None =>
+          owners ++= shards.map(_ -> film)
+          true
+        case Some(shard) =>
+          val both = s"`${owners(shard).path}`, `${film.path}`"
+          problems +=
+            Problem.general(s"shard $shard/${film.header.count} is there twice: $both")
+          false
+    (films.filter(kept.contains), problems.result())
+
+  private def missing(films: Vector[FilmFile]): Vector[Problem] =
+    val count = films.head.header.count
+    val gaps = FilmHeader.missing(films.flatMap(_.header.shards).toSet, count)
+    val names = FilmHeader.named(gaps, count)
+    val isOne = gaps.size == 1 && gaps.forall((first, last) => first == last)
+    val many = if isOne then s"shard $names is" else s"shards $names are"
+    Option.when(gaps.nonEmpty):
+      Problem.general(s"$many missing", Some("--partial merges the others"))
+    .toVector
+
+  private def unfinished(films: Vector[FilmFile]): Vector[Problem] =
+    for film <- films if films.size > 1 && !film.header.isComplete yield
+      val header = film.header
+      Problem.general(
+        s"shard ${header.part} is unfinished, with ${header.done} of ${header.samples} samples " +
+          s"per pixel: `${film.path}`",
+        Some(s"`candela resume ${film.path}` completes it; --partial merges what there is")
+      )

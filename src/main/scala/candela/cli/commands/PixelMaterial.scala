@@ -1,0 +1,43 @@
+package candela.cli.commands
+
+import candela.base.{Problem, SceneError}
+import candela.cli.terminal.{ExitCode, Figures, Printer}
+import candela.geometry.Ray
+import candela.math.Vec3
+import candela.render.RenderPlan
+
+/** `candela render --pixelmaterial x,y`: prints what the centre of a pixel shows. */
+private[cli] object PixelMaterial:
+  def run(plan: RenderPlan, x: Int, y: Int, out: Printer): ExitCode =
+    if x >= plan.width || y >= plan.height then
+      val size = s"${plan.width}x${plan.height}"
+      throw SceneError(Problem.general(s"--pixelmaterial $x,$y is outside the image: $size"))
+    val layers = plan.layers.getOrElse:
+      throw SceneError(Problem.general("--pixelmaterial needs an integrator with camera samples"))
+    val ray = Ray()
+    ray.weight = 1f
+    for shutter <- plan.shutter do ray.time = shutter.at(0.5f)
+    plan.camera.generate(x + 0.5f, y + 0.5f, 0.5f, 0.5f, ray)
+    val seen = layers.surface.copy()
+    if ray.weight != 0f then seen.look(ray)
+    out.println(s"pixel ($x, $y)")
+    if ray.weight == 0f || !seen.isThere then out.println("nothing but the environment")
+    else
+      val names = layers.names
+      val at = seen.at
+      val facts = Vector(
+        "material" -> names.materials.lift(at.material).getOrElse("unknown"),
+        "shape" -> names.objects.lift(seen.scene.objectIndex(seen.hit)).getOrElse("unknown"),
+        "point" -> shown(at.p.toVec3),
+        "normal" -> shown(at.geometricNormal.toVec3),
+        "shading normal" -> shown(at.frame.n),
+        "uv" -> s"${number(at.u)} ${number(at.v)}",
+        "albedo" -> Vector(seen.albedo.r, seen.albedo.g, seen.albedo.b).map(number).mkString(" "),
+        "light" -> (if at.areaLight < 0 then "none" else s"number ${at.areaLight}")
+      )
+      for (what, value) <- facts do out.println(s"  ${what.padTo(16, ' ')}$value")
+    out.flush()
+    ExitCode.Done
+
+  private def shown(v: Vec3): String = Vector(v.x, v.y, v.z).map(number).mkString(" ")
+  private def number(x: Float): String = Figures.scientific(x)

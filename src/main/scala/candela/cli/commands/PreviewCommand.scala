@@ -1,0 +1,64 @@
+package candela.cli.commands
+
+import candela.base.FileName
+import candela.build.RenderGoal
+import candela.cli.files.{FileRegister, Output, OutputFiles}
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Report, Terminal, Thumbnail}
+import candela.image.OutputFormat
+import candela.job.SceneLoader
+
+/** `candela preview`: a first look at scenes, within seconds: few pixels, headlight shading, and
+  * placeholders for what is missing.
+  */
+final class PreviewCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  import PreviewCommand.*
+
+  def run(): ExitCode =
+    val register = FileRegister()
+    report.guarded:
+      val previews = FileRegister()
+      for scene <- options.files do
+        val files = OutputFiles.asked(asked(scene).outfiles)
+        previews.note(Output(files.paths, "preview", scene))
+      val codes = options.files.map: scene =>
+        report.guarded(RenderCommand(
+          asked(scene), terminal, report, loader, register = register
+        ).run())
+      codes.foldLeft(ExitCode.Done)(_ worseOf _)
+
+  private def asked(scene: String): Options =
+    val picture =
+      FileName.withSuffix(OutputFiles.path(scene).getFileName, OutputFormat.preview.suffix)
+    val known = Option.when(terminal.isInteractive)(Thumbnail.kindOf(terminal.environment)).flatten
+    options.copy(
+      files = Vector(scene),
+      outfiles =
+        if options.outfiles.nonEmpty then options.outfiles
+        else
+          val name = s"${FileName.stem(picture)}-preview.${OutputFormat.preview.suffix}"
+          val isConfined = options.limits.sandbox
+          Vector(
+            if isConfined then OutputFiles.path(scene).resolveSibling(name).toString else name
+          )
+      ,
+      settings = options.settings.copy(
+        preview = true,
+        samples = Some(Samples),
+        goal = RenderGoal(time = Some(Seconds)),
+        reading = options.settings.reading.copy(keepGoing = true)
+      ),
+      thumbnail = options.thumbnail.orElse(known)
+    )
+
+object PreviewCommand:
+  /** Samples per pixel, if there is time. */
+  private val Samples = 16
+
+  /** Leaves time to write the picture. */
+  private val Seconds = 1.2

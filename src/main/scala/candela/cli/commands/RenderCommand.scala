@@ -1,0 +1,159 @@
+package candela.cli.commands
+
+import candela.base.{Problem, SceneError}
+import candela.build.RenderRegion
+import candela.cli.files.{Denoising, FileRegister, FilmKeeping, Frame, Sequence}
+import candela.cli.options.Options
+import candela.cli.rendering.{ImageWriter, RenderOutputs, SceneRun, Summary}
+import candela.cli.terminal.{ExitCode, Printer, Report, Terminal, Thumbnail}
+import candela.image.Oidn
+import candela.job.{Prepared, SceneLoader}
+import candela.render.{Cancellation, RenderPlan, Rendering}
+import candela.render.storage.FilmFile
+import candela.scene.PathReport
+
+import java.nio.file.Path
+
+import scala.util.Using
+
+/** `candela render`: renders scenes to image files.
+  *
+  * @param resumed  the saved rendering to continue, if any
+  * @param register of files, shared by the renderings of a run
+  */
+final class RenderCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader,
+    resumed: Option[FilmFile] = None,
+    register: FileRegister = FileRegister()
+):
+  private val cancellation = Cancellation()
+  private val files = RenderOutputs(options, report, register, resumed)
+  private lazy val denoising = Option.when(options.settings.output.denoise):
+    Denoising(Oidn.load(terminal.environment), options.threadCount)
+
+  def run(): ExitCode =
+    val sequence = Sequence(options)
+    val code = report.guarded:
+      checkAll(sequence.frames)
+      ExitCode.Done
+    if code == ExitCode.Done then run(sequence) else code
+
+  /** @throws SceneError if two scenes have one image */
+  private[cli] def checkAll(frames: Vector[Frame]): Unit = files.checkAll(frames, loader)
+
+  private def run(sequence: Sequence): ExitCode =
+    for frame <- sequence.frames do
+      // Files of v2 and v3 may have several worlds
+      var world = Option(0)
+      while world.nonEmpty && !cancellation.isRequested do
+        val n = world.get
+        world = None
+        sequence.ended(frame.scene):
+          report.guarded:
+            Using.resource(load(frame.scene, frame.outfiles, n)): prepared =>
+              if isLookedAt then look(prepared)
+              else
+                val isFollowed = prepared.description.isFollowed
+                val names = Sequence.ofWorld(frame.scene, frame.outfiles, n, isFollowed)
+                world = Option.when(isFollowed)(n + 1)
+                render(frame.scene, prepared, names, sequence)
+    if !options.quiet && !cancellation.isRequested then
+      sequence.summary.foreach(terminal.out.println)
+    terminal.out.flush()
+    sequence.code
+
+  private[cli] def load(scene: String, outfiles: Vector[String], world: Int = 0): Prepared =
+    // Warns before parsing, which may take long.
+    files.check(scene, outfiles)
+    for kind <- options.thumbnail do Thumbnail.kind(kind, terminal): Unit
+    denoising.foreach(identity)
+    val prepared = loader.load(scene, options.preparation.copy(world = world))
+    // A first look ignores most of what warnings are about.
+    val isBrief = options.settings.preview && !options.verbose
+    val told = if isBrief then prepared.warnings.filter(_.standIn.nonEmpty) else prepared.warnings
+    report.warnings(told, all = options.verbose)
+    if options.explain || options.verbose then Explanation.print(prepared.plan, terminal.err)
+    prepared
+
+  /** Whether something of the scene is printed, and nothing rendered. */
+  private def isLookedAt: Boolean = options.debug || options.pixelMaterial.isDefined
+
+  private def look(prepared: Prepared): ExitCode = options.pixelMaterial match
+    case Some((x, y)) if !options.debug => PixelMaterial.run(prepared.plan, x, y, terminal.out)
+    case _ => PixelTrace.run(prepared, options, terminal.out)
+
+  private def render(
+      scene: String,
+      prepared: Prepared,
+      outfiles: Vector[String],
+      sequence: Sequence
+  ): ExitCode =
+    val paths = files.images(scene, prepared, outfiles)
+    val name = resumed.fold(scene)(_.header.scene)
+    val keeping = FilmKeeping.of(options, report, name, prepared, outfiles, paths, resumed)
+    try
+      val writer = this.writer(name, prepared, paths)
+      if isDone(writer, keeping) then
+        sequence.skip(name)
+        ExitCode.Done
+      else
+        for k <- keeping; film <- k.start if !options.quiet do
+          terminal.err.println(Summary.continues(film))
+        SceneRun(options, terminal, prepared, writer, keeping, cancellation).run()
+    finally keeping.foreach(_.close())
+
+  private def isDone(writer: ImageWriter, keeping: Option[FilmKeeping]): Boolean =
+    writer.isDone ||
+      (options.film.skipDone && writer.paths.isEmpty && keeping.exists(_.isDone))
+
+  /** The images of a scene that is rendered elsewhere.
+    *
+    * @throws SceneError if one can't be written
+    */
+  private[cli] def images(
+      scene: String,
+      prepared: Prepared,
+      outfiles: Vector[String]
+  ): ImageWriter =
+    writer(scene, prepared, files.images(scene, prepared, outfiles))
+
+  /** Likewise, if they are known to be writable. */
+  private[cli] def writer(scene: String, prepared: Prepared, paths: Vector[Path]): ImageWriter =
+    ImageWriter(options, report, denoising, scene, prepared, paths)
+
+  /** Writes the image of a rendering that was put together from film files. */
+  private[cli] def finish(
+      writer: ImageWriter,
+      prepared: Prepared,
+      rendering: Rendering
+  ): ExitCode =
+    val written = writer.write(writer.paths, rendering, writer.image(rendering))
+    Summary.print(options, terminal, written, prepared, rendering)
+    if written.size < writer.paths.size then ExitCode.BadInput else ExitCode.Done
+
+/** Prints the features of a plan, one line each: the choices that the builder made. */
+object Explanation:
+  def print(plan: RenderPlan, to: Printer): Unit =
+    val width = plan.features.map(_._1.length).maxOption.getOrElse(0)
+    for (what, value) <- plan.features do to.println(s"  ${what.padTo(width, ' ')}  $value")
+
+/** `candela render --pixel x,y --sample n --debug`: traces one sample and logs its path. */
+private[cli] object PixelTrace:
+  def run(prepared: Prepared, options: Options, out: Printer): ExitCode =
+    val plan = prepared.plan
+    val (x, y) = options.settings.region match
+      case RenderRegion.Pixel(x, y) => (x, y)
+      case _ => (0, 0)
+    val crop = plan.crop
+    if x < crop.x0 || x >= crop.x1 || y < crop.y0 || y >= crop.y1 then
+      val size = s"x in [${crop.x0}, ${crop.x1}), y in [${crop.y0}, ${crop.y1})"
+      throw SceneError(Problem.general(s"--pixel $x,$y is outside the image: $size"))
+    out.println(s"pixel ($x, $y), sample ${options.sample}")
+    prepared.trace(x, y, options.sample, PathReport(out.println)) match
+      case Some(light) => out.println(s"contributes $light")
+      case None => out.println("discarded: NaN or infinite")
+    out.flush()
+    ExitCode.Done

@@ -1,0 +1,44 @@
+package candela.cli.commands
+
+import candela.cli.files.{FilmInput, FilmKeeping, OutputFiles}
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, Report, Terminal}
+import candela.job.SceneLoader
+import candela.render.{RenderPlan, Shard}
+import candela.render.storage.FilmFile
+
+import scala.util.Using
+
+/** `candela resume`: continues saved renderings, or adds samples. */
+final class ResumeCommand(
+    options: Options,
+    terminal: Terminal,
+    report: Report,
+    loader: SceneLoader
+):
+  def run(): ExitCode =
+    report.guarded:
+      val name = options.files.head
+      Using.resource(FilmKeeping.locked(OutputFiles.path(name))): _ =>
+        resume(FilmInput.open(name, report))
+
+  private def resume(film: FilmFile): ExitCode =
+    val header = film.header
+    if header.shards.size != 1 then
+      FilmInput.fail(s"`${film.path}` is a merger of shards; resume the shards, and merge them")
+    val saved = FilmInput.options(film, options).copy(
+      outfiles = header.outfiles.map(FilmInput.at(film, _)),
+      film = options.film.copy(shard = Shard(header.shards.head, header.count))
+    )
+    // A goal goes beyond the number of samples, to which points and footprints still belong
+    val taken =
+      if options.settings.goal.isGiven then RenderPlan.Endless
+      else Math.max(header.samples, header.done)
+    val now = options.settings.samples match
+      case Some(samples) => saved.setting(_.copy(samples = Some(samples)))
+      case None =>
+        saved.copy(
+          taken = Some(taken),
+          footprint = Option(header.footprint).filter(_ > 0)
+        )
+    RenderCommand(now, terminal, report, loader, Some(film)).run()

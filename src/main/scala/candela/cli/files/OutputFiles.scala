@@ -1,0 +1,141 @@
+package candela.cli.files
+
+import candela.base.{FileName, Problem, SceneError, Severity}
+import candela.build.film.FilmRecipe
+import candela.cli.options.FilmOptions
+import candela.film.Layer
+import candela.image.{Contents, Image, ImageEdits, OutputFormat}
+import candela.job.{ImageName, Prepared}
+import candela.render.RenderPlan
+
+import java.nio.file.{InvalidPathException, Path}
+
+/** Output files of an image, one per format, and the warnings about them. */
+final case class OutputFiles(paths: Vector[Path], warnings: Vector[Problem]):
+
+  /** Verifies before rendering that the files can be written.
+    *
+    * @throws SceneError if one can't
+    */
+  def check(): Unit =
+    val problems = paths.flatMap(OutputFiles.problem)
+    if problems.nonEmpty then throw SceneError(problems)
+
+  /** Verifies that they can be written, and are no inputs.
+    *
+    * @throws SceneError if one can't
+    */
+  def check(inputs: Vector[String], kind: String): Unit =
+    check()
+    val register = FileRegister()
+    register.read(inputs.map(OutputFiles.path))
+    register.write(Output(paths, kind, inputs.headOption.mkString))
+
+  /** Leaves out a preview that would overwrite a file that was read: nobody asked for it. */
+  def without(isRead: Path => Boolean): OutputFiles =
+    val (lost, kept) = paths.drop(1).partition(isRead)
+    val told = lost.map: path =>
+      val message = s"no preview is written: `$path` is an input file"
+      Problem(Severity.Warning, None, message)
+    OutputFiles(paths.take(1) ++ kept, warnings ++ told)
+
+  /** @throws SceneError if no file can store alpha */
+  def checkAlpha(): Unit =
+    val fitting = OutputFormat.all.filter(f => f.keepsAlpha || f.contents == Contents.Channels)
+    if !paths.flatMap(OutputFormat.of).exists(fitting.contains) then
+      val message = s"alpha needs ${OutputFormat.inWords(fitting)} output, found `${paths.head}`"
+      throw SceneError(Problem.general(message))
+
+  /** @throws SceneError if no file can store AOVs */
+  def checkLayers(): Unit =
+    if !paths.flatMap(OutputFormat.of).exists(_.contents == Contents.Channels) then
+      val suffixes = OutputFormat.listed(Contents.Channels)
+      val message = s"AOVs need $suffixes output, found `${paths.head}`"
+      val help = s"--outfile FILE.${OutputFormat.default.suffix} stores them"
+      throw SceneError(Problem.general(message, Some(help)))
+
+object OutputFiles:
+
+  /** Whether a file must store layers; alpha, which scenes ask for, and those that only guide the
+    * denoiser need none.
+    */
+  def needLayers(plan: RenderPlan, denoises: Boolean): Boolean =
+    val guides = Layer.Alpha +: (if denoises then Layer.denoising else Vector.empty)
+    plan.layers.exists(_.layers.diff(guides).nonEmpty) || plan.development.bands.nonEmpty
+
+  /** The opacity of each pixel, if it is a layer. */
+  def alpha(plan: RenderPlan, image: Image): Option[Array[Float]] =
+    val at = image.channelNames.indexOf("A")
+    Option.when(at >= 0 && plan.layers.exists(_.layers.contains(Layer.Alpha))):
+      Array.tabulate(image.width * image.height)(i => image.data(i * image.channels + at))
+
+  /** What a display format shows, its colours divided by alpha if it keeps that. */
+  def picture(path: Path, image: Image, alpha: Option[Array[Float]]): Option[Image] =
+    for format <- OutputFormat.of(path) if format.contents == Contents.Display yield
+      val opaque = Denoising.shown(image)
+      alpha.filter(_ => format.keepsAlpha).fold(opaque)(ImageEdits.divided(opaque, _))
+
+  /** Exactly the requested images. */
+  def asked(names: Vector[String]): OutputFiles =
+    val paths = names.filterNot(FilmOptions.isFilm).map(path)
+    OutputFiles(paths.distinctBy(_.toAbsolutePath.normalize), Vector.empty)
+
+  /** The file named by the scene's Film, or else after the scene: all scenes without a name would
+    * write pbrt's `pbrt.exr`.
+    */
+  def ofScene(scene: String, loaded: Prepared): OutputFiles =
+    val description = loaded.description
+    // A confined scene writes where it reads
+    val folder = if description.folder.isConfined then description.folder.path else Path.of("")
+    val isNamed = description.film.exists(_.params.exists(_.name == "filename"))
+    if isNamed || loaded.plan.filename != FilmRecipe.DefaultFile then
+      val problem = FilmName.problem(description)
+      for p <- problem if p.severity == Severity.Error do throw SceneError(p)
+      val files = ofFilm(loaded.plan.filename, folder)
+      files.copy(warnings = problem.toVector ++ files.warnings)
+    else
+      val files = ofName(scene, folder)
+      val message = s"`$scene` names no image file; writing `${files.paths.head}`"
+      files.copy(warnings = files.warnings :+ Problem(Severity.Warning, None, message))
+
+  /** Of a scene that is not loaded yet. */
+  def named(scene: String, image: ImageName): OutputFiles =
+    image.file.fold(ofName(scene, image.folder))(ofFilm(_, image.folder))
+
+  /** Files named after the scene, in a folder. */
+  def ofName(scene: String, folder: Path): OutputFiles =
+    val file = path(scene).getFileName
+    val stem = if FileName.suffix(file) == "gz" then Path.of(FileName.stem(file)) else file
+    ofFilm(s"${FileName.stem(stem)}.${OutputFormat.default.suffix}", folder)
+
+  /** The file named by the scene's Film, relative to a folder, plus a preview if its format can't
+    * be displayed. Formats that Candela doesn't write (pbrt has more) are replaced by
+    * the default.
+    */
+  def ofFilm(filename: String, folder: Path = Path.of("")): OutputFiles =
+    val named = folder.resolve(path(filename))
+    OutputFormat.of(named) match
+      case Some(format) if format.contents == Contents.Display =>
+        OutputFiles(Vector(named), Vector.empty)
+      case Some(_) => OutputFiles(withPreview(named), Vector.empty)
+      case None =>
+        val written = FileName.withSuffix(named, OutputFormat.default.suffix)
+        val message = s"`$filename` is not ${OutputFormat.listed()}; " +
+          s"writing `$written`"
+        OutputFiles(withPreview(written), Vector(Problem(Severity.Warning, None, message)))
+
+  private def withPreview(path: Path): Vector[Path] =
+    Vector(path, FileName.withSuffix(path, OutputFormat.preview.suffix))
+
+  /** `name` as a path. */
+  def path(name: String): Path =
+    try Path.of(name)
+    catch
+      case e: InvalidPathException =>
+        throw SceneError(Problem.general(s"`$name` is not a valid file name: ${e.getReason}"))
+
+  private def problem(path: Path): Option[Problem] =
+    if OutputFormat.of(path).isEmpty then
+      val help = s"supported formats: ${OutputFormat.listed()}"
+      Some(Problem.general(s"can't write `$path`", Some(help)))
+    else FileRegister.obstacle(path)

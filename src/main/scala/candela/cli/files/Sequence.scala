@@ -1,0 +1,84 @@
+package candela.cli.files
+
+import candela.base.{Problem, SceneError}
+import candela.cli.options.{FilmOptions, FrameNames, Options}
+import candela.cli.terminal.{ExitCode, Figures}
+import candela.image.{ImageFiles, OutputFormat}
+
+import java.nio.file.Path
+
+/** A scene of a sequence, and the output files asked for. */
+private[cli] final case class Frame(scene: String, outfiles: Vector[String])
+
+/** The scenes of a command line, and what became of them. */
+private[cli] final class Sequence(options: Options):
+  private var worst = ExitCode.Done
+  private var skipped, rendered = Vector.empty[String]
+  private var failed = Vector.empty[String]
+
+  val frames: Vector[Frame] = options.film.frames match
+    case None => options.files.map(Frame(_, options.outfiles))
+    case Some(numbers) =>
+      numbers.toVector.map: n =>
+        Frame(
+          FrameNames.numbered(options.files.head, n),
+          options.outfiles.map(FrameNames.numbered(_, n))
+        )
+
+  def code: ExitCode = worst
+
+  /** Notes that a scene is done already. */
+  def skip(scene: String): Unit = skipped :+= scene
+
+  def ended(scene: String)(render: => ExitCode): Unit =
+    val code = render
+    worst = worst.worseOf(code)
+    if code != ExitCode.Done then failed :+= scene
+    else if !skipped.contains(scene) then rendered :+= scene
+
+  /** `4 scenes: 2 rendered, 1 skipped (done already), 1 failed: b.pbrt`; of several scenes only. */
+  def summary: Option[String] =
+    Option.when(frames.size > 1 || skipped.nonEmpty):
+      def part(names: Vector[String], what: String) =
+        Option.when(names.nonEmpty)(s"${names.size} $what")
+      val missing = frames.size - failed.size - rendered.size - skipped.size
+      val parts = part(rendered, "rendered") ++ part(skipped, "skipped (done already)") ++
+        part(failed, failed.mkString("failed (", ", ", ")")) ++
+        Option.when(missing > 0)(s"$missing not begun")
+      s"${Figures.count(frames.size, "scene")}: ${parts.mkString(", ")}"
+
+private[cli] object Sequence:
+  /** Name of the metadata that identify a complete rendering. */
+  val Digest = "rendering"
+
+  /** The output files of a world of a scene; its number, from 1, is in their names if there are
+    * several.
+    *
+    * @param n          index of the world
+    * @param isFollowed whether another follows
+    * @throws SceneError if the worlds would have the same files
+    */
+  def ofWorld(
+      scene: String,
+      outfiles: Vector[String],
+      n: Int,
+      isFollowed: Boolean
+  ): Vector[String] =
+    if n == 0 && !isFollowed then outfiles
+    else
+      for name <- outfiles
+      yield
+        if FilmOptions.isFilm(name) then
+          throw SceneError(Problem.general(s"`$scene` has several worlds; a .film file holds one"))
+        else if !FrameNames.hasNumber(name) then
+          val message = s"`$scene` has several worlds, each an image; `$name` names one"
+          throw SceneError(Problem.general(message, Some("write %d, or %04d, for the number")))
+        else FrameNames.numbered(name, n + 1)
+
+  /** Whether all images are whole, and of the rendering with this digest. Those that can't hold it
+    * are written before those that can.
+    */
+  def isDone(images: Vector[Path], digest: String): Boolean =
+    images.exists(keepsDigest) && images.forall(ImageFiles.isWhole(_, digest))
+
+  def keepsDigest(image: Path): Boolean = OutputFormat.of(image).exists(_.keepsTexts)

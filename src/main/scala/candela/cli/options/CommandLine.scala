@@ -1,0 +1,229 @@
+package candela.cli.options
+
+import scopt.{DefaultOParserSetup, OEffect, OParser, OParserSetup}
+
+import candela.base.{Problem, Suggest, Version}
+import candela.build.{RenderRegion, RenderSettings}
+import candela.build.sampling.PointChoice
+import candela.cli.terminal.{ExitCode, ProblemText, Terminal, ThumbnailKind}
+import candela.convert.Baking
+import candela.film.Layer
+import candela.image.DisplayTransform
+import candela.job.{Preparation, SceneLimits}
+import candela.scenefile.Dialect
+import candela.watch.WatchAddress
+
+import java.nio.file.{Files, Path}
+
+/** Parses a command line to [[Options]], or to the text to print instead. */
+object CommandLine:
+
+  /** What to print instead of running a command: lines that were asked for, or errors. */
+  final case class Answer(lines: Vector[String], problems: Vector[Problem] = Vector.empty):
+    def code: ExitCode = if problems.isEmpty then ExitCode.Done else ExitCode.BadUsage
+    def out: String = lines.map(_ + "\n").mkString
+    def err: String = problems.map(ProblemText.format(_) + "\n").mkString
+
+  /** @param columns width of the help, in characters */
+  def parse(args: Seq[String], columns: Int = Terminal.UsualColumns): Either[Answer, Options] =
+    asked(args, HelpText(columns)) match
+      case Some(answer) => Left(answer)
+      case None =>
+        translated(args) match
+          case Left(instead) => Left(refusal(Vector(instead), Command.Render))
+          case Right(words, notes) => parseOurs(words).map: o =>
+              progressive(o).copy(notes = notes ++ IdleOptions.of(o))
+
+  /** What needs no options: help, the version, and a word that is nearly a command. */
+  private def asked(args: Seq[String], help: HelpText): Option[Answer] =
+    def told(command: Option[Command]) = Answer(command.fold(help.overview)(help.of))
+    val first = args.headOption.getOrElse("")
+    val named = commandOf(first)
+    def mistyped(word: String) =
+      val near = Suggest.nearest(word, Command.values.map(_.word) ++ Vector("help", "version"))
+      near.map(n => usage(Vector(s"`$word` is no command; did you mean `$n`?"), "candela help"))
+    if args.exists(HelpWords) then Some(told(named))
+    else if args.exists(VersionWords) || (first == "version" && args.size == 1) then
+      Some(Answer(Vector(s"candela ${Version.current}")))
+    else if first == "help" then
+      args.lift(1) match
+        case None => Some(told(None))
+        case Some(word) =>
+          commandOf(word).map(c => told(Some(c))).orElse(mistyped(word)).orElse:
+            Some(usage(Vector(s"`$word` is no command"), "candela help"))
+    else if named.isEmpty && isWord(first) then mistyped(first)
+    else None
+
+  private def commandOf(word: String): Option[Command] = Command.values.find(_.word == word)
+
+  /** Whether a word is neither an option nor a file. */
+  private def isWord(word: String): Boolean =
+    word.nonEmpty && word.forall(c => c >= 'a' && c <= 'z') && !Files.exists(Path.of(word))
+
+  private val HelpWords = Set("--help", "-help", "-h", "-?")
+  private val VersionWords = Set("--version", "-version", "-V")
+
+  /** Errors, and where to read more. */
+  private def usage(errors: Vector[String], more: String): Answer =
+    val last = Problem.general(errors.last, Some(s"`$more` says more"))
+    Answer(Vector.empty, errors.init.map(Problem.general(_)) :+ last)
+
+  private def refusal(errors: Vector[String], command: Command): Answer =
+    usage(errors, s"candela help ${command.word}")
+
+  /** Where the number of samples is not known in advance, points must not depend on it. */
+  private def progressive(o: Options): Options =
+    val s = o.settings
+    if s.goal.isGiven && s.points == PointChoice.Best && o.command == Command.Render then
+      o.setting(_.copy(points = PointChoice.Progressive))
+    else o
+
+  /** Translates pbrt's words for rendering; other commands have options of their own. */
+  private def translated(args: Seq[String]): Either[String, (Seq[String], Vector[String])] =
+    val own = Command.values.map(_.word)
+    val isOther = args.headOption.exists(w => own.contains(w) && w != Command.Render.word)
+    if isOther then Right((args, Vector.empty))
+    else
+      val isNamed = args.headOption.contains(Command.Render.word)
+      PbrtOptions.translate(if isNamed then args.tail else args).map: found =>
+        val words =
+          if isNamed && found.command.isEmpty then Command.Render.word +: found.words
+          else found.command.toSeq ++ found.words
+        (words, found.notes)
+
+  private def parseOurs(args: Seq[String]): Either[Answer, Options] =
+    val all = withCommand(args)
+    val (options, effects) =
+      OParser.runParser(CommandTable.table, FilmOptions.withValues(joined(all)), Options(), setup)
+    val errors = effects.collect:
+      case OEffect.ReportError(text) => text
+    val command = commandOf(all.head).getOrElse(Command.Render)
+    options.toRight(refusal(UsageErrors.explained(errors.toVector, command), command))
+
+  private val setup: OParserSetup = new DefaultOParserSetup:
+    override def showUsageOnError: Option[Boolean] = Some(false)
+
+  /** Inserts the default command, `render`, if none is named. */
+  private def withCommand(args: Seq[String]): Seq[String] =
+    if args.headOption.flatMap(commandOf).isDefined then args else Command.Render.word +: args
+
+  /** Options whose value may be missing are joined with it: what follows may be a scene. */
+  private def joined(args: Seq[String]): Seq[String] =
+    args.foldRight(List.empty[String]):
+      case ("--watch", value :: rest) if WatchAddresses.isOne(value) => s"--watch=$value" :: rest
+      case ("--watch", rest) => "--watch=" :: rest
+      case ("--bake", size :: rest) if size.toIntOption.nonEmpty => s"--bake=$size" :: rest
+      case ("--bake", rest) => s"--bake=${Baking.DefaultSize}" :: rest
+      // As Mitsuba's command line has it; scopt would split the word into short options
+      case (s"-D$definition", rest) if definition.contains('=') => "--define" :: definition :: rest
+      case (word, rest) => word :: rest
+
+enum Command(val word: String):
+  case Render extends Command("render")
+  case Resume extends Command("resume")
+  case Merge extends Command("merge")
+  case Check extends Command("check")
+  case Compare extends Command("compare")
+  case Bench extends Command("bench")
+  case Describe extends Command("describe")
+  case Convert extends Command("convert")
+  case View extends Command("view")
+  case Preview extends Command("preview")
+  case Image extends Command("image")
+  case Average extends Command("average")
+  case Info extends Command("info")
+
+/** A parsed command line; None if an option was not given.
+  *
+  * @param files scenes; for `resume` and `merge`, film files; for `compare`, the image and its
+  *   reference; for `describe`, category and type
+  * @param outfiles output images, instead of the file named by the scene
+  * @param settings what is rendered of the scenes
+  * @param regions parts of the image that were asked for, of which there may be one
+  * @param taken samples per pixel to take, if not those for which the points are made
+  * @param footprint size of a sample's footprint in pixels, if not that of `spp` samples
+  * @param sample the sample of the pixel that `debug` traces, instead of rendering
+  * @param pixelMaterial pixel whose material is printed, instead of rendering
+  * @param partialImages whether to write the image of each pass
+  * @param notes on words of the command line that have no effect
+  * @param markdown whether `describe` prints the whole reference
+  * @param pbrtOptions whether `describe` prints the options of pbrt's command lines
+  * @param to target dialect of `convert`
+  * @param toPly minimum number of triangles for writing a mesh as a PLY file
+  * @param bake  width and height of images that replace textures, in pixels
+  * @param thumbnail how to show the image in the terminal
+  * @param columns pictures per row of a contact sheet
+  * @param film options of saved renderings
+  * @param cluster options of rendering on a cluster
+  * @param reference reference image for reports
+  * @param reports report files
+  * @param watch address of the live page
+  * @param displayServer host and port of an image viewer
+  * @param watchAfter whether the page stays when rendering has ended
+  * @param bench options of `bench`
+  * @param compare options of `compare`
+  * @param image options of `image` and `average`
+  * @param limits what scenes may do
+  */
+final case class Options(
+    command: Command = Command.Render,
+    files: Vector[String] = Vector.empty,
+    outfiles: Vector[String] = Vector.empty,
+    settings: RenderSettings = RenderSettings(),
+    regions: Vector[RenderRegion] = Vector.empty,
+    threads: Option[Int] = None,
+    taken: Option[Int] = None,
+    footprint: Option[Float] = None,
+    quiet: Boolean = false,
+    verbose: Boolean = false,
+    explain: Boolean = false,
+    pixelMaterial: Option[(Int, Int)] = None,
+    partialImages: Boolean = false,
+    notes: Vector[String] = Vector.empty,
+    sample: Int = 0,
+    debug: Boolean = false,
+    thumbnail: Option[ThumbnailKind] = None,
+    columns: Option[Int] = None,
+    film: FilmOptions = FilmOptions(),
+    cluster: ClusterOptions = ClusterOptions(),
+    reference: Option[String] = None,
+    reports: Vector[String] = Vector.empty,
+    watch: Option[WatchAddress] = None,
+    watchAfter: Boolean = false,
+    displayServer: Option[(String, Int)] = None,
+    compare: CompareOptions = CompareOptions(),
+    bench: BenchOptions = BenchOptions(),
+    image: ImageOptions = ImageOptions(),
+    markdown: Boolean = false,
+    pbrtOptions: Boolean = false,
+    to: Option[Dialect] = None,
+    toPly: Option[Int] = None,
+    bake: Option[Int] = None,
+    limits: SceneLimits = SceneLimits()
+):
+  def setting(change: RenderSettings => RenderSettings): Options = copy(settings = change(settings))
+
+  /** How the scenes are prepared. */
+  def preparation: Preparation =
+    // A traced pixel is one of the whole image
+    val region = if debug then RenderRegion.Whole else settings.region
+    val shown = if pixelMaterial.isEmpty then Vector.empty else Layer.cryptomatte
+    val asked = settings.copy(region = region, layers = (settings.layers ++ shown).distinct)
+    Preparation(
+      asked,
+      limits,
+      threadCount,
+      isRendered = command != Command.Check,
+      taken,
+      footprint,
+      isFirst = command != Command.Render
+    )
+
+  /** How pictures show linear light: those of renderings, and of images that are there. */
+  def display: DisplayTransform = settings.output.display
+
+  /** Whether anything follows the rendering. */
+  def isWatched: Boolean = watch.isDefined || displayServer.isDefined
+
+  /** The requested number of threads, or else the number of processors. */
+  def threadCount: Int = threads.getOrElse(Runtime.getRuntime.availableProcessors)

@@ -1,0 +1,138 @@
+package candela.cli.options
+
+import scopt.{OParser, OptionDef}
+
+/** What a command is for, and its arguments.
+  *
+  * @param arguments what follows its name, except options
+  */
+private[cli] final case class CommandRow(
+    command: Command,
+    meaning: String,
+    arguments: Vector[OParser[?, Options]]
+):
+  /** As in `candela view [options] image...`. */
+  def usage: String =
+    val options = if OptionTable.of(command).isEmpty then "" else " [options]"
+    (s"candela ${command.word}$options" +: files).mkString(" ")
+
+  /** Names of the arguments. */
+  def files: Vector[String] = arguments.flatMap(_.toList).map(_.name)
+
+  def options: Vector[OptionDef[?, Options]] = OptionTable.of(command).flatMap(_.toList)
+
+  /** The option of this name. */
+  def option(name: String): Option[OptionDef[?, Options]] =
+    options.find(_.name == name)
+
+/** All commands. */
+private[cli] object CommandTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.{arg, checkConfig, cmd, programName}
+
+  private def file(name: String, text: String): OParser[String, Options] =
+    arg[String](name).text(text).action((f, o) => o.copy(files = o.files :+ f))
+
+  private def files(name: String, text: String): Row = file(name, text).unbounded()
+
+  private def scenes: Row =
+    files("scene.pbrt...", "scene files; each is rendered or checked by itself")
+
+  val rows: Vector[CommandRow] = Vector(
+    CommandRow(Command.Render, "render scenes (the default command)", Vector(scenes)),
+    CommandRow(
+      Command.Preview,
+      "show scenes within seconds: small, shaded by a headlight",
+      Vector(files("scene.pbrt...", "scene files"))
+    ),
+    CommandRow(Command.Check, "parse and build scenes, and report errors", Vector(scenes)),
+    CommandRow(
+      Command.Convert,
+      "convert a scene to another dialect",
+      Vector(file("scene.pbrt", "the scene to convert"))
+    ),
+    CommandRow(
+      Command.Describe,
+      "print the scene reference: types, parameters, defaults",
+      Vector(file("[category] [type]", "what to describe").optional().unbounded())
+    ),
+    CommandRow(
+      Command.Resume,
+      "continue a saved rendering, or add samples",
+      Vector(file("film.film", "the film file, as --checkpoint or --outfile FILE.film wrote it"))
+    ),
+    CommandRow(
+      Command.Merge,
+      "make an image of shards, or of a saved rendering",
+      Vector(files("film.film...", "film files of all shards of a rendering"))
+    ),
+    CommandRow(
+      Command.View,
+      "show images, or write them as a picture; several: a contact sheet",
+      Vector(files("image...", "images in any readable format"))
+    ),
+    CommandRow(
+      Command.Info,
+      "print size, channels, metadata and statistics of images",
+      Vector(files("image...", "images in any readable format; film files, too"))
+    ),
+    CommandRow(
+      Command.Compare,
+      "measure the error of an image against a reference",
+      Vector(
+        file("image", "an image, or a folder of images"),
+        file("reference", "its reference, or a folder of references by the same names")
+      )
+    ),
+    CommandRow(
+      Command.Image,
+      "convert an image: format, size, range, primaries, environment map",
+      Vector(file("image", "an image in any readable format"))
+    ),
+    CommandRow(
+      Command.Average,
+      "average images of one size, such as renderings with several seeds",
+      Vector(files("image...", "images with the same channels"))
+    ),
+    CommandRow(
+      Command.Bench,
+      "measure error against time, for several renderers",
+      Vector(file("suite.conf", "the suite, or a folder of scenes with references"))
+    )
+  )
+
+  def of(command: Command): CommandRow = byCommand(command)
+
+  private val byCommand = rows.map(r => r.command -> r).toMap
+
+  private def parsed(row: CommandRow): Row =
+    cmd(row.command.word)
+      .action((_, o) => o.copy(command = row.command))
+      .children((row.arguments ++ OptionTable.of(row.command))*)
+
+  /** For scopt. */
+  val table: Row = OParser.sequence(
+    programName("candela"),
+    (rows.map(parsed) :+ checkConfig(o => problem(o).toLeft(())))*
+  )
+
+  /** What is wrong with options that belong together, if anything. */
+  private def problem(o: Options): Option[String] =
+    val isRender = o.command == Command.Render
+    val isSeveral = o.files.size > 1
+    def needsSingle(option: String, isGiven: Boolean) =
+      Option.when(isGiven && isSeveral)(s"--$option needs a single scene, found several")
+    def needed(text: String, isMissing: Boolean) = Option.when(isMissing)(text)
+    val rendered = Set(Command.Render, Command.Preview)(o.command)
+    needsSingle("outfile", rendered && o.outfiles.nonEmpty)
+      .orElse(SwitchTable.problem(o))
+      .orElse(needsSingle("report", isRender && o.reports.nonEmpty))
+      .orElse(needed("--columns needs several images", o.columns.isDefined && !isSeveral))
+      .orElse(if isRender then FilmTable.problem(o).orElse(ClusterTable.problem(o)) else None)
+      .orElse(needed(
+        "--reference needs --report FILE, --watch or --denoise",
+        isRender && o.reference.nonEmpty && o.reports.isEmpty && o.watch.isEmpty &&
+          !o.settings.output.denoise
+      ))
+      .orElse(needsSingle(if o.watch.isDefined then "watch" else "display-server", o.isWatched))
+      .orElse(needed("--watch-after needs --watch", o.watchAfter && o.watch.isEmpty))

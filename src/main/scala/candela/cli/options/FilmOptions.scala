@@ -1,0 +1,128 @@
+package candela.cli.options
+
+import candela.job.TextForm
+import candela.render.Shard
+import candela.render.storage.FilmFile
+
+import java.util.Locale
+
+import scopt.{OParser, Read}
+
+/** Options of saved renderings.
+  *
+  * @param checkpoint film file to save to; empty: beside the image
+  * @param every      seconds between two checkpoints
+  * @param shard      part of the samples to take
+  * @param partial    whether to merge although shards are missing
+  * @param frames     numbers for the scene's name
+  * @param skipDone   whether to skip scenes whose images exist already
+  */
+final case class FilmOptions(
+    checkpoint: Option[String] = None,
+    every: Option[Double] = None,
+    shard: Shard = Shard.Whole,
+    partial: Boolean = false,
+    frames: Option[Range] = None,
+    skipDone: Boolean = false
+)
+
+object FilmOptions:
+  /** All of them are listed. */
+  private[cli] val MostFrames = 1_000_000
+
+  def isFilm(name: String): Boolean =
+    name.toLowerCase(Locale.ROOT).endsWith(s".${FilmFile.Suffix}")
+
+  /** Whether the rendering is to be saved. */
+  private[cli] def asksForFilm(o: Options): Boolean =
+    o.film.checkpoint.isDefined || o.outfiles.exists(isFilm)
+
+  /** Gives `--checkpoint` an empty value if no film file follows it. */
+  def withValues(args: Seq[String]): Seq[String] =
+    args.zipWithIndex.flatMap: (word, i) =>
+      val isAlone = word == "--checkpoint" && !args.lift(i + 1).exists(isFilm)
+      if isAlone then Seq(word, "") else Seq(word)
+
+/** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
+private[cli] object FilmTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private val seconds = reading(TextForm.seconds)
+
+  private given Read[Shard] = Read.reads: text =>
+    text.split("/", -1).map(_.trim.toIntOption) match
+      case Array(Some(i), Some(n)) if i >= 0 && i < n => Shard(i, n)
+      case _ => throw IllegalArgumentException("expected i/n with 0 <= i < n, e.g. 0/4")
+
+  private given Read[Range] = Read.reads: text =>
+    text.split("-", -1).map(_.trim.toIntOption) match
+      case Array(Some(a), Some(b)) if a >= 0 && a <= b => a to b
+      case Array(Some(a)) if a >= 0 => a to a
+      case _ => throw IllegalArgumentException("expected first-last, e.g. 1-250")
+
+  private def change(o: Options)(f: FilmOptions => FilmOptions): Options = o.copy(film = f(o.film))
+
+  private def every: Row = opt[Double]("checkpoint-every")(using seconds).valueName("TIME")
+    .text("time between two checkpoints, e.g. 10s or 5m (default 60s)")
+    .action((s, o) => change(o)(_.copy(every = Some(s))))
+
+  private def goals: Vector[Row] = Vector(
+    opt[Double]("time")(using seconds).valueName("TIME")
+      .text("end after this time of rendering, e.g. 10m; --spp N, if given, is a ceiling")
+      .action(setGoal((t, g) => g.copy(time = Some(t)))),
+    opt[Double]("error").valueName("X")
+      .text("end when the relative error, estimated from the noise, is below X: 0.02 for 2 %")
+      .validate(x => if x > 0 then success else failure(s"--error must be positive, found `$x`"))
+      .action(setGoal((x, g) => g.copy(error = Some(x))))
+  )
+
+  def render: Vector[Row] = Vector(
+    opt[String]("checkpoint").valueName("[FILE.film]")
+      .text("save the rendering every 60 s, by default beside the image; see resume")
+      .validate: f =>
+        if f.isEmpty || FilmOptions.isFilm(f) then success
+        else failure(s"--checkpoint must be a name that ends with .film, found `$f`")
+      .action((f, o) => change(o)(_.copy(checkpoint = Some(f)))),
+    every,
+    opt[Shard]("shard").valueName("I/N")
+      .text("take the I-th of N parts of the samples, 0 <= I < N; needs --outfile FILE.film")
+      .action((s, o) => change(o)(_.copy(shard = s))),
+    opt[Range]("frames").valueName("FIRST-LAST")
+      .text("render a sequence: the scene's name has %d, or %04d, for the number")
+      .validate: r =>
+        if r.size <= FilmOptions.MostFrames then success
+        else
+          failure(s"--frames must be at most ${FilmOptions.MostFrames} frames, found `${r.size}`")
+      .action((r, o) => change(o)(_.copy(frames = Some(r), skipDone = true))),
+    opt[Unit]("skip-done")
+      .text("skip scenes whose images are whole, and of this scene and these options")
+      .action((_, o) => change(o)(_.copy(skipDone = true)))
+  ) ++ goals
+
+  def resume: Vector[Row] = (every +: goals) ++ LimitTable.options
+
+  def merge: Vector[Row] = Vector(
+    opt[Unit]("partial")
+      .text("merge what there is, without films that are missing, damaged, doubled or foreign")
+      .action((_, o) => change(o)(_.copy(partial = true)))
+  ) ++ LimitTable.options
+
+  /** What is wrong with the options of `render`, if anything. */
+  def problem(o: Options): Option[String] =
+    val films = o.outfiles.filter(FilmOptions.isFilm)
+    val film = o.film
+    if films.size > 1 then Some("--outfile must name at most one .film file, found several")
+    else if !film.shard.isWhole && (films.isEmpty || o.outfiles.size > 1) then
+      Some("--shard needs --outfile FILE.film, and nothing else")
+    else if films.nonEmpty && film.checkpoint.isDefined then
+      Some("--outfile FILE.film is the checkpoint: omit --checkpoint")
+    else if film.checkpoint.exists(_.nonEmpty) && o.files.size > 1 then
+      Some("--checkpoint FILE needs a single scene, found several")
+    else if film.frames.isDefined && o.files.size != 1 then
+      Some("--frames needs a single scene name, with %d for the number")
+    else if film.frames.isDefined && !(o.files ++ o.outfiles).forall(FrameNames.hasNumber) then
+      Some("--frames needs %d, or %04d, for the number in the names of scene and output files")
+    else if !film.shard.isWhole && o.settings.goal.isGiven then
+      Some("--shard can't end by --time or --error: all shards need the same samples")
+    else None

@@ -1,0 +1,146 @@
+package candela.cli.options
+
+import candela.base.{Suggest, Version}
+import candela.cli.terminal.TextTable
+
+import scopt.OptionDef
+
+/** What `--help` prints.
+  *
+  * @param columns width of the text
+  */
+private[cli] final class HelpText(columns: Int):
+  import HelpText.*
+
+  /** Of the whole program: its commands, and the options that most people need. */
+  def overview: Vector[String] =
+    val commands = CommandTable.rows.map(r => row(r.command.word, r.meaning, CommandWidth))
+    val render = CommandTable.of(Command.Render)
+    val options = Usual.flatMap(render.option).map(option)
+    Vector(
+      s"candela ${Version.current}",
+      "usage: candela [command] [options] file...",
+      ""
+    ) ++ commands.flatten ++ ("" +: TextTable.wrap(More, columns)) ++ options.flatten ++ (
+      "" +: Notes.flatMap(TextTable.wrap(_, columns))
+    )
+
+  /** Of one command: all its arguments and options. */
+  def of(command: Command): Vector[String] =
+    val r = CommandTable.of(command)
+    val notes = if command == Command.Render then Notes else Vector.empty
+    Vector(s"usage: ${r.usage}", "") ++ TextTable.wrap(s"${r.meaning.capitalize}.", columns) ++
+      ("" +: r.arguments.flatMap(_.toList).flatMap(a => row(a.name, a.desc))) ++
+      r.options.flatMap(option) ++ row("-h, --help", "print this help") ++
+      (if notes.isEmpty then notes else "" +: notes.flatMap(TextTable.wrap(_, columns)))
+
+  private def option(o: OptionDef[?, Options]): Vector[String] =
+    val short = o.shortOpt.fold("")(s => s"-$s, ")
+    val value = o.valueName.fold("")(v => s" $v")
+    row(s"$short--${o.name}$value", o.desc)
+
+  /** A name, and behind it, or below if it is long, the text. */
+  private def row(name: String, text: String, width: Int = NameWidth): Vector[String] =
+    val lines = TextTable.wrap(text, Math.max(LeastText, columns - width - Indent.length))
+    val margin = Indent + " " * width
+    if name.length + 2 <= width then
+      s"$Indent${name.padTo(width, ' ')}${lines.head}" +: lines.tail.map(margin + _)
+    else broken(name) ++ lines.map(margin + _)
+
+  /** A long name as lines, which end after `|` or `,`. */
+  private def broken(name: String): Vector[String] =
+    val parts = name.split("(?<=[|,])").toVector
+    val lines = parts.tail.foldLeft(Vector(Indent + parts.head)): (done, part) =>
+      if done.last.length + part.length <= columns then done.init :+ done.last + part
+      else done :+ Indent * 4 + part
+    lines
+
+private[cli] object HelpText:
+  private val Indent = "  "
+  private val NameWidth = 26
+  private val CommandWidth = 10
+  private val LeastText = 24
+
+  /** Options in the overview. */
+  private val Usual =
+    Vector("outfile", "spp", "time", "error", "quick", "cropwindow", "denoise", "watch")
+
+  private val More = "`candela help COMMAND` lists the options of a command. Some of render's:"
+
+  private val Notes = Vector(
+    "Without --outfile the scene's Film names the image, or else the scene file does, and a " +
+      "preview is written next to it: what --outfile x.exr,x.png does.",
+    "Ctrl-C stops rendering and writes the partial image; a second Ctrl-C quits at once.",
+    "Film files (.film) save renderings: --checkpoint, resume, --shard, merge.",
+    "Exit codes: 0 success, 1 invalid input, 2 invalid usage, 3 internal error, 130 interrupted."
+  )
+
+/** Errors of command lines, in one form: what is wrong with which option or file, what was found,
+  * and the nearest name.
+  */
+private[cli] object UsageErrors:
+
+  /** The texts of errors.
+    *
+    * @param errors as scopt words them
+    */
+  def explained(errors: Vector[String], command: Command): Vector[String] =
+    val row = CommandTable.of(command)
+    val own = errors.filterNot(_.startsWith("Missing argument"))
+    // What follows a faulty option may be taken for its value
+    (if own.isEmpty then errors else own).map(one(_, row)).distinct
+
+  private def one(error: String, row: CommandRow): String =
+    val command = s"`candela ${row.command.word}`"
+    def must(name: String, what: String, found: String) =
+      if found.isEmpty then s"--$name needs a value: ${valueOf(name, row)}"
+      else s"--$name must be $what, found `$found`${near(what, found)}"
+    error match
+      case s"Unknown option $option" => unknown(option, row)
+      case s"Unknown argument '$file'" =>
+        s"$command takes ${row.files.mkString(" and ")}, found `$file`, too"
+      case s"Missing argument $file" => s"$command needs a file: $file"
+      case s"Missing option --$name" => s"$command needs --$name ${valueOf(name, row)}"
+      case s"Missing value after $option" =>
+        val word = option.dropWhile(_ == '-')
+        val name = row.options.find(_.shortOpt.contains(word)).fold(word)(_.name)
+        s"--$name needs a value: ${valueOf(name, row)}"
+      case s"Option --$name expects a number but was given '$found'" =>
+        must(name, number(found), found)
+      case s"Option --$name failed when given '$found'. expected $what" => must(name, what, found)
+      case other => other
+
+  private def number(found: String): String =
+    val isWhole = scala.util.Try(BigInt(found)).isSuccess
+    if isWhole then s"between ${Int.MinValue} and ${Int.MaxValue}" else "a number"
+
+  private def valueOf(name: String, row: CommandRow): String =
+    row.option(name).flatMap(_.valueName).getOrElse("VALUE")
+
+  /** The nearest of the words that are understood, if there are any. */
+  private def near(what: String, found: String): String =
+    val words = what.split("[^A-Za-z0-9-]+").toVector
+      .filter(w => w.length > 2 && !Prose(w) && w.exists(_.isLetter))
+    val nearest = if found.length > 2 then Suggest.nearest(found, words) else None
+    nearest.fold("")(w => s"; did you mean `$w`?")
+
+  private val Prose = Set("one", "more", "with", "and", "above", "names", "such", "likewise")
+
+  private def unknown(option: String, row: CommandRow): String =
+    val name = option.dropWhile(_ == '-').takeWhile(c => c != '=' && c != ':')
+    val known = row.options
+    val isShort = !option.startsWith("--")
+    if known.exists(o => o.name == name || (isShort && o.shortOpt.contains(name))) then
+      s"--${known.find(o => o.name == name || o.shortOpt.contains(name)).get.name} is given twice"
+    else
+      val others = CommandTable.rows.filter(r => r != row && r.option(name).isDefined)
+      val nearest = Suggest.nearest(name, "help" +: known.map(_.name))
+      val hint =
+        if others.nonEmpty then
+          val words = others.map(r => s"`${r.command.word}`")
+          s"; ${listed(words)} ${if words.size == 1 then "has" else "have"} it"
+        else nearest.fold("")(k => s"; did you mean `--$k`?")
+      s"`candela ${row.command.word}` has no option `$option`$hint"
+
+  private def listed(words: Vector[String]): String =
+    if words.size < 2 then words.mkString else s"${words.init.mkString(", ")} and ${words.last}"

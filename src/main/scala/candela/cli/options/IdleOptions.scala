@@ -1,0 +1,131 @@
+package candela.cli.options
+
+import candela.image.{Contents, DisplayTransform, Exposure, OutputFormat}
+import candela.job.SceneFormat
+
+import java.nio.file.Path
+
+import scala.util.Try
+
+/** Options that can have no effect beside the others of a command line. What depends on the scene
+  * is told when it is built.
+  */
+private[cli] object IdleOptions:
+
+  /** A remark for each. */
+  def of(o: Options): Vector[String] = o.command match
+    case Command.Render => scenes(o) ++ rendering(o) ++ pictures(o)
+    case Command.Preview => scenes(o) ++ pictures(o)
+    case Command.Check | Command.Convert => scenes(o)
+    case Command.View | Command.Image | Command.Average => pictures(o) ++ halves(o)
+    case Command.Resume => interval(o, isFilm = true)
+    case Command.Compare => compared(o.compare)
+    case Command.Describe => described(o)
+    case Command.Bench => measured(o)
+    case Command.Merge | Command.Info => Vector.empty
+
+  private def idle(option: String, why: String)(isSo: Boolean): Vector[String] =
+    Option.when(isSo)(s"--$option has no effect$why").toVector
+
+  private def scenes(o: Options): Vector[String] =
+    val formats = o.files.flatMap(f => Try(SceneFormat.of(Path.of(f))).toOption).distinct
+    val names = formats.map(_.name).mkString(" and ")
+    idle("dialect", s": scenes of $names's have none of pbrt's dialects")(
+      formats.nonEmpty && !formats.exists(_.hasDialects) && o.settings.reading.dialect.isDefined
+    )
+
+  private def rendering(o: Options): Vector[String] =
+    val printed =
+      if o.debug then Some("debug") else o.pixelMaterial.map(_ => "pixelmaterial")
+    val unwritten = Vector(
+      "outfile" -> o.outfiles.nonEmpty,
+      "checkpoint" -> o.film.checkpoint.isDefined,
+      "report" -> o.reports.nonEmpty,
+      "watch" -> o.watch.isDefined,
+      "display-server" -> o.displayServer.isDefined,
+      "time" -> o.settings.goal.time.isDefined,
+      "error" -> o.settings.goal.error.isDefined,
+      "denoise" -> o.settings.output.denoise,
+      "thumbnail" -> o.thumbnail.isDefined
+    )
+    val silent = printed.toVector.flatMap: name =>
+      unwritten.flatMap((option, isGiven) => idle(option, s": --$name renders no image")(isGiven))
+    val isFilm = FilmOptions.asksForFilm(o)
+    val formats = o.outfiles.flatMap(format)
+    val isFilmAlone = o.outfiles.nonEmpty && o.outfiles.forall(FilmOptions.isFilm)
+    silent ++ interval(o, isFilm) ++
+      idle("write-partial-images", ": only a film is written")(o.partialImages && isFilmAlone) ++
+      idle("sample", " without --debug")(o.sample != 0 && !o.debug) ++
+      idle("store-time", s": ${listed(formats)} files store no texts")(
+        o.settings.output.storeTime && formats.nonEmpty && formats.forall(!_.keepsTexts)
+      )
+
+  private def interval(o: Options, isFilm: Boolean): Vector[String] =
+    idle("checkpoint-every", " without --checkpoint or --outfile FILE.film")(
+      o.film.every.isDefined && !isFilm
+    )
+
+  /** Options of pictures, where none is written or shown. */
+  private def pictures(o: Options): Vector[String] =
+    val formats = o.outfiles.flatMap(format)
+    val isShown = o.thumbnail.isDefined || o.watch.isDefined || o.displayServer.isDefined
+    val hasPicture = formats.isEmpty || isShown || formats.exists(_.contents == Contents.Display)
+    val plain = DisplayTransform.Plain
+    val d = o.display
+    val why = s": ${listed(formats)} files keep the light as it is"
+    def unseen(option: String, isGiven: Boolean) = idle(option, why)(!hasPicture && isGiven)
+    unseen("tonemap", d.curve != plain.curve) ++
+      unseen("exposure", d.exposure != Exposure.Stops(0f)) ++
+      unseen("falsecolor", d.falseColor) ++
+      idle("bits", s": only .${OutputFormat.preview.suffix} files may have 16")(
+        d.bits == 16 && formats.nonEmpty && !formats.contains(OutputFormat.preview)
+      ) ++
+      unseen("dither", d.dithers) ++
+      idle("dither", " on 16 bits")(
+        d.dithers && d.bits == 16 && formats.nonEmpty && formats.forall(_ == OutputFormat.preview)
+      )
+
+  private def halves(o: Options): Vector[String] =
+    val formats = o.outfiles.flatMap(format)
+    val exr = OutputFormat.default
+    def other(option: String, isGiven: Boolean) =
+      idle(option, s": only .${exr.suffix} files have it")(isGiven && !formats.contains(exr))
+    if formats.isEmpty then Vector.empty
+    else other("half", o.image.isHalf) ++ other("colorspace", o.image.colorSpace.isDefined)
+
+  private def compared(c: CompareOptions): Vector[String] =
+    val isColored =
+      c.heatMap.flatMap(format).exists(_.contents == Contents.Display)
+    idle("heatmap-metric", " without --heatmap")(
+      c.heatMap.isEmpty && c.heatMapMetric != CompareOptions().heatMapMetric
+    ) ++ idle("heatmap-max", " without --heatmap")(c.heatMap.isEmpty && c.heatMapMax.isDefined) ++
+      idle("heatmap-max", ": the map holds numbers, not colours")(
+        c.heatMap.isDefined && !isColored && c.heatMapMax.isDefined
+      )
+
+  private def described(o: Options): Vector[String] =
+    val page =
+      if o.pbrtOptions then Some("pbrt-options")
+      else Option.when(o.markdown)("markdown")
+    idle(
+      "dialect",
+      " with --pbrt-options"
+    )(o.pbrtOptions && o.settings.reading.dialect.isDefined) ++
+      idle("markdown", " with --pbrt-options, which prints Markdown")(
+        o.pbrtOptions && o.markdown
+      ) ++
+      page.filter(_ => o.files.nonEmpty).map: name =>
+        s"`${o.files.mkString(" ")}` has no effect: --$name prints a whole page"
+
+  private def measured(o: Options): Vector[String] =
+    val isPage = o.reports.isEmpty || o.reports.exists(_.toLowerCase.endsWith(".html"))
+    idle("no-pictures", ": only .html files have pictures")(!o.bench.pictures && !isPage) ++
+      idle("references", ": a suite names its own")(
+        o.bench.references.isDefined && o.files.forall(_.toLowerCase.endsWith(".conf"))
+      )
+
+  private def format(name: String): Option[OutputFormat] =
+    Try(Path.of(name)).toOption.flatMap(OutputFormat.of)
+
+  private def listed(formats: Vector[OutputFormat]): String =
+    formats.distinct.map(f => s".${f.suffix}").mkString(" and ")

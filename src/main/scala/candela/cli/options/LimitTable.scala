@@ -1,0 +1,79 @@
+package candela.cli.options
+
+import candela.base.Limit
+import candela.job.TextForm
+
+import scopt.{OParser, Read}
+
+/** Rows of the option table. Each call makes new rows: scopt gives a row one parent. */
+private[cli] object LimitTable:
+  private val b = OParser.builder[Options]
+  import b.opt
+
+  private final case class Changed(limit: Limit, most: Option[Long])
+
+  private given Read[Changed] = Read.reads: text =>
+    val (name, value) = text.trim.span(_ != '=')
+    val limit = Limit.values.find(_.word.equalsIgnoreCase(name)).getOrElse:
+      throw IllegalArgumentException(s"`$name` is none of ${names}")
+    val amount = value.drop(1).trim
+    if amount.equalsIgnoreCase("none") then Changed(limit, None)
+    else
+      val most = limit match
+        case Limit.Time => milliseconds(amount)
+        case Limit.Bytes => number(amount.replaceFirst("(?i)(?<=[0-9kmgti])b$", ""))
+        case _ => number(amount)
+      Changed(
+        limit,
+        Some(most.getOrElse(
+          throw IllegalArgumentException(s"expected ${expected(limit)}")
+        ))
+      )
+
+  private def names: String = Limit.values.map(_.word).mkString(", ")
+
+  private def expected(limit: Limit): String = limit match
+    case Limit.Time => "a duration, e.g. time=90s, time=10m or time=none"
+    case Limit.Bytes => "a size, e.g. bytes=500MB, bytes=2GB or bytes=none"
+    case other => s"a number, e.g. ${other.word}=1000, ${other.word}=20M or ${other.word}=none"
+
+  private val Number = """(\d+(?:\.\d+)?)(?i:([kmgt])(i?))?""".r
+
+  private def number(text: String): Option[Long] = text match
+    case Number(digits, unit, binary) =>
+      val power = Option(unit).fold(0)(u => "kmgt".indexOf(u.toLowerCase) + 1)
+      val base = if Option(binary).exists(_.nonEmpty) then 1024 else 1000
+      val all = BigDecimal(digits) * BigDecimal(base).pow(power)
+      Option.when(all.isValidLong || all < Long.MaxValue)(all.toLong)
+    case _ => None
+
+  private def milliseconds(text: String): Option[Long] =
+    TextForm.seconds.read(text).map(s => Math.max(1L, (s * 1000).toLong))
+
+  def options: Vector[OParser[?, Options]] = Vector(
+    opt[Unit]("sandbox")
+      .text(
+        "for scenes of strangers: they read files of their own folder only, images go there or " +
+          "beside --outfile, and the limits of --limit hold; see SECURITY.md"
+      )
+      .action((_, o) => o.copy(limits = o.limits.copy(sandbox = true))),
+    opt[Seq[Changed]]("limit").unbounded().valueName("NAME=N[,NAME=N]")
+      .text(
+        s"end with an error at more than N $names, e.g. bytes=2GB,time=10m " +
+          s"(default: none; of --sandbox: ${defaults})"
+      )
+      .action: (all, o) =>
+        val changed = o.limits.changed ++ all.map(c => c.limit -> c.most)
+        o.copy(limits = o.limits.copy(changed = changed))
+  )
+
+  /** Those of the sandbox, as the option takes them. */
+  private[cli] def defaults: String = Limit.values.map: limit =>
+    val most = limit.inSandbox
+    val text = limit match
+      case Limit.Time => s"${most / 60_000}m"
+      case Limit.Bytes => s"${most / 1_000_000_000}GB"
+      case _ if most % 1_000_000 == 0 => s"${most / 1_000_000}M"
+      case _ => most.toString
+    s"${limit.word}=$text"
+  .mkString(", ")

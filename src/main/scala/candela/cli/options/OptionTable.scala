@@ -1,0 +1,300 @@
+package candela.cli.options
+
+import candela.build.{ColorMode, LightGrouping, RenderRegion, RenderSettings}
+import candela.build.sampling.PointChoice
+import candela.convert.Baking
+import candela.film.{Fireflies, Layer}
+import candela.image.{Contents, OutputFormat}
+import candela.job.TextForm
+import candela.scenefile.Dialect
+import candela.watch.{TevDisplay, WatchAddress}
+
+import scopt.{OParser, Read}
+
+/** The options of all commands, one row each, for parsing, validation and help. */
+private[cli] object OptionTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.{failure, opt, success}
+
+  private given Read[(String, Int)] = Read.reads: text =>
+    WatchAddresses.display(text)
+      .getOrElse(throw IllegalArgumentException("expected HOST:PORT, e.g. localhost:14158"))
+
+  private given Read[WatchAddress] = Read.reads: text =>
+    WatchAddresses.parse(text)
+      .getOrElse(throw IllegalArgumentException("expected PORT or ADDRESS:PORT, e.g. 0.0.0.0:8642"))
+
+  // Options of several commands are methods: scopt gives a row one parent.
+  private def dialect(text: String): Row =
+    opt[Dialect]("dialect").valueName("v2|v3|v4").text(text)
+      .action(setReading((d, r) => r.copy(dialect = Some(d))))
+
+  private def parsedAs: Row =
+    dialect("parse the scene as this pbrt version (default: auto-detected)")
+
+  private def keepGoing: Row = opt[Unit]("keep-going")
+    .text("replace missing files and types with placeholders, with a warning each")
+    .action(setReading((_, r) => r.copy(keepGoing = true)))
+
+  private def defines: Row =
+    opt[(String, String)]('D', "define")(using reading(TextForm.definition))
+      .unbounded().valueName("NAME=VALUE")
+      .text("set $NAME of a Mitsuba scene; also -DNAME=VALUE")
+      .action(setReading((d, r) => r.copy(defines = r.defines + d)))
+
+  private def color: Row = opt[ColorMode]("color").valueName("auto|rgb|spectral")
+    .text("what paths carry: three numbers or wavelengths (default: as accurate colours need)")
+    .action(set((mode, s) => s.copy(color = mode)))
+
+  private def explain: Row = opt[Unit]("explain")
+    .text("print what the scene is built from and what was ignored")
+    .action((_, o) => o.copy(explain = true))
+
+  private def quiet: Row =
+    opt[Unit]("quiet").text("print errors only").action((_, o) => o.copy(quiet = true))
+
+  private def verbose(text: String): Row =
+    opt[Unit]("verbose").text(s"print every warning$text")
+      .action((_, o) => o.copy(verbose = true))
+
+  /** More than any machine's processors; each thread takes memory, and a slot of the system. */
+  private val MostThreads = 4096
+
+  private def threads: Row = opt[Int]('j', "nthreads").valueName("N")
+    .text("number of render threads (default: one per processor)")
+    .validate(atLeast("nthreads", 1))
+    .validate: n =>
+      if n <= MostThreads then success
+      else failure(s"--nthreads must be at most $MostThreads, found `$n`")
+    .action((n, o) => o.copy(threads = Some(n)))
+
+  private def samples(text: String): Row = opt[Int]("spp").valueName("N")
+    .text(text)
+    .validate(atLeast("spp", 1))
+    .action(set((n, s) => s.copy(samples = Some(n))))
+
+  private def crop: Row = opt[RenderRegion.Window]("cropwindow").valueName("x0,x1,y0,y1")
+    .text("render only this window, in fractions of width and height")
+    .action(setRegion)
+
+  private def layers: String = Layer.values.map(_.word).mkString(", ")
+
+  private def withLayers(
+      all: Seq[(Layer, Option[Boolean])],
+      s: RenderSettings
+  ): RenderSettings =
+    val asked = all.collect { case (layer, Some(isHalf)) => layer -> isHalf }
+    val output = s.output.copy(precisions = s.output.precisions ++ asked)
+    s.copy(layers = s.layers ++ all.map(_._1), output = output)
+
+  private def grouped(groups: LightGrouping, s: RenderSettings): RenderSettings =
+    s.copy(lightGroups = Some(groups), layers = (s.layers :+ Layer.Lights).distinct)
+
+  private def denoised(s: RenderSettings): RenderSettings =
+    val layers = (s.layers ++ Layer.denoising).distinct
+    s.copy(output = s.output.copy(denoise = true), layers = layers)
+
+  private def sampler: Row =
+    val words = PointChoice.all.map(_.word).mkString("|")
+    opt[PointChoice]("sampler").valueName(words)
+      .text(
+        "sample points: those with the least noise instead of the scene's (best, the default), " +
+          "the scene's own, or these"
+      )
+      .action(set((p, s) => s.copy(points = p)))
+
+  private def fireflies: Row =
+    opt[Fireflies]("fireflies").valueName("keep|reweight|clamp:X")
+      .text(
+        "less noise, but bias: leave out light that few samples have found, or limit each " +
+          "sample's indirect light to X (default: keep)"
+      )
+      .action(set((f, s) => s.copy(fireflies = f)))
+
+  private val renderOptions: Vector[Row] = Vector(
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+      .text(s"output image, ${OutputFormat.listed()}; several: the same image in each format")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    threads,
+    samples("samples per pixel; overrides the scene"),
+    opt[Int]("seed").valueName("N")
+      .text("random seed (default 0)")
+      .action(set((n, s) => s.copy(seed = n))),
+    opt[Unit]("quick")
+      .text("draft: a quarter of the width and height, one sample per pixel")
+      .action(set((_, s) => s.copy(quick = true))),
+    crop,
+    opt[RenderRegion.Pixel]("pixel").valueName("x,y")
+      .text("render only this pixel, from 0,0 at the top left; with --debug, trace it")
+      .action(setRegion),
+    opt[Int]("sample").valueName("N")
+      .text("the sample of --debug, from 0 (default 0)")
+      .validate(atLeast("sample", 0))
+      .action((n, o) => o.copy(sample = n)),
+    opt[Unit]("debug")
+      .text("trace one sample and print the events along its path; writes no image")
+      .action((_, o) => o.copy(debug = true)),
+    opt[Seq[(Layer, Option[Boolean])]]("aov").unbounded().valueName("LAYER[,LAYER]")
+      .text(
+        s"add AOVs to the ${OutputFormat.listed(Contents.Channels)} image: $layers; " +
+          "LAYER:half and LAYER:float select its precision"
+      )
+      .action(set(withLayers)),
+    opt[LightGrouping]("light-groups").valueName("statement|type|NAME=LIGHT[+LIGHT],…")
+      .text(
+        "groups of the layer lights, which is added: each light statement (default), each type, " +
+          "or named groups of statements (point_12: type and line) and types"
+      )
+      .action(set(grouped)),
+    opt[Unit]("denoise")
+      .text(
+        "add the image denoised by Open Image Denoise; .png and .jpg show it " +
+          s"(layers ${Layer.denoising.map(_.word).mkString(" and ")} are added, too)"
+      )
+      .action(set((_, s) => denoised(s))),
+    opt[String]("film").valueName("gbuffer|rgba")
+      .text("add all AOVs of pbrt-v4's gbuffer film, or alpha")
+      .validate: f =>
+        if Layer.films.contains(f) then success
+        else failure(s"--film must be gbuffer or rgba, found `$f`")
+      .action(set((f, s) => s.copy(layers = s.layers ++ Layer.films(f)))),
+    opt[Unit]("store-time")
+      .text("store the render time in the image file; equal images are then different files")
+      .action(setOutput((_, w) => w.copy(storeTime = true))),
+    opt[Seq[String]]("report").unbounded().valueName("FILE[,FILE]")
+      .text("write error over time as .html, .json or .csv; the image is unaffected")
+      .action((f, o) => o.copy(reports = o.reports ++ f)),
+    opt[String]("reference").valueName("FILE")
+      .text(
+        "reference for --report, --watch (default: the error is estimated from the noise) and " +
+          "--denoise"
+      )
+      .action((f, o) => o.copy(reference = Some(f))),
+    opt[Option[WatchAddress]]("watch").valueName("[PORT]")
+      .text(
+        "serve a live page of the image, on this machine only (default: a usual port); with " +
+          "ADDRESS:PORT elsewhere, too, for those who have the link"
+      )
+      .action((a, o) => o.copy(watch = Some(a.getOrElse(WatchAddress(None, None))))),
+    opt[Unit]("watch-after")
+      .text("keep the live page when rendering has ended, until Ctrl-C or its button `end`")
+      .action((_, o) => o.copy(watchAfter = true)),
+    opt[(String, Int)]("display-server").valueName("HOST[:PORT]")
+      .text(s"show the image in the viewer tev (default port: ${TevDisplay.UsualPort})")
+      .action((a, o) => o.copy(displayServer = Some(a))),
+    parsedAs,
+    defines,
+    keepGoing,
+    color,
+    explain,
+    quiet,
+    verbose(", the time of each phase, and what --explain prints"),
+    sampler,
+    fireflies
+  ) ++ SwitchTable.render ++ FilmTable.render ++ ClusterTable.options ++
+    DisplayTable.options ++ LimitTable.options
+
+  private val resumeOptions: Vector[Row] = Vector(
+    threads,
+    samples("samples per pixel; more than planned adds samples")
+  ) ++ FilmTable.resume ++ Vector(quiet, verbose(", and the time of each phase"))
+
+  private val mergeOptions: Vector[Row] = Vector(
+    opt[Seq[String]]('o', "outfile").required().unbounded().valueName("FILE[,FILE]")
+      .text(s"output image, ${OutputFormat.listed()}; or .film: the film of all")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f))
+  ) ++ FilmTable.merge ++ Vector(quiet, verbose(""))
+
+  private val checkOptions: Vector[Row] =
+    Vector(
+      parsedAs, defines, keepGoing, color, explain, quiet, verbose(", and what --explain prints")
+    ) ++ LimitTable.options
+
+  private val benchOptions: Vector[Row] = BenchTable.options :+ quiet
+
+  private val describeOptions: Vector[Row] = Vector(
+    opt[Unit]("pbrt-options")
+      .text("print the options of pbrt's command lines, and what they are here, as Markdown")
+      .action((_, o) => o.copy(pbrtOptions = true)),
+    dialect("only types and parameters of this pbrt version"),
+    opt[Unit]("markdown")
+      .text("print the whole reference as a Markdown page")
+      .action((_, o) => o.copy(markdown = true)),
+    opt[String]('o', "outfile").valueName("FILE")
+      .text("where to write the page (default: standard output)")
+      .action((f, o) => o.copy(outfiles = Vector(f)))
+  )
+
+  private val convertOptions: Vector[Row] = Vector(
+    opt[Dialect]("to").valueName("v4|v3")
+      .text("target dialect (default: the scene's own, which reformats it)")
+      .action((d, o) => o.copy(to = Some(d))),
+    opt[String]('o', "outfile").valueName("FILE")
+      .text("output scene (default: standard output); its images and meshes go beside it")
+      .action((f, o) => o.copy(outfiles = Vector(f))),
+    opt[Int]("to-ply").valueName("N")
+      .text("write meshes of at least N triangles as binary PLY files")
+      .validate(atLeast("to-ply", 1))
+      .action((n, o) => o.copy(toPly = Some(n))),
+    opt[Int]("bake").valueName("[N]")
+      .text(
+        s"paint textures that the dialect lacks as images of N × N pixels " +
+          s"(default ${Baking.DefaultSize})"
+      )
+      .validate(atLeast("bake", 1))
+      .validate: n =>
+        if n <= 8192 then success else failure(s"--bake must be at most 8192, found `$n`")
+      .action((n, o) => o.copy(bake = Some(n))),
+    parsedAs,
+    defines,
+    quiet,
+    verbose("")
+  ) ++ LimitTable.options
+
+  private val viewOptions: Vector[Row] = Vector[Row](
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+      .text(s"picture to write, ${OutputFormat.listed(Contents.Display)} (default: the terminal)")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    opt[Int]("columns").valueName("N")
+      .text("pictures per row of a contact sheet (default: about as many as rows)")
+      .validate(atLeast("columns", 1))
+      .action((n, o) => o.copy(columns = Some(n))),
+    quiet
+  ) ++ DisplayTable.options
+
+  private val previewOptions: Vector[Row] = Vector[Row](
+    opt[Seq[String]]('o', "outfile").unbounded().valueName("FILE[,FILE]")
+      .text("picture to write (default: the scene's name with -preview.png, in this folder)")
+      .action((f, o) => o.copy(outfiles = o.outfiles ++ f)),
+    threads,
+    crop,
+    parsedAs,
+    defines,
+    explain,
+    quiet,
+    verbose("")
+  ) ++ DisplayTable.options ++ LimitTable.options
+
+  private val imageOptions: Vector[Row] = (ImageTable.options :+ quiet) ++ DisplayTable.shown
+
+  private val averageOptions: Vector[Row] = (ImageTable.average :+ quiet) ++ DisplayTable.shown
+
+  /** Rows of a command. */
+  def of(command: Command): Vector[Row] = command match
+    case Command.Render => renderOptions
+    case Command.Resume => resumeOptions
+    case Command.Merge => mergeOptions
+    case Command.Check => checkOptions
+    case Command.Compare => CompareTable.options
+    case Command.Bench => benchOptions
+    case Command.Describe => describeOptions
+    case Command.Convert => convertOptions
+    case Command.View => viewOptions
+    case Command.Preview => previewOptions
+    case Command.Image => imageOptions
+    case Command.Average => averageOptions
+    case Command.Info => Vector.empty
+
+  /** Long option names of a command, without dashes. */
+  def names(command: String): Vector[String] =
+    Command.values.find(_.word == command).toVector.flatMap(of).flatMap(_.toList).map(_.name)

@@ -1,0 +1,78 @@
+package candela.cli.options
+
+import candela.build.{RenderRegion, RenderSettings}
+import candela.guiding.GuidingMode
+
+import scopt.OParser
+
+/** Rows of the option table that pbrt-v4's command line has, too. Each call makes new rows: scopt
+  * gives a row one parent.
+  */
+private[cli] object SwitchTable extends OptionRows:
+  private val b = OParser.builder[Options]
+  import b.opt
+
+  private def flag(name: String, text: String)(change: RenderSettings => RenderSettings): Row =
+    opt[Unit](name).text(text).action(set((_, s) => change(s)))
+
+  def render: Vector[Row] = Vector(
+    opt[RenderRegion.Pixels]("pixelbounds").valueName("x0,x1,y0,y1")
+      .text("render only these pixels; x1 and y1 are excluded")
+      .action(setRegion),
+    opt[RenderRegion.Pixel]("pixelmaterial").valueName("x,y")
+      .text("print what the centre of the pixel shows; writes no image")
+      .action((p, o) => o.copy(pixelMaterial = Some((p.x, p.y)))),
+    flag(
+      "disable-pixel-jitter",
+      "take all samples at the pixel centre, and the middle of the lens"
+    )(
+      _.copy(centers = true)
+    ),
+    flag("disable-texture-filtering", "point-sample textures")(_.copy(unfiltered = true)),
+    flag("disable-image-textures", "replace image textures by their mean")(
+      _.copy(meanImages = true)
+    ),
+    flag(
+      "disable-wavelength-jitter",
+      "take the same wavelengths for all samples, if rendering is spectral; colours are off"
+    )(_.copy(oneColorSet = true)),
+    opt[GuidingMode]("guiding").valueName("auto|on|off|directions|splitting")
+      .text(
+        "let paths learn where light comes from: where it pays, everywhere, or not at all " +
+          "(default); or everywhere by one technique alone"
+      )
+      .action(set((mode, s) => s.copy(guiding = mode))),
+    flag("force-diffuse", "make all materials diffuse")(_.copy(diffuse = true)),
+    opt[Double]("displacement-edge-scale").valueName("X")
+      .text("scale of the edge length of displaced meshes (default 1)")
+      .validate(positive("displacement-edge-scale"))
+      .action(set((x, s) => s.copy(edgeScale = Some(x.toFloat)))),
+    opt[String]("mse-reference-image").valueName("FILE")
+      .text("reference image for --mse-reference-out")
+      .action(setOutput((f, w) => w.copy(reference = Some(f)))),
+    opt[String]("mse-reference-out").valueName("FILE")
+      .text("write the MSE at 1, 2, 4, 8, ... samples per pixel, one line each")
+      .action(setOutput((f, w) => w.copy(errors = Some(f)))),
+    opt[Unit]("write-partial-images")
+      .text("write the image at 1, 2, 4, 8, ... samples per pixel, too")
+      .action((_, o) => o.copy(partialImages = true))
+  )
+
+  /** What is wrong with the options of `render`, if anything. */
+  def problem(o: Options): Option[String] =
+    val s = o.settings
+    val isPixel = s.region match
+      case RenderRegion.Pixel(_, _) => true
+      case _ => false
+    if s.output.reference.isDefined != s.output.errors.isDefined then
+      Some("--mse-reference-image and --mse-reference-out must be given together")
+    else if s.output.errors.isDefined && o.files.size > 1 then
+      Some("--mse-reference-out needs a single scene, found several")
+    else if s.guiding != GuidingMode.Off && !o.film.shard.isWhole then
+      Some("--guiding can't be divided by --shard: paths learn from those of all samples")
+    else if s.guiding != GuidingMode.Off && o.cluster.master.isDefined then
+      Some("--guiding can't be divided by --spark: paths learn from those of all samples")
+    else if o.debug && !isPixel then Some("--debug needs --pixel x,y")
+    else if o.regions.size > 1 then
+      Some("only one of --cropwindow, --pixelbounds and --pixel can be given")
+    else None

@@ -1,0 +1,99 @@
+package candela.cli.rendering
+
+import candela.build.RenderGoal
+import candela.cli.terminal.Figures
+import candela.film.Film
+import candela.render.{ExpectedEnd, Looks, Pass, RenderListener, Rendering}
+
+/** Ends a rendering at a time, or at an error, whichever comes first, with a whole number of
+  * samples in every pixel.
+  *
+  * @param planned  samples per pixel at which it ends in any case
+  * @param recorder measures the error
+  */
+final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
+    extends RenderListener:
+  private var isReached = false
+  private var seen, step, parts = 0
+  private var now, perSample = 0.0
+
+  override def isEnough: Boolean = isReached
+  override def looks: Looks = Looks.Waves
+
+  override def begins(samples: Int, film: Film): Unit =
+    seen = samples
+    step = 1
+    recorder.begins(samples, film)
+
+  override def passed(pass: Pass, film: Film): Unit =
+    val began = System.nanoTime
+    // Where an error is looked at must not depend on the time
+    if pass.isWhole then
+      recorder.passed(pass, film)
+      val error = errorAt(pass.samples).filter(_ => pass.samples >= Goal.Fewest)
+      if options.error.exists(most => error.exists(_ <= most)) then isReached = true
+    val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
+    // The first ones are slow: the JVM compiles meanwhile
+    perSample = measured * Goal.Warm(Math.min(parts, Goal.Warm.size - 1))
+    parts += 1
+    seen = pass.samples
+    step = pass.step
+    now = pass.clock + (System.nanoTime - began) * 1e-9
+    if options.time.exists(t => !isWorthMore(t - now)) then isReached = true
+    if isReached && !pass.isWhole then recorder.passed(pass.copy(isLast = true), film)
+
+  /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
+  private def isWorthMore(left: Double): Boolean =
+    left > step * perSample / 2 && step * perSample - left <= Goal.Late
+
+  /** As many samples as end in time. */
+  override def most: Int =
+    options.time.filter(_ => perSample > 0).fold(Int.MaxValue): t =>
+      val left = t - now
+      val fits = Math.min(left / perSample + 0.5, (left + Goal.Late) / perSample)
+      Math.max(1, Math.min(fits, Int.MaxValue)).toInt
+
+  /** At the time, if the rendering may end anywhere, or no sample ends any more; or else soon
+    * after, if the samples take longer than expected.
+    */
+  override def isOver(seconds: Double, still: Double): Boolean =
+    val late = if step == 0 || still > Goal.Patience then 0 else Goal.Late
+    if options.time.exists(_ + late <= seconds) then isReached = true
+    isReached
+
+  override def goal: Option[ExpectedEnd] =
+    Some(ExpectedEnd(options.time, options.error.flatMap(recorder.samplesUntil)))
+
+  override def errorAt(samples: Double): Option[Double] = recorder.errorAt(samples)
+
+  /** What is missing, if the rendering ended before its goal because all samples were taken. */
+  def missed(rendering: Rendering): Option[String] =
+    val isEarly = options.time.forall(rendering.seconds < Goal.Nearly * _)
+    Option.when(!isReached && isEarly && rendering.samplesDone >= planned):
+      val time = options.time.map: asked =>
+        s"the rendering ended after ${Figures.duration(rendering.seconds)}, " +
+          s"not ${Figures.duration(asked)}"
+      val error = options.error.map: asked =>
+        val found = recorder.errorAt(rendering.samplesDone)
+        val known = found.fold("not known")(e => s"${Figures.percentage(e)}")
+        s"the error is $known, not ${Figures.percentage(asked)}"
+      s"warning: ${(error ++ time).mkString(", and ")}: all ${Figures.count(planned, "sample")} " +
+        "per pixel are taken; a larger --spp, or none, allows more"
+
+object Goal:
+  /** Of a time; what ends later was asked for. */
+  private val Nearly = 0.9
+
+  /** In seconds; longer than any sound sample takes. */
+  private val Patience = 0.5
+
+  /** In seconds: by how much a rendering may end late. Its workers then have to end, too. */
+  private val Late = 0.4
+
+  /** What a sample is expected to take after each part, relative to those of the part. If it takes
+    * longer, the rendering ends in the midst of it, in time.
+    */
+  private val Warm = Vector(0.25, 0.5, 1.0)
+
+  /** Fewer samples per pixel say little about an error. */
+  val Fewest = 4

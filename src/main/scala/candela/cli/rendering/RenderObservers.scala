@@ -1,0 +1,42 @@
+package candela.cli.rendering
+
+import candela.base.WholeFile
+import candela.cli.files.OutputFiles
+import candela.cli.terminal.Figures
+import candela.film.{Development, Film}
+import candela.image.Image
+import candela.measure.Errors
+import candela.render.{Live, Looks, Pass, RenderListener, Rendering, RenderPlan}
+
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.Path
+
+/** Writes lines of samples per pixel and MSE, as pbrt-v4 does. */
+private[cli] final class ErrorLog(development: Development, reference: Image, file: Path)
+    extends RenderListener:
+  private val lines = StringBuilder()
+
+  override def looks: Looks = Looks.Doublings
+
+  override def passed(pass: Pass, film: Film): Unit =
+    val mse = Errors.quickly(reference)(development(film)).mse
+    lines ++= s"${pass.samples}, ${Figures.general(mse)}\n"
+    WholeFile.write(file, lines.toString.getBytes(UTF_8))
+
+private[cli] object ErrorLog:
+  /** None unless the plan asks for one. */
+  def of(plan: RenderPlan): Option[ErrorLog] =
+    plan.errors.map: asked =>
+      val reference = RenderRecorder.fitting(plan, asked.reference)
+      ErrorLog(plan.development, reference, OutputFiles.path(asked.file))
+
+/** Writes the image of each pass but the last, which is written anyway. */
+private[cli] final class PartialImages(write: Rendering => Unit) extends RenderListener:
+  private var live = Option.empty[Live]
+
+  override def started(live: Live): Unit = this.live = Some(live)
+
+  override def looks: Looks = Looks.Doublings
+
+  override def passed(pass: Pass, film: Film): Unit =
+    if !pass.isLast then live.foreach(l => write(l.rendering))

@@ -1,0 +1,89 @@
+package candela.cli.rendering
+
+import candela.cli.files.{FileRegister, FilmKeeping, FilmName, Frame, Output, OutputFiles}
+import candela.cli.options.{FilmOptions, Options}
+import candela.cli.terminal.Report
+import candela.film.Layer
+import candela.job.{Prepared, SceneLoader}
+import candela.render.storage.FilmFile
+import candela.scenefile.SceneFiles
+
+import java.nio.file.Path
+
+/** The files that a rendering reads and writes. */
+private[cli] final class RenderOutputs(
+    options: Options,
+    report: Report,
+    register: FileRegister,
+    resumed: Option[FilmFile]
+):
+
+  /** Checks that no two scenes have one image, before any of them is rendered: that would lose
+    * hours. Scenes that can't be read tell nothing yet.
+    *
+    * @throws SceneError if two have
+    */
+  def checkAll(frames: Vector[Frame], loader: SceneLoader): Unit =
+    if frames.size > 1 then
+      val together = FileRegister()
+      for Frame(scene, outfiles) <- frames do
+        val images =
+          if outfiles.nonEmpty then Some(OutputFiles.asked(outfiles))
+          else loader.imageName(scene, options.preparation).map(OutputFiles.named(scene, _))
+        for files <- images do together.note(Output(files.paths, "image", scene))
+        for film <- outfiles.find(FilmOptions.isFilm) do
+          together.note(Output.film(OutputFiles.path(film), scene))
+
+  /** Checks what is known before the scene is read, which may take long.
+    *
+    * @throws SceneError if a file can't be written
+    */
+  def check(scene: String, outfiles: Vector[String]): Unit =
+    val images = OutputFiles.asked(outfiles)
+    if options.limits.sandbox then register.confine(folders(scene, outfiles))
+    images.check()
+    register.read((scene +: (options.reference ++ options.settings.output.reference).toVector)
+      .map(OutputFiles.path))
+    register.check(Output(images.paths, "image", scene))
+    val film = if resumed.isDefined then None else FilmKeeping.named(options, outfiles)
+    others(
+      scene,
+      film.map(OutputFiles.path),
+      options.settings.output.errors
+    ).foreach(register.check)
+
+  /** The images to write, each by one scene.
+    *
+    * @throws SceneError if a file can't be written, or is one of the scene's
+    */
+  def images(scene: String, loaded: Prepared, outfiles: Vector[String]): Vector[Path] =
+    val plan = loaded.plan
+    register.read(SceneFiles.of(loaded.description) ++
+      plan.errors.map(e => OutputFiles.path(e.reference)))
+    val files =
+      if outfiles.nonEmpty then OutputFiles.asked(outfiles)
+      else if resumed.isDefined then OutputFiles.asked(Vector.empty) // a shard
+      else OutputFiles.ofScene(scene, loaded).without(register.hasRead)
+    report.warnings(files.warnings, all = true)
+    files.check()
+    if OutputFiles.needLayers(plan, options.settings.output.denoise) && files.paths.nonEmpty then
+      files.checkLayers()
+    if options.settings.layers.contains(Layer.Alpha) && files.paths.nonEmpty then files.checkAlpha()
+    val at = if outfiles.isEmpty then FilmName.place(loaded.description) else None
+    register.write(Output(files.paths, "image", scene, at = at))
+    val film = FilmKeeping.path(options, outfiles, files.paths, resumed)
+    others(scene, film, plan.errors.map(_.file)).foreach(register.write)
+    files.paths
+
+  /** Where a sandbox lets files be written. */
+  private def folders(scene: String, outfiles: Vector[String]): Vector[Path] =
+    val beside = resumed.map(_.path).toVector ++ outfiles.map(OutputFiles.path)
+    val all = if beside.isEmpty then Vector(OutputFiles.path(scene)) else beside
+    all.map(file => Option(file.getParent).getOrElse(Path.of(""))).distinct
+
+  private def others(scene: String, film: Option[Path], errors: Option[String]) =
+    val named = if options.film.checkpoint.isDefined then "checkpoint" else "outfile"
+    film.toVector.map(Output.film(_, scene, named)) ++ Vector(
+      Output(ReportFiles.checked(options.reports), "report", scene, "report"),
+      Output(errors.toVector.map(OutputFiles.path), "list of errors", scene, "mse-reference-out")
+    )

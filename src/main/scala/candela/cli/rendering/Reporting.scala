@@ -1,0 +1,126 @@
+package candela.cli.rendering
+
+import java.nio.charset.StandardCharsets.UTF_8
+import java.nio.file.Path
+
+import candela.base.{FileName, Problem, SceneError, Version, WholeFile}
+import candela.build.RenderRegion
+import candela.cli.files.{Denoised, Denoising, FileRegister, OutputFiles}
+import candela.cli.options.Options
+import candela.cli.terminal.Figures
+import candela.job.{Prepared, TextForm}
+import candela.render.Rendering
+import candela.report.{Machine, Picture, RenderData, RenderPage, RenderReport, Span}
+
+/** Report about one rendering: checked before rendering starts, written when it ends. */
+final class Reporting(options: Options, scene: String, loaded: Prepared):
+  private val paths: Vector[Path] = ReportFiles.checked(options.reports)
+  private val machine = Machine.here()
+
+  val recorder: RenderRecorder = RenderRecorder.of(loaded.plan, options.reference)
+
+  /** Writes the reports and returns their paths; writes none if no pass completed. */
+  def write(
+      rendering: Rendering,
+      threads: Int,
+      writeSeconds: Double,
+      denoised: Option[Denoised] = None
+  ): Vector[Path] =
+    if recorder.pictures.forall(_.isReference) then Vector.empty
+    else
+      ReportFiles.write(paths, report(rendering, threads, writeSeconds, denoised))
+      paths
+
+  private def report(
+      rendering: Rendering,
+      threads: Int,
+      writeSeconds: Double,
+      denoised: Option[Denoised]
+  ): RenderReport =
+    val (last, others) = recorder.pictures.splitAt(1)
+    val reference = recorder.pictures.find(_.isReference)
+    val errors = for d <- denoised; r <- reference yield "relative MSE" -> d.errors(r.image)
+    val clean = denoised.map: d =>
+      Picture(s"${last.map(_.name).mkString}, denoised", Denoising.shown(d.image))
+    RenderReport(
+      scene,
+      Version.current,
+      machine,
+      rows(rendering, threads) ++ errors,
+      loaded.plan.features,
+      options.reference,
+      recorder.points,
+      phases(rendering, writeSeconds, denoised),
+      recorder.passes,
+      last ++ clean ++ others,
+      rendering.rays,
+      rendering.learned.fold(Vector.empty)(Learning.figures)
+    )
+
+  private def phases(
+      rendering: Rendering,
+      writeSeconds: Double,
+      denoised: Option[Denoised]
+  ): Vector[Span] =
+    val phases = Vector(
+      "parse" -> loaded.readSeconds,
+      "build" -> loaded.buildSeconds,
+      "render" -> rendering.seconds,
+      "measure errors" -> recorder.seconds
+    ) ++ denoised.map("denoise" -> _.seconds) :+ ("write" -> writeSeconds)
+    val begins = phases.map(_._2).scanLeft(0.0)(_ + _)
+    phases.zip(begins).map:
+      case ((name, seconds), begin) => Span(name, begin, begin + seconds)
+
+  private def window: Option[String] = options.settings.region match
+    case window: RenderRegion.Window => Some(TextForm.window.show(window))
+    case _ => None
+
+  private def rows(rendering: Rendering, threads: Int): Vector[(String, String)] =
+    Vector(
+      "samples per pixel" -> Reporting.samples(rendering),
+      "threads" -> threads.toString,
+      "seed" -> options.settings.seed.toString,
+      "image" -> s"${rendering.film.width}×${rendering.film.height}",
+      "rays" -> Figures.metric(rendering.rays.toDouble)
+    ) ++
+      Bias.fireflies(loaded.plan, rendering).map("fireflies" -> _) ++
+      rendering.film.levels.map: l =>
+        "memory of brightness levels" -> s"${Figures.metric(l.memory.toDouble)}B"
+      ++
+      options.reference.map("reference" -> _) ++
+      Option.when(options.settings.quick)("quick" -> "a quarter of the width and height, 1 spp") ++
+      window.map("crop window" -> _) ++
+      Option.when(options.settings.reading.keepGoing)("placeholders" -> loaded.standIns.toString)
+
+private object Reporting:
+  private def samples(r: Rendering): String =
+    val planned = if r.isOpenEnded then "" else s" of ${r.samplesPerPixel}"
+    val now = if r.earlier == 0 then "" else s", ${r.samplesDone - r.earlier} of them in this run"
+    s"${r.samplesDone}$planned$now"
+
+/** Report files: `.html` for readers, `.json` and `.csv` for programs. */
+object ReportFiles:
+  private val Suffixes = Vector("html", "json", "csv")
+
+  /** Verifies before rendering that the files can be written.
+    *
+    * @throws SceneError if one can't
+    */
+  def checked(names: Vector[String]): Vector[Path] =
+    val paths = names.map(OutputFiles.path).distinct
+    val problems = paths.flatMap: path =>
+      if !Suffixes.contains(FileName.suffix(path)) then
+        val help = Some("reports are written as .html, .json or .csv")
+        Some(Problem.general(s"can't write the report `$path`", help))
+      else FileRegister.obstacle(path)
+    if problems.nonEmpty then throw SceneError(problems)
+    paths
+
+  def write(paths: Vector[Path], report: RenderReport): Unit =
+    for path <- paths do
+      val text = FileName.suffix(path) match
+        case "html" => RenderPage.html(report)
+        case "json" => RenderData.json(report)
+        case _ => RenderData.csv(report)
+      WholeFile.write(path, text.getBytes(UTF_8))

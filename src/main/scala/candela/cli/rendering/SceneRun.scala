@@ -1,0 +1,136 @@
+package candela.cli.rendering
+
+import candela.cli.files.{Denoised, Denoising, FilmKeeping}
+import candela.cli.options.Options
+import candela.cli.terminal.{ExitCode, ProgressLine, Terminal, Thumbnail}
+import candela.image.Image
+import candela.job.{Prepared, RenderControl}
+import candela.render.{Cancellation, Rendering, RenderListener}
+import candela.render.storage.Checkpoints
+
+import java.nio.file.Path
+
+/** The rendering of one scene: its images, its film, and all that follows it.
+  *
+  * @param keeping the film to write, if any
+  */
+private[cli] final class SceneRun(
+    options: Options,
+    terminal: Terminal,
+    prepared: Prepared,
+    writer: ImageWriter,
+    keeping: Option[FilmKeeping],
+    cancellation: Cancellation
+):
+  private val plan = prepared.plan
+  private val settings = options.settings
+  private val isPreview = settings.preview
+  private val denoises = settings.output.denoise
+
+  private val reporting =
+    Option.when(options.reports.nonEmpty)(Reporting(options, writer.name, prepared))
+  private val goal = Option.when(settings.goal.isGiven):
+    def recorder = RenderRecorder.of(plan, None)
+    Goal(settings.goal, plan.samplesPerPixel, reporting.fold(recorder)(_.recorder))
+  private val reference =
+    options.reference.filter(_ => denoises).map(RenderRecorder.fitting(plan, _))
+
+  def run(): ExitCode = terminal.interrupts.during(cancellation):
+    val progress = ProgressLine(terminal.err, terminal.isInteractive)
+    val checkpoints = keeping.map(_.checkpointer(() => goal.exists(_.isEnough)))
+    val watching = Option.when(options.isWatched)(watched())
+    try
+      val rendering = rendered(progress, checkpoints, watching)
+      if !rendering.isComplete then terminal.interrupts.checkTime()
+      watching.foreach(_.end(rendering))
+      val result = results(rendering)
+      val films = keeping.map(_.path)
+        .filter(_ => writer.paths.isEmpty && checkpoints.forall(_.failure.isEmpty))
+      val files = tell(result, films.toVector)
+      watching.foreach(_.await(files))
+      if !result.isComplete || checkpoints.exists(_.failure.nonEmpty) then ExitCode.BadInput
+      else if !rendering.isComplete then ExitCode.Interrupted
+      else ExitCode.Done
+    finally watching.foreach(_.close())
+
+  private def rendered(
+      progress: ProgressLine,
+      checkpoints: Option[Checkpoints],
+      watching: Option[Watching]
+  ): Rendering =
+    val shown = Option.when(!options.quiet)(RenderListener.onProgress(progress.update))
+    val followed = watching.map(w => RenderListener.onStart(w.start))
+    val images = Option.when(options.partialImages)(PartialImages(save(_): Unit))
+    val listeners =
+      shown ++ goal.orElse(reporting.map(_.recorder)) ++ ErrorLog.of(plan) ++ images ++ followed
+    val control = RenderControl(
+      options.threadCount,
+      cancellation,
+      RenderListener.all(listeners),
+      options.film.shard,
+      checkpoints
+    )
+    try prepared.render(control)
+    finally progress.finish()
+
+  /** What was rendered, and the files of it.
+    *
+    * @param wanted  images that it may replace
+    * @param written those that could be written
+    */
+  private final case class Result(
+      rendering: Rendering,
+      image: Image,
+      wanted: Vector[Path],
+      written: Vector[Path],
+      denoised: Option[Denoised],
+      writeSeconds: Double
+  ):
+    def isComplete: Boolean = written.size == wanted.size
+
+  private def results(rendering: Rendering): Result =
+    val started = System.nanoTime
+    val image = writer.image(rendering)
+    val finished = System.nanoTime
+    val denoised =
+      Option.when(denoises)(Denoised(image, rendering.seconds, (finished - started) * 1e-9))
+    val wanted = writer.writable(rendering)
+    val written = writer.write(wanted, rendering, image)
+    Result(rendering, image, wanted, written, denoised, (System.nanoTime - finished) * 1e-9)
+
+  /** Tells of the result, and writes the reports; all files. */
+  private def tell(result: Result, films: Vector[Path]): Vector[Path] =
+    import result.*
+    val told = !options.quiet
+    if wanted.size < writer.paths.size && told then
+      terminal.err.println(Summary.kept(writer.paths.diff(wanted), isLate))
+    val files = written ++ films
+    Summary.print(options, terminal, files, prepared, rendering, writeSeconds, isLate)
+    // A preview has neither goals nor options of its own to reach them
+    if !isPreview then goal.flatMap(_.missed(rendering)).foreach(terminal.err.println)
+    val threads = options.threadCount
+    val pages = reporting.toVector.flatMap(_.write(rendering, threads, writeSeconds, denoised))
+    for path <- pages if told do terminal.out.println(s"wrote $path")
+    terminal.out.flush()
+    for r <- reference; d <- denoised if told do
+      terminal.out.println(s"relative MSE  ${d.errors(r)}")
+    for kind <- options.thumbnail do
+      val shown = Denoising.shown(image)
+      terminal.out.control(Thumbnail.of(shown, options.display, kind, terminal))
+    terminal.out.flush()
+    files ++ pages
+
+  /** Whether a rendering that did not end by itself ended by its time, and not by its user. */
+  private def isLate: Boolean = settings.goal.time.isDefined && !cancellation.isRequested
+
+  private def watched(): Watching =
+    val reference = options.reference.map(RenderRecorder.fitting(plan, _))
+    def saved(rendering: Rendering) =
+      if writer.writable(rendering).isEmpty then
+        "nothing: the new image has less than 1 sample per pixel"
+      else save(rendering).mkString(", ")
+    Watching(options, writer.name, plan, reference, cancellation, terminal, saved)
+
+  /** Writes the image so far. */
+  private def save(rendering: Rendering): Vector[Path] =
+    writer.write(writer.writable(rendering), rendering, writer.image(rendering))

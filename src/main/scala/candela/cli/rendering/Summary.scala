@@ -1,0 +1,113 @@
+package candela.cli.rendering
+
+import candela.cli.options.Options
+import candela.cli.terminal.{Figures, Terminal}
+import candela.job.Prepared
+import candela.render.{Refused, Rendering}
+import candela.render.storage.FilmFile
+
+import java.nio.file.Path
+
+/** The final lines of a rendering. */
+object Summary:
+
+  /** `wrote x.exr, x.png  256x256, 64 spp, 3.2 s, 1.31 M samples/s, 5.20 M rays/s`; of a
+    * rendering that ended before its first sample or was interrupted, the samples done.
+    *
+    * @param standIns number of missing items replaced by placeholders
+    * @param isLate   whether its time was over
+    */
+  def result(
+      written: Vector[Path],
+      r: Rendering,
+      standIns: Int = 0,
+      isLate: Boolean = false
+  ): String =
+    val missing = placeholders(standIns) + darkness(r)
+    val names = written.mkString(", ")
+    if r.isComplete && r.seconds == 0 then
+      s"wrote $names  ${r.film.width}x${r.film.height}, ${r.samplesDone} spp$missing"
+    else if r.isComplete then
+      val rates = s"${rate(r.samplesTaken, r)} samples/s, ${rate(r.rays, r)} rays/s"
+      val size = s"${r.film.width}x${r.film.height}"
+      val seconds = Figures.duration(r.seconds)
+      s"wrote $names  $size, ${r.samplesDone} spp${ofThisRun(r)}, $seconds, $rates$missing"
+    else
+      val done = if r.samplesDone == 0 then "less than 1" else r.samplesDone.toString
+      val number =
+        if !r.isOpenEnded then s"$done of ${r.samplesPerPixel} samples"
+        else if r.samplesDone > 1 then s"$done samples"
+        else s"$done sample"
+      s"${ended(isLate)}: wrote $names with $number per pixel${ofThisRun(r)}$missing"
+
+  private def ended(isLate: Boolean) = if isLate then "out of time" else "interrupted"
+
+  /** The seconds are those of this run alone. */
+  private def ofThisRun(r: Rendering): String =
+    if r.earlier == 0 then "" else s" (${r.samplesDone - r.earlier} in this run)"
+
+  private def placeholders(count: Int): String =
+    if count > 0 then s", ${Figures.count(count, "placeholder")}" else ""
+
+  /** A discarded sample counts as black. */
+  private def darkness(r: Rendering): String =
+    val lost = r.refused.fold(0L)(_.count)
+    val done = Math.max(r.samplesTaken, r.film.width.toLong * r.film.height * r.samplesDone)
+    if lost * LeastLoss <= done then ""
+    else
+      val share = Figures.percentage(lost.toDouble / done)
+      s"; the image is too dark: $share of its samples were discarded"
+
+  /** One discarded sample among so many is not worth a word in the last line. */
+  private val LeastLoss = 1000
+
+  /** Of images that a rendering without samples did not replace. */
+  def kept(images: Vector[Path], isLate: Boolean): String =
+    val names = images.mkString(", ")
+    s"${ended(isLate)}: kept $names: the new image has less than 1 sample per pixel"
+
+  /** `continuing x.film at 12 samples per pixel` */
+  def continues(film: FilmFile): String =
+    s"continuing ${film.path} at ${film.header.done} samples per pixel"
+
+  /** The last lines of a rendering.
+    *
+    * @param written its files
+    * @param isLate  whether its time was over
+    */
+  def print(
+      options: Options,
+      terminal: Terminal,
+      written: Vector[Path],
+      prepared: Prepared,
+      rendering: Rendering,
+      writeSeconds: Double = 0,
+      isLate: Boolean = false
+  ): Unit =
+    for r <- rendering.refused do
+      terminal.err.println(refused(r, isTraceable = !options.settings.preview))
+    if !options.quiet && written.nonEmpty then
+      if options.verbose then
+        terminal.err.println(phases(prepared, rendering, writeSeconds))
+        rendering.learned.foreach(o => terminal.err.println(Learning.summary(o)))
+      terminal.out.println(result(written, rendering, prepared.standIns, isLate))
+      terminal.out.flush()
+
+  private def phases(prepared: Prepared, rendering: Rendering, writeSeconds: Double): String =
+    Vector(
+      "parse" -> prepared.readSeconds,
+      "build" -> prepared.buildSeconds,
+      "render" -> rendering.seconds,
+      "write" -> writeSeconds
+    ).map((phase, seconds) => s"$phase ${Figures.duration(seconds)}").mkString(", ")
+
+  /** @param isTraceable whether `render` can trace the same sample: not of a smaller image */
+  def refused(r: Refused, isTraceable: Boolean): String =
+    val material = if r.material < 0 then "" else s", material ${r.material}"
+    val options = s"--pixel ${r.x},${r.y} --sample ${r.sample} --debug"
+    val advice = if isTraceable then s"; trace it with candela render $options" else ""
+    s"warning: ${Figures.count(r.count, "sample")} discarded: NaN or infinite, " +
+      s"the first at pixel (${r.x}, ${r.y}), sample ${r.sample}$material$advice"
+
+  private def rate(count: Long, r: Rendering): String =
+    Figures.metric(count / Math.max(r.seconds, 1e-9))

@@ -1,0 +1,87 @@
+package candela.cli.rendering
+
+import java.io.IOException
+import java.net.UnknownHostException
+import java.nio.file.Path
+
+import candela.base.{Problem, SceneError}
+import candela.cli.options.Options
+import candela.cli.terminal.Terminal
+import candela.image.Image
+import candela.render.{Cancellation, Live, Rendering, RenderPlan}
+import candela.watch.{LiveView, Observer, TevDisplay, Viewers, WatchAddress}
+
+/** Everything that follows a rendering from outside: the live page, an image viewer.
+  *
+  * @param save writes the image so far, and returns the files
+  */
+final class Watching(
+    options: Options,
+    scene: String,
+    plan: RenderPlan,
+    reference: Option[Image],
+    cancellation: Cancellation,
+    terminal: Terminal,
+    save: Rendering => String
+) extends AutoCloseable:
+  private val viewers = Viewers()
+  private var observer: Option[Observer] = None
+  private var view: Option[LiveView] = None
+  @volatile private var display: Option[TevDisplay] = None
+
+  /** Begins to follow a rendering. */
+  def start(live: Live): Unit =
+    def isWatched = viewers.count > 0 || display.exists(_.isConnected)
+    val observer = Observer(plan, reference, options.threadCount, live, () => isWatched)
+    this.observer = Some(observer)
+    display = options.displayServer.map: (host, port) =>
+      TevDisplay(host, port, scene, observer, e => cannotReach(host, port, e))
+    view = options.watch.map(serve(observer, _))
+
+  private def serve(observer: Observer, address: WatchAddress): LiveView =
+    try
+      val view = LiveView(
+        scene,
+        plan,
+        address,
+        observer,
+        viewers,
+        cancellation,
+        isEstimated = reference.isEmpty,
+        save,
+        stays = options.watchAfter
+      )
+      // Elsewhere nobody can guess the link.
+      if !options.quiet || address.host.isDefined then
+        terminal.err.println(s"watch at ${view.link}")
+      view
+    catch
+      case e: IOException => throw cannotServe(address, Watching.reason(e))
+
+  private def cannotReach(host: String, port: Int, cause: IOException): Unit =
+    if !options.quiet then
+      terminal.err.println(s"warning: no viewer at $host:$port yet: ${Watching.reason(cause)}")
+
+  private def cannotServe(address: WatchAddress, cause: String): SceneError =
+    val place = (address.host ++ address.port.map(_.toString)).mkString(":")
+    val help = "choose another with --watch PORT or --watch ADDRESS:PORT"
+    SceneError(Problem.general(s"can't serve the live page at $place: $cause", Some(help)))
+
+  /** Shows the result; returns when the viewers need the page no longer. */
+  def end(rendering: Rendering): Unit =
+    observer.foreach(_.end(rendering))
+
+  /** @param files written by the rendering */
+  def await(files: Vector[Path]): Unit =
+    display.foreach(_.await())
+    view.foreach(_.await(files.map(_.toAbsolutePath.normalize.toString)))
+
+  def close(): Unit =
+    display.foreach(_.close())
+    observer.foreach(_.close())
+    view.foreach(_.close())
+
+private object Watching:
+  def reason(e: IOException): String = e match
+    case unknown: UnknownHostException => s"no such host: ${unknown.getMessage}"
+    case other => other.getMessage

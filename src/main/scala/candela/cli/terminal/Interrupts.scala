@@ -1,0 +1,78 @@
+package candela.cli.terminal
+
+import candela.base.NextFile
+import candela.render.Cancellation
+
+import java.io.PrintStream
+import java.util.concurrent.CountDownLatch
+
+import scala.util.Try
+
+import sun.misc.{Signal, SignalHandler}
+
+/** Handles Ctrl-C. */
+abstract class Interrupts:
+
+  /** Runs `body`; an interrupt meanwhile requests `cancellation`. */
+  def during[A](cancellation: Cancellation)(body: => A): A
+
+  /** @throws SceneError if the time of the run is over */
+  def checkTime(): Unit = ()
+
+  /** Ends the process at once, if it is ours. */
+  def quit(code: ExitCode): Unit = ()
+
+  /** From now on, except [[during]] a rendering, an interrupt quits at once. */
+  def quitting(): Unit = ()
+
+object Interrupts:
+
+  /** For embedding: the host program handles Ctrl-C. */
+  object Ignored extends Interrupts:
+    def during[A](cancellation: Cancellation)(body: => A): A = body
+
+  /** @param isInteractive whether the terminal echoes `^C` on the line */
+  def fromSignals(err: PrintStream, isInteractive: Boolean): Interrupts =
+    Signals(err, isInteractive)
+
+  /** The first SIGINT cancels, the second quits at once. SIGTERM (from a batch system, or from sbt
+    * passing on a Ctrl-C) cancels too, and waits until `body` has written its image.
+    */
+  private final class Signals(err: PrintStream, echoes: Boolean) extends Interrupts:
+    private val interrupt = Signal("INT")
+
+    override def quitting(): Unit =
+      val onInterrupt: SignalHandler = _ =>
+        if echoes then err.println()
+        err.println("interrupted")
+        err.flush()
+        quit(ExitCode.Interrupted)
+      val _ = Try(Signal.handle(interrupt, onInterrupt))
+
+    /** Without anything that goes on meanwhile and might fail, and leaves nothing half-written. */
+    override def quit(code: ExitCode): Unit =
+      NextFile.giveUp()
+      Runtime.getRuntime.halt(code.number)
+
+    def during[A](cancellation: Cancellation)(body: => A): A =
+      val ended = CountDownLatch(1)
+      val onShutdown = Thread: () =>
+        cancellation.request()
+        ended.await()
+      val onInterrupt: SignalHandler = _ =>
+        if cancellation.isRequested then quit(ExitCode.Interrupted)
+        else
+          // Printed first, because a cancelled rendering may end, and print its result, at once.
+          if echoes then err.println()
+          err.println("stopping; Ctrl-C again quits and writes nothing")
+          cancellation.request()
+      // During shutdown it fails: the interrupt came before.
+      if Try(Runtime.getRuntime.addShutdownHook(onShutdown)).isFailure then cancellation.request()
+      // Fails if Java runs with -Xrs, which reserves signals.
+      val previous = Try(Signal.handle(interrupt, onInterrupt)).toOption
+      try body
+      finally
+        previous.foreach(Signal.handle(interrupt, _))
+        ended.countDown()
+        // Fails during shutdown, when it is not needed.
+        val _ = Try(Runtime.getRuntime.removeShutdownHook(onShutdown))

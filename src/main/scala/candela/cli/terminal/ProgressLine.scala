@@ -1,0 +1,76 @@
+package candela.cli.terminal
+
+import candela.render.Progress
+
+import java.util.Locale
+
+/** Progress of a rendering: one redrawn line on a terminal, occasional lines in a log.
+  *
+  * No library's progress bar: those support terminals only, and a log must get no carriage returns.
+  */
+final class ProgressLine(err: Printer, isInteractive: Boolean):
+  import ProgressLine.*
+
+  private var shownAt = 0.0
+  private var shownSteps = 0
+  private var shownLength = 0
+
+  def update(progress: Progress): Unit = if isInteractive then redraw(progress) else log(progress)
+
+  /** Clears the line for subsequent output. */
+  def finish(): Unit =
+    if shownLength > 0 then
+      err.control("\r" + " " * shownLength + "\r")
+      err.flush()
+      shownLength = 0
+
+  private def redraw(progress: Progress): Unit =
+    if progress.seconds - shownAt >= RedrawSeconds then
+      val text = bar(progress)
+      err.control("\r" + text.padTo(shownLength, ' '))
+      err.flush()
+      shownAt = progress.seconds
+      shownLength = text.length
+
+  private def log(progress: Progress): Unit =
+    val steps = (progress.part * LogSteps).toInt
+    if steps > shownSteps && steps < LogSteps && progress.seconds - shownAt >= LogSeconds then
+      err.println(line(progress))
+      shownAt = progress.seconds
+      shownSteps = steps
+
+object ProgressLine:
+
+  /** Slow enough not to flood a remote terminal. */
+  private val RedrawSeconds = 0.1
+  private val LogSeconds = 10.0
+
+  /** Maximum number of lines in a log. */
+  private val LogSteps = 10
+  private val BarWidth = 28
+  private val NarrowWidth = 12
+
+  /** `render  42%  12.0 s, 1.31 M samples/s, 0:17 left` */
+  def line(progress: Progress): String =
+    s"render ${percent(progress)}  ${Figures.duration(progress.seconds)}, ${speed(progress)}"
+
+  /** Narrower than 80 columns: `render  42% [========>          ] 1.31 M samples/s, 0:17 left`, or
+    * `… 1.31 M samples/s, error 1.23 %, 0:17 left`.
+    */
+  def bar(progress: Progress): String =
+    val isLong = progress.outlook.hasGoal || progress.outlook.error.isDefined
+    val width = if isLong then NarrowWidth else BarWidth
+    val full = (progress.part * width).toInt
+    val drawn = if full < width then "=" * full + ">" else "=" * full
+    s"render ${percent(progress)} [${drawn.padTo(width, ' ')}] ${speed(progress)}"
+
+  private def percent(p: Progress): String =
+    "%3d%%".formatLocal(Locale.ROOT, (p.part * 100).toInt)
+
+  private def speed(p: Progress): String =
+    if p.done == 0 then "starting"
+    else
+      val rate = p.outlook.rate.getOrElse(p.done / Math.max(p.seconds, 1e-9))
+      val error = p.outlook.error.fold("")(e => s", error ${Figures.percentage(e)}")
+      val left = p.outlook.left.fold("")(l => s", ${Figures.clock(l)} left")
+      s"${Figures.metric(rate)} samples/s$error$left"

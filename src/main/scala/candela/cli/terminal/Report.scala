@@ -1,0 +1,192 @@
+package candela.cli.terminal
+
+import java.io.{IOException, UncheckedIOException}
+
+import java.nio.channels.ClosedByInterruptException
+import java.nio.file.{FileSystemException, InvalidPathException}
+
+import candela.base.{Excerpt, IoReason, Problem, Refusal, SceneError, Severity, SourcePos, Visible}
+import candela.image.{ImageError, Natives}
+import candela.render.RenderFailure
+import candela.scenefile.Excerpts
+
+/** Turns problems into text and exit codes; no other class does.
+  *
+  * @param canKeepGoing whether the command has the option `--keep-going`
+  * @param canTellMore  whether the command has the option `--verbose`
+  * @param hasColor     whether `err` shows colours
+  */
+final class Report(
+    err: Printer,
+    isQuiet: Boolean,
+    isVerbose: Boolean,
+    canKeepGoing: Boolean = true,
+    hasColor: Boolean = false,
+    canTellMore: Boolean = true
+):
+
+  private var errorCount = 0
+
+  /** Number of errors so far. */
+  def errors: Int = errorCount
+
+  /** Runs a command on one input; reports its failure and returns its exit code. */
+  def guarded(body: => ExitCode): ExitCode =
+    try body
+    catch
+      case e: SceneError => errors(e.problems)
+      case r: Refusal => errors(Excerpts.fill(Vector(r.problem)))
+      case e: ImageError => errors(Vector(Problem.general(e.getMessage)))
+      case e: UncheckedIOException => errors(Vector(Problem.general(ioMessage(e.getCause))))
+      case e: IOException if !isInterrupt(e) => errors(Vector(Problem.general(ioMessage(e))))
+      case e: InvalidPathException =>
+        errors(Vector(Problem.general(s"`${e.getInput}` is not a valid file name")))
+      case e: Throwable =>
+        if causes(e).exists(_.isInstanceOf[OutOfMemoryError]) then outOfMemory()
+        else if causes(e).exists(_.isInstanceOf[StackOverflowError]) then tooDeep()
+        else if causes(e).exists(isInterrupt) then
+          errors(Vector(Problem.general("the thread of this command was interrupted")))
+        else
+          causes(e).flatMap(Natives.missing).headOption.fold(bug(e)): (what, help) =>
+            errors(Vector(Problem.general(what, Some(help))))
+
+  /** Prints problems, at least one of them an error, in source order, and their count. */
+  def errors(problems: Vector[Problem]): ExitCode =
+    val (errors, warnings) = problems.partition(_.severity == Severity.Error)
+    errorCount += errors.distinct.size
+    this.warnings(warnings, all = isVerbose)
+    val count = errors.distinct.size
+    val kinds = grouped(errors, all = isVerbose)
+    kinds.take(Report.MostErrors).foreach(printAll)
+    val more = kinds.drop(Report.MostErrors).map((_, places) => places).sum
+    if more > 0 then err.println(s"and ${Figures.count(more, "more error")}")
+    else if count > 1 then err.println(Figures.count(count, "error"))
+    if canKeepGoing && errors.forall(_.standIn.nonEmpty) then
+      err.println(" --keep-going replaces what is missing with placeholders")
+    ExitCode.BadInput
+
+  /** Prints each warning once, in source order.
+    *
+    * @param all if false, prints equal messages only for their first position
+    */
+  def warnings(problems: Vector[Problem], all: Boolean): Unit =
+    if !isQuiet then grouped(problems, all).foreach(printAll)
+
+  /** Problems in source order, with the number of positions that share each message. */
+  private def grouped(problems: Vector[Problem], all: Boolean): Vector[(Problem, Int)] =
+    val ordered = Problem.byPlace(problems.distinct)
+    if all then ordered.map((_, 1))
+    else
+      val places = ordered.groupMapReduce(_.message)(_ => 1)(_ + _)
+      ordered.distinctBy(_.message).map(p => (p, places(p.message)))
+
+  private def printAll(problem: Problem, places: Int): Unit =
+    print(problem)
+    if places > 1 then
+      err.println(s" and at ${Figures.count(places - 1, "more position")}; --verbose shows all")
+
+  private def print(problem: Problem): Unit = ProblemText.print(problem, err, hasColor)
+
+  /** With the name of the file, if it is known. */
+  private def ioMessage(e: IOException): String = e match
+    case f: FileSystemException if f.getFile != null => s"can't read `${f.getFile}`: ${IoReason(f)}"
+    case other => IoReason(other)
+
+  /** An exception and its causes. */
+  private def causes(e: Throwable): Vector[Throwable] =
+    Vector.unfold(Option(e))(_.map(c => (c, Option(c.getCause)))).take(Report.MostCauses)
+
+  private def isInterrupt(e: Throwable): Boolean = e match
+    case _: InterruptedException | _: ClosedByInterruptException => true
+    case _ => false
+
+  private def tooDeep(): ExitCode =
+    val message = "the scene is nested too deeply: Java's stack is full"
+    errors(Vector(Problem.general(message, Some(raised("-Xss64m")))))
+
+  private def outOfMemory(): ExitCode =
+    val limit = Figures.metric(Runtime.getRuntime.maxMemory.toDouble)
+    val message = s"out of memory: Java's heap is limited to ${limit}B"
+    errors(Vector(Problem.general(message, Some(raised("-Xmx8g")))))
+
+  private def raised(limit: String): String =
+    val variable = Report.heapVariable(sys.props.getOrElse("java.class.path", ""), sys.env)
+    s"raise the limit, e.g. with the environment variable $variable=$limit"
+
+  private def bug(e: Throwable): ExitCode =
+    val (place, cause) = e match
+      case f: RenderFailure => (s" at pixel (${f.x}, ${f.y}), sample ${f.sample}", f.getCause)
+      case other => ("", other)
+    err.println(s"error: this is a bug in Candela: $cause$place")
+    if isVerbose || !canTellMore then cause.printStackTrace(err)
+    if !isVerbose then
+      val more = if canTellMore then "; --verbose prints the stack trace" else ""
+      err.println(s" please report it with its input$more")
+    ExitCode.Bug
+
+object Report:
+  /** Causes may refer to each other. */
+  private val MostCauses = 20
+
+  /** Limit for readability. */
+  private[cli] val MostErrors = 20
+
+  /** The variable whose limit of the heap counts: the launcher's options precede Java's own. */
+  private[cli] def heapVariable(classPath: String, environment: Map[String, String]): String =
+    val javas = "JDK_JAVA_OPTIONS"
+    if classPath.endsWith("candela.jar") then "JAVA_OPTS"
+    else if environment.get(javas).exists(_.contains("-Xmx")) then javas
+    else "JAVA_TOOL_OPTIONS"
+
+/** Formats a problem as text; no other class does:
+  *
+  * {{{
+  * scenes/camera.pbrt:14:15: error: LookAt expects 9 numbers; number 4 is `Camera`
+  *  14 | LookAt 0 0 5  Camera
+  *     |               ^
+  *  usage: LookAt eye.x eye.y eye.z  look.x look.y look.z  up.x up.y up.z
+  *  included from scenes/main.pbrt:3:1
+  * }}}
+  */
+object ProblemText:
+
+  private val Red = "31"
+  private val Yellow = "33"
+
+  /** The problem as lines, without a final line end. */
+  def format(p: Problem): String =
+    (s"${place(p)}${severity(p)}: ${p.message}" +: below(p)).mkString("\n")
+
+  /** Prints the problem.
+    *
+    * @param hasColor whether the terminal shows colours
+    */
+  def print(p: Problem, to: Printer, hasColor: Boolean): Unit =
+    val color = if p.severity == Severity.Error then Red else Yellow
+    if hasColor then to.println(place(p), severity(p), color, s": ${p.message}")
+    else to.println(s"${place(p)}${severity(p)}: ${p.message}")
+    below(p).foreach(to.println(_))
+
+  private def place(p: Problem): String = p.at.fold("")(at => s"$at: ")
+
+  private def severity(p: Problem): String =
+    if p.severity == Severity.Error then "error" else "warning"
+
+  /** All lines after the first. */
+  private def below(p: Problem): Vector[String] =
+    val shown = p.at.zip(p.excerpt).toVector.flatMap(excerpt)
+    shown ++ p.help.map(h => s" $h") ++ p.at.toVector.flatMap(includes)
+
+  private def excerpt(at: SourcePos, text: String): Vector[String] =
+    val number = at.line.toString
+    val before = Excerpt.caret(text, at.column) - 1
+    // Keeps tabs, so the caret lines up at any tab width. What is shown of a control character may
+    // be longer than one.
+    val characters = text.codePoints.limit(before).toArray
+    val missing = " " * (before - characters.length).max(0)
+    val shown = Visible.line(String(characters, 0, characters.length)).codePoints.toArray
+    val shift = shown.map(c => if c == '\t' then '\t' else ' ').mkString
+    Vector(s" $number | $text", s" ${" " * number.length} | $shift$missing^")
+
+  private def includes(at: SourcePos): Vector[String] =
+    Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))
