@@ -19,7 +19,11 @@ private[build] final class BuildContext(
     val resources: Resources,
     val problems: Findings
 ):
-  def dialect: Dialect = description.dialect
+  /** Of the statements that don't say another. */
+  val dialect: Dialect = description.dialect.base
+
+  /** Of the scene's program. */
+  val rules: Rules = Rules.of(description.dialect)
   def isV2: Boolean = dialect == Dialect.V2
   def isV4: Boolean = dialect == Dialect.V4
   def defaults: Defaults = Defaults(dialect)
@@ -67,11 +71,11 @@ private[build] object BuildContext:
       settings: RenderSettings,
       pool: Parallel = Parallel.Alone
   ): BuildContext =
-    val isBlind = whole.dialect == Dialect.V4 && whole.worldToCamera.start.isFlat
+    val isBlind = whole.dialect.base == Dialect.V4 && whole.worldToCamera.start.isFlat
     val description = if isBlind then background(whole) else whole
     // pbrt-v4 multiplies spectra, the older ones sRGB components
-    val isSharp = description.dialect == Dialect.V4 && !description.isMitsubas
-    val basis = if isSharp then ColorBasis.Sharp else ColorBasis.Srgb
+    val rules = Rules.of(description.dialect)
+    val basis = if rules.isSpectral then ColorBasis.Sharp else ColorBasis.Srgb
     val problems = Findings(settings.reading.keepGoing, description.lost, description.errors)
     if isBlind then
       problems.warn(
@@ -83,12 +87,10 @@ private[build] object BuildContext:
     val mode = ColorPlan.mode(settings.colorMode, description)
     def context(asked: Switches) =
       val mayBeSpectral = mode != ColorMode.Rgb
-      // Mitsuba does not filter textures over footprints
-      val isMitsubas = description.isMitsubas
       val switches =
         asked.copy(
-          isMitsubas = isMitsubas,
-          unfiltered = asked.unfiltered || isMitsubas,
+          rules = Option.when(description.dialect == Dialect.Mitsuba)(rules),
+          unfiltered = asked.unfiltered || !rules.filters,
           origin = origin.at
         )
       val allowance = description.folder.allowance
@@ -125,4 +127,4 @@ private[build] object Defaults:
   def apply(dialect: Dialect): Defaults = dialect match
     case Dialect.V2 => Defaults("image", "box", "lowdiscrepancy", "directlighting")
     case Dialect.V3 => Defaults("image", "box", "halton", "path")
-    case Dialect.V4 => Defaults("rgb", "gaussian", "zsobol", "volpath")
+    case Dialect.V4 | Dialect.Mitsuba => Defaults("rgb", "gaussian", "zsobol", "volpath")

@@ -2,8 +2,9 @@ package candela.build
 
 import java.util.Locale
 
+import candela.build.recipe.Rules
 import candela.color.{CameraSensor, ColorError, SmoothSpectra, Wavelengths}
-import candela.scenefile.{Dialect, SceneDescription}
+import candela.scenefile.SceneDescription
 
 /** What paths carry: three numbers, or light at three wavelengths; the scene decides if `Auto`. */
 enum ColorMode:
@@ -25,8 +26,7 @@ private[build] object ColorPlan:
 
   /** pbrt-v2 and v3 multiply three numbers. */
   def mode(asked: ColorMode, scene: SceneDescription): ColorMode =
-    val isPlain = scene.dialect != Dialect.V4 || scene.isMitsubas
-    if asked == ColorMode.Auto && isPlain then ColorMode.Rgb else asked
+    if asked == ColorMode.Auto && !Rules.of(scene.dialect).isSpectral then ColorMode.Rgb else asked
 
   /** Decides once the scene is built in three numbers.
     *
@@ -61,10 +61,7 @@ private[build] object ColorPlan:
       case ColorMode.Rgb if asked == ColorMode.Rgb =>
         ColorPlan(Vector.empty, "three numbers: as asked for")
       case ColorMode.Rgb =>
-        val program =
-          if context.description.isMitsubas then "Mitsuba"
-          else s"pbrt-${context.dialect.toString.toLowerCase}"
-        ColorPlan(Vector.empty, s"three numbers: as in $program")
+        ColorPlan(Vector.empty, s"three numbers: as in ${context.rules.program}")
       case ColorMode.Auto if census.isDispersive => spectral("glass disperses light")
       case ColorMode.Auto if census.detectors.isDefined => spectral(census.detectors.get)
       case ColorMode.Auto =>

@@ -33,7 +33,7 @@ object DialectChoice:
 
   /** What speaks for the choice, strongest first. */
   private def reason(clues: Vector[DialectClue], chosen: Dialect): String =
-    val others = Dialect.values.toVector.filter(_ != chosen)
+    val others = Dialect.ofPbrt.filter(_ != chosen)
     def lead(c: DialectClue) = c.weight(chosen) - others.map(c.weight).min
     val telling = clues.filter(lead(_) > 0).sortBy(c => -lead(c)).take(4)
     if telling.isEmpty then "nothing in the file tells"
@@ -44,13 +44,13 @@ object DialectChoice:
 
   private def contradiction(clues: Vector[DialectClue], chosen: Dialect): Option[Problem] =
     val contrary = clues.filter: c =>
-      c.weight(chosen) == 0 && Dialect.values.exists(c.weight(_) >= Contrary) && c.at.nonEmpty
+      c.weight(chosen) == 0 && Dialect.ofPbrt.exists(c.weight(_) >= Contrary) && c.at.nonEmpty
     contrary.headOption.map: first =>
       val all = contrary.map: c =>
-        val owners = Dialect.values.toSet.filter(c.weight(_) > 0)
+        val owners = Dialect.ofPbrt.toSet.filter(c.weight(_) > 0)
         s"${shown(c)} is of ${Dialects.list(owners)}"
       val name = Dialects.name(chosen)
-      val other = Dialect.values.maxBy(d => contrary.map(_.weight(d)).sum)
+      val other = Dialect.ofPbrt.maxBy(d => contrary.map(_.weight(d)).sum)
       Problem.warning(
         first.at.get,
         s"the scene is read as $name (${reason(clues, chosen)}), but ${all.mkString(", ")}",

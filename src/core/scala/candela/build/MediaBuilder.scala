@@ -1,13 +1,12 @@
 package candela.build
 
 import candela.base.Suggest
-import candela.build.integrators.{IntegratorPlan, VolumeIntegrators, VolumeMethod}
+import candela.build.integrators.{IntegratorPlan, Surroundings, VolumeIntegrators, VolumeMethod}
 import candela.build.media.{Media, Volumes}
 import candela.build.recipe.*
 import candela.integrators.VolumeMarch
 import candela.math.Vec3
 import candela.media.{Medium, MediumBorder, Region, Regions, SceneMedia}
-import candela.render.RenderMethod
 import candela.scene.Scene
 import candela.scenefile.*
 
@@ -72,35 +71,31 @@ private[build] final class MediaBuilder(
         }
       )
 
-  /** Returns the render method for the scene's media and volumes, and their description.
+  /** What the integrator is to render between the surfaces, and its description.
     *
     * @param pointLike lights without a surface, the last of the scene's lights
     * @param reach diameter of the scene
     */
-  def method(
+  def surroundings(
       scene: Scene,
-      lightSamples: Array[Int],
       pointLike: Vector[LightDescription],
       materials: MaterialTable,
       reach: Float
-  ): (RenderMethod, String) =
+  ): (Surroundings, String) =
     val isUsed = this.isUsed(materials)
     warnOfBlindness(isUsed)
-    (plan.throughMedia, plan.throughVolumes) match
-      case (Some(make), _)
-          if isUsed || scene.hasInterfaces || plan.crossesPanes && scene.hasPanes =>
-        val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
-        val around = pointLike.map(l => index(l.medium, l.light.at)).toArray
-        val lights = Array.fill(scene.lights.length - around.length)(-1) ++ around
-        val all = SceneMedia(media, materials.borders, camera, lights, eye, reach)
-        (make(scene, all), all.describe)
-      case (_, Some(make)) if regions.nonEmpty =>
-        val volumes = Regions(regions)
-        val method = volumeMethod.copy(stepSize = stepSize(volumes))
-        val march = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
-        val integrator = make(scene, lightSamples, march)
-        (RenderMethod.Tiles(integrator), s"${volumes.describe}, ${method.describe}")
-      case _ => (plan.method(scene, lightSamples), "none")
+    if plan.entersMedia(scene, isUsed) then
+      val eye = description.worldToCamera.start.inverse.point(Vec3.Zero)
+      val around = pointLike.map(l => index(l.medium, l.light.at)).toArray
+      val lights = Array.fill(scene.lights.length - around.length)(-1) ++ around
+      val all = SceneMedia(media, materials.borders, camera, lights, eye, reach)
+      (Surroundings.Media(all), all.describe)
+    else if regions.nonEmpty && plan.throughVolumes.isDefined then
+      val volumes = Regions(regions)
+      val method = volumeMethod.copy(stepSize = stepSize(volumes))
+      val march = VolumeMarch(scene, volumes, method.stepSize, method.scatters)
+      (Surroundings.Volumes(march), s"${volumes.describe}, ${method.describe}")
+    else (Surroundings.Nothing, "none")
 
   /** The step size that is asked for, if a ray can have so many. */
   private def stepSize(volumes: Regions): Float =

@@ -32,7 +32,7 @@ private[build] final class Motions(description: SceneDescription, origin: Positi
 
   /** Motion of an instance. pbrt-v4 takes its translation relative to where it renders from. */
   def ofInstance(t: AnimatedTransform): Motion =
-    if t.isAnimated && description.dialect == Dialect.V4 then between(t.start, t.end, v4Origin)
+    if t.isAnimated && description.dialect.base == Dialect.V4 then between(t.start, t.end, v4Origin)
     else of(t)
 
   private lazy val v4Origin: Vec3 = RenderingOrigin.of(description)

@@ -101,7 +101,7 @@ private[build] final class ObjectUses(
       PlacedObject(shapes.map(moved), there, name)
 
   private def ofObject(s: ShapeDescription): ShapeDescription =
-    if description.dialect == Dialect.V4 then
+    if description.dialect.base == Dialect.V4 then
       withoutLight(s, "shapes of an object can't be area lights; emission is ignored")
     else if s.areaLight.isDefined && Motions.moves(s.objectToWorld) then
       withoutLight(s, "animated shapes can't be area lights; emission is ignored")

@@ -265,7 +265,8 @@ object SceneBuilder:
       names,
       motion,
       scene.hidesEmitters,
-      skyCovers = scene.isMitsubas && !scene.hidesEmitters && world.scene.environments.nonEmpty
+      skyCovers =
+        context.rules.skyCovers && !scene.hidesEmitters && world.scene.environments.nonEmpty
     )
     val groups = world.scene.lightGroups.filter(_ => world.method.dividesLight).map(_.names)
     LayerPlan(image.layers, surface, names, groups)

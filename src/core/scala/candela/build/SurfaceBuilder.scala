@@ -93,8 +93,7 @@ private[build] final class SurfaceBuilder(
       context.resources.allowance.countShapes(made, Some(declared.at))
 
   private def isUnlit(material: Int, here: Site): Boolean =
-    val is = context.description.dialect == Dialect.V4 && !context.description.isMitsubas &&
-      materials.materials(material).isInterface
+    val is = !context.rules.glows && materials.materials(material).isInterface
     if is then here.warn("a shape of material \"interface\" gives no light, as in pbrt-v4")
     is
 
@@ -127,7 +126,7 @@ private[build] final class SurfaceBuilder(
       ((veil ne SolidMask) || materials.materials(dressed.material).isInterface)
 
     /** In Mitsuba's scenes, samples of a lamp lie on the side that rays see. */
-    private val isConsistent = context.description.isMitsubas
+    private val isConsistent = context.rules.facesLamps
 
     def place(geometry: ShapeGeometry): Unit = geometry match
       case mesh: ShapeGeometry.Triangles => addMesh(mesh)
@@ -216,7 +215,7 @@ private[build] final class SurfaceBuilder(
       holes == EmitterHoles.Ignored && context.emission(lamp).exists(_.isUniform)
 
     private def bumps: BumpTangents = context.dialect match
-      case Dialect.V4 =>
+      case Dialect.V4 | Dialect.Mitsuba =>
         val skews = dressed.shape.copied.filter(_.uniformScale.isEmpty)
         BumpTangents.Along.copy(within = skews.orNull)
       case Dialect.V2 => BumpTangents.ofV2(isReversed != toWorld.swapsHandedness)

@@ -11,7 +11,7 @@ import candela.film.Cryptomatte
 import candela.lights.LightSelection
 import candela.render.RenderMethod
 import candela.scene.{Footprints, Instanced, Scene, SurfaceNames, Surfaces}
-import candela.scenefile.{Declaration, LightDescription, ShapeDescription}
+import candela.scenefile.{Declaration, Dialect, LightDescription, ShapeDescription}
 
 /** The world, ready to render, with a description of its features. */
 private[build] final class World(
@@ -105,7 +105,10 @@ private[build] final class WorldBuilder(
       warnOfShadows(s)
     val reach = 2f * placed.accelerator.bounds.radius
     val samples = lights.map(_.samples).toArray
-    val (plain, inMedia) = media.method(scene, samples, shining.map(_._1), materials, reach)
+    def around(media: MediaBuilder, scene: Scene) =
+      media.surroundings(scene, shining.map(_._1), materials, reach)
+    val (surroundings, inMedia) = around(media, scene)
+    val plain = integrator.methodIn(surroundings, scene, samples)
     def recolored(basis: ColorBasis): RenderMethod =
       val other = context.in(basis)
       defineTextures(other)
@@ -114,14 +117,12 @@ private[build] final class WorldBuilder(
       val plan = integratorIn(other)
       val otherScene =
         scene.recolored(materials.in(other, plan), otherLights.map(_.light).toArray)
-      MediaBuilder(other, plan)
-        .method(otherScene, samples, shining.map(_._1), materials, reach)
-        ._1
+      plan.methodIn(around(MediaBuilder(other, plan), otherScene)._1, otherScene, samples)
     val found = ColorPlan.of(context, mode, sensor)
     val color = if context.resources.switches.oneColorSet then found.ofOneSet else found
     val method =
       if !color.isSpectral then plain
-      else SpectralMethod(color.bases.zip(ofEach(color.bases)(recolored)))
+      else RenderMethod.spectral(color.bases.zip(ofEach(color.bases)(recolored)))
     World(
       scene,
       method,
@@ -192,7 +193,7 @@ private[build] final class WorldBuilder(
 
   private def warnOfShadows(surface: Declaration): Unit =
     val name = description.integrator.fold("path")(_.name)
-    val whose = if description.isMitsubas then "Mitsuba" else "pbrt"
+    val whose = if context.rules.dialect == Dialect.Mitsuba then "Mitsuba" else "pbrt"
     problems.warn(
       surface.at,
       s"\"$name\" lets no light sample pass this surface, though paths pass it: it casts a " +

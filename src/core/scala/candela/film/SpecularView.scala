@@ -66,4 +66,4 @@ private object SpecularView:
     */
   private def choice(i: Int, depth: Int): Float =
     val x = 0.5 + (i + 1.0) * Math.pow(0.6180339887498949, depth + 1.0)
-    (x - Math.floor(x)).toFloat.min(0.99999994f)
+    belowOne((x - Math.floor(x)).toFloat)

@@ -1,5 +1,6 @@
 package candela.integrators
 
+import candela.math.belowOne
 import candela.sampling.{SampleHash, Sampler}
 
 /** The random numbers with which a guided path leaves a vertex. Each branch is a strip of the unit
@@ -52,7 +53,7 @@ private[integrators] final class BranchPoints:
   def choice(branch: Int): Float = choices(branch)
 
   /** The point of the unit square. */
-  def x(branch: Int): Float = Guidance.belowOne((branch + xs(branch)) / strips)
+  def x(branch: Int): Float = belowOne((branch + xs(branch)) / strips)
   def y(branch: Int): Float = ys(branch)
 
   /** Where the sampler goes on ([[Sampler.goTo]]). */

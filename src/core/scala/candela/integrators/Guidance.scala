@@ -263,8 +263,6 @@ private object Guidance:
     /** Where its random numbers go on ([[Sampler.goTo]]). */
     var position = 0L
 
-  def belowOne(x: Float): Float = Math.min(x, 0.99999994f)
-
   /** Paths that are as much rarer than by BSDF sampling are guided no further: it bounds how much
     * their light counts.
     */

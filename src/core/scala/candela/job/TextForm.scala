@@ -66,7 +66,7 @@ object TextForm:
     (name, value) => s"$name=$value"
   )
 
-  given TextForm[Dialect] = named(Dialect.values.toSeq, lower, "v2, v3 or v4")
+  given TextForm[Dialect] = named(Dialect.ofPbrt, lower, "v2, v3 or v4")
 
   given TextForm[ColorMode] = named(ColorMode.values.toSeq, lower, "auto, rgb or spectral")
 

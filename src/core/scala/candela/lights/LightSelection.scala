@@ -116,7 +116,7 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
     if infinite.length > 0 && (u < inInfinite || finite.isEmpty) then
       out.light = infinite(Math.min((u / infiniteShare).toInt, infinite.length - 1))
     else if finite.isEmpty then out.light = -1
-    else descend(p, n, Math.min((u - inInfinite) / (1f - inInfinite), OneMinusEpsilon), out)
+    else descend(p, n, belowOne((u - inInfinite) / (1f - inInfinite)), out)
 
   private def descend(p: Vec3, n: Vec3, u0: Float, out: LightChoice): Unit =
     var u = u0
@@ -132,11 +132,11 @@ final class LightTree(lights: Array[Light]) extends LightSelection:
         else
           val pa = a / (a + b)
           if u < pa then
-            u = Math.min(u / pa, OneMinusEpsilon)
+            u = belowOne(u / pa)
             probability *= pa
             node += 1
           else
-            u = Math.min((u - pa) / (1f - pa), OneMinusEpsilon)
+            u = belowOne((u - pa) / (1f - pa))
             probability *= b / (a + b)
             node = second
       out.light = if node < 0 then -1 else ~children(node)

@@ -10,6 +10,9 @@ inline val InvTwoPi = 0.15915494309189533577f
 /** The largest Float below 1: the upper bound of uniform samples in [0, 1). */
 inline val OneMinusEpsilon = 0.99999994f
 
+/** What may have been rounded up to 1, within [0, 1) again. */
+inline def belowOne(x: Float): Float = Math.min(x, OneMinusEpsilon)
+
 /** Half the distance from 1 to the next Float: the unit round-off of Float arithmetic. */
 inline val MachineEpsilon = 5.9604645e-8f
 

@@ -8,7 +8,7 @@ import java.nio.file.Path
 /** Reads scenes of Mitsuba 3: XML files. */
 object MitsubaScene:
 
-  /** The scene, as pbrt-v4 describes the same; types that only v3 has are declared as such.
+  /** The scene, in statements of pbrt-v4 and more; types that only v3 has are declared as such.
     *
     * @param defines   values of `$name` in the file
     * @param keepGoing if true, replaces missing files
@@ -63,7 +63,7 @@ private final class Translation(session: Session, file: Path):
       .foreach(p => session.attempt(surfaces(p)))
     val lights = of("emitter").flatMap(emitters(_))
     val start = SourcePos(file.toString, 1, 1)
-    val scene = SceneDescription(Dialect.V4, isMitsubas = true)
+    val scene = SceneDescription(Dialect.Mitsuba)
     val seen = of("sensor").toList match
       case Nil =>
         session.error(start, "the scene has no sensor", Some("add <sensor type=\"perspective\">"))

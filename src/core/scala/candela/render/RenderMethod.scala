@@ -1,17 +1,48 @@
 package candela.render
 
-import candela.bidirectional.ChainPaths
+import candela.bidirectional.{ChainPaths, SpectralChainPaths}
+import candela.color.Wavelengths
 import candela.film.{Splats, View}
 import candela.guiding.{Guide, GuideSettings}
-import candela.integrators.{Integrator, SharedChains, SharedPasses}
+import candela.integrators.{
+  ConvertedSplats, Integrator, SharedChains, SharedPasses, SpectralIntegrator, SpectralPasses
+}
 
 /** Organisation of an image's samples, selected by the integrator's recipe. Parts that depend on
-  * the camera or film are created once these are known.
+  * the camera or film are created once these are known. Each method says all that others ask of it.
+  *
+  * @param takesCameraSamples whether the sampler places the camera samples; required for AOVs
+  * @param canShareSamples    whether samples may contribute to all pixels within the filter's
+  *                           radius. Light paths and photons contribute to the pixel that they were
+  *                           started for
+  * @param learns             whether samples depend on those before
+  * @param canKeepOn          whether samples can be added beyond the planned number
+  * @param hasWavelengths     whether all light comes with the wavelengths of its camera sample, not
+  *                           by splats
+  * @param dividesLight       whether its light is divided by way and source, as the scene asks
+  * @param seesLightPaths     whether light paths connect to the camera
   */
-enum RenderMethod:
+enum RenderMethod(
+    val takesCameraSamples: Boolean,
+    val canShareSamples: Boolean,
+    val learns: Boolean,
+    val canKeepOn: Boolean,
+    val hasWavelengths: Boolean,
+    val dividesLight: Boolean,
+    val seesLightPaths: Boolean
+):
 
   /** Independent camera samples, tile by tile. */
   case Tiles(integrator: Integrator)
+      extends RenderMethod(
+        takesCameraSamples = true,
+        canShareSamples = true,
+        learns = false,
+        canKeepOn = true,
+        hasWavelengths = true,
+        dividesLight = integrator.lightParts != null,
+        seesLightPaths = false
+      )
 
   /** Camera samples, tile by tile, whose paths learn from those of earlier passes.
     *
@@ -20,12 +51,39 @@ enum RenderMethod:
     * @param integrator learns, and is guided
     */
   case Guided(unguided: Integrator, settings: GuideSettings, integrator: Guide => Integrator)
+      extends RenderMethod(
+        takesCameraSamples = true,
+        canShareSamples = true,
+        learns = true,
+        canKeepOn = false,
+        hasWavelengths = true,
+        dividesLight = unguided.lightParts != null,
+        seesLightPaths = false
+      )
 
   /** Camera samples, tile by tile; their light paths splat to the whole film. */
   case SplattedTiles(integrator: View => Integrator)
+      extends RenderMethod(
+        takesCameraSamples = true,
+        canShareSamples = false,
+        learns = false,
+        canKeepOn = true,
+        hasWavelengths = false,
+        dividesLight = false,
+        seesLightPaths = true
+      )
 
   /** Camera samples, tile by tile; samples of equal number share their pass's precomputation. */
   case Passes(passes: View => SharedPasses)
+      extends RenderMethod(
+        takesCameraSamples = true,
+        canShareSamples = false,
+        learns = false,
+        canKeepOn = false,
+        hasWavelengths = true,
+        dividesLight = false,
+        seesLightPaths = false
+      )
 
   /** Markov chains, which choose film positions themselves.
     *
@@ -37,42 +95,52 @@ enum RenderMethod:
       paths: (View, Splats) => ChainPaths,
       chains: (View, Splats => ChainPaths) => SharedChains,
       integrator: View => Integrator
-  )
+  ) extends RenderMethod(
+        takesCameraSamples = false,
+        canShareSamples = false,
+        learns = false,
+        canKeepOn = false,
+        hasWavelengths = false,
+        dividesLight = false,
+        seesLightPaths = true
+      )
 
-  /** Whether the sampler places the camera samples; required for AOVs. */
-  def takesCameraSamples: Boolean = this match
-    case Chains(_, _, _) => false
-    case _ => true
-
-  /** Whether samples may contribute to all pixels within the filter's radius. Light paths and
-    * photons contribute to the pixel that they were started for.
+object RenderMethod:
+  /** The method of spectral rendering, made of those of the single bases.
+    *
+    * @param parts of the same kind, at least one
     */
-  def canShareSamples: Boolean = this match
-    case Tiles(_) | Guided(_, _, _) => true
-    case _ => false
-
-  /** Whether samples depend on those before. */
-  def learns: Boolean = this match
-    case Guided(_, _, _) => true
-    case _ => false
-
-  /** Whether samples can be added beyond the planned number. */
-  def canKeepOn: Boolean = this match
-    case Tiles(_) | SplattedTiles(_) => true
-    case _ => false
-
-  /** Whether all light comes with the wavelengths of its camera sample, not by splats. */
-  def hasWavelengths: Boolean = this match
-    case Tiles(_) | Guided(_, _, _) | Passes(_) => true
-    case _ => false
-
-  /** Whether its light is divided by way and source, as the scene asks. */
-  def dividesLight: Boolean = this match
-    case Tiles(integrator) => integrator.lightParts != null
-    case Guided(unguided, _, _) => unguided.lightParts != null
-    case _ => false
-
-  /** Whether light paths connect to the camera. */
-  def seesLightPaths: Boolean = this match
-    case SplattedTiles(_) | Chains(_, _, _) => true
-    case _ => false
+  def spectral(parts: Vector[(Wavelengths, RenderMethod)]): RenderMethod =
+    val bases = parts.map(_._1).toArray
+    val methods = parts.map(_._2)
+    def converted(view: View, basis: Wavelengths) =
+      view.copy(splats = ConvertedSplats(view.splats, basis))
+    def ofView(integrators: Vector[View => Integrator])(view: View): Integrator =
+      val made = integrators.zip(bases).map((make, basis) => make(converted(view, basis)))
+      SpectralIntegrator(made.toArray, bases)
+    methods.head match
+      case Tiles(_) =>
+        val made = methods.collect { case Tiles(i) => i }
+        Tiles(SpectralIntegrator(made.toArray, bases))
+      case Guided(_, settings, _) =>
+        val made = methods.collect { case g: Guided => g }
+        def all(integrators: Vector[Integrator]) = SpectralIntegrator(integrators.toArray, bases)
+        Guided(
+          all(made.map(_.unguided)),
+          settings,
+          shared => all(made.map(_.integrator(shared)))
+        )
+      case SplattedTiles(_) =>
+        SplattedTiles(ofView(methods.collect {
+          case SplattedTiles(make) => make
+        }))
+      case Passes(_) =>
+        val made = methods.collect { case Passes(make) => make }
+        Passes(view => SpectralPasses(made.map(_(view)), bases))
+      case Chains(_, chains, _) =>
+        val made = methods.collect { case Chains(paths, _, single) => (paths, single) }
+        def paths(view: View, splats: Splats) =
+          val each = made.zip(bases).map: (of, basis) =>
+            of._1(view, ConvertedSplats(splats, basis))
+          SpectralChainPaths(each.toArray, bases)
+        Chains(paths, chains, ofView(made.map(_._2)))

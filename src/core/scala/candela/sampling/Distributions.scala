@@ -87,11 +87,11 @@ private[sampling] object Cdf:
   /** Relative position of `u` in its bin, in [0, 1). */
   def within(cdf: Array[Float], at: Int, bin: Int, u: Float): Float =
     val low = cdf(at + bin)
-    Math.min((u - low) / (cdf(at + bin + 1) - low), candela.math.OneMinusEpsilon)
+    belowOne((u - low) / (cdf(at + bin + 1) - low))
 
   /** A position in bin `bin` of `count` equal bins over [0, 1); [[binOf]] inverts it. */
   def place(bin: Int, fraction: Float, count: Int): Float =
-    var x = Math.min((bin + fraction) / count, candela.math.OneMinusEpsilon)
+    var x = belowOne((bin + fraction) / count)
     while binOf(x, count) > bin do x = Math.nextDown(x)
     while binOf(x, count) < bin do x = Math.nextUp(x)
     x

@@ -73,7 +73,7 @@ final class HaltonSampler(val samplesPerPixel: Int, seed: Int) extends HashedSam
       prefix = SampleHash.mix64(prefix + (digit + 1) * SampleHash.Step)
       rest = quotient
     val tail = SampleHash.toUnit((prefix >>> 32).toInt)
-    Math.min(((digits + tail) / cells.toDouble).toFloat, OneMinusEpsilon)
+    belowOne(((digits + tail) / cells.toDouble).toFloat)
 
 object HaltonSampler:
 

@@ -44,4 +44,4 @@ final class StratifiedSampler(xSamples: Int, ySamples: Int, jitter: Boolean, see
 
   private def place(cell: Int, offset: Int, cells: Int): Float =
     val within = if jitter then SampleHash.toUnit(offset) else 0.5f
-    Math.min((cell + within) / cells, OneMinusEpsilon)
+    belowOne((cell + within) / cells)

@@ -3,9 +3,19 @@ package candela.scenefile
 import candela.base.{SceneFolder, SourcePos}
 import candela.math.Position
 
-/** The three published scene formats; v1 files read as v2. */
+/** Published scene formats; files of pbrt-v1 read as v2. */
 enum Dialect:
   case V2, V3, V4
+
+  /** Mitsuba 3's, whose files are described by the statements of pbrt-v4, and more. */
+  case Mitsuba
+
+  /** The dialect whose statements describe it. */
+  def base: Dialect = if this == Mitsuba then V4 else this
+
+object Dialect:
+  /** Those of pbrt's files, oldest first. */
+  val ofPbrt: Vector[Dialect] = Vector(V2, V3, V4)
 
 /** Element type of a parameter, with its dialects' spellings unified. */
 enum ParamType(val spelling: String):

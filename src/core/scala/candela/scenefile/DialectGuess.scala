@@ -38,6 +38,7 @@ final case class DialectClue(what: String, at: Option[SourcePos], v2: Int, v3: I
     case Dialect.V2 => v2
     case Dialect.V3 => v3
     case Dialect.V4 => v4
+    case Dialect.Mitsuba => 0
 
 /** Weight of any of these names for each dialect, counted once: 20 is decisive, 6 is known to no
   * other dialect, 1 to 3 are conventions.
@@ -47,7 +48,7 @@ private final case class Evidence(category: String, names: Set[String], v2: Int,
 object DialectGuess:
   /** The dialect with the highest total weight; ties go to the newest. */
   def of(clues: Vector[DialectClue]): Dialect =
-    Dialect.values.reverse.maxBy(d => clues.map(_.weight(d)).sum)
+    Dialect.ofPbrt.reverse.maxBy(d => clues.map(_.weight(d)).sum)
 
   private val NoWorldEnd = DialectClue("no WorldEnd", None, 0, 0, 6)
 

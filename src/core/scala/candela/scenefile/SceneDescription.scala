@@ -92,8 +92,6 @@ final case class TextureDescription(
   *   rendered
   * @param lost kinds of names that those statements may have defined
   * @param sources the scene file and the files that it includes
-  * @param isMitsubas whether Mitsuba's rules apply where they differ from pbrt-v4's: colours
-  *   multiply by their sRGB components, microfacets, bumps, metals, the poles of environment maps
   * @param clues what the dialect was estimated from; see [[DialectGuess]]
   * @param dialectReason why it is that dialect, for the user
   * @param isFollowed whether the file has another world, another image, after this one
@@ -125,7 +123,6 @@ final case class SceneDescription(
     errors: Vector[Problem] = Vector.empty,
     lost: Set[NameKind] = Set.empty,
     sources: Vector[Path] = Vector.empty,
-    isMitsubas: Boolean = false,
     clues: Vector[DialectClue] = Vector.empty,
     dialectReason: String = "",
     isFollowed: Boolean = false,
@@ -133,7 +130,9 @@ final case class SceneDescription(
 ):
   /** Whether the camera sees no lamps and no sky. */
   def hidesEmitters: Boolean =
-    isMitsubas && integrator.exists(_.param("hideemitters").exists(_.bools.contains(true)))
+    dialect == Dialect.Mitsuba && integrator.exists(
+      _.param("hideemitters").exists(_.bools.contains(true))
+    )
 
 /** Kinds of names that statements define. */
 enum NameKind:

@@ -44,31 +44,33 @@ object Converter:
   ): Converted =
     if toPly.nonEmpty && to == Dialect.V2 then
       throw SceneError(Problem.general("v2 has no PLY meshes; remove --to-ply"))
+    val isMitsubas = scene.dialect == Dialect.Mitsuba
+    val from = scene.dialect.base
     val own =
-      if scene.isMitsubas then ofMitsuba(scene, to, files) else Converted(scene, Vector.empty)
+      if isMitsubas then ofMitsuba(scene, to, files) else Converted(scene, Vector.empty)
     val there = Declarations.map(own.scene)(FileNames(files.folder).moved)
     val images =
-      if scene.isMitsubas then MitsubaInV4.images(there, files) else Converted(there, Vector.empty)
+      if isMitsubas then MitsubaInV4.images(there, files) else Converted(there, Vector.empty)
     val moved = images.scene
-    val hasSpaces = to == Dialect.V4 || scene.dialect != Dialect.V4
+    val hasSpaces = to == Dialect.V4 || from != Dialect.V4
     val based = if hasSpaces then Converted(moved, Vector.empty) else ColorSpaces.removed(moved)
-    val warnings = own.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, to)
+    val warnings = own.warnings ++ images.warnings ++ based.warnings ++ interfaces(scene, from, to)
     val start = based.copy(warnings = warnings)
     // v2's and v4's marble are the same
-    val solid = baking.filter(_ => Seq(scene.dialect, to).count(_ == Dialect.V3) == 1) match
+    val solid = baking.filter(_ => Seq(from, to).count(_ == Dialect.V3) == 1) match
       case Some(b) =>
         val baked = SolidBaking(start.scene, to, files, b).result
         Converted(baked.scene, start.warnings ++ baked.warnings)
       case None => start
-    val leavesV4 = scene.dialect == Dialect.V4 && to != Dialect.V4
+    val leavesV4 = from == Dialect.V4 && to != Dialect.V4
     val started =
       if leavesV4 then solid.copy(scene = InstanceMotions.fromV4(solid.scene)) else solid
-    val done = (loans(own.scene) ++ passes(scene.dialect, to)).foldLeft(started): (before, pass) =>
-      val run = PassRun(pass, before.scene, files, baking, scene.dialect -> to)
+    val done = (loans(own.scene) ++ passes(from, to)).foldLeft(started): (before, pass) =>
+      val run = PassRun(pass, before.scene, files, baking, from -> to)
       val result = run.result()
       Converted(result, before.warnings ++ run.warnings)
     val bounded = withoutBacks(done)
-    val plain = if to == Dialect.V4 then forV4(bounded, scene.dialect) else bounded
+    val plain = if to == Dialect.V4 then forV4(bounded, from) else bounded
     plain.copy(scene = toPly.fold(plain.scene)(PlyWriter.extract(plain.scene, _, files)))
 
   private def ofMitsuba(scene: SceneDescription, to: Dialect, files: SideFiles): Converted =
@@ -97,14 +99,14 @@ object Converter:
     )
 
   /** Integrators without media differ in what they find behind surfaces without a BSDF. */
-  private def interfaces(scene: SceneDescription, to: Dialect): Option[Problem] =
+  private def interfaces(scene: SceneDescription, from: Dialect, to: Dialect): Option[Problem] =
     val named = scene.namedMaterials.toMap
     def isOpen(s: ShapeDescription) = s.material.declared(named).exists(d => Open(d.name))
-    val default = if scene.dialect == Dialect.V4 then "volpath" else "path"
+    val default = if from == Dialect.V4 then "volpath" else "path"
     val integrator = scene.integrator.fold(default)(_.name)
     for
       first <- (scene.shapes ++ scene.objects.values.flatten).find(isOpen)
-      if Set(scene.dialect, to) == Set(Dialect.V3, Dialect.V4) && !ThroughMedia(integrator)
+      if Set(from, to) == Set(Dialect.V3, Dialect.V4) && !ThroughMedia(integrator)
     yield Problem.warning(
       first.shape.at,
       s"\"$integrator\" finds other light behind surfaces without a BSDF in pbrt-v3 than in " +

@@ -22,7 +22,7 @@ object FromMitsuba:
     run.panes(scene)
     val plain = Declarations.map(scene)(run.plain)
     val textures = plain.textures ++ run.addedTextures
-    Converted(plain.copy(textures = textures, isMitsubas = false), run.warnings)
+    Converted(plain.copy(dialect = Dialect.V4, textures = textures), run.warnings)
 
   private final class Run(named: Map[String, Declaration]):
     private val problems = mutable.LinkedHashSet.empty[Problem]

@@ -157,6 +157,23 @@ final class BuildErrorsSuite extends AnyFunSuite:
       assertWarning(v3, s"unknown material \"$name\"; using \"matte\", as pbrt does")
       assertError(only(s"Material \"$name\" $sphere", Dialect.V4), s"unknown material \"$name\"")
 
+  test("parameters that only Mitsuba's scenes have are none of pbrt's"):
+    val beckmann = s"Material \"conductor\" \"string distribution\" \"beckmann\" $sphere"
+    val message = "`distribution` is a parameter of \"conductor\" in mitsuba only, not in v4"
+    assertWarning(only(beckmann, Dialect.V4), message)
+    val mirrored =
+      "Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" " +
+        "\"scenes/textures/chart.png\" \"string wrap\" \"mirror\""
+    val found = SceneTexts.problems(s"WorldBegin\n$mirrored\n$sphere", Dialect.V4)
+    assert(found.exists(_.message.contains("`wrap` must be one of")), found)
+
+  test("a misspelt type of another dialect is named as this one calls it"):
+    val plastic = only(s"Material \"plastik\" $sphere", Dialect.V4)
+    assertError(plastic, "unknown material \"plastik\"", "did you mean `plastic`?")
+    assertError(plastic, "plastik", "in v4, write \"coateddiffuse\"")
+    val near = only(s"Material \"dielektric\" $sphere", Dialect.V4)
+    assertError(near, "unknown material \"dielektric\"", "did you mean `dielectric`?")
+
   test("a scene whose media glow is not told that it will be dark"):
     val box = "Material \"interface\"\nMediumInterface \"m\" \"\"\nShape \"sphere\"\n"
     val grid = "\"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 1 \"float density\" 1 "

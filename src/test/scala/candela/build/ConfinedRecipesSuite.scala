@@ -18,9 +18,9 @@ class ConfinedRecipesSuite extends AnyFunSuite:
   private val asked =
     for
       c <- Language.categories
-      r <- c.recipes.all if r.substitute.isEmpty && !r.isMitsubas
+      r <- c.recipes.all if r.substitute.isEmpty
       f <- r.fields if f.typeName.startsWith("string") && r.support(f) == Support.Used
-      d <- Dialect.values if r.dialects(d) && f.dialects(d)
+      d <- Dialect.ofPbrt if r.dialects(d) && f.dialects(d)
       if !Words(f.name) && !Elsewhere((c.name, f.name))
     yield (c.name, r, f, d)
 

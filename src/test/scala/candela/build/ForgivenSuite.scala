@@ -53,7 +53,7 @@ final class ForgivenSuite extends AnyFunSuite:
 
   test("indices of an incomplete last face are ignored"):
     val body = triangle.replace("[0 1 2]", "[0 1 2 0 1]")
-    for d <- Dialect.values do assertMean(d, body, 0.8834f, "the last 2 are ignored")
+    for d <- Dialect.ofPbrt do assertMean(d, body, 0.8834f, "the last 2 are ignored")
     assertMean(
       Dialect.V4,
       "Shape \"bilinearmesh\" \"point3 P\" [-1 -1 0 1 -1 0 -1 1 0 1 1 0] " +
@@ -80,10 +80,10 @@ final class ForgivenSuite extends AnyFunSuite:
     val body = "Shape \"loopsubdiv\" \"integer levels\" 2 " +
       "\"integer indices\" [0 1 2 1 0 3 0 1 4] " +
       "\"point3 P\" [-1 0 0 1 0 0 0 1 0 0 -1 0 0 .5 1]"
-    for d <- Dialect.values do assertMean(d, body, 0.9325f, "belongs to 3 faces (0, 1, 2)")
+    for d <- Dialect.ofPbrt do assertMean(d, body, 0.9325f, "belongs to 3 faces (0, 1, 2)")
 
   test("quadrics without a radius have no surface"):
-    for d <- Dialect.values do
+    for d <- Dialect.ofPbrt do
       assertMean(d, "Shape \"sphere\" \"float radius\" 0", 1f, "`radius` is 0")
       assertMean(d, "Shape \"disk\" \"float radius\" 0", 1f, "`radius` is 0")
       val ring = "Shape \"disk\" \"float radius\" .5 \"float innerradius\" "
@@ -92,7 +92,7 @@ final class ForgivenSuite extends AnyFunSuite:
       assertMean(d, ring + "-.2", 0.9615f, "their squares count")
 
   test("a disk of negative radius is one, but is seen to emit on the other side"):
-    for d <- Dialect.values do
+    for d <- Dialect.ofPbrt do
       assertMean(d, "Shape \"disk\" \"float radius\" -1", 0.8167f, "their squares count")
     val lamp = "AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]\nShape \"disk\" \"float radius\" "
     assertMean(Dialect.V3, lamp + "-.7", 1.0384f, "their squares count")

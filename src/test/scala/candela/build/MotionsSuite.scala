@@ -31,7 +31,7 @@ class MotionsSuite extends AnyFunSuite:
     assert(still.camera.isInstanceOf[PerspectiveCamera])
 
   test("a moving shape is one instance, and the shutter is the camera's"):
-    for dialect <- Dialect.values do
+    for dialect <- Dialect.ofPbrt do
       val moving = plan(group(moved + ball) + group(ball), dialect = dialect)
       assert(moving.shutter.contains(Shutter(0.25f, 0.5f)))
       assert(feature(moving, "motion") == "shapes, from 0.25 to 0.5")

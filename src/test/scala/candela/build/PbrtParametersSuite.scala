@@ -39,24 +39,10 @@ final class PbrtParametersSuite extends AnyFunSuite:
         category <- Language.categories
         recipe <- category.recipes.all
         field <- recipe.fields
-        dialect <- Dialect.values
+        dialect <- Dialect.ofPbrt
         if recipe.dialects(dialect) && field.dialects(dialect)
         if !known((dialect, category.name, recipe.name, field.name))
       yield (dialect, recipe.name, field.name)
-    // Scenes of Mitsuba have materials, a texture and a sky of their own
-    val own = Set("principled", "roughplastic", "twosided", "nested", "grid", "sunsky")
-    val ofMitsuba =
-      Set(
-        "distribution", "scale", "transmittance", "uskew", "vskew", "nearclip", "farclip",
-        "hideemitters", "normalmapuv", "phases", "phaseweights", "phasevalues",
-        "cullbackfaces", "softedges", "turnednormals", "alpha"
-      )
-    val slides =
-      Set("wrap", "filter", "imageuv").map((Dialect.V4, "diffuse", _)) +
-        ((Dialect.V4, "spot", "mapname"))
-    val glass = Set("dielectric", "thindielectric").map((Dialect.V4, _, "reflectance"))
-    val foreign = beyond.toSet.filter: (dialect, recipe, field) =>
-      dialect == Dialect.V4 && (own(recipe) || ofMitsuba(field))
     // pbrt-v1's cameras clipped; some scenes of v2 call the sampler renderer "sample"
     val cameras =
       for
@@ -66,8 +52,7 @@ final class PbrtParametersSuite extends AnyFunSuite:
     // and of pbrt-v2 only forks have lenses
     val forks = Set("shutteropen", "shutterclose").map((Dialect.V2, "realistic", _))
     assert(
-      beyond.toSet -- foreign -- glass -- slides ==
-        cameras.toSet ++ forks + ((Dialect.V2, "sample", "visualizeobjectids"))
+      beyond.toSet == cameras.toSet ++ forks + ((Dialect.V2, "sample", "visualizeobjectids"))
     )
 
   test("the reader knows the names of v4's options, too"):

@@ -99,7 +99,8 @@ final class SceneBuilderSuite extends AnyFunSuite:
   test("independent points are taken where somebody has chosen them: not in Mitsuba's scenes"):
     val text = s"Sampler \"independent\" \"integer pixelsamples\" 9\n$nothing"
     def sampler(isMitsubas: Boolean, choice: PointChoice) =
-      val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
+      val dialect = if isMitsubas then Dialect.Mitsuba else Dialect.V4
+      val scene = SceneTexts.parse(text, Dialect.V4).copy(dialect = dialect)
       val plan = SceneBuilder.build(scene, RenderSettings(points = choice))._1
       (plan.sampler.getClass, plan.sampler.samplesPerPixel, feature(plan, "sampler"))
     val own = (classOf[IndependentSampler], 9, "independent random numbers, for \"independent\"")

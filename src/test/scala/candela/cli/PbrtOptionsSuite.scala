@@ -23,7 +23,7 @@ final class PbrtOptionsSuite extends AnyFunSuite:
 
   test("the table has every option of each version, and no others"):
     val told =
-      for o <- PbrtOptions.all; d <- Dialect.values if o.dialects(d)
+      for o <- PbrtOptions.all; d <- Dialect.ofPbrt if o.dialects(d)
       yield Dialects.name(d) -> o.name
     assert((known -- told).isEmpty, "missing")
     assert((told.toSet -- known).isEmpty, "unknown to pbrt")

@@ -191,4 +191,5 @@ class FromMitsubaSuite extends AnyFunSuite:
     assert(done.scene.integrator.get.param("hideemitters").isEmpty)
 
   test("a converted scene has pbrt's rules"):
-    assert(read("").isMitsubas && !FromMitsuba.converted(read("")).scene.isMitsubas)
+    assert(read("").dialect == Dialect.Mitsuba)
+    assert(FromMitsuba.converted(read("")).scene.dialect == Dialect.V4)

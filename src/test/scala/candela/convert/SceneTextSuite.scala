@@ -25,7 +25,7 @@ class SceneTextSuite extends AnyFunSuite:
     Parser.parseText("test.pbrt", text, Path.of("scenes"), Some(dialect))
 
   test("instances, media, animations, reversed shapes and odd names survive"):
-    for dialect <- Dialect.values do
+    for dialect <- Dialect.ofPbrt do
       val scene = parse(
         """TransformTimes 0.5 2 MediumInterface "" "fog" LookAt 0 0 5 0 0 0 0 1 0
           |Camera "perspective" Translate 1 2 3 WorldBegin

@@ -123,7 +123,8 @@ final class VolumePathTracerSuite extends AnyFunSuite:
 
   /** The mean, by Mitsuba's rules or pbrt's. */
   private def seen(text: String, isMitsubas: Boolean): Float =
-    val scene = SceneTexts.parse(text, Dialect.V4).copy(isMitsubas = isMitsubas)
+    val dialect = if isMitsubas then Dialect.Mitsuba else Dialect.V4
+    val scene = SceneTexts.parse(text, Dialect.V4).copy(dialect = dialect)
     val plan = SceneBuilder.build(scene, RenderSettings())._1
     val data = Renderer.render(plan, threads = 1).image(plan.development).data
     data.sum / data.length

@@ -54,7 +54,7 @@ class SettingsCodecSuite extends AnyFunSuite with ScalaCheckPropertyChecks:
 
   private val readings: Gen[ReadSettings] =
     for
-      dialect <- Gen.option(Gen.oneOf(Dialect.values.toSeq))
+      dialect <- Gen.option(Gen.oneOf(Dialect.ofPbrt))
       defines <- Gen.mapOf(Gen.zip(name, Gen.alphaNumStr))
       keepGoing <- flag
     yield ReadSettings(dialect, defines, keepGoing)

@@ -107,7 +107,7 @@ class ParserSuite extends AnyFunSuite:
 
   test("TransformEnd brings back the transform alone in v2 and v3, everything in v4"):
     val text = "WorldBegin TransformBegin Scale 2 2 2 Material \"\" TransformEnd Shape \"a\""
-    for dialect <- Dialect.values do
+    for dialect <- Dialect.ofPbrt do
       val shape = parse(text, Some(dialect)).shapes.head
       assert(shape.objectToWorld.start.isIdentity)
       assert((shape.material == MaterialRef.Default) == (dialect == Dialect.V4))

@@ -121,7 +121,7 @@ class ReportedPathSuite extends AnyFunSuite:
   test("so it is through panes, which Mitsuba's light passes"):
     val floor = onFloor(V4, "\"volpath\" \"integer maxdepth\" 3", "Material \"thindielectric\"")
       .replace("Shape \"sphere\"", "Translate 0 0 1 Shape \"disk\" \"float radius\" 2")
-    val scene = SceneTexts.parse(floor, V4).copy(isMitsubas = true)
+    val scene = SceneTexts.parse(floor, V4).copy(dialect = Dialect.Mitsuba)
     val plan = SceneBuilder.build(scene, RenderSettings())._1
     val image = Renderer.render(plan, threads = 1).film.toImage(1f)
     val lines = ArrayBuffer.empty[String]

@@ -163,7 +163,7 @@ private object LowDiscrepancy:
   /** @param dimension from 1 to 4 */
   def apply(index: Int, dimension: Int): Float =
     val x = 0.5 + (index + 1) * steps(dimension)
-    Math.min((x - Math.floor(x)).toFloat, OneMinusEpsilon)
+    belowOne((x - Math.floor(x)).toFloat)
 
 /** Creates and caches the [[Coat]]s of a scene. Thread-safe. */
 final class Coats:

@@ -31,13 +31,13 @@ abstract class ProjectiveRecipe(name: String, meaning: String, dialects: Set[Dia
   )
 
   private val near =
-    float("nearclip", "near clipping distance, in Mitsuba's scenes", onlyV4, "scene units")(0.01f)
+    float("nearclip", "near clipping distance", onlyMitsuba, "scene units")(0.01f)
   private val far =
-    float("farclip", "far clipping distance, in Mitsuba's scenes", onlyV4, "scene units")(1e4f)
+    float("farclip", "far clipping distance", onlyMitsuba, "scene units")(1e4f)
 
-  /** Mitsuba's cameras clip. */
+  /** The camera, which clips if it is to. */
   protected def clipped(toWorld: Transform, camera: Camera)(using site: Site): Camera =
-    if !site.resources.switches.isMitsubas then camera
+    if !site.rules.clips then camera
     else
       val (first, last) = (near(), far())
       if !(first > 0f && first < last) then

@@ -23,7 +23,7 @@ object ImageFilmRecipe extends FilmRecipe("image", "RGB image", untilV3):
     )
 
 object RgbFilmRecipe extends SensorFilmRecipe("rgb", "RGB image"):
-  private val alpha = bool("alpha", "add the layer alpha, channel A; Mitsuba's")(false)
+  private val alpha = bool("alpha", "add the layer alpha, channel A", onlyMitsuba)(false)
   override protected def make()(using Site): FilmSettings =
     val made = super.make()
     if alpha() then made.copy(layers = Vector(Layer.Alpha)) else made

@@ -103,7 +103,7 @@ object AmbientOcclusionRecipe
           white * Pi,
           showsSky = false
         )
-      case Dialect.V4 =>
+      case Dialect.V4 | Dialect.Mitsuba =>
         Occlusion(1, 0f, distanceV4(), cosine(), weighs = true, white, showsSky = false)
     windowed(IntegratorPlan(
       (scene, _) => RenderMethod.Tiles(AmbientOcclusion(scene, rule)),

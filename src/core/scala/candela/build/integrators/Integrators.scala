@@ -76,14 +76,37 @@ final case class IntegratorPlan(
     finish: Material => Material = identity,
     throughMedia: Option[(Scene, SceneMedia) => RenderMethod] = None,
     throughVolumes: Option[(Scene, Array[Int], VolumeMarch) => Integrator] = None
-)
+):
+  /** Whether [[throughMedia]] renders the scene.
+    *
+    * @param hasMedia whether rays may pass media
+    */
+  def entersMedia(scene: Scene, hasMedia: Boolean): Boolean =
+    throughMedia.isDefined &&
+      (hasMedia || scene.hasInterfaces || crossesPanes && scene.hasPanes)
+
+  /** The render method of the scene in these surroundings. */
+  def methodIn(around: Surroundings, scene: Scene, lightSamples: Array[Int]): RenderMethod =
+    (around, throughMedia, throughVolumes) match
+      case (Surroundings.Media(all), Some(make), _) => make(scene, all)
+      case (Surroundings.Volumes(march), _, Some(make)) =>
+        RenderMethod.Tiles(make(scene, lightSamples, march))
+      case _ => method(scene, lightSamples)
+
+/** What is between the surfaces of a scene, as far as its integrator renders it. */
+enum Surroundings:
+  case Nothing
+  case Media(all: SceneMedia)
+
+  /** The volumes of pbrt-v2. */
+  case Volumes(march: VolumeMarch)
 
 object IntegratorPlan:
   /** What interfaces are to integrators without media. pbrt-v2 has none. */
   def interfaces(using site: Site): Interfaces = site.dialect match
     case Dialect.V2 => Interfaces.Open
     case Dialect.V3 => Interfaces.Lossy
-    case Dialect.V4 => Interfaces.Closed
+    case Dialect.V4 | Dialect.Mitsuba => Interfaces.Closed
 
 /** Base of integrators with a maximum path depth. */
 abstract class IntegratorRecipe(name: String, meaning: String, dialects: Set[Dialect])
@@ -125,7 +148,7 @@ trait Choosing extends Recipe[IntegratorPlan]:
 
   protected final def lightStrategy()(using site: Site): LightStrategy =
     val asked = site.dialect match
-      case Dialect.V4 => sampler()
+      case Dialect.V4 | Dialect.Mitsuba => sampler()
       case Dialect.V3 => strategy()
       case _ => ""
     asked match

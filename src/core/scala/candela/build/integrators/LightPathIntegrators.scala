@@ -88,15 +88,15 @@ object LightPathRecipe
     ):
   protected def make()(using site: Site): IntegratorPlan =
     val most = events()
-    val isMitsubas = site.resources.switches.isMitsubas
+    val passes = site.rules.passes
     IntegratorPlan(
       (scene, _) =>
         SplattedTiles: v =>
-          LightTracer(scene, v.camera, v.splats, most, isMitsubas, showsSky = isMitsubas),
+          LightTracer(scene, v.camera, v.splats, most, passes, showsSky = passes),
       samplesBsdf = false,
       s"$name, up to $most scattering events",
       interfaces = Interfaces.Closed,
-      hasVeils = isMitsubas
+      hasVeils = passes
     )
 
 object FunctionRecipe

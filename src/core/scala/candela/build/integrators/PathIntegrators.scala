@@ -16,7 +16,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
   private val threshold =
     float("rrthreshold", "throughput below which Russian roulette may end a path", onlyV3)(1f)
   private val hides =
-    bool("hideemitters", "hide lamps and sky from the camera, in Mitsuba's scenes", onlyV4)(false)
+    bool("hideemitters", "hide lamps and sky from the camera", onlyMitsuba)(false)
 
   protected def make()(using site: Site): IntegratorPlan =
     // v2 samples lights at one vertex more than it counts
@@ -25,11 +25,9 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
     val goesBeneath = site.dialect == Dialect.V3 || name == "volpath"
     val regularizes = regularize()
     // Mitsuba's "path" counts what thin glass transmits as scattered, "volpath" does not
-    val isMitsubas = site.resources.switches.isMitsubas
-    val crossesPanes = name == "volpath" && isMitsubas
-    val hidesLamps = isMitsubas && hides()
+    val crossesPanes = name == "volpath" && site.rules.passes
     val interfaces = if name == "volpath" then Interfaces.Open else IntegratorPlan.interfaces
-    val countsPassed = isMitsubas && interfaces.stopsLight
+    val countsPassed = site.rules.passes && interfaces.stopsLight
     val limits = PathLimits(depth, threshold(), seesThrough = site.dialect == Dialect.V3)
     windowed(IntegratorPlan(
       (scene, _) =>
@@ -37,7 +35,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
         val options = WalkOptions(
           regularizes,
           beneath,
-          hidesLamps = hidesLamps,
+          hidesLamps = hides(),
           interfaces = interfaces,
           countsPassed = countsPassed
         )
@@ -57,7 +55,7 @@ final class PathRecipe(name: String, meaning: String, dialects: Set[Dialect])
           regularizes,
           scene.hasSubsurface,
           crossesPanes = crossesPanes,
-          hidesLamps = hidesLamps
+          hidesLamps = hides()
         )
         GuidedMethod(scene): (over, guide, parts) =>
           VolumePathTracer(over, media, limits, options, guide, parts)

@@ -97,24 +97,26 @@ final class DiffuseLightRecipe(
   private val wrap =
     oneOf(
       "wrap",
-      "of Mitsuba's scenes: wrap mode outside the image",
+      "wrap mode outside the image",
       Vector("clamp", "repeat", "mirror"),
-      onlyV4
+      onlyMitsuba
     )("clamp")
   private val filter =
     oneOf(
       "filter",
-      "of Mitsuba's scenes: filter of the image",
+      "filter of the image",
       Vector("bilinear", "point"),
-      onlyV4
+      onlyMitsuba
     )("bilinear")
   private val places =
     numbers(
       "imageuv",
       "float[6]",
-      "of Mitsuba's scenes: s and t of the image, by u, v and 1",
-      onlyV4
+      "s and t of the image, by u, v and 1",
+      onlyMitsuba
     )
+
+  private val luminance = Once[Float]()
 
   private def lookup(using Site): PictureLookup =
     val around = wrap() match
@@ -132,7 +134,7 @@ final class DiffuseLightRecipe(
     val unit = if isPicture then Spectra.white else radiance()
     val emitted = unit * colored() * scale()
     val perUnit = picture.fold(1f): p =>
-      site.resources.once(site.declaration, "luminance"):
+      luminance:
         DiffuseLightRecipe.luminance(p, site.resources.basis)
     val shines = site.resources.basis.isSpectral || (emitted.isFinite && emitted.max > 0f)
     if isPicture && picture.isEmpty then None

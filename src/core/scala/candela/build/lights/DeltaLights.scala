@@ -58,7 +58,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
   private val slide =
-    string("mapname", "image that scales the light across the cone; Mitsuba's", onlyV4, "none")("")
+    string("mapname", "image that scales the light across the cone", onlyMitsuba, "none")("")
 
   protected def make()(using site: Site): LightPlan =
     val image = if slide().isEmpty then None else LightImages.read("mapname")
@@ -67,10 +67,6 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
     val i = scaled(intensity(), power(), SpotLight.solidAngle(edge, full))
     val p = Places.far("from").getOrElse(Places.exact(from()))
     val axis = Places.between("from", from(), "to", to())
-    val fade =
-      if site.resources.switches.isMitsubas then Fade.Linear
-      else if site.dialect == Dialect.V4 then Fade.Cubic
-      else Fade.Quartic
     if !shines(i) then LightPlan.leftOut(LightPlan.Black)
     else if axis.isZero then LightPlan.leftOut("`from` and `to` are the same point")
     else if !(cone() > 0f) then LightPlan.leftOut(s"`coneangle` must be above 0, found ${cone()}")
@@ -79,7 +75,7 @@ object SpotLightRecipe extends LightRecipe("spot", "spotlight"):
       LightPlan(
         (toWorld, _) =>
           val frame = LightFrame(toWorld * Transform.translate(p.x, p.y, p.z))
-          Some(SpotLight(frame, axis.normalized, i, edge, full, fade, picture))
+          Some(SpotLight(frame, axis.normalized, i, edge, full, site.rules.fade, picture))
         ,
         samples = 1
       )

@@ -23,6 +23,8 @@ object GoniometricLightRecipe
     )("")
   private val power =
     float("power", "total power, overrides the magnitude of `I`", onlyV4, "lm", "none")(-1f)
+  private val means = Once[Float]()
+  private val grays = Once[Image]()
 
   protected def make()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
@@ -36,7 +38,7 @@ object GoniometricLightRecipe
       case None => LightPlan.nothing
       case Some(image) =>
         def lamp(i: Rgb) = sphere(image, LatLongMap, i, smooth = true)
-        val mean = site.resources.once(site.declaration, "mean")(lamp(Rgb.White).meanOfMax)
+        val mean = means(lamp(Rgb.White).meanOfMax)
         val i = scaled(intensity(), power(), 4f * Pi * mean)
         shining(i, lamp(i))
 
@@ -46,8 +48,7 @@ object GoniometricLightRecipe
       LightImages.read("filename").filter(LightImages.isSquare) match
         case None => LightPlan.nothing
         case Some(image) =>
-          val once = site.resources.once[Image](site.declaration, _)
-          val gray = once("gray")(LightImages.gray(image))
+          val gray = grays(LightImages.gray(image))
           val mean = gray.data.foldLeft(0.0)(_ + _) / gray.data.length
           val i = scaled(intensity(), power(), 4f * Pi * mean.toFloat)
           shining(i, sphere(gray, EqualAreaMap, i, smooth = false))
@@ -83,6 +84,7 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     float("fov", "field of view along the shorter side", unit = "degrees")(if v4 then 90f else 45f)
   private val power =
     float("power", "total power, overrides the magnitude of the image", onlyV4, "lm", "none")(-1f)
+  private val powers = Once[Float]()
 
   protected def make()(using site: Site): LightPlan =
     val isV4 = site.dialect == Dialect.V4
@@ -92,13 +94,12 @@ object ProjectionLightRecipe extends LightRecipe("projection", "slide projector"
     val isLost = image.isEmpty && (isV4 || given_.nonEmpty) // already reported
     val lookup = if isV4 then PictureLookup.Nearest else PictureLookup.SmoothRepeating
     val slide = image.map(Picture(_, lookup, LightImages.conversion))
-    // In Mitsuba's scenes, along the width
-    val onPlane = site.resources.switches.isMitsubas
+    val onPlane = site.rules.fovOfWidth
     val narrow = slide.fold(1f)(s => if onPlane then Math.max(1f, s.aspect) else 1f)
     val tanHalf = Math.tan(Math.toRadians(fov() / 2.0)).toFloat / narrow
     val basis = site.resources.basis
     val perUnit = slide.fold(1f): s =>
-      site.resources.once(site.declaration, "power"):
+      powers:
         ProjectionLight.power(s, tanHalf, basis.toSrgb(_).luminance)
     def isBlack = slide.exists(s => !(s.mean((c, _, _) => c.max) > 0f))
     val all = scaled(intensity(), power(), perUnit)

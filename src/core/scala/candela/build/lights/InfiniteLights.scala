@@ -6,6 +6,7 @@ import candela.geometry.Frame
 import candela.image.Image
 import candela.lights.*
 import candela.math.*
+import candela.sampling.Distribution2D
 import candela.scenefile.Dialect
 
 final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
@@ -21,6 +22,9 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
     float(
       "illuminance", "illuminance on a plane, overrides the magnitude of `L`", onlyV4, "lx", "none"
     )(-1f)
+  private val irradiances = Once[Float]()
+  private val all, compensated = Once[Distribution2D]()
+  private val portals = Once[PortalEnvironment]()
   private val portal = numbers(
     "portal",
     "point3[4]",
@@ -38,11 +42,11 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       LightImages.read(named).filter(i => !octahedral || LightImages.isSquare(i)) match
         case None => LightPlan.nothing
         case Some(read) =>
-          val isPolar = !octahedral && site.resources.switches.isMitsubas
+          val isPolar = !octahedral && site.rules.flatMaps
           val image = if isPolar then LightImages.withEquator(read) else read
           val unit = if octahedral then Spectra.white else radiance()
           val perUnit =
-            if octahedral then site.resources.once(site.declaration, "perUnit")(onThePlane(image))
+            if octahedral then irradiances(onThePlane(image))
             else 1f
           val l = scaled(unit, illuminance(), perUnit)
           val layout =
@@ -66,8 +70,8 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
       val p = corners()
       if p.isEmpty then
         def light(toWorld: Transform, complete: Boolean) =
-          val distribution = resources.once(site.declaration, s"distribution, $complete"):
-            ImageEnvironment.distribution(image, complete)
+          val kept = if complete then all else compensated
+          val distribution = kept(ImageEnvironment.distribution(image, complete))
           Some(new ImageEnvironment(LightFrame(toWorld), image, distribution))
         LightPlan(light, sampleCount())
       else
@@ -76,7 +80,7 @@ final class InfiniteLightRecipe(name: String, dialects: Set[Dialect])
           case Some(frame) =>
             val (corner, opposite) = (p(0), p(2))
             def light(toWorld: Transform) =
-              val plain = resources.once(site.declaration, "portal"):
+              val plain = portals:
                 PortalEnvironment(LightFrame(toWorld), image, corner, opposite, frame)
               val basis = resources.basis
               if !basis.isSpectral then plain

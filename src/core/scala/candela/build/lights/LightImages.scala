@@ -9,6 +9,9 @@ import candela.scenefile.Dialect
 /** Loads the images of lights. */
 private[build] object LightImages:
 
+  /** The image of a statement, which has one at most. */
+  private val images = Once[Option[Image]]()
+
   /** Returns the image named by the string parameter `name`, in the scene's basis. Reports images
     * that can't be used.
     *
@@ -18,14 +21,14 @@ private[build] object LightImages:
   def read(name: String)(using site: Site): Option[Image] =
     // Each basis has its own copy, but lookups convert the colours of sRGB to wavelengths
     val basis = site.resources.basis
-    if basis.isSpectral then site.resources.once(site.declaration, name)(loaded(name))
+    if basis.isSpectral then images(loaded(name))
     else loaded(name)
 
   /** Returns the lamp of the photometric file that the string parameter `name` names, as an
     * equirectangular image. Reports files that can't be used.
     */
   def lamp(name: String)(using site: Site): Option[Image] =
-    site.resources.once(site.declaration, name):
+    images:
       for
         p <- site.declaration.param(name)
         file <- site.resources.file(p, site.declaration, site.problems, StandIns.LeftOut)
@@ -65,7 +68,7 @@ private[build] object LightImages:
 
   private def usable(image: Image, fail: String => Unit)(using site: Site): Option[Image] =
     val linear =
-      if site.dialect == Dialect.V4 || site.resources.switches.isMitsubas then image.linear
+      if site.rules.decodesLights then image.linear
       else Image(image.width, image.height, image.channelNames, image.data)
     try
       val rgb = linear.toRgb

@@ -6,9 +6,7 @@ import candela.lights.{LightFrame, SkyModel, SunAndSky}
 import candela.math.*
 
 object SunskyLightRecipe
-    extends LightRecipe("sunsky", "clear sky and sun of Mitsuba's scenes", onlyV4):
-  override def isMitsubas: Boolean = true
-
+    extends LightRecipe("sunsky", "clear sky and sun", onlyMitsuba):
   private val turbidity = float("turbidity", "turbidity of the air, 1 to 10")(3f)
   private val albedo =
     numbers("albedo", "float[3]", "red, green and blue albedo of the ground", shown = "0.3 0.3 0.3")

@@ -52,9 +52,7 @@ object CoatedDiffuseRecipe
       CoatedDiffuseMaterial(reflectance(), roughness(), index, medium, coats, bySpectrum)
 
 object RoughPlasticRecipe
-    extends RoughRecipe("roughplastic", "Mitsuba's plastic, smooth or rough", onlyV4, 0f):
-  override def isMitsubas: Boolean = true
-
+    extends RoughRecipe("roughplastic", "plastic, smooth or rough", onlyMitsuba, 0f):
   private val reflectance =
     rgbTexture("reflectance", "reflectance of the base, 0 to 1")(Rgb.gray(0.5f))
   private val specular = rgbTexture("specular", "scale of the coat's reflection")(Rgb.White)

@@ -14,7 +14,7 @@ object MatteRecipe
 object DiffuseRecipe extends MaterialRecipe("diffuse", "Lambertian reflection", onlyV4):
   private val reflectance = rgbTexture("reflectance", "diffuse reflectance, 0 to 1")(Rgb.gray(0.5f))
   protected def make()(using site: Site): Material =
-    DiffuseMaterial(reflectance(), gains = site.resources.switches.isMitsubas)
+    DiffuseMaterial(reflectance(), gains = site.rules.gains)
 
 object DiffuseTransmissionRecipe
     extends MaterialRecipe("diffusetransmission", "Lambertian reflection and transmission", onlyV4):

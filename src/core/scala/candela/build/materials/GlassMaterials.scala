@@ -29,9 +29,9 @@ object GlassRecipe
 /** Declares the colours of Mitsuba's glass. */
 private[build] trait GlassTints extends Fields:
   private val kr =
-    rgbTexture("reflectance", "scale of reflection, in Mitsuba's scenes", onlyV4)(Rgb.White)
+    rgbTexture("reflectance", "scale of reflection", onlyMitsuba)(Rgb.White)
   private val kt =
-    rgbTexture("transmittance", "scale of transmission, in Mitsuba's scenes", onlyV4)(Rgb.White)
+    rgbTexture("transmittance", "scale of transmission", onlyMitsuba)(Rgb.White)
 
   protected final def tints()(using Site): (RgbTexture, RgbTexture) = (kr(), kt())
 

@@ -115,9 +115,7 @@ object DisneyRecipe
   protected def make()(using Site): Material = DisneyMaterial(parameters())
 
 object PrincipledRecipe
-    extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyV4):
-  override def isMitsubas: Boolean = true
-
+    extends DisneyFields("principled", "Mitsuba's edition of Burley's BSDF", onlyMitsuba):
   protected def make()(using Site): Material =
     val p = parameters()
     if p.isThin then PrincipledThinMaterial(p) else PrincipledMaterial(p)

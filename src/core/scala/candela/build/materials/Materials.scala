@@ -86,13 +86,14 @@ abstract class MaterialRecipe(
     numbers(
       "normalmapuv",
       "float[6]",
-      "of Mitsuba's scenes: s and t of the normal map, by u, v and 1",
-      onlyV4
+      "s and t of the normal map, by u, v and 1",
+      onlyMitsuba
     )
+  private val pyramid = Once[MipLevel]()
   private val edges: Option[Field[Boolean]] = Option.when(bumps):
-    bool("softedges", "of Mitsuba's scenes: soften the edge of the shadow on bumps", onlyV4)(true)
+    bool("softedges", "soften the edge of the shadow on bumps", onlyMitsuba)(true)
   private val turns: Option[Field[Boolean]] = Option.when(bumps):
-    bool("turnednormals", "of Mitsuba's scenes: turn normals that face away", onlyV4)(true)
+    bool("turnednormals", "turn normals that face away", onlyMitsuba)(true)
 
   override protected def made(site: Site): Material =
     given Site = site
@@ -100,8 +101,8 @@ abstract class MaterialRecipe(
     normalMap() match
       case Some(picture) =>
         site.resources.askForRelief("normal maps")
-        // In Mitsuba, what faces away is turned for each viewer
-        val faces = !site.resources.switches.isMitsubas
+        // What faces away is turned for each viewer, or at once
+        val faces = site.rules.bumps == Bumps.Displaced
         raised(smooth, NormalMapMaterial(_, picture, place(), faces))
       case None =>
         val height = if site.dialect == Dialect.V4 then displacements else heights
@@ -114,19 +115,19 @@ abstract class MaterialRecipe(
       site.resources.askForRelief("bumps")
       // pbrt's finite differences
       val smallest = if site.dialect == Dialect.V2 then 0.01f else 0.0005f
-      if site.resources.switches.isMitsubas then
+      if site.rules.bumps == Bumps.Sloped then
         raised(smooth, SlopeBumpMaterial(_, height, smallest))
       else raised(smooth, BumpMaterial(_, height, smallest))
 
   private def raised(smooth: Material, relief: Material => Material)(using site: Site): Material =
-    if site.resources.switches.isMitsubas then
+    if site.rules.bumps == Bumps.Displaced then relief(smooth)
+    else
       SoftTerminatorMaterial(
         smooth,
         relief,
         shadows = edges.forall(_()),
         turns = turns.forall(_())
       )
-    else relief(smooth)
 
   private def place()(using Site): Mapping2D =
     AffineUvMapping.of(places.fold(Array.emptyFloatArray)(_()))
@@ -139,7 +140,7 @@ abstract class MaterialRecipe(
       stored <- site.resources.image(p, site.declaration, site.problems)
     yield
       // pbrt-v4 decodes 8-bit files, except for PNG
-      val isDecoded = !site.resources.switches.isMitsubas &&
+      val isDecoded = site.rules.decodesNormals &&
         stored.encoding != Encoding.Linear && !name.toLowerCase.endsWith(".png")
       if isDecoded then
         site.problems.warn(
@@ -147,7 +148,7 @@ abstract class MaterialRecipe(
           "pbrt-v4 decodes this normal map as sRGB; it reads PNG and EXR as they are"
         )
       val decode: Float => Float = if isDecoded then Encoding.Srgb.decode(_) else identity
-      site.resources.once(site.declaration, "normals"):
+      pyramid:
         MipLevel(Texels.color(stored, decode), Wrap.Repeat)
 
 /** Base of materials with the common roughness parameters.
@@ -165,7 +166,7 @@ abstract class RoughRecipe(
   private val u = alongAxis("u")
   private val v = alongAxis("v")
   private val distribution =
-    oneOf("distribution", "microfacets of Mitsuba's scenes", Seq("ggx", "beckmann"), onlyV4)("ggx")
+    oneOf("distribution", "microfacets", Seq("ggx", "beckmann"), onlyMitsuba)("ggx")
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
@@ -182,8 +183,8 @@ abstract class RoughRecipe(
       case Dialect.V2 => RoughnessModel.BlinnExponent
       case Dialect.V3 =>
         if remap() then RoughnessModel.PolynomialAlpha else RoughnessModel.BoundedAlpha
-      case Dialect.V4 =>
-        if site.resources.switches.isMitsubas then
+      case Dialect.V4 | Dialect.Mitsuba =>
+        if site.rules.separates then
           if distribution() == "ggx" then RoughnessModel.SeparableGgx else RoughnessModel.Gaussian
         else if remap() then RoughnessModel.SquareRootAlpha
         else RoughnessModel.PlainAlpha

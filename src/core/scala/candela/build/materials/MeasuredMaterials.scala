@@ -22,6 +22,8 @@ abstract class MeasuredRecipe(
 ) extends MaterialRecipe(name, meaning, dialects):
   private val file = string(parameter, s"$ending file", shown = "none")("")
 
+  private val measured = Once[Either[String, MeasuredBsdf]]()
+
   /** Returns the BSDF, or an error message. */
   protected def read(file: InputFile): Either[String, MeasuredBsdf]
 
@@ -39,7 +41,7 @@ abstract class MeasuredRecipe(
           for
             there <-
               site.resources.file(p, site.declaration, site.problems, StandIns.MagentaSurface)
-            bsdf <- site.resources.once(site.declaration, "measured")(read(there)) match
+            bsdf <- measured(read(there)) match
               case Right(MeasuredBsdf.OfSpectra(make)) =>
                 Some(
                   make: s =>

@@ -53,7 +53,7 @@ private[build] trait MetalFields extends SpectrumFields:
     if tint.isDefined && (index.eta.given_().isDefined || index.k.given_().isDefined) then
       val names = s"`${index.eta.name}` and `${index.k.name}`"
       site.error(s"`reflectance` and $names of \"${site.declaration.name}\" are mutually exclusive")
-    if site.resources.switches.isMitsubas && !site.resources.basis.isSpectral && tint.isEmpty then
+    if site.rules.plainMetals && !site.resources.basis.isSpectral && tint.isEmpty then
       // Mitsuba multiplies three numbers here, too
       def plain(source: SpectrumSource) = SpectrumSource.textured(source):
         case SpectralValue.Color(c, _) => c
@@ -120,7 +120,7 @@ object ConductorRecipe
     extends RoughRecipe("conductor", "conductor, smooth or rough", onlyV4, 0f)
     with MetalFields:
   private val index = metalIndex(tint = true)
-  private val scale = rgbTexture("scale", "scale of the reflectance, of Mitsuba's")(Rgb.White)
+  private val scale = rgbTexture("scale", "scale of the reflectance", onlyMitsuba)(Rgb.White)
   protected def make()(using Site): Material =
     ConductorMaterial(metal(index), roughness(), scale())
 

@@ -40,13 +40,11 @@ object MixRecipe
 object TwoSidedRecipe
     extends MaterialRecipe(
       "twosided",
-      "materials of the front and the back, as in Mitsuba",
-      onlyV4
+      "materials of the front and the back",
+      onlyMitsuba
     ):
-  override def isMitsubas: Boolean = true
-
   private val both =
-    strings("materials", "string[2]", "materials of the front and the back", onlyV4)
+    strings("materials", "string[2]", "materials of the front and the back")
 
   protected def make()(using site: Site): Material = both() match
     case Vector(front, back) =>
@@ -72,8 +70,8 @@ private def named(name: String, parameter: String)(using site: Site): Material =
   FramedMaterial.of(found)
 
 object NestedRecipe
-    extends MaterialRecipe("nested", "material within another one of Mitsuba's scenes", onlyV4):
-  private val within = string("material", "name of the material", onlyV4)("")
+    extends MaterialRecipe("nested", "material within another one", onlyMitsuba):
+  private val within = string("material", "name of the material")("")
   private val onesided = bool("onesided", "whether it is black from behind")(false)
 
   protected def make()(using site: Site): Material =

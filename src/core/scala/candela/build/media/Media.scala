@@ -33,16 +33,16 @@ trait Scatters extends Fields:
     strings(
       "phases",
       "string[]",
-      s"phase functions of Mitsuba's scenes, summed: ${PhaseFunction.Kinds.mkString(", ")}",
-      onlyV4
+      s"phase functions, summed: ${PhaseFunction.Kinds.mkString(", ")}",
+      onlyMitsuba
     )
-  private val weights = numbers("phaseweights", "float[]", "weights of `phases`", onlyV4)
+  private val weights = numbers("phaseweights", "float[]", "weights of `phases`", onlyMitsuba)
   private val values =
     numbers(
       "phasevalues",
       "float[]",
       "of each of `phases` in turn: g of hg; the number of tabulated values, and these",
-      onlyV4
+      onlyMitsuba
     )
 
   protected def phase()(using site: Site): PhaseFunction =
@@ -121,16 +121,15 @@ trait HasPreset extends HasCoefficients:
 
 /** Media given by a grid. */
 trait HasGrid extends HasCells:
-  /** Samples with `channels` values each. Reports a wrong number of values and returns None. */
-  protected def samples(name: String, values: Array[Float], channels: Int = 1)(using
-      site: Site
-  ): Option[Vector[SampledGrid]] =
-    site.resources.once(site.declaration, name)(grids(name, values, channels))
+  /** Samples of one value each; None, after a report, if there is a wrong number of them. */
+  protected final class Samples(values: Field[Array[Float]]):
+    private val made = Once[Option[SampledGrid]]()
+    def apply()(using Site): Option[SampledGrid] =
+      made(grids(values.name, values(), 1).map(_.head))
 
   protected def grids(name: String, values: Array[Float], channels: Int)(using
       site: Site
   ): Option[Vector[SampledGrid]] =
     cells(name, values, channels).map: (nx, ny, nz) =>
-      val isClamped = site.dialect == Dialect.V2 || site.resources.switches.isMitsubas
-      val edge = if isClamped then GridEdge.Clamped else GridEdge.Zero
-      Vector.tabulate(channels)(c => SampledGrid(nx, ny, nz, channel(values, c, channels), edge))
+      Vector.tabulate(channels): c =>
+        SampledGrid(nx, ny, nz, channel(values, c, channels), site.rules.gridEdge)

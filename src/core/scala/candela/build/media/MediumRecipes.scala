@@ -27,7 +27,8 @@ object HeterogeneousRecipe
     with HasScale
     with HasGrid
     with HasBox:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
+  private val densities =
+    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
 
   protected def make()(using site: Site): Option[Medium] =
     val (absorption, scattering) = coefficients()
@@ -39,8 +40,8 @@ object HeterogeneousRecipe
       )
     for
       map <- toUnit()
-      grids <- samples("density", density())
-    yield GridMedium(map, grids.head, absorption, scattering, None, phase())
+      density <- densities()
+    yield GridMedium(map, density, absorption, scattering, None, phase())
 
 object UniformGridRecipe
     extends MediumRecipe("uniformgrid", "density grid", onlyV4)
@@ -48,11 +49,13 @@ object UniformGridRecipe
     with HasGrid
     with HasBox
     with HasTemperature:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
+  private val densities =
+    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
   private val temperature =
     numbers("temperature", "float[]", "temperature of each cell, for thermal emission", unit = "K")
   private val emittedScale =
     numbers("Lescale", "float[]", "scale of each cell's emission", shown = "1")
+  private val (heat, scales) = (Samples(temperature), Samples(emittedScale))
   private val emitted =
     color("Le", "emitted radiance", SpectrumRole.Emission, onlyV4, "W/(m² sr)", "none")(Rgb.Black)
 
@@ -60,9 +63,9 @@ object UniformGridRecipe
     val (absorption, scattering) = coefficients()
     for
       map <- toUnit()
-      grids <- samples("density", density())
+      density <- densities()
       light <- glow()
-    yield GridMedium(map, grids.head, absorption, scattering, light, phase())
+    yield GridMedium(map, density, absorption, scattering, light, phase())
 
   /** The emission, if any. Returns None after an error. */
   private def glow()(using site: Site): Option[Option[Glow]] =
@@ -70,18 +73,18 @@ object UniformGridRecipe
     val le = held(emitted(), "Le")
     val scale =
       if factors.isEmpty then Some(SampledGrid.One)
-      else samples("Lescale", factors).map(_.head)
+      else scales()
     if temperatures.nonEmpty && emitted.given_().isDefined then
       site.error("`Le` and `temperature` of a medium are mutually exclusive")
       None
     else if temperatures.nonEmpty then
       for
         s <- scale
-        t <- samples("temperature", temperatures)
+        t <- heat()
       yield
         val (below, factor) = kelvins()
-        val hottest = (t.head.maximum - below) * factor
-        Some(ThermalGlow(t.head, below, factor, Thermal.colors(hottest), s))
+        val hottest = (t.maximum - below) * factor
+        Some(ThermalGlow(t, below, factor, Thermal.colors(hottest), s))
     else scale.map(s => Option.unless(le.isBlack)(ColoredGlow(le, s)))
 
 object RgbGridRecipe

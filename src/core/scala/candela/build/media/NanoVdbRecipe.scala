@@ -16,6 +16,7 @@ object NanoVdbRecipe
   private val temperatureName =
     string("temperaturename", "name of the temperature grid, if there is one")("temperature")
   private val emittedScale = float("Lescale", "scale of the emission", onlyV4)(1f)
+  private val stored = Once[Option[Voxels]]()
   private val Ignored = "ignoring the medium"
 
   protected def make()(using site: Site): Option[Medium] =
@@ -24,7 +25,7 @@ object NanoVdbRecipe
         site.error("a \"nanovdb\" medium needs `filename`")
         None
       case Some(p) =>
-        val voxels = site.resources.once(site.declaration, "voxels"):
+        val voxels = stored:
           site.resources.file(p, site.declaration, site.problems, Ignored).flatMap(read(_, p))
         voxels.flatMap(medium)
 

@@ -68,10 +68,11 @@ object ExponentialVolumeRecipe
       )
 
 object VolumeGridRecipe extends VolumeRecipe("volumegrid", "density grid in a box") with HasGrid:
-  private val density = numbers("density", "float[]", "nx by ny by nz densities, x varies fastest")
+  private val densities =
+    Samples(numbers("density", "float[]", "nx by ny by nz densities, x varies fastest"))
 
   protected def make()(using site: Site): Option[Region] =
     for
       (toWorld, b) <- box()
-      grids <- samples("density", density())
-    yield GridRegion(toWorld, b, filling(), grids.head)
+      density <- densities()
+    yield GridRegion(toWorld, b, filling(), density)

@@ -2,19 +2,20 @@ package candela.build.recipe
 
 import candela.scenefile.Dialect
 
-// Sets of dialects that support a parameter or a recipe
-private[build] val every: Set[Dialect] = Dialect.values.toSet
+// Sets of dialects that support a parameter or a recipe. Mitsuba's scenes have what v4's have, too
+private[build] val every: Set[Dialect] = Dialect.ofPbrt.toSet
 private[build] val onlyV2: Set[Dialect] = Set(Dialect.V2)
 private[build] val onlyV3: Set[Dialect] = Set(Dialect.V3)
 private[build] val onlyV4: Set[Dialect] = Set(Dialect.V4)
 private[build] val untilV3: Set[Dialect] = Set(Dialect.V2, Dialect.V3)
 private[build] val sinceV3: Set[Dialect] = Set(Dialect.V3, Dialect.V4)
+private[build] val onlyMitsuba: Set[Dialect] = Set(Dialect.Mitsuba)
 
 /** Display names of dialects. */
 object Dialects:
   def name(dialect: Dialect): String = dialect.toString.toLowerCase
 
-  /** `v2`, `v2 and v3`, `v2, v3 and v4`. */
+  /** `v2`, `v2 and v3`, `v2, v3, v4 and mitsuba`. */
   def list(dialects: Set[Dialect]): String =
     val names = Dialect.values.toVector.filter(dialects).map(name)
     if names.size < 2 then names.mkString
@@ -22,4 +23,4 @@ object Dialects:
 
   /** The member of `dialects` nearest to `wanted`; ties go to the older one. */
   def nearest(wanted: Dialect, dialects: Set[Dialect]): Dialect =
-    Dialect.values.filter(dialects).minBy(d => Math.abs(d.ordinal - wanted.ordinal))
+    Dialect.ofPbrt.filter(dialects).minBy(d => Math.abs(d.ordinal - wanted.ordinal))

@@ -29,14 +29,14 @@ class Field[T](
 
   /** Returns the value given by the scene file, if any. */
   def given_()(using site: Site): Option[T] =
-    site.declaration.param(name).filter(_ => dialects(site.dialect)).filter(fits(_, site))
+    site.declaration.param(name).filter(_ => site.speaks(dialects)).filter(fits(_, site))
       .flatMap(read(_, site))
 
   /** Whether pbrt finds the value, which it looks for by type. Mitsuba's reader knows the types of
     * recipes, not those of pbrt.
     */
   private def fits(p: Param, site: Site): Boolean =
-    val fits = site.resources.switches.isMitsubas ||
+    val fits = !site.rules.typed ||
       ValueTypes.accepts(typeName, name, p, site.dialect)
     if !fits && !p.isDefault then
       site.unread(

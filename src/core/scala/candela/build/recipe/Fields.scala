@@ -14,7 +14,7 @@ trait Fields:
 
   protected final def v2(using d: Dialect): Boolean = d == Dialect.V2
   protected final def v3(using d: Dialect): Boolean = d == Dialect.V3
-  protected final def v4(using d: Dialect): Boolean = d == Dialect.V4
+  protected final def v4(using d: Dialect): Boolean = d.base == Dialect.V4
 
   protected final def float(
       name: String,

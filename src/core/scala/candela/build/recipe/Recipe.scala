@@ -17,13 +17,19 @@ import candela.scenefile.Dialect
 abstract class Recipe[A](
     val name: String,
     val meaning: String,
-    val dialects: Set[Dialect] = Dialect.values.toSet
+    val dialects: Set[Dialect] = every
 ) extends Fields:
   private val declared = mutable.ArrayBuffer.empty[Field[?]]
   private val unused = mutable.HashMap.empty[Field[?], Support]
 
   private lazy val byName = declared.toVector.groupBy(_.name)
 
+  /** Makes the object from the statement's parameters.
+    *
+    * Must be pure, but for what it reports: spectral scenes make it again for each set of
+    * wavelengths, in parallel. What all of these share, and takes long, is a field of type
+    * [[Once]].
+    */
   protected def make()(using Site): A
 
   /** Wraps `make` with the steps common to a category. */
@@ -34,14 +40,19 @@ abstract class Recipe[A](
     */
   def substitute: Option[String] = None
 
-  /** Whether only Mitsuba's scenes have this type: no pbrt reads it. */
-  def isMitsubas: Boolean = false
-
   /** Whether other dialects' scenes don't know it: their pbrt renders something else. */
   def isUnknownElsewhere: Boolean = false
 
   /** All parameters. A name may denote different parameters in different dialects. */
   final def fields: Vector[Field[?]] = declared.toVector
+
+  /** The dialects in which this type has the parameter; Mitsuba only if v4's has not. */
+  final def dialectsOf(field: Field[?]): Set[Dialect] =
+    if dialects(Dialect.Mitsuba) then
+      dialects.filter(d => field.dialects(d) || field.dialects(d.base))
+    else
+      val own = if dialects(Dialect.V4) then dialects + Dialect.Mitsuba else dialects
+      own.intersect(field.dialects)
 
   final def takes(parameter: String, dialect: Dialect): Boolean =
     declared.exists(f => f.name == parameter && f.dialects(dialect))
@@ -66,21 +77,21 @@ abstract class Recipe[A](
   final def build(site: Site): A =
     for p <- site.declaration.params do
       val named = byName.getOrElse(p.name, Vector.empty)
-      named.find(_.dialects(site.dialect)) match
+      named.find(f => site.speaks(f.dialects)) match
         case Some(field) => inspect(field, p.at, site)
         case None if named.nonEmpty =>
           val owners = Dialects.list(named.flatMap(_.dialects).toSet)
           site.problems.warn(
             p.at,
             s"`${p.name}` is a parameter of \"$name\" in $owners only, not in " +
-              s"${Dialects.name(site.dialect)}; it is ignored"
+              s"${Dialects.name(site.rules.dialect)}; it is ignored"
           )
         case None if p.isDefault => () // `Attribute` sets defaults for many types
         case None =>
           site.problems.warn(
             p.at,
             s"`${p.name}` is not a parameter of \"$name\"; it is ignored",
-            Suggest.help(p.name, declared.filter(_.dialects(site.dialect)).map(_.name))
+            Suggest.help(p.name, declared.filter(f => site.speaks(f.dialects)).map(_.name))
           )
     made(site)
 
@@ -94,6 +105,11 @@ abstract class Recipe[A](
           site.problems.warn(at, s"`${field.name}` of \"$name\" is not supported; $instead")
         case _ => ()
 
+/** Something that a statement needs in every colour basis, made when it is first asked for. */
+final class Once[T]:
+  def apply(make: => T)(using site: Site): T =
+    site.resources.once(site.declaration, this)(make)
+
 /** All recipes of a category, by name.
   *
   * @param category name of the category in messages
@@ -102,40 +118,53 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
 
   private lazy val byName = all.groupBy(_.name)
 
-  /** Finds the recipe of this name, preferably of this dialect.
-    *
-    * @param inMitsubas whether the scene is Mitsuba's
+  /** Finds the recipe of this name, preferably of this dialect. pbrt's scenes may have types of
+    * another pbrt, but not of Mitsuba.
     */
-  def find(name: String, dialect: Dialect, inMitsubas: Boolean = false): Option[Recipe[A]] =
-    val candidates = byName.getOrElse(name, Vector.empty).filter: r =>
-      (inMitsubas || !r.isMitsubas) && (r.dialects(dialect) || !r.isUnknownElsewhere)
-    candidates.find(_.dialects(dialect)).orElse(candidates.headOption)
+  def find(name: String, dialect: Dialect): Option[Recipe[A]] =
+    find(name, (r: Recipe[A]) => r.dialects(dialect))
+
+  private def find(name: String, isHere: Recipe[A] => Boolean): Option[Recipe[A]] =
+    val named = byName.getOrElse(name, Vector.empty)
+    named.find(isHere).orElse:
+      named.find(r => !r.isUnknownElsewhere && r.dialects.exists(Dialect.ofPbrt.contains))
 
   /** Builds the declared type. A substituted type is a warning; an unknown one is an error, or a
     * warning where this dialect's pbrt only warns. Both suggest the nearest known name.
     */
   def build(site: Site): Option[A] =
     val name = site.declaration.name
-    val inMitsubas = site.resources.switches.isMitsubas
-    find(name, site.dialect, inMitsubas) match
+    find(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
       case Some(recipe) =>
         for instead <- recipe.substitute do
           site.warn(s"$category \"$name\" is substituted: $instead")
         Some(recipe.build(inDialectOf(recipe, site)))
       case None =>
-        val known = all.filter(r => r.dialects(site.dialect) && (inMitsubas || !r.isMitsubas))
-          .map(_.name).filter(_.nonEmpty)
         val message = s"unknown $category \"$name\""
         val help = OtherNames.ofMitsubas(name).filter(_ => byName.contains(name))
-          .orElse(Suggest.help(name, known))
+          .orElse(suggested(name, site))
         StandIns.ofPbrt(category, site.dialect) match
           case Some(standIn) => site.warn(s"$message; $standIn, as pbrt does", help)
           case None => site.missing(message, StandIns.ofCategory(category), help)
         None
 
+  /** The nearest name of the site's dialect or, if one of another dialect is as near as a slip of
+    * the pen, what that is called here.
+    */
+  private def suggested(name: String, site: Site): Option[String] =
+    val (here, elsewhere) = all.filter(_.name.nonEmpty).partition(r => site.speaks(r.dialects))
+    val known = here.map(_.name)
+    def translated =
+      for
+        meant <- Suggest.nearest(name, elsewhere.map(_.name))
+        hint <- OtherNames.hint(category, meant, site.dialect)
+      yield s"did you mean `$meant`? $hint"
+    if Suggest.nearest(name, known).isDefined then Suggest.help(name, known)
+    else translated.orElse(Suggest.help(name, known))
+
   /** A type of another dialect is built by the rules of that dialect. */
   private def inDialectOf(recipe: Recipe[A], site: Site): Site =
-    if recipe.dialects(site.dialect) then site
+    if site.speaks(recipe.dialects) then site
     else
       val nearest = Dialects.nearest(site.dialect, recipe.dialects)
       site.warn(

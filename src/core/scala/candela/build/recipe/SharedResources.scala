@@ -67,17 +67,14 @@ final class SharedResources(
   private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()
 
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
-  private val made = java.util.IdentityHashMap[Declaration, mutable.Map[String, Any]]()
+  private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
 
-  /** What a statement needs in every colour basis, made when it is first asked for.
-    *
-    * @param what distinguishes the things that one statement needs
-    */
-  def once[T](statement: Declaration, what: String)(make: => T): T = synchronized:
+  /** As [[Once]]. */
+  private[recipe] def once[T](statement: Declaration, what: Once[T])(make: => T): T = synchronized:
     made
       .computeIfAbsent(statement, _ => mutable.Map.empty)
       .getOrElseUpdate(what, make)
-      .asInstanceOf[T]
+      .asInstanceOf[T] // what this key was given
 
   /** Resolves the file that a parameter names, relative to the scene's folder. Reports a missing
     * file and returns None.

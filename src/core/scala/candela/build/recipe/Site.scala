@@ -12,6 +12,7 @@ import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** Context of a recipe: the statement, the dialect and the scene's resources so far.
   *
+  * @param dialect of pbrt's: that of the statement
   * @param toWorld the transform at the statement, for recipes that depend on it
   */
 final class Site(
@@ -21,6 +22,12 @@ final class Site(
     val problems: Findings,
     val toWorld: Transform = Transform.Identity
 ):
+  /** How the program of this dialect renders. */
+  val rules: Rules = resources.switches.rules.getOrElse(Rules.of(dialect))
+
+  /** Is any of these the dialect here? */
+  def speaks(dialects: Set[Dialect]): Boolean = dialects(dialect) || dialects(rules.dialect)
+
   /** How much the scene may use. */
   def allowance: Allowance = resources.allowance
 

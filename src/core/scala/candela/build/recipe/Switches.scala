@@ -15,7 +15,7 @@ import candela.math.Position
   * @param edgeScale   scale of `edgelength` of displaced meshes
   * @param reference   reference image of the errors to write
   * @param errors      file for the errors
-  * @param isMitsubas  apply Mitsuba's rules where they differ from pbrt-v4's
+  * @param rules       for all statements; else those of each statement's dialect
   * @param origin      where the origin of what is built lies in the scene's world
   * @param guiding     whether paths learn where light comes from
   */
@@ -29,7 +29,7 @@ final case class Switches(
     edgeScale: Option[Float] = None,
     reference: Option[String] = None,
     errors: Option[String] = None,
-    isMitsubas: Boolean = false,
+    rules: Option[Rules] = None,
     guiding: GuidingMode = GuidingMode.Off,
     origin: Position = Position.Origin
 )

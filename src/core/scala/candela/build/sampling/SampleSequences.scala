@@ -9,7 +9,7 @@ import candela.scenefile.Dialect
 final class IndependentRecipe(name: String, dialects: Set[Dialect])
     extends SamplerRecipe(name, "independent random samples", dialects, default = 4):
   protected def make()(using site: Site): SamplerRequest => SamplerPlan =
-    asked(PointSet.Independent, isEven = site.resources.switches.isMitsubas)
+    asked(PointSet.Independent, isEven = site.rules.defaultsToIndependent)
 
 /** Scrambled (0,2)-sequences, for all samplers of this kind. */
 class ScrambledSobolRecipe(name: String, meaning: String, dialects: Set[Dialect])

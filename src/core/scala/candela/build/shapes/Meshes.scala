@@ -15,7 +15,7 @@ object TriangleMeshRecipe extends MeshRecipe("trianglemesh", "indexed triangle m
   private val uv = numbers("uv", "point2[]", "texture coordinates, one pair per vertex")
   private val st = numbers("st", "point2[]", "alias of `uv`", untilV3)
   private val culls =
-    bool("cullbackfaces", "rays from behind pass, in Mitsuba's scenes", onlyV4)(false)
+    bool("cullbackfaces", "rays from behind pass", onlyMitsuba)(false)
   unsupported("tangents follow uv; only anisotropic materials show the difference")(
     numbers("S", "vector3[]", "tangents, one per vertex")
   )

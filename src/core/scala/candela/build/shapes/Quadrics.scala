@@ -3,7 +3,7 @@ package candela.build.shapes
 import candela.build.recipe.*
 import candela.math.*
 import candela.scenefile.Dialect
-import candela.shapes.{Disk, DiskU, Profile, Quadric, Sphere}
+import candela.shapes.{Disk, Profile, Quadric, Sphere}
 
 object SphereRecipe extends ShapeRecipe("sphere", "sphere about the origin, whole or partial"):
   private val radius = float("radius", "radius", unit = "scene units")(1f)
@@ -57,9 +57,8 @@ object DiskRecipe
       if r < 0f || i < 0f then
         site.warn(s"radii of this disk are negative: $r and $i; as in pbrt, their squares count")
       val (h, phi) = (height(), radians(clamp(phimax(), 0f, 360f)))
-      val along = if site.resources.switches.isMitsubas then DiskU.Radius else DiskU.Angle
       def disk(toWorld: Transform, reversed: Boolean) =
-        Disk(toWorld, h, r, i, phi, reversed, along)
+        Disk(toWorld, h, r, i, phi, reversed, site.rules.diskU)
       Some(ShapeGeometry.Solid(disk, turned = r < 0f))
 
 /** Base of surfaces of revolution about the z-axis. */

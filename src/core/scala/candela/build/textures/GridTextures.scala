@@ -6,7 +6,7 @@ import candela.textures.*
 
 /** Base of Mitsuba's grids on surfaces. */
 abstract class GridRecipe[A](meaning: String, channels: Int)
-    extends Recipe[A]("grid", meaning, onlyV4)
+    extends Recipe[A]("grid", meaning, onlyMitsuba)
     with HasCells
     with HasBox:
   private val values = numbers("values", "float[]", s"$channels for each cell, x fastest")
@@ -26,11 +26,11 @@ abstract class GridRecipe[A](meaning: String, channels: Int)
         if java.lang.Float.isFinite(v) then v else 0f
       (place, Vector.tabulate(channels)(c => TrilinearGrid(nx, ny, nz, own(c), GridEdge.Clamped)))
 
-object FloatGridRecipe extends GridRecipe[FloatTexture]("numbers in a box; Mitsuba's", 1):
+object FloatGridRecipe extends GridRecipe[FloatTexture]("numbers in a box", 1):
   protected def make()(using Site): FloatTexture =
     grids().fold(StandIns.number)((mapping, grids) => FloatGridTexture(mapping, grids.head))
 
-object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box; Mitsuba's", 3):
+object RgbGridRecipe extends GridRecipe[RgbTexture]("colours in a box", 3):
   protected def make()(using site: Site): RgbTexture =
     val basis = site.resources.basis
     grids().fold(StandIns.color(basis)): (mapping, grids) =>

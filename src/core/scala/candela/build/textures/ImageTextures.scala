@@ -11,12 +11,16 @@ abstract class ImageMapRecipe[A](standIn: String)
     extends MappedRecipe[A]("imagemap", "image texture"):
   private val filename =
     string("filename", "image file: exr, pfm, hdr, png, qoi, tga, jpg …", shown = "none")("")
-  private val wrap =
+  private val wrapOfPbrt =
+    oneOf("wrap", "wrap mode outside the image", ImageMapRecipe.Wraps)("repeat")
+  private val wrapOfMitsuba =
     oneOf(
       "wrap",
-      "wrap mode outside the image (mirror: in Mitsuba's scenes)",
-      ImageMapRecipe.Wraps
+      "wrap mode outside the image",
+      ImageMapRecipe.Wraps :+ "mirror",
+      onlyMitsuba
     )("repeat")
+  private val pyramid = Once[ImageLookup]()
   protected val scale = float("scale", "scale of the values")(1f)
   protected val invert = bool("invert", "invert values: 1 − value", onlyV4)(false)
   private val gammaNumber = float("gamma", "exponent that linearises values", onlyV2)(1f)
@@ -51,13 +55,13 @@ abstract class ImageMapRecipe[A](standIn: String)
         None
       case Some(p) =>
         for stored <- site.resources.image(p, site.declaration, site.problems, standIn) yield
-          val wrapping = wrap() match
+          val wrapping = wrap match
             case "black" => Wrap.Black
             case "clamp" => Wrap.Clamp
             case "mirror" => Wrap.Mirror
             case "octahedralsphere" => Wrap.OctahedralSphere
             case _ => Wrap.Repeat
-          site.resources.once(site.declaration, "pyramid"):
+          pyramid:
             filtered(texels(stored, decoding(stored)), wrapping, stored)
 
   private def filtered(texels: () => Texels, wrap: Wrap, stored: StoredImage)(using
@@ -74,10 +78,10 @@ abstract class ImageMapRecipe[A](standIn: String)
       case _: ByteImage => true
       case _: Image => false
     val most = if isV4 && isBytes then 1f else Float.PositiveInfinity
-    // Mitsuba neither enlarges images nor reduces them
+    // Images that are not filtered are neither enlarged nor reduced
     val switches = site.resources.switches
     val pyramid =
-      if switches.isMitsubas && !switches.meanImages then MipMap.plain(wrap)(texels)
+      if !site.rules.filters && !switches.meanImages then MipMap.plain(wrap)(texels)
       else
         val pool = site.resources.pool
         val all = MipMap.ofImage(stored.width, stored.height, wrap, most, pool)(texels)
@@ -102,9 +106,9 @@ abstract class ImageMapRecipe[A](standIn: String)
         if isNumber then site.warn("`gamma` must be a bool in v3; the number is ignored")
         val flag = if isNumber then None else gammaFlag.given_()
         if flag.getOrElse(eightBit) then Encoding.Srgb.decode(_) else identity
-      case Dialect.V4 =>
+      case Dialect.V4 | Dialect.Mitsuba =>
         // Floating-point images are linear; in pbrt, `encoding` applies to PNG, all else is sRGB
-        val isOpen = site.resources.switches.isMitsubas && stored.encoding != Encoding.Linear
+        val isOpen = site.rules.decodesAll && stored.encoding != Encoding.Linear
         if isOpen || filename().toLowerCase.endsWith(".png") then encoded()
         else if stored.encoding == Encoding.Linear then identity
         else Encoding.Srgb.decode(_)
@@ -121,8 +125,11 @@ abstract class ImageMapRecipe[A](standIn: String)
         site.error(s"`encoding` must be sRGB, linear, or gamma and a number, found \"$found\"")
         identity
 
+  private def wrap(using site: Site): String =
+    if site.rules.dialect == Dialect.Mitsuba then wrapOfMitsuba() else wrapOfPbrt()
+
   /** With which the image repeats. */
-  protected def period(using Site): Double = wrap() match
+  protected def period(using Site): Double = wrap match
     case "repeat" => 1
     case "mirror" => 2
     case _ => 0
@@ -132,13 +139,9 @@ abstract class ImageMapRecipe[A](standIn: String)
 
 object FloatImageMapRecipe extends ImageMapRecipe[FloatTexture](StandIns.Ones):
   protected def make()(using site: Site): FloatTexture =
-    val read =
-      if site.resources.switches.isMitsubas then Texels.decodedLuminance
-      else if site.dialect == Dialect.V4 then Texels.meanOrAlpha
-      else Texels.luminance
     def texels(stored: StoredImage, decode: Float => Float) =
       val _ = stored.colorChannels // an error without any
-      () => read(stored, decode)
+      () => site.rules.toNumber(stored, decode)
     lookup(texels).fold(StandIns.number)(FloatImageTexture(mapped(period), _, outerScale, invert()))
 
 object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
@@ -160,7 +163,7 @@ object RgbImageMapRecipe extends ImageMapRecipe[RgbTexture](StandIns.Magentas):
     Texels.color(if isConverted then image.toImage.toReflectances else image, decode)
 
 private object ImageMapRecipe:
-  val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere", "mirror")
+  val Wraps: Vector[String] = Vector("repeat", "black", "clamp", "octahedralsphere")
   val FilterNames: Vector[String] = Vector("point", "bilinear", "trilinear", "ewa", "EWA")
 
 /** Per-face textures, without texture coordinates. */

@@ -15,7 +15,7 @@ abstract class MappedRecipe[A](name: String, meaning: String, dialects: Set[Dial
   private val udelta = float("udelta", "offset of u")(0f)
   private val vdelta = float("vdelta", "offset of v")(0f)
   private val cross = Vector("u" -> "v", "v" -> "u").map: (of, by) =>
-    float(s"${of}skew", s"what $by adds to $of, in Mitsuba's scenes", onlyV4)(0f)
+    float(s"${of}skew", s"what $by adds to $of", onlyMitsuba)(0f)
   private val axis1 = vector("v1", "direction of s in a \"planar\" mapping")(Vec3.X)
   private val axis2 = vector("v2", "direction of t in a \"planar\" mapping")(Vec3.Y)
 

@@ -15,7 +15,7 @@ abstract class CheckerboardRecipe[A]
   protected def checks()(using site: Site): Checks =
     val isSolid = dimension() == 3
     val filter =
-      if site.resources.switches.isMitsubas then CheckFilter.Point
+      if !site.rules.filters then CheckFilter.Point
       else if site.dialect == Dialect.V4 then CheckFilter.Triangle
       else if isSolid || aamode() == "none" then CheckFilter.Point
       else CheckFilter.Box

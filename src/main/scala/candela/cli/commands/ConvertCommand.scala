@@ -36,7 +36,7 @@ final class ConvertCommand(options: Options, terminal: Terminal, report: Report)
     register.write(output)
     val film = FilmName.problem(scene)
     for p <- film if p.severity == Severity.Error do throw SceneError(p)
-    val to = options.to.getOrElse(scene.dialect)
+    val to = options.to.getOrElse(scene.dialect.base)
     val files = SideFiles(
       folder,
       side => register.check(Output(Vector(side), "side file", options.files.head))

@@ -118,14 +118,14 @@ final class Described(asked: Set[Dialect]):
     )
 
   private def parameters(recipe: Recipe[?]): Vector[DescribedParameter] =
-    val known = recipe.fields.filter(_.dialects.exists(d => recipe.dialects(d) && asked(d)))
+    val known = recipe.fields.filter(recipe.dialectsOf(_).exists(asked))
     // Parameters that affect the image come first.
     for field <- known.sortBy(recipe.support(_).ordinal)
     yield DescribedParameter(
       field.name,
       field.typeName,
       default(field, recipe),
-      named(field.dialects.intersect(recipe.dialects)),
+      named(recipe.dialectsOf(field)),
       meaning(field, recipe),
       recipe.support(field) match
         case Support.Unsupported(instead) => Some(instead)
@@ -138,7 +138,7 @@ final class Described(asked: Set[Dialect]):
   /** The default, or each default with its dialects: `80 (v2 v3), 5 (v4)`. */
   private def default(field: Field[?], recipe: Recipe[?]): String =
     val dialects =
-      Dialect.values.toVector.filter(d => field.dialects(d) && recipe.dialects(d) && asked(d))
+      Dialect.values.toVector.filter(d => recipe.dialectsOf(field)(d) && asked(d))
     val texts = dialects.map(field.shown).distinct
     if texts.size == 1 then texts.head
     else
@@ -247,8 +247,9 @@ private object ReferenceMarkdown:
   val Introduction: String =
     """# Scene reference
       |
-      |All types and parameters of pbrt-v2, v3 and v4, and Candela's support for them. This page is
-      |generated: `./sbt "run describe --markdown --outfile docs/REFERENCE.md"`.
+      |All types and parameters of pbrt-v2, v3 and v4, and Candela's support for them. Scenes of
+      |Mitsuba are described by those of v4, and by those marked `mitsuba`, which no pbrt has. This
+      |page is generated: `./sbt "run describe --markdown --outfile docs/REFERENCE.md"`.
       |
       |A parameter's type precedes its name: `"float radius" 2`. `float texture` and `spectrum
       |texture` accept a value or `"texture NAME" "TEXTURE"`. A `spectrum` is given as `rgb`,

@@ -45,7 +45,7 @@ object PbrtOptions:
       values = Vector("camera", "cameraworld", "world")
     )
 
-  private val all3 = Dialect.values.toSet
+  private val all3 = Dialect.ofPbrt.toSet
   private val fine = Same()
 
   private def v4(name: String, value: String, here: Here) = PbrtOption(name, value, Set(V4), here)
@@ -178,7 +178,7 @@ object PbrtOptions:
         case As(words*) => s"`${words.mkString(" ")}`"
         case Ignored(reason, _, _) => s"accepted, without effect: $reason"
         case Refused(instead) => s"refused: $instead"
-      val versions = Dialect.values.filter(o.dialects).map(Dialects.name).mkString(" ")
+      val versions = Dialect.ofPbrt.filter(o.dialects).map(Dialects.name).mkString(" ")
       s"| `${o.shown}` | $versions | $here |"
     (Introduction +: rows :+ "").mkString("\n")
 

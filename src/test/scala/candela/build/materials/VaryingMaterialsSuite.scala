@@ -13,7 +13,7 @@ class VaryingMaterialsSuite extends AnyFunSuite:
 
   /** Parameters that are read beside others only. */
   private def beside(material: String, parameter: String, dialect: Dialect): String =
-    (material, parameter, dialect) match
+    (material, parameter, dialect.base) match
       case ("mix" | "twosided", _, Dialect.V4) => "\"string materials\" [\"a\" \"b\"]"
       case ("nested", _, _) => "\"string material\" \"a\""
       case ("mix", _, _) => "\"string namedmaterial1\" \"a\" \"string namedmaterial2\" \"b\""
@@ -23,21 +23,21 @@ class VaryingMaterialsSuite extends AnyFunSuite:
       case ("subsurface", "mfp", Dialect.V4) => "\"rgb reflectance\" [.5 .5 .5]"
       case _ => ""
 
-  private def describe(dialect: Dialect, material: String, inMitsubas: Boolean = false): String =
-    val matte = if dialect == Dialect.V4 then "diffuse" else "matte"
+  private def describe(dialect: Dialect, material: String): String =
+    val matte = if dialect.base == Dialect.V4 then "diffuse" else "matte"
     val text = "WorldBegin\nTexture \"varying\" \"float\" \"checkerboard\"\n" +
       "Texture \"varying\" \"spectrum\" \"checkerboard\"\n" +
       Seq("a", "b").map(n => s"MakeNamedMaterial \"$n\" \"string type\" \"$matte\"\n").mkString +
-      s"$material\nShape \"sphere\"\n" + (if dialect == Dialect.V4 then "" else "WorldEnd\n")
-    val scene = SceneTexts.parse(text, dialect).copy(isMitsubas = inMitsubas)
+      s"$material\nShape \"sphere\"\n" + (if dialect.base == Dialect.V4 then "" else "WorldEnd\n")
+    val scene = SceneTexts.parse(text, dialect.base).copy(dialect = dialect)
     SceneBuilder.build(scene, RenderSettings())._1.features.toMap.apply("materials")
 
   for
     recipe <- Materials.all.all
     if !Set("measured", "fourier")(recipe.name)
-    dialect <- Dialect.values if recipe.dialects(dialect)
+    dialect <- Dialect.values
     textures = recipe.fields.filter: field =>
-      field.dialects(dialect) && field.typeName.endsWith("texture")
+      recipe.dialectsOf(field)(dialect) && field.typeName.endsWith("texture")
     if textures.nonEmpty
   do
     test(s"material \"${recipe.name}\" in $dialect varies with each of its textures"):
@@ -45,7 +45,7 @@ class VaryingMaterialsSuite extends AnyFunSuite:
         val others = beside(recipe.name, field.name, dialect)
         val material =
           s"Material \"${recipe.name}\" \"texture ${field.name}\" \"varying\" $others"
-        val found = describe(dialect, material, recipe.isMitsubas)
+        val found = describe(dialect, material)
         assert(found == "1, 0 of them constant", material)
 
   test("a material whose textures are all constant is constant"):

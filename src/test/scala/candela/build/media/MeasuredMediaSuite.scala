@@ -8,7 +8,7 @@ import org.scalatest.funsuite.AnyFunSuite
 class MeasuredMediaSuite extends AnyFunSuite:
 
   test("there are 47 media in each dialect, with the same names but for four"):
-    val names = Dialect.values.map(MeasuredMedia.names(_).toSet)
+    val names = Dialect.ofPbrt.map(MeasuredMedia.names(_).toSet)
     assert(names.forall(_.size == 47))
     assert(names(1) == names(2))
     assert((names(0) -- names(1)) == Set(
@@ -20,10 +20,10 @@ class MeasuredMediaSuite extends AnyFunSuite:
 
   test("their numbers are those that were published"):
     val milk = MediumCoefficients(Rgb(0.0011f, 0.0024f, 0.014f), Rgb(2.55f, 3.21f, 3.77f))
-    for d <- Dialect.values do assert(MeasuredMedia.find("Wholemilk", d).contains(milk))
+    for d <- Dialect.ofPbrt do assert(MeasuredMedia.find("Wholemilk", d).contains(milk))
     assert(MeasuredMedia.find("Milk", Dialect.V4).isEmpty)
 
   test("none scatters or absorbs less than nothing"):
-    for d <- Dialect.values; m <- MeasuredMedia.names(d).flatMap(MeasuredMedia.find(_, d)) do
+    for d <- Dialect.ofPbrt; m <- MeasuredMedia.names(d).flatMap(MeasuredMedia.find(_, d)) do
       val all = Seq(m.absorption, m.scattering).flatMap(c => Seq(c.r, c.g, c.b))
       assert(all.forall(x => x >= 0f && x < 100f), m)

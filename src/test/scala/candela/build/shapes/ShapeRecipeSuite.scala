@@ -15,7 +15,7 @@ class ShapeRecipeSuite extends AnyFunSuite:
     SceneTexts.plan(s"WorldBegin\n$light$shape\n", dialect).features.toMap.apply("masks")
 
   test("a mesh has holes in every dialect, a sphere in v4"):
-    for dialect <- Dialect.values do
+    for dialect <- Dialect.ofPbrt do
       assert(masks(mesh + "\"float alpha\" 0", dialect) == "on 1 meshes and 0 other shapes")
     val sphere = "Shape \"sphere\" \"float alpha\" 0"
     assert(masks(sphere, Dialect.V4) == "on 0 meshes and 1 other shapes")
@@ -28,7 +28,7 @@ class ShapeRecipeSuite extends AnyFunSuite:
   test("half transparent is a hole in v4 only, and opaque nowhere"):
     assert(masks(mesh + "\"float alpha\" .5", Dialect.V3) == "none")
     assert(masks(mesh + "\"float alpha\" .5", Dialect.V4) != "none")
-    for dialect <- Dialect.values do assert(masks(mesh + "\"float alpha\" 1", dialect) == "none")
+    for dialect <- Dialect.ofPbrt do assert(masks(mesh + "\"float alpha\" 1", dialect) == "none")
 
   test("shadowalpha is v3's alone"):
     assert(masks(mesh + "\"float shadowalpha\" 0", Dialect.V3) != "none")
