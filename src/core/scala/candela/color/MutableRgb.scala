@@ -20,6 +20,17 @@ final class MutableRgb:
     g += a.g * c.g
     b += a.b * c.b
 
+  def addProduct(a: MutableRgb, c: MutableRgb): Unit =
+    r += a.r * c.r
+    g += a.g * c.g
+    b += a.b * c.b
+
+  /** Adds a · c · weight. */
+  def addProduct(a: MutableRgb, c: Rgb, weight: Float): Unit =
+    r += a.r * c.r * weight
+    g += a.g * c.g * weight
+    b += a.b * c.b * weight
+
   def scale(c: Rgb): Unit =
     r *= c.r
     g *= c.g

@@ -20,14 +20,17 @@ object Frame:
     * Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
     */
   def around(n: Vec3): Frame =
+    val (s, t) = (MutableVec3(), MutableVec3())
+    basis(n, s, t)
+    Frame(s.toVec3, t.toVec3, n)
+
+  /** Sets `s` and `t` to those of the basis around `n`. */
+  def basis(n: Vec3, s: MutableVec3, t: MutableVec3): Unit =
     val sign = Math.copySign(1f, n.z)
     val a = -1f / (sign + n.z)
     val b = n.x * n.y * a
-    Frame(
-      Vec3(1f + sign * n.x * n.x * a, sign * b, -sign * n.x),
-      Vec3(b, sign + n.y * n.y * a, -n.y),
-      n
-    )
+    s.set(1f + sign * n.x * n.x * a, sign * b, -sign * n.x)
+    t.set(b, sign + n.y * n.y * a, -n.y)
 
   /** Basis around the unit vector `n` whose `s` follows `along`, orthogonalised to `n`. */
   def along(n: Vec3, along: Vec3): Frame =
@@ -61,9 +64,7 @@ final class MutableFrame:
 
   /** Sets the basis to [[Frame.around]] its current normal. */
   def alignToNormal(): Unit =
-    val around = Frame.around(ownN)
-    ownS.set(around.s)
-    ownT.set(around.t)
+    Frame.basis(ownN, ownS, ownT)
 
   def toLocal(v: Vec3): Vec3 = Vec3(v dot ownS, v dot ownT, v dot ownN)
   def toWorld(v: Vec3): Vec3 =

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.geometry.{Hit, Ray, ShadingPoint}
 import candela.lights.{LightChoice, LightSample}
 import candela.math.*
@@ -97,27 +97,34 @@ final class LightConnection(
   /** What volumes leave of the light along the shadow ray traced last. */
   def transmittance(march: VolumeMarch): Rgb = march.transmittance(ray, steps)
 
-  /** Light of the sample that `vertex` scatters to its `wo`, not yet weighted with the path's
-    * throughput.
+  /** What [[scatters]] has found, not yet weighted with the path's throughput. */
+  val arrived: MutableRgb = MutableRgb()
+
+  /** Does `vertex` scatter light of the sample to its `wo`?
     *
     * @param weight of multiple importance sampling, given the local direction to the light;
     *               evaluated only if the sample is visible and BSDF sampling can find the light,
     *               else 1
     */
-  inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
+  inline def scatters(vertex: SurfaceVertex, inline weight: Vec3 => Float): Boolean =
     vertex.at.frame.toLocal(wi, localWi)
     val f = vertex.received(wi, localWi)
-    if f.isBlack || isBlocked(vertex.at) then Rgb.Black
-    else
-      val w = if isDelta then 1f else weight(localWi)
-      arriving(f, Math.abs(localWi.z) * w / pdf)
+    val arrives = !f.isBlack && !isBlocked(vertex.at)
+    if arrives then arrive(f, Math.abs(localWi.z) * (if isDelta then 1f else weight(localWi)) / pdf)
+    arrives
+
+  /** The light that [[scatters]] finds. */
+  inline def scattered(vertex: SurfaceVertex, inline weight: Vec3 => Float): Rgb =
+    if scatters(vertex, weight) then arrived.toRgb else Rgb.Black
 
   /** f · radiance · factor, attenuated by volumes. */
-  def arriving(f: Rgb, factor: Float): Rgb =
+  def arrive(f: Rgb, factor: Float): Unit =
     val sent = sample.radiance
-    val arrived = Rgb(f.r * sent.r * factor, f.g * sent.g * factor, f.b * sent.b * factor)
+    arrived.r = f.r * sent.r * factor
+    arrived.g = f.g * sent.g * factor
+    arrived.b = f.b * sent.b * factor
     val march = volumes
-    if march == null then arrived else arrived * transmittance(march)
+    if march != null then arrived.scale(transmittance(march))
 
 object LightConnection:
   /** Follows a shadow ray through interfaces and the like; false if another surface blocks it.

@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.math.*
 
 /** What a path from the camera carries from vertex to vertex: all that its next steps depend on,
@@ -62,8 +62,14 @@ abstract class PathState:
   /** Is the throughput 0? */
   def isDead: Boolean
 
+  /** Largest of β's colours. */
+  def largest: Float
+
   /** β · w · L. */
   def carried(radiance: Rgb, weight: Float): Rgb
+
+  /** Adds it to `sum`, where it need not be an object. */
+  def addTo(sum: MutableRgb, radiance: Rgb, weight: Float): Unit
 
   /** Does light sampling at the last vertex find what the current direction meets? It doesn't if
     * the direction is the camera's, or specular.

@@ -36,8 +36,10 @@ final class PathTracer private[integrators] (
     do ()
     walk.radiance
 
-  /** Follows the path, or a branch of it, to its end. */
-  private def follow(sampler: Sampler): Unit =
+  /** Follows the path, or a branch of it, to its end. Inline, as `scatter` is: the JIT compiler then
+    * sees the whole loop, and needs no objects for what goes from step to step.
+    */
+  private inline def follow(sampler: Sampler): Unit =
     while walk.goesOn do
       val isHit = walk.trace()
       if !walk.travel(limits, sampler) then survive(sampler)
@@ -50,7 +52,7 @@ final class PathTracer private[integrators] (
         else if walk.hasHad(limits.maxDepth) then walk.end()
         else scatter(sampler)
 
-  private def scatter(sampler: Sampler): Unit =
+  private inline def scatter(sampler: Sampler): Unit =
     walk.evaluate()
     addDirect(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material), sampler)
     walk.scatter(sampler)

@@ -17,7 +17,14 @@ final class SurfacePath extends PathState:
   def scale(factor: Float): Unit = beta.scale(factor)
   def absorb(): Unit = beta.set(Rgb.Black)
   def isDead: Boolean = beta.isBlack
+  def largest: Float = beta.largest
   def carried(radiance: Rgb, weight: Float): Rgb = beta.toRgb * radiance * weight
+
+  def addTo(sum: MutableRgb, radiance: Rgb, weight: Float): Unit =
+    sum.addProduct(beta, radiance, weight)
+
+  /** Adds β · L. */
+  def addTo(sum: MutableRgb, radiance: MutableRgb): Unit = sum.addProduct(beta, radiance)
 
   def competes: Boolean = directionPdf != 0f
 

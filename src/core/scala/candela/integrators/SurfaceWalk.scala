@@ -82,10 +82,14 @@ final class SurfaceWalk private (
     */
   inline def connectBy(inline weight: Vec3 => Float): Unit =
     useSample()
-    add(sample = connection.scattered(vertex, weight))
+    if connection.scatters(vertex, weight) then addArrived()
 
   private def useSample(): Unit = order.step(to = Stage.Evaluated, Stage.Sampled)
-  private def add(sample: Rgb): Unit = addSample(path.throughput * sample)
+
+  private def addArrived(): Unit =
+    surfacePath.addTo(found, connection.arrived)
+    if parts != null then
+      parts.addLight(connection.index, depth, path.throughput * connection.arrived.toRgb)
 
   /** Adds light that leaves the vertex towards the path. */
   def addScattered(radiance: Rgb): Unit = found.add(path.throughput * radiance)

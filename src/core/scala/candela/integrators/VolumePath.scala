@@ -1,6 +1,6 @@
 package candela.integrators
 
-import candela.color.Rgb
+import candela.color.{MutableRgb, Rgb}
 import candela.media.PathWeights
 
 /** What a path through media carries: throughput, and two kinds of densities, for each colour.
@@ -19,7 +19,10 @@ final class VolumePath(val weights: PathWeights = PathWeights()) extends PathSta
   def scale(factor: Float): Unit = weights.scale(factor)
   def absorb(): Unit = weights.scale(0f)
   def isDead: Boolean = weights.isDead
+  def largest: Float = weights.throughput.largest
   def carried(radiance: Rgb, weight: Float): Rgb = weights.throughput * (radiance * weight)
+  def addTo(sum: MutableRgb, radiance: Rgb, weight: Float): Unit =
+    sum.add(carried(radiance, weight))
 
   def competes: Boolean = weights.lightDensity > 0f
 

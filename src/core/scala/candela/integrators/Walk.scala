@@ -120,15 +120,14 @@ abstract class Walk(
   final def addEnvironment(): Unit =
     order.step(to = Stage.Ended, Stage.Escaped)
     if !hidesLamps || depth > 0 then
-      val throughput = path.throughput
       val weighted = LightTransport.environment(
         scene,
         ray,
         weight = (i, source) => emissionWeight(i, source.pdf(path.lastP, ray.direction)),
         found = (i, arriving) =>
-          if parts != null then parts.addEnvironment(i, depth, throughput * arriving)
+          if parts != null then parts.addEnvironment(i, depth, path.carried(arriving, 1f))
       )
-      found.add(throughput * weighted)
+      path.addTo(found, weighted, 1f)
     end()
 
   /** Adds what the surface emits. */
@@ -143,9 +142,8 @@ abstract class Walk(
           // Only the camera and specular scattering see it
           if source.isShownOnly then (if path.competes then 0f else 1f)
           else emissionWeight(at.areaLight, source.pdf(path.lastP, at))
-        val carried = path.carried(emitted, weight)
-        found.add(carried)
-        if parts != null then parts.addLight(at.areaLight, depth, carried)
+        path.addTo(found, emitted, weight)
+        if parts != null then parts.addLight(at.areaLight, depth, path.carried(emitted, weight))
 
   /** Weight of light that the path meets against light sampling.
     *
@@ -298,7 +296,7 @@ abstract class Walk(
   /** Russian roulette, by the throughput. */
   final def roulette(threshold: Float, sampler: Sampler): Unit =
     order.step(to = Stage.Departed, Stage.Departed)
-    val largest = path.throughput.largest * path.etaScale
+    val largest = path.largest * path.etaScale
     path.scale(
       if guiding != null then guiding.roulette(largest, threshold, sampler)
       else LightTransport.roulette(largest, threshold, sampler)
