@@ -170,7 +170,7 @@ abstract class RoughRecipe(
   private val remap =
     bool("remaproughness", "remap roughness from [0, 1] to microfacet alpha", sinceV3)(true)
 
-  private def alongAxis(axis: String) = Option.when(across.exists(dialects)):
+  private def alongAxis(axis: String) = Option.when(dialects.exists(d => across(d.base))):
     floatTexture(
       s"${axis}roughness",
       s"roughness along $axis",

@@ -48,6 +48,11 @@ class VaryingMaterialsSuite extends AnyFunSuite:
         val found = describe(dialect, material)
         assert(found == "1, 0 of them constant", material)
 
+  test("what is rough in Mitsuba's scenes may be so along one axis only"):
+    for name <- Seq("conductor", "dielectric", "roughplastic") do
+      val recipe = Materials.all.all.find(_.name == name).get
+      assert(recipe.fields.exists(_.name == "uroughness"), name)
+
   test("a material whose textures are all constant is constant"):
     assert(describe(Dialect.V4, "Material \"diffuse\"") == "1, 1 of them constant")
     assert(describe(Dialect.V3, "Material \"uber\"") == "1, 1 of them constant")
