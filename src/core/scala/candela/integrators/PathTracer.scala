@@ -36,8 +36,8 @@ final class PathTracer private[integrators] (
     do ()
     walk.radiance
 
-  /** Follows the path, or a branch of it, to its end. Inline, as `scatter` is: the JIT compiler then
-    * sees the whole loop, and needs no objects for what goes from step to step.
+  /** Follows the path, or a branch of it, to its end. Inline, as `scatter` is: the JIT compiler
+    * then sees the whole loop, and needs no objects for what goes from step to step.
     */
   private inline def follow(sampler: Sampler): Unit =
     while walk.goesOn do

@@ -2,7 +2,7 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Severity
+import candela.base.{SceneError, Severity}
 import candela.scenefile.Dialect
 import candela.testing.SceneTexts
 
@@ -98,14 +98,18 @@ final class MediaBuilderSuite extends AnyFunSuite:
     val known = SceneTexts.problems(text.replace("milc", "milk"), Dialect.V3)
     assert(known.isEmpty, known)
 
-  test("phase functions that don't match their numbers are an error"):
-    def problems(values: String) = found(
-      scene(
+  test("phase functions of Mitsuba's that don't match their numbers are an error"):
+    def problems(values: String) =
+      val text = scene(
         "volpath",
         s"""MakeNamedMedium "m" "string type" "homogeneous" "string phases" [ "rayleigh" "hg" ]
            |"float phaseweights" [ .5 .5 ] "float phasevalues" [ $values ]""".stripMargin
       )
-    ).map(_.message)
+      val parsed = SceneTexts.parse(text, Dialect.V4).copy(dialect = Dialect.Mitsuba)
+      val found =
+        try SceneBuilder.build(parsed, RenderSettings())._2
+        catch case e: SceneError => e.problems
+      found.map(_.message)
     assert(problems(".5").isEmpty)
     val wrong = Vector("`phases`, `phaseweights` and `phasevalues` don't match")
     assert(problems("") == wrong && problems(".5 .5") == wrong && problems("1.5") == wrong)
