@@ -15,11 +15,6 @@ final class MutableRgb:
     b += c.b
 
   /** Adds a · c. */
-  def addProduct(a: MutableRgb, c: Rgb): Unit =
-    r += a.r * c.r
-    g += a.g * c.g
-    b += a.b * c.b
-
   def addProduct(a: MutableRgb, c: MutableRgb): Unit =
     r += a.r * c.r
     g += a.g * c.g

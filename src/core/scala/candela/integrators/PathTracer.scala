@@ -36,8 +36,8 @@ final class PathTracer private[integrators] (
     do ()
     walk.radiance
 
-  /** Follows the path, or a branch of it, to its end. Inline, as `scatter` is: the JIT compiler
-    * then sees the whole loop, and needs no objects for what goes from step to step.
+  /** Follows the path, or a branch of it, to its end. Scattering is apart: together they are more
+    * than the JIT compiler inlines, and it would leave calls in the midst of either.
     */
   private inline def follow(sampler: Sampler): Unit =
     while walk.goesOn do
@@ -52,7 +52,7 @@ final class PathTracer private[integrators] (
         else if walk.hasHad(limits.maxDepth) then walk.end()
         else scatter(sampler)
 
-  private inline def scatter(sampler: Sampler): Unit =
+  private def scatter(sampler: Sampler): Unit =
     walk.evaluate()
     addDirect(limits.seesThrough && scene.isSubsurface(walk.vertex.at.material), sampler)
     walk.scatter(sampler)

@@ -34,14 +34,18 @@ private[candela] enum Stage:
 private[candela] final class StepOrder:
   private var stage = Stage.Ended
 
-  /** A step leads to a stage, and may only follow these. */
-  inline def step(inline to: Stage, inline after: Stage*): Unit =
-    if Assertions.areOn then check(to, after*)
+  /** A step leads to a stage, and may only follow another. */
+  def step(to: Stage, after: Stage): Unit = step(to, after, after)
+
+  /** A step that may follow either. */
+  def step(to: Stage, after: Stage, or: Stage): Unit =
+    if Assertions.areOn then check(to, after, or)
 
   /** A step that may come at any stage. */
-  inline def set(inline to: Stage): Unit = if Assertions.areOn then stage = to
+  def set(to: Stage): Unit = if Assertions.areOn then stage = to
 
-  private def check(to: Stage, after: Stage*): Unit =
-    if !after.contains(stage) then
-      throw AssertionError(s"$to follows ${after.mkString(" or ")}, not $stage")
+  private def check(to: Stage, after: Stage, or: Stage): Unit =
+    if stage != after && stage != or then
+      val expected = if after == or then s"$after" else s"$after or $or"
+      throw AssertionError(s"$to follows $expected, not $stage")
     stage = to

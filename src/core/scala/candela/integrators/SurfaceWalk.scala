@@ -81,10 +81,8 @@ final class SurfaceWalk private (
     * @param weight of multiple importance sampling, as in [[LightConnection.scattered]]
     */
   inline def connectBy(inline weight: Vec3 => Float): Unit =
-    useSample()
+    order.step(to = Stage.Evaluated, Stage.Sampled)
     if connection.scatters(vertex, weight) then addArrived()
-
-  private def useSample(): Unit = order.step(to = Stage.Evaluated, Stage.Sampled)
 
   private def addArrived(): Unit =
     surfacePath.addTo(found, connection.arrived)

@@ -138,6 +138,11 @@ final class VolumeWalk private (
         val arrived = arriving(competingPdf(localWi, isBoundary))
         addSample(arrived * f * Math.abs(localWi.z))
 
+  /** Adds what the path carries of the light sample. */
+  private def addSample(carried: Rgb): Unit =
+    found.add(carried)
+    if parts != null then parts.addLight(connection.index, depth, carried)
+
   /** What arrives of the light sample, over its density, times the path's throughput and the weight
     * of multiple importance sampling. Both densities are in units of the path's own, and averages
     * over the colours, each of which might have sampled this path.

@@ -243,11 +243,6 @@ abstract class Walk(
   protected final def takenPdf(localWi: Vec3, pdf: Float): Float =
     if guiding == null then pdf else guiding.pdf(localWi, connection.wi, pdf)
 
-  /** Adds what the path carries of the light sample. */
-  protected final def addSample(carried: Rgb): Unit =
-    found.add(carried)
-    if parts != null then parts.addLight(connection.index, depth, carried)
-
   /** Samples the next direction: `vertex.bounce`. */
   final def scatter(sampler: Sampler): Unit =
     order.step(to = Stage.Scattered, Stage.Evaluated, Stage.Sampled)

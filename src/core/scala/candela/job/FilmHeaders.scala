@@ -52,7 +52,7 @@ object FilmHeaders:
     SettingsCodec.settings(header.words) match
       case Right(saved) => saved.copy(samples = Some(header.samples))
       case Left(why) =>
-        val message = s"the film of `${header.scene}` has settings that are none: $why"
+        val message = s"the film of `${header.scene}` has invalid settings: $why"
         throw SceneError(Problem.general(message))
 
   private def here: Path = Path.of("").toAbsolutePath

@@ -31,16 +31,10 @@ object TextForm:
 
   private def lower(value: Any): String = value.toString.toLowerCase
 
-  /** Numbers between commas. */
-  private def numbers[N](expected: String, count: Int)(
-      read: String => Option[N]
-  ): TextForm[Vector[N]] =
-    def all(text: String) = text.split(",", -1).toVector.flatMap(n => read(n.trim))
-    TextForm(
-      expected,
-      text => Some(all(text)).filter(_.size == count && text.count(_ == ',') == count - 1),
-      _.mkString(",")
-    )
+  /** Numbers between commas: all of the text's, or none. */
+  private def numbers[N](read: String => Option[N])(text: String): Option[Vector[N]] =
+    val all = text.split(",", -1).toVector.map(n => read(n.trim))
+    Option.when(all.forall(_.isDefined))(all.flatten)
 
   val int: TextForm[Int] = TextForm("a number", _.toIntOption, _.toString)
   val float: TextForm[Float] = TextForm("a number", _.toFloatOption, _.toString)
@@ -93,7 +87,7 @@ object TextForm:
 
   given window: TextForm[RenderRegion.Window] = TextForm(
     "x0,x1,y0,y1 with 0 <= x0 < x1 <= 1, and y likewise, e.g. 0.25,0.75,0,0.5",
-    numbers("", 4)(_.toFloatOption).read(_).collect:
+    numbers(_.toFloatOption)(_).collect:
       case Vector(x0, x1, y0, y1)
           if 0 <= x0 && x0 < x1 && x1 <= 1 && 0 <= y0 && y0 < y1 && y1 <= 1 =>
         new RenderRegion.Window(x0, x1, y0, y1)
@@ -103,7 +97,7 @@ object TextForm:
 
   given pixels: TextForm[RenderRegion.Pixels] = TextForm(
     "x0,x1,y0,y1 with x0 < x1 and y0 < y1, in pixels",
-    numbers("", 4)(_.toIntOption).read(_).collect:
+    numbers(_.toIntOption)(_).collect:
       case Vector(x0, x1, y0, y1) if x0 < x1 && y0 < y1 =>
         new RenderRegion.Pixels(PixelBounds(x0, y0, x1, y1))
     ,
@@ -112,7 +106,7 @@ object TextForm:
 
   given pixel: TextForm[RenderRegion.Pixel] = TextForm(
     "x,y in pixels, e.g. 12,40",
-    numbers("", 2)(_.toIntOption).read(_).collect:
+    numbers(_.toIntOption)(_).collect:
       case Vector(x, y) if x >= 0 && y >= 0 => new RenderRegion.Pixel(x, y)
     ,
     p => s"${p.x},${p.y}"
