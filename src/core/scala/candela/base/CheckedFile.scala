@@ -111,6 +111,8 @@ final class CheckedInput private[base] (channel: FileChannel):
     if count < 0 || count.toLong * bytes > left + buffer.remaining then throw EOFException()
     count
 
+  def isAtEnd: Boolean = left <= 0 && !buffer.hasRemaining
+
   def text(): String =
     val length = count(bytes = 1)
     val bytes = new Array[Byte](length)

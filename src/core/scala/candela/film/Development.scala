@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.loop
+import candela.base.{GivenUp, loop}
 import candela.color.{ColorResponse, ColorSpace}
 import candela.image.Image
 
@@ -26,9 +26,13 @@ final case class Development(
     space: ColorSpace = ColorSpace.Srgb
 ):
 
-  /** @param weights see [[Film.toImage]] */
-  def apply(film: Film, weights: Option[Array[Float]] = None): Image =
-    val image = film.toImage(scale, weights)
+  /** Parameters as of [[Film.toImage]]. */
+  def apply(
+      film: Film,
+      weights: Option[Array[Float]] = None,
+      isStopped: () => Boolean = GivenUp.Never
+  ): Image =
+    val image = film.toImage(scale, weights, isStopped = isStopped)
     if sensor.isDefined || balance.isDefined then
       loop(image.width * image.height)(pixel => color(image.data, 3 * pixel))
     if clipsNegative then loop(image.data.length)(i => image.data(i) = Math.max(0f, image.data(i)))

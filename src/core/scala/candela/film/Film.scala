@@ -1,6 +1,6 @@
 package candela.film
 
-import candela.base.{CheckedInput, CheckedOutput, loop}
+import candela.base.{CheckedInput, CheckedOutput, GivenUp, loop}
 import candela.image.Image
 
 import java.util.Arrays
@@ -86,16 +86,19 @@ final class Film(
     * @param weights set to the sum of the weights of each pixel's samples, row by row, at the same
     *                moment; without camera samples to the number of light paths, in all pixels
     * @param isWhole whether fireflies remain, too
+    * @param isStopped whether to give up
     */
   def toImage(
       scale: Float,
       weights: Option[Array[Float]] = None,
-      isWhole: Boolean = false
+      isWhole: Boolean = false,
+      isStopped: () => Boolean = GivenUp.Never
   ): Image =
     val image = Image.rgb(width, height)
     val row = new Array[Double](4 * width)
     val cleaned = if isWhole then None else levels.map(withoutFireflies)
     loop(height): y =>
+      GivenUp.check(isStopped)
       cleaned.fold(read(y, row))(System.arraycopy(_, 4 * width * y, row, 0, 4 * width))
       loop(width): x =>
         val pixel = y * width + x

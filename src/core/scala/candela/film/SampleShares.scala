@@ -48,6 +48,9 @@ final class SampleShares private (
     val added = blocks.zip(earlier.blocks).map((now, before) => now.since(before))
     new SampleShares(x0, y0, x1, y1, added)
 
+  /** How many sums a tile has. */
+  def size(tile: Int): Int = blocks(tile).sums.size
+
   def save(to: CheckedOutput): Unit = blocks.foreach(_.sums.save(to))
 
   /** Adds what was saved. */
@@ -157,6 +160,12 @@ final class SharedPass private[film] (blocks: Vector[SharedBlock], levels: Level
         px += 1
         at += 4
       py += 1
+
+  /** Gives up a sample of the tile's pixels in its midst; `resume` goes on with it. */
+  def suspend(): Array[Double] = Arrays.copyOf(sums, block.sums.size)
+
+  def resume(suspended: Array[Double]): Unit =
+    System.arraycopy(suspended, 0, sums, 0, suspended.length)
 
   /** Ends a sample of the tile's pixels. */
   def end(): Unit =

@@ -71,8 +71,14 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
   /** Called when sample number `sample` begins, and no path of an earlier pass is on its way.
     *
     * @param moves called again and again where a pass ends and much is learnt
+    * @param isLeft whether to give up what is learnt there: it is learnt again, from the same paths
+    * @return false if it was given up
     */
-  def begin(sample: Int, moves: () => Unit = () => ()): Unit =
+  def begin(
+      sample: Int,
+      moves: () => Unit = () => (),
+      isLeft: () => Boolean = () => false
+  ): Boolean =
     if isOver(current, sample) then
       val all = synchronized:
         val was = current
@@ -80,10 +86,10 @@ final class Guide(val settings: GuideSettings, samples: Int, pixels: Long):
           learning = GuideLearning(growth(was, sample))
         learning
       // Else others have just ended the pass
-      if all != null then
-        all.help(moves)
+      if all != null && all.help(moves, isLeft) then
         synchronized:
           if isOver(current, sample) then take(all.growth, sample)
+    !isOver(current, sample)
 
   private def isOver(pass: Pass, sample: Int): Boolean =
     pass.records != null && sample >= next(pass.begun)

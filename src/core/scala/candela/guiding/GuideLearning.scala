@@ -1,6 +1,7 @@
 package candela.guiding
 
 import java.util.concurrent.CountDownLatch
+import java.util.concurrent.TimeUnit.MILLISECONDS
 import java.util.concurrent.atomic.AtomicInteger
 
 /** The end of a pass: all workers that come to it fit regions, and go on when the field is whole.
@@ -15,13 +16,22 @@ private[guiding] final class GuideLearning(prepare: => GuideGrowth):
     *
     * @param moves called after each region: fitting may take longer than a stopped rendering waits
     *   for workers that do nothing
+    * @param isLeft whether to give up
+    * @return false if it was given up
     */
-  def help(moves: () => Unit): Unit =
+  def help(moves: () => Unit, isLeft: () => Boolean): Boolean =
     val fit = growth.newFit()
-    var region = next.getAndIncrement()
-    while region < growth.regions do
-      try growth.grow(region, fit)
-      finally left.countDown()
-      moves()
-      region = next.getAndIncrement()
-    left.await()
+    var isMore = true
+    while isMore && !isLeft() do
+      val region = next.getAndIncrement()
+      isMore = region < growth.regions
+      if isMore then
+        try growth.grow(region, fit)
+        finally left.countDown()
+        moves()
+    while !left.await(GuideLearning.Pause, MILLISECONDS) && !isLeft() do ()
+    left.getCount == 0
+
+private object GuideLearning:
+  /** Between two looks at whether to give up. */
+  val Pause = 20L

@@ -13,7 +13,17 @@ private[render] final class Job(
     val chains: Option[SharedChains],
     val guide: Option[Guide],
     val worker: TaskQueue => Worker
-)
+):
+  /** Whether a piece may be left in the midst of a sample, which is continued later. */
+  def mayLeaveSamples: Boolean = chains.isEmpty
+
+  /** Whether that is a sample of a tile in part. */
+  def isBegun(tile: Int, sample: BegunSample): Boolean = schedule match
+    case tiled: TileSchedule =>
+      tile >= 0 && tile < tiled.pieces &&
+      sample.pixels > 0 && sample.pixels < tiled.tiles(tile).pixels &&
+      sample.shared.length == film.shares.fold(0)(_.size(tile))
+    case _ => false
 
 private[render] object Job:
 
@@ -29,7 +39,7 @@ private[render] object Job:
         val settings = asked.copy(weighs = plan.fireflies != Fireflies.Reweighted)
         val guide = Guide(settings, samples, plan.sampled.pixels)
         val tiles = TileJobs(plan, schedule, plan.crop, shard.takes, guide = Some(guide))
-        tiles.job(tiles.worker(integrator(guide).copy(), _, begin(guide)))
+        tiles.job(queue => tiles.worker(integrator(guide).copy(), queue, begin(guide, queue)))
       case RenderMethod.SplattedTiles(make) =>
         val splats = splatFilm(plan)
         val integrator = make(plan.view(splats))
@@ -77,9 +87,9 @@ private[render] object Job:
     (tiles.film, worker)
 
   /** Begins waves of samples, with their weights. */
-  private def begin(guide: Guide): TileWorker.BeginWave = (sample, moves) =>
-    guide.begin(sample, moves)
-    guide.weight
+  private def begin(guide: Guide, queue: TaskQueue): TileWorker.BeginWave = (sample, moves) =>
+    if guide.begin(sample, moves, () => queue.isAbandoned) then guide.weight
+    else TileWorker.Stopped
 
   /** Begins waves of a pass; all samples count the same. */
   private def begin(integrator: PassIntegrator, queue: TaskQueue): TileWorker.BeginWave =

@@ -11,6 +11,7 @@ import candela.film.Film
   * @param isWhole whether it was not shortened by [[RenderListener.most]]
   * @param clock   seconds since the start of rendering, with the listeners' time
   * @param step    fewest samples per pixel of a part; 0: the rendering may end at any time
+  * @param isStopped whether the rendering is to end at once: the listener then breaks off
   */
 final case class Pass(
     samples: Int,
@@ -20,7 +21,8 @@ final case class Pass(
     isLast: Boolean = false,
     isWhole: Boolean = true,
     clock: Double = 0,
-    step: Int = 1
+    step: Int = 1,
+    isStopped: () => Boolean = () => false
 ):
   /** Whether it ends at 1, 2, 4, 8, … samples per pixel, or is the last. */
   def isMain: Boolean = isLast || Integer.bitCount(samples) == 1

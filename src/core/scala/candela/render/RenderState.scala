@@ -4,6 +4,8 @@ import candela.base.{CheckedInput, CheckedOutput}
 
 import java.io.IOException
 
+import scala.jdk.CollectionConverters.*
+
 /** All that a rendering has computed: which samples, and their sums. A rendering that continues
   * from a saved state ends with the same image, bit for bit, as one that was not interrupted.
   */
@@ -28,6 +30,17 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     for r <- lost do
       to.long(r.count)
       for number <- Vector(r.x, r.y, r.sample, r.material) do to.int(number)
+    if !queue.begun.isEmpty then saveBegun(to)
+
+  /** Only after a rendering that was stopped in the midst of long samples. */
+  private def saveBegun(to: CheckedOutput): Unit =
+    val begun = queue.begun.asScala.toVector.sortBy((tile, _) => tile.intValue)
+    to.int(begun.size)
+    for (tile, sample) <- begun do
+      to.int(tile)
+      to.int(sample.pixels)
+      to.int(sample.shared.length)
+      sample.shared.foreach(to.double(_))
 
   /** Continues from a saved state; several that are shards of one rendering add up. */
   def load(from: CheckedInput): Unit =
@@ -42,6 +55,14 @@ final class RenderState private[render] (job: Job, queue: TaskQueue, workers: Ve
     job.guide.foreach(_.load(from))
     for _ <- 0 until from.count(bytes = 24) do
       earlier :+= Refused(from.long(), from.int(), from.int(), from.int(), from.int())
+    if !from.isAtEnd then loadBegun(from)
+
+  private def loadBegun(from: CheckedInput): Unit =
+    for _ <- 0 until from.count(bytes = 12) do
+      val (tile, pixels) = (from.int(), from.int())
+      val sample = BegunSample(pixels, Array.fill(from.count(bytes = 8))(from.double()))
+      require(job.isBegun(tile, sample), s"piece $tile has $pixels pixels of a sample")
+      queue.begun.put(tile, sample): Unit
 
 /** Keeps the state of a rendering. */
 abstract class Checkpointer:

@@ -65,8 +65,9 @@ object Renderer:
       for k <- checkpointer if k.isDue && !queue.isStopped do
         queue.paused(k.save(state))(() => observe())
         k.finish()
-    // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost.
+    // Without a copy to keep, samples that are not complete in all pixels of a tile may be lost
     def isWorthWaiting() = checkpointer.isDefined && isMoving()
+    val mayLeave = job.mayLeaveSamples && shard.isWhole
     val looks = listener.looks
     listener.begins(earlier, job.film)
     def isNew(end: Int) = schedule.firstSample(end) > earlier
@@ -77,13 +78,14 @@ object Renderer:
       queue.openUntil(end, done)
       val begin = seconds
       lastBeat = System.nanoTime
-      Workers.run(workers, queue, () => isWorthWaiting())(() => tick())
+      Workers.run(workers, queue, () => isWorthWaiting(), mayLeave)(() => tick())
       if looks != Looks.Never && !queue.isStopped then
         val isWhole = done == schedule.firstSample(end)
         val isLast = isWhole && end >= schedule.waves
         val busy = workers.map(_.seconds)
         val step = if isWhole then schedule.step else 1
-        val pass = Pass(done, begin, seconds, busy, isLast, isWhole, clock, step)
+        val pass =
+          Pass(done, begin, seconds, busy, isLast, isWhole, clock, step, () => queue.isStopped)
         val stopped = System.nanoTime
         listener.passed(pass, job.film)
         paused += System.nanoTime - stopped
@@ -106,7 +108,9 @@ object Renderer:
       take(wave, schedule.firstSample(wave))
     progress()
     for k <- checkpointer do
-      if queue.isAbandoned then k.lose() else k.save(state)
+      // What some worker is at may be in the film in part
+      val isSound = !queue.isAbandoned || mayLeave && !queue.isLost
+      if isSound then k.save(state) else k.lose()
       k.finish()
 
     val result = live.rendering.copy(earlier = earlier)

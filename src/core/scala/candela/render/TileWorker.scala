@@ -76,30 +76,41 @@ private[render] final class TileWorker(
     val last = Math.min(end, queue.endSample)
     var begun = false
     sample = Math.max(first, queue.progress.get(tile).toInt)
-    while sample < last && queue.goesOn() && !queue.isAbandoned do
+    var isWhole = true
+    while sample < last && isWhole && queue.goesOn() && !queue.isAbandoned do
       if takes(tile, sample) then
         if !begun then waveWeight = beginWave(first, getsOn)
         begun = true
-        if waveWeight != TileWorker.Stopped then renderSample(tile)
-      if !queue.isAbandoned && waveWeight != TileWorker.Stopped then
+        isWhole = waveWeight != TileWorker.Stopped && renderSample(tile)
+      else isWhole = true
+      if isWhole then
         sample += 1
         queue.progress.set(tile, sample)
     sample >= end
 
-  /** Takes a sample of each pixel of the tile. */
-  private def renderSample(number: Int): Unit =
+  /** Takes a sample of each pixel of the tile; false if it was left before the last one. */
+  private def renderSample(number: Int): Boolean =
     beginTile(number)
-    y = tile.y0
-    while y < tile.y1 do
-      x = tile.x0
-      while x < tile.x1 && !queue.isAbandoned do
-        takeSample()
-        beat()
-        x += 1
-      y += 1
-    if !queue.isAbandoned then
-      if shares != null then shares.end()
-      queue.samplesTaken.add(tile.pixels)
+    val begun = queue.begun.remove(number)
+    var i = 0
+    if begun != null then
+      i = begun.pixels
+      if shares != null then shares.resume(begun.shared)
+    while i < tile.pixels && !queue.isAbandoned do
+      x = tile.x0 + i % tile.width
+      y = tile.y0 + i / tile.width
+      takeSample()
+      beat()
+      i += 1
+    val isWhole = i == tile.pixels
+    if !queue.isLost then
+      if isWhole then
+        if shares != null then shares.end()
+        queue.samplesTaken.add(tile.pixels)
+      else if i > 0 then
+        val sums = if shares == null then Array.emptyDoubleArray else shares.suspend()
+        queue.begun.put(number, BegunSample(i, sums)): Unit
+    isWhole
 
   private def beginTile(number: Int): Unit =
     tile = schedule.tiles(number)
@@ -133,7 +144,7 @@ private[render] final class TileWorker(
     else
       if visible != null then visible.look(ray, sample)
       val found = integrator.radiance(ray, sampler)
-      if !queue.isAbandoned then record(found, weight)
+      if !queue.isLost then record(found, weight)
 
   private def record(found: Rgb, weight: Float): Unit =
     val whole = plan.basis.toSrgb(found)

@@ -1,5 +1,6 @@
 package candela.render
 
+import java.util.concurrent.ConcurrentHashMap
 import java.util.concurrent.atomic.{
   AtomicInteger,
   AtomicIntegerArray,
@@ -24,10 +25,13 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   val samplesTaken: LongAdder = LongAdder()
   private val gate = Gate()
   @volatile private var isEnded = false
-  @volatile private var isLeft = false
+  @volatile private var isLeft, isForgotten = false
 
   /** Of each piece, how much is done: samples of a tile, paths of a chain. */
   val progress: AtomicLongArray = AtomicLongArray(schedule.pieces)
+
+  /** Samples of tiles that have been taken in part. */
+  val begun: ConcurrentHashMap[Integer, BegunSample] = ConcurrentHashMap()
 
   /** Opens the steps of all waves before `wave`, until each piece has so many samples. */
   def openUntil(wave: Int, samples: Int): Unit =
@@ -46,11 +50,15 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
   /** Stops the rendering, as a cancellation does. */
   def stop(): Unit = isEnded = true
 
-  /** Whether the rendering has ended without waiting for all workers: their samples don't count any
-    * more.
+  /** Whether the rendering ends without waiting for what workers are at: they leave it with the
+    * next path.
     */
   def isAbandoned: Boolean = isLeft
   def abandon(): Unit = isLeft = true
+
+  /** Whether it has ended though some workers have not: their paths don't count any more. */
+  def isLost: Boolean = isForgotten
+  def lose(): Unit = isForgotten = true
 
   /** Called by workers wherever they may pause; false if the rendering is stopped. */
   def goesOn(): Boolean =
@@ -104,6 +112,13 @@ private[render] final class TaskQueue(schedule: Schedule, cancellation: Cancella
         closedWaves.set(wave + 1)
     finishedWaves.set(piece, wave + 1)
 
+/** A sample of a tile of which the first pixels have been taken.
+  *
+  * @param shared their sums, which are not part of the film until the sample is whole; empty: all
+  *   is part of the film
+  */
+private[render] final case class BegunSample(pixels: Int, shared: Array[Double])
+
 private object TaskQueue:
   /** In nanoseconds; short beside the milliseconds of a step. */
   val Pause = 50_000L
@@ -114,19 +129,26 @@ private[render] object Workers:
   /** Interval of progress reports, in milliseconds. */
   private val Tick = 100L
 
-  /** How long a stopped worker may take to end, in nanoseconds. */
+  /** How long a stopped worker may do nothing before it is told to leave its sample, how long it
+    * may get on with it, and how long it may take to leave it, in nanoseconds. With a tick, these
+    * add up to less than a second.
+    */
   private val Patience = 400_000_000L
+  private val MovingPatience = 500_000_000L
+  private val LastPatience = 250_000_000L
 
   /** Runs each worker in its own thread. An exception in one stops the others (through the queue)
     * and is rethrown here. `onTick` runs about ten times a second in the caller's thread.
     *
-    * A stopped rendering does not wait for samples that take long: after a while it abandons the
-    * workers, which then end with their sample.
+    * A stopped rendering does not wait for samples that take long: after a while the workers
+    * abandon them, and the queue is lost if some worker does not end even so.
     *
     * @param isMoving whether samples have been taken since it was last asked, and are worth waiting
     *   for
+    * @param mayLeave whether samples may be left and continued later; if not, those that move are
+    *   waited for
     */
-  def run(workers: Vector[Runnable], queue: TaskQueue, isMoving: () => Boolean)(
+  def run(workers: Vector[Runnable], queue: TaskQueue, isMoving: () => Boolean, mayLeave: Boolean)(
       onTick: () => Unit
   ): Unit =
     val threads = workers.zipWithIndex.map: (worker, i) =>
@@ -143,15 +165,27 @@ private[render] object Workers:
           thread.join(Tick)
           onTick()
     catch case e: Throwable => queue.fail(e)
-    end(threads, queue, isMoving)
+    end(threads, queue, isMoving, mayLeave)
     queue.failure.foreach(e => throw e)
 
-  private def end(threads: Vector[Thread], queue: TaskQueue, isMoving: () => Boolean): Unit =
-    var still = System.nanoTime
-    def waits = queue.isStopped && System.nanoTime - still > Patience
-    while threads.exists(_.isAlive) && !waits do
+  private def end(
+      threads: Vector[Thread],
+      queue: TaskQueue,
+      isMoving: () => Boolean,
+      mayLeave: Boolean
+  ): Unit =
+    val stopped = System.nanoTime
+    var still = stopped
+    def isTooLong =
+      val now = System.nanoTime
+      now - still > Patience || mayLeave && now - stopped > MovingPatience
+    while threads.exists(_.isAlive) && !(queue.isStopped && isTooLong) do
       threads.find(_.isAlive).foreach(_.join(Tick))
       if isMoving() then still = System.nanoTime
     if threads.exists(_.isAlive) then
       queue.abandon()
-      threads.foreach(_.join(Tick / threads.size + 1))
+      val end = System.nanoTime + LastPatience
+      for thread <- threads do
+        val left = (end - System.nanoTime) / 1_000_000
+        if left > 0 then thread.join(left)
+      if threads.exists(_.isAlive) then queue.lose()

@@ -1,6 +1,6 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{GivenUp, loop}
 import candela.image.Image
 
 /** Estimates the error of an image from its own samples: after 2, 4, 8, … samples per pixel from
@@ -20,16 +20,23 @@ final class ErrorEstimate:
     * after 2ᵏ and 3 · 2ᵏ, and of a continued rendering the first.
     *
     * @param weights of each pixel's samples
+    * @param isStopped whether to give up
     * @return the error, if it was estimated anew
     */
-  def add(samples: Int, image: Image, weights: Array[Float], isLast: Boolean): Option[Errors] =
+  def add(
+      samples: Int,
+      image: Image,
+      weights: Array[Float],
+      isLast: Boolean,
+      isStopped: () => Boolean = GivenUp.Never
+  ): Option[Errors] =
     val state = State(samples, image, weights)
     base match
       case None =>
         base = Some(state)
         None
       case Some(half) if Integer.bitCount(samples) == 1 || (isLast && last.isEmpty) =>
-        val (errors, trend) = estimate(half, state)
+        val (errors, trend) = estimate(half, state, isStopped)
         last = Some((samples, errors, trend))
         base = Some(state)
         middle = None
@@ -50,26 +57,34 @@ final class ErrorEstimate:
   /** Of the relative MSE over samples, in logarithms. */
   private def slope(trend: ScatterTrend): Double = Math.log(trend.ratio) / Math.log(2)
 
-  private def estimate(half: State, now: State): (Errors, ScatterTrend) =
+  private def estimate(
+      half: State,
+      now: State,
+      isStopped: () => Boolean
+  ): (Errors, ScatterTrend) =
     val doubled = now.samples == 2 * half.samples
-    val all = ErrorEstimate.scatter(None, half, now)
-    val second = middle.map(ErrorEstimate.scatter(Some(half), _, now))
+    val all = ErrorEstimate.scatter(None, half, now, isStopped)
+    val second = middle.map(ErrorEstimate.scatter(Some(half), _, now, isStopped))
     val inner = whole.filter(_ => doubled).map: first =>
       second.fold(first)(ErrorEstimate.mean(first, _))
-    val means = QuietMeans(now.image, inner.fold(all)(ErrorEstimate.pooled(all, _)))
+    val variance = inner.fold(all)(ErrorEstimate.pooled(all, _))
+    val means = QuietMeans(now.image, variance, isStopped)
     val scatters = Vector(Some(all), inner, halves.filter(_ => doubled))
     val trend =
       if scatters.forall(_.isDefined) then
-        ScatterTrend.of(scatters.flatten.map(ErrorEstimate.inParts(_, now.image, means)))
+        def inParts(scatter: Array[Float]) =
+          ErrorEstimate.inParts(scatter, now.image, means, isStopped)
+        ScatterTrend.of(scatters.flatten.map(inParts))
       else ScatterTrend.Independent
-    whole = Some(all)
-    halves = inner
     var squares, relatives = 0.0
     loop(all.length): i =>
+      GivenUp.check(isStopped, i)
       squares += all(i)
       relatives += all(i) * means.weight(i)
     val scale = trend.factor / all.length
     val errors = Errors(squares * scale, relatives * scale, None, None, None, Vector.empty)
+    whole = Some(all)
+    halves = inner
     (errors, trend)
 
 object ErrorEstimate:
@@ -78,10 +93,16 @@ object ErrorEstimate:
   /** Of each value the squared difference of the samples from `begin` until `middle`, and until
     * `end`: times the product of their shares of the weight.
     */
-  private def scatter(begin: Option[State], middle: State, end: State): Array[Float] =
+  private def scatter(
+      begin: Option[State],
+      middle: State,
+      end: State,
+      isStopped: () => Boolean
+  ): Array[Float] =
     val values = new Array[Float](end.image.data.length)
     val channels = end.image.channels
     loop(end.weights.length): pixel =>
+      GivenUp.check(isStopped, pixel)
       val w0 = begin.fold(0f)(_.weights(pixel)).toDouble
       val w1 = middle.weights(pixel).toDouble
       val w2 = end.weights(pixel).toDouble
@@ -103,10 +124,16 @@ object ErrorEstimate:
     Array.tabulate(all.length)(i => (all(i) + halves(i)) / 3)
 
   /** Relative scatter, added up over squares of 8 × 8 pixels. */
-  private def inParts(scatter: Array[Float], image: Image, means: QuietMeans): Array[Double] =
+  private def inParts(
+      scatter: Array[Float],
+      image: Image,
+      means: QuietMeans,
+      isStopped: () => Boolean
+  ): Array[Double] =
     val columns = (image.width + Part - 1) / Part
     val sums = new Array[Double](columns * ((image.height + Part - 1) / Part))
     loop(image.height): y =>
+      GivenUp.check(isStopped)
       loop(image.width): x =>
         val part = y / Part * columns + x / Part
         loop(image.channels): c =>

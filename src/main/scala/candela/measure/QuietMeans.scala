@@ -1,19 +1,25 @@
 package candela.measure
 
-import candela.base.loop
+import candela.base.{GivenUp, loop}
 import candela.image.Image
 
 /** Pixel means for relative errors. A pixel whose noise is as large as itself takes the mean of
   * those neighbours that differ from it by noise: a firefly must not hide its own error.
   *
   * @param variance of each value
+  * @param isStopped whether to give up
   */
-final class QuietMeans(image: Image, variance: Array[Float]):
+final class QuietMeans(
+    image: Image,
+    variance: Array[Float],
+    isStopped: () => Boolean = GivenUp.Never
+):
   private val channels = image.channels
 
   // 1 / (mean + 0.01)²
   private val weights = new Array[Float](image.data.length)
   loop(image.height): y =>
+    GivenUp.check(isStopped)
     loop(image.width): x =>
       loop(channels): c =>
         val at = (y * image.width + x) * channels + c

@@ -1,6 +1,6 @@
 package candela.base
 
-import java.io.IOException
+import java.io.{EOFException, IOException}
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite
@@ -53,3 +53,29 @@ class CheckedFileSuite extends AnyFunSuite:
     withFile: file =>
       val _ = intercept[IOException]:
         CheckedFile.read(file, "test 1")(in => (0 until 100000).foreach(_ => in.long()))
+
+  test("a number of values is refused before they are made, unless the file has as many"):
+    val file = Files.createTempFile("checked", ".bin")
+    try
+      def count(number: Int, bytes: Int): Int =
+        CheckedFile.write(file, "test"): out =>
+          out.int(number)
+          for i <- 0 until 10 do out.int(i)
+        CheckedFile.read(file, "test")(_.count(bytes))
+      for (number, bytes) <- Vector((0, 1000), (10, 4), (5, 8), (40, 1)) do
+        assert(count(number, bytes) == number)
+      for (number, bytes) <- Vector((-1, 4), (11, 4), (6, 8), (41, 1), (Int.MaxValue, 1)) do
+        val _ = intercept[EOFException](count(number, bytes))
+      // Beyond 2 GB, whose number of bytes is no Int
+      val _ = intercept[EOFException](count(1 << 30, 8))
+    finally Files.delete(file)
+
+  test("a file tells when all of it is read"):
+    withFile: file =>
+      CheckedFile.read(file, "test 1"): in =>
+        val _ = (in.int(), in.text())
+        for _ <- 0 until 20000 do in.double(): Unit
+        val _ = in.long()
+        assert(!in.isAtEnd)
+        val _ = in.float()
+        assert(in.isAtEnd)

@@ -1,5 +1,13 @@
 package candela.bidirectional
 
+import candela.base.{CheckedFile, CheckedInput, CheckedOutput}
+import candela.color.Rgb
+import candela.film.Splats
+import candela.render.TinyPlan
+
+import java.io.EOFException
+import java.nio.file.Files
+
 import org.scalatest.funsuite.AnyFunSuite
 
 /** What a chain walks by: its steps must be as likely as their way back, and nothing of a step that
@@ -86,3 +94,64 @@ final class PrimarySamplesSuite extends AnyFunSuite:
       val expected = (2 * i + 1) / 400.0 * steps
       // Steps are correlated over some 10: the error is some 3 √n
       assert(Math.abs(bins(i) - expected) < 18 * Math.sqrt(expected) + 20, s"bin $i: ${bins(i)}")
+
+  /** What is read of a file with these values. */
+  private def stored(write: CheckedOutput => Unit)(read: CheckedInput => Unit): Unit =
+    val file = Files.createTempFile("candela", ".chain")
+    try
+      CheckedFile.write(file, "chain")(write)
+      CheckedFile.read(file, "chain")(read)
+    finally Files.delete(file)
+
+  test("a saved point goes on as it would have"):
+    val (s, other) = (PrimarySamples(0.3f, 0.1f), PrimarySamples(0.3f, 0.1f))
+    s.start(5L)
+    def steps(of: PrimarySamples) =
+      for _ <- 1 to 40 yield
+        of.propose()
+        val at = point(of, 9)
+        if at.head < 0.5f then of.accept() else of.reject()
+        at
+    val _ = steps(s)
+    stored(s.save)(other.load)
+    assert(steps(s) == steps(other))
+
+  test("a forged point, which no chain can have, is refused"):
+    def load(time: Int, lastLarge: Int, known: Int, value: Float, changed: Int): Unit =
+      def write(to: CheckedOutput): Unit =
+        to.long(1L)
+        to.int(time)
+        to.int(lastLarge)
+        to.float(Float.NaN)
+        for n <- Vector(known, 0, 0) do
+          to.int(n)
+          if n > 0 then
+            to.float(value)
+            to.int(changed)
+      stored(write)(PrimarySamples(0.3f, 0.1f).load)
+    load(time = 5, lastLarge = 5, known = 1, value = 0.99f, changed = 5)
+    def refused(time: Int = 5, lastLarge: Int = 2, value: Float = 0.5f, changed: Int = -1) =
+      intercept[IllegalArgumentException](load(time, lastLarge, 1, value, changed)).getMessage
+    assert(refused(lastLarge = 6).endsWith("a chain has step 6 of 5"))
+    assert(refused(time = -2, lastLarge = -2).endsWith("a chain has step -2 of -2"))
+    for value <- Vector(1f, -0.1f, Float.NaN, Float.PositiveInfinity) do
+      assert(refused(value = value).endsWith(s"a random number is $value"))
+    for step <- Vector(-2, 6, Int.MaxValue) do
+      assert(refused(changed = step).endsWith(s"a step is $step"))
+    for known <- Vector(-1, 100, Int.MaxValue) do
+      val _ = intercept[EOFException](load(5, 2, known, 0.5f, 1))
+
+  test("the light of a forged path is finite, and its splats are in the file"):
+    val view = TinyPlan()((_, _) => Rgb.White).view(Splats.Discarded)
+    def load(strength: Float, count: Int): Unit =
+      def write(to: CheckedOutput): Unit =
+        to.float(strength)
+        to.int(count)
+        for _ <- 1 to 5 do to.float(1f)
+      stored(write)(Contribution(view).load)
+    load(0.5f, 1)
+    for strength <- Vector(-1f, Float.NaN, Float.PositiveInfinity) do
+      val why = intercept[IllegalArgumentException](load(strength, 1)).getMessage
+      assert(why.endsWith(s"a path's light is $strength"))
+    for count <- Vector(-1, 2, Int.MaxValue) do
+      val _ = intercept[EOFException](load(0.5f, count))

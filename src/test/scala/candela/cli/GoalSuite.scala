@@ -83,6 +83,18 @@ class GoalSuite extends AnyFunSuite:
     chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
     assert(!chains.isEnough && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
 
+  test("an error is measured in time, or not at all"):
+    for (clock, isKnown) <- Vector(2.0 -> true, 2.9 -> false) do
+      val timed = goal(RenderGoal(time = Some(2)))
+      timed.begins(0, film)
+      for i <- 1 to 2 do
+        timed.passed(Pass(i, 0, 1, Vector.empty, clock = if i == 1 then 1 else clock), film)
+      assert(timed.errorAt(2).isDefined == isKnown && timed.isEnough, clock)
+    val cancelled = goal(RenderGoal(error = Some(1e9)))
+    cancelled.begins(0, film)
+    for i <- 1 to 2 do cancelled.passed(Pass(i, 0, 1, Vector.empty, isStopped = () => true), film)
+    assert(cancelled.errorAt(2).isEmpty)
+
   test("where an error is looked at does not depend on a time"):
     val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
     both.begins(0, film)

@@ -49,6 +49,22 @@ class GuideFieldSuite extends AnyFunSuite:
     // A uniform density is 0.08
     assert(densities.min > 5f, densities)
 
+  test("what is given up while it is learnt is learnt later"):
+    def guide(): Guide =
+      val made = Guide(GuideSettings(adapts = false, perRegion = 5.0), 64, 10000)
+      val part = made.pass.newPart().nn
+      for i <- 0 until 10000 do part.add(event(i))
+      made
+    val (halted, whole) = (guide(), guide())
+    assert(whole.begin(1) && whole.pass.field.regions > 8)
+    // Before the first region, and after the third
+    for most <- Vector(0, 3) do
+      var regions = 0
+      assert(!halted.begin(1, () => regions += 1, () => regions >= most))
+      assert(halted.pass.begun == 0 && regions == most)
+    assert(halted.begin(1) && halted.pass.field.regions == whole.pass.field.regions)
+    assert(halted.pass.field.lobes.sameElements(whole.pass.field.lobes))
+
   test("exponentials are exact to five digits"):
     for i <- 0 to 2000 do
       val x = -0.02f * i
@@ -196,7 +212,7 @@ private object GuideFieldSuite:
     val costs = Array.fill(old.regions)(EventCost)
     val learning =
       GuideLearning(GuideGrowth(old, events, settings, lit = 1.0, all, costs, PathCost))
-    learning.help(() => ())
+    assert(learning.help(() => (), () => false))
     learning.growth
 
   def region(p: Vec3, n: Vec3): Int = GuideMixture().region(learnt, p, GuideField.side(n))

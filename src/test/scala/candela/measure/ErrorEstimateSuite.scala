@@ -1,5 +1,6 @@
 package candela.measure
 
+import candela.base.GivenUp
 import candela.image.Image
 import candela.sampling.{IndependentSampler, OwenSobolSampler, Sampler}
 
@@ -63,3 +64,25 @@ class ErrorEstimateSuite extends AnyFunSuite:
     // Each error is known to 3 %, as above, and two of them tell how it goes on
     assert(Math.abs(estimate.at(64).get.relativeMse / known - 0.5) < 0.04)
     assert(Math.abs(estimate.samplesUntil(known / 4).get - 128) < 12)
+
+  test("an estimate that is given up changes nothing"):
+    val random = scala.util.Random(4)
+    val images = Vector.fill(3)(Image.rgb(side, side))
+    for image <- images; i <- image.data.indices do image.data(i) = random.nextFloat()
+    def add(to: ErrorEstimate, n: Int, isStopped: () => Boolean = GivenUp.Never) =
+      val weights = Array.fill(side * side)(n.toFloat)
+      to.add(n, images(Integer.numberOfTrailingZeros(n)), weights, isLast = false, isStopped)
+    val (plain, stopped) = (ErrorEstimate(), ErrorEstimate())
+    for n <- Vector(1, 2, 4) do
+      // At the first, and at each of the next steps that ask
+      if n > 1 then
+        for steps <- 0 to 40 by 20 do
+          var left = steps
+          val _ = intercept[GivenUp]:
+            add(
+              stopped,
+              n,
+              () =>
+                left -= 1; left < 0
+            )
+      assert(add(plain, n).map(_.relativeMse) == add(stopped, n).map(_.relativeMse))

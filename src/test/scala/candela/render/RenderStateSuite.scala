@@ -4,7 +4,10 @@ import candela.base.CheckedFile
 import candela.color.Rgb
 import candela.film.GaussianFilter
 
+import java.nio.ByteBuffer
+import java.nio.ByteOrder.LITTLE_ENDIAN
 import java.nio.file.{Files, Path}
+import java.util.concurrent.atomic.AtomicInteger
 
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -13,7 +16,7 @@ class RenderStateSuite extends AnyFunSuite:
   /** Saves to a file, and continues from one. */
   private final class FileCheckpointer(from: Option[Path], to: Path, isAlwaysDue: Boolean = false)
       extends Checkpointer:
-    var saved = 0
+    var saved, lost = 0
     var copies = Vector.empty[Path]
     def restore(state: RenderState): Unit = from.foreach(CheckedFile.read(_, "state")(state.load))
     def isDue: Boolean = isAlwaysDue
@@ -22,7 +25,7 @@ class RenderStateSuite extends AnyFunSuite:
       saved += 1
       if isAlwaysDue then
         copies :+= Files.copy(to, to.resolveSibling(s"${to.getFileName}.$saved"))
-    def lose(): Unit = ()
+    def lose(): Unit = lost += 1
     def finish(): Unit = ()
 
   private def withFolder[A](body: Path => A): A =
@@ -80,6 +83,63 @@ class RenderStateSuite extends AnyFunSuite:
           val next = FileCheckpointer(Some(copy), folder.resolve("b"))
           val _ = Renderer.render(plan(shares, 60)(), threads = 2, checkpointer = Some(next))
           assert(Files.readAllBytes(folder.resolve("b")).sameElements(last))
+
+  test("a sample of a tile that takes long is left in its midst, and continued to the same image"):
+    for shares <- Vector(false, true) do
+      withFolder: folder =>
+        val (whole, parts) = (folder.resolve("whole"), folder.resolve("parts"))
+        def render(plan: RenderPlan, from: Option[Path], to: Path, stop: Cancellation) =
+          val checkpointer = FileCheckpointer(from, to)
+          val done = Renderer.render(plan, threads = 2, stop, checkpointer = Some(checkpointer))
+          assert(checkpointer.lost == 0)
+          done
+        val _ = render(plan(shares, 3)(), None, whole, Cancellation())
+        val cancellation = Cancellation()
+        val taken = AtomicInteger()
+        val slow = plan(shares, 3): _ =>
+          if taken.incrementAndGet() > 300 then
+            cancellation.request()
+            Thread.sleep(20)
+        val stopped = render(slow, None, parts, cancellation)
+        // Two tiles have 512 pixels
+        assert(stopped.samplesDone == 0 && taken.get < 500, taken)
+        val _ = render(plan(shares, 3)(), Some(parts), parts, Cancellation())
+        assert(Files.readAllBytes(parts).sameElements(Files.readAllBytes(whole)))
+
+  test("no piece has a progress that it can't have"):
+    withFolder: folder =>
+      val file = folder.resolve("a")
+      for wrong <- Vector(-1L, 1L << 31, Long.MaxValue, Long.MinValue) do
+        CheckedFile.write(file, "state"): out =>
+          out.int(12)
+          for i <- 0 until 12 do out.long(if i == 7 then wrong else 1L)
+        val checkpointer = FileCheckpointer(Some(file), folder.resolve("b"))
+        val why = intercept[IllegalArgumentException]:
+          Renderer.render(plan(shares = false, 1)(), 1, checkpointer = Some(checkpointer))
+        assert(why.getMessage.endsWith(s"piece 7 has $wrong samples"))
+
+  test("chains make as many paths as all pixels have samples"):
+    val schedule = ChainSchedule(3, pixels = 10, samplesPerPixel = 4, Shard.Whole)
+    val paths = (0 until 3).map(schedule.paths(_, Int.MaxValue))
+    assert(paths.sum == 10L * Int.MaxValue && paths.max == schedule.mostProgress)
+
+  test("no tile has a sample in part that it can't have"):
+    withFolder: folder =>
+      val file = folder.resolve("a")
+      val plain = plan(shares = false, 1)()
+      val _ = Renderer.render(plain, 1, checkpointer = Some(FileCheckpointer(None, file)))
+      // Without mark, length and checksum
+      val numbers = Files.readAllBytes(file).drop(9).dropRight(16).grouped(4).toVector
+      for (tile, pixels, sums) <- Vector((-1, 5, 0), (99, 5, 0), (1, 0, 0), (1, 256, 0), (1, 5, 2))
+      do
+        CheckedFile.write(file, "state"): out =>
+          for four <- numbers do out.int(ByteBuffer.wrap(four).order(LITTLE_ENDIAN).getInt)
+          for number <- Vector(1, tile, pixels, sums) do out.int(number)
+          for _ <- 0 until sums do out.double(1)
+        val checkpointer = FileCheckpointer(Some(file), folder.resolve("b"))
+        val why = intercept[IllegalArgumentException]:
+          Renderer.render(plain, 1, checkpointer = Some(checkpointer))
+        assert(why.getMessage.endsWith(s"piece $tile has $pixels pixels of a sample"))
 
   test("shards share the samples of every pixel, and the work"):
     for count <- Vector(2, 5, 64) do

@@ -156,6 +156,18 @@ class RendererSuite extends AnyFunSuite:
       assert(seen.result().map(_._1) == Vector(1, 2, 4, 8, 11))
       assert(seen.result().last._2 == plain.film.toImage(1f).data.toVector)
 
+  test("an observer is told when the rendering is to end at once"):
+    val cancellation = Cancellation()
+    val told = Vector.newBuilder[Boolean]
+    object Eye extends RenderListener:
+      override def looks: Looks = Looks.Doublings
+      override def passed(pass: Pass, film: Film): Unit =
+        told += pass.isStopped()
+        if pass.samples == 2 then cancellation.request()
+        told += pass.isStopped(): Unit
+    val _ = Renderer.render(TinyPlan(spp = 8)((_, _) => gray), 2, cancellation, listener = Eye)
+    assert(told.result() == Vector(false, false, false, true))
+
   test("a pass that was cancelled is not shown"):
     val cancellation = Cancellation()
     val plan = TinyPlan(spp = 1000): (where, _) =>

@@ -27,9 +27,12 @@ final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
 
   override def passed(pass: Pass, film: Film): Unit =
     val began = System.nanoTime
+    def clock = pass.clock + (System.nanoTime - began) * 1e-9
+    def isLate = options.time.exists(clock > _ + Goal.Late)
+    val watched = pass.copy(isStopped = () => pass.isStopped() || isLate)
     // Where an error is looked at must not depend on the time
     if pass.isWhole then
-      recorder.passed(pass, film)
+      recorder.passed(watched, film)
       val error = errorAt(pass.samples).filter(_ => pass.samples >= Goal.Fewest)
       if options.error.exists(most => error.exists(_ <= most)) then isReached = true
     val measured = (pass.end - pass.begin) / Math.max(1, pass.samples - seen)
@@ -38,9 +41,9 @@ final class Goal(options: RenderGoal, planned: Int, recorder: RenderRecorder)
     parts += 1
     seen = pass.samples
     step = pass.step
-    now = pass.clock + (System.nanoTime - began) * 1e-9
+    now = clock
     if options.time.exists(t => !isWorthMore(t - now)) then isReached = true
-    if isReached && !pass.isWhole then recorder.passed(pass.copy(isLast = true), film)
+    if isReached && !pass.isWhole then recorder.passed(watched.copy(isLast = true), film)
 
   /** Whether the shortest part that there is ends nearer to the time than now, and not late. */
   private def isWorthMore(left: Double): Boolean =

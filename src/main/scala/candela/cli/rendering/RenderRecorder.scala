@@ -1,6 +1,6 @@
 package candela.cli.rendering
 
-import candela.base.{Problem, SceneError}
+import candela.base.{GivenUp, Problem, SceneError}
 import candela.cli.files.OutputFiles
 import candela.cli.terminal.Figures
 import candela.film.{Development, Film}
@@ -58,18 +58,22 @@ final class RenderRecorder(development: Development, reference: Option[Image])
 
   override def passed(pass: Pass, film: Film): Unit =
     val started = System.nanoTime
+    try measure(pass, film)
+    catch case _: GivenUp => () // the rendering ends without
+    spent += (System.nanoTime - started) * 1e-9
+
+  private def measure(pass: Pass, film: Film): Unit =
     val weights = new Array[Float](film.width * film.height)
-    val image = development(film, Some(weights))
+    val image = development(film, Some(weights), pass.isStopped)
     val errors = reference match
       case Some(r) => Option.when(pass.isMain)(Errors.against(r)(image))
       case None =>
-        val anew = estimate.add(pass.samples, image, weights, pass.isLast)
+        val anew = estimate.add(pass.samples, image, weights, pass.isLast, pass.isStopped)
         anew.orElse(Option.when(pass.isLast)(estimate.at(pass.samples)).flatten)
     errors.foreach(e => foundPoints += CurvePoint(pass.samples, pass.end, e))
     foundPasses += PassSpan(pass.samples, pass.begin, pass.end, pass.workers)
     if first.isEmpty then first = Some((image, pass.samples))
     last = Some((image, pass.samples))
-    spent += (System.nanoTime - started) * 1e-9
 
 object RenderRecorder:
 
