@@ -18,7 +18,37 @@ private[image] object CutFile:
       case "bmp" => start.length >= BmpHeader && size < bmpSize(in)
       case "tga" => start.length >= TgaHeader && size < tgaSize(in)
       case _ => false
-    Option.when(isCut)("the file is cut short: some of its pixels are missing")
+    Option.when(isCut)(Missing)
+
+  /** Whether [[packed]] knows more than [[remark]]. */
+  def isPacked(suffix: String, start: Array[Byte]): Boolean = suffix match
+    case "qoi" => start.startsWith(QoiMark)
+    case "tga" => start.length >= TgaHeader && PackedTgas(start(2) & 0xff)
+    case _ => false
+
+  /** What is missing of compressed pixels, which all have to be counted. */
+  def packed(file: Array[Byte]): Option[String] =
+    val isCut = if file.startsWith(QoiMark) then Qoi.isShort(file) else isShortTga(file)
+    Option.when(isCut)(Missing)
+
+  private val Missing = "the file is cut short: some of its pixels are missing"
+  private val QoiMark = "qoif".getBytes
+  private val PackedTgas = Set(9, 10, 11)
+
+  /** Whether packets of pixels end before the image does. */
+  private def isShortTga(file: Array[Byte]): Boolean =
+    val in = ByteBuffer.wrap(file).order(ByteOrder.LITTLE_ENDIAN)
+    def byte(i: Int) = in.get(i) & 0xff
+    def short(i: Int) = in.getShort(i) & 0xffffL
+    val each = (byte(16) + 7) / 8
+    var left = short(12) * short(14)
+    var at = TgaHeader + byte(0) + (if byte(1) == 1 then short(5) * ((byte(7) + 7) / 8) else 0L)
+    while left > 0 && at < file.length do
+      val packet = byte(at.toInt)
+      val count = (packet & 127) + 1
+      left -= count
+      at += 1 + each * (if packet > 127 then 1 else count)
+    left > 0 || at > file.length
 
   /** Whether the marker is there, which can't be within coded pixels. */
   private def hasEndOfImage(end: Array[Byte]): Boolean =

@@ -72,11 +72,15 @@ object ImageFiles:
           in.skipNBytes(Math.max(0, size - first.length - (1 << 12)))
           (first, in.readAllBytes())
         // A small file has its end in the beginning
-        CutFile.remark(suffix, start, start.takeRight(1 << 12) ++ end, size).orElse:
-          if suffix == "tga" then Tga.remark(start) else Pnm.remark(start)
+        val cut =
+          if CutFile.isPacked(suffix, start) then CutFile.packed(file.bytes())
+          else CutFile.remark(suffix, start, start.takeRight(1 << 12) ++ end, size)
+        cut.orElse:
+          if suffix == "qoi" then None
+          else if suffix == "tga" then Tga.remark(start) else Pnm.remark(start)
     found.map(text => s"$file: $text")
 
-  private val Remarkable = Set("tga", "ppm", "pgm", "pbm", "pnm", "jpg", "jpeg", "bmp")
+  private val Remarkable = Set("qoi", "tga", "ppm", "pgm", "pbm", "pnm", "jpg", "jpeg", "bmp")
 
   /** Whether the file is a whole image whose metadata contain the text, if its format has any. */
   def isWhole(path: Path, text: String): Boolean =

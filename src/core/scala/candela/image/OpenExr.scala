@@ -1,12 +1,16 @@
 package candela.image
 
-import candela.base.{loop, Scratch, WholeFile}
+import candela.base.{IoReason, loop, Scratch, WholeFile}
 
 import org.lwjgl.system.JNI.*
 import org.lwjgl.system.MemoryStack.stackPush
 import org.lwjgl.system.MemoryUtil
 
+import java.io.IOException
 import java.nio.FloatBuffer
+import java.nio.file.Path
+
+import scala.util.Using
 
 /** Reads EXR files by the OpenEXR library, version 3, which is loaded at run time: its C interface
   * (`ImfCRgbaFile.h`) returns R, G, B and A, or the luminance, in half precision, of files of any
@@ -27,13 +31,20 @@ private[image] final class OpenExr private (library: NativeLibrary):
     * @param why  why it is read here, for messages
     */
   def read(file: Array[Byte], part: ExrPart, why: String): Image =
-    val scratch = Scratch.make()
-    val copy = scratch.folder.resolve("copy.exr")
+    try
+      Using.resource(Scratch.make()): scratch =>
+        val copy = scratch.folder.resolve("copy.exr")
+        WholeFile.write(copy, file)
+        read(copy, part, why)
+    catch
+      case e: IOException =>
+        throw ImageError(s"$why, and no copy can be made for the OpenEXR library: ${IoReason(e)}")
+
+  private def read(copy: Path, part: ExrPart, why: String): Image =
     val stack = stackPush()
     val halves = MemoryUtil.memAllocShort(4 * part.width * part.height)
     val pixels = MemoryUtil.memAllocFloat(halves.capacity)
     try
-      WholeFile.write(copy, file)
       val name = stack.UTF8(copy.toString)
       val opened = invokePP(MemoryUtil.memAddress(name), openFile)
       if opened == 0 then fail(why)
@@ -53,7 +64,6 @@ private[image] final class OpenExr private (library: NativeLibrary):
       MemoryUtil.memFree(halves)
       MemoryUtil.memFree(pixels)
       stack.close()
-      scratch.close()
 
   /** Its last error, without the name of the file. */
   private def fail(why: String): Nothing =

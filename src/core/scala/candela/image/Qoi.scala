@@ -46,22 +46,35 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
     val encoding = if coding == 0 then Encoding.Srgb else Encoding.Linear
     ByteImage(width, height, names, bytes, encoding)
 
+  /** Whether the file has fewer pixels than its header says: pbrt-v4 repeats the last one. */
+  def isShort(file: Array[Byte]): Boolean =
+    file.length >= HeaderSize + End.length && {
+      val header = ByteBuffer.wrap(file)
+      val decoder = Decoder(file, 3)
+      var left = (header.getInt(4) & 0xffffffffL) * (header.getInt(8) & 0xffffffffL)
+      while left > 0 && !decoder.isAtEnd do left -= decoder.pixels()
+      left > 0
+    }
+
   private final class Decoder(file: Array[Byte], channels: Int):
     private var at = HeaderSize
     private val pixel = Array(0, 0, 0, 255)
     private val seen = Array.ofDim[Int](64, 4)
 
+    /** The last bytes are no pixels, in files that are cut, neither. */
+    def isAtEnd: Boolean = at >= file.length - End.length
+
     def decode(target: Array[Byte]): Unit =
       var to = 0
       while to < target.length do
-        var count = pixels()
+        var count = if isAtEnd then target.length else pixels()
         while count > 0 && to < target.length do
           loop(channels)(c => target(to + c) = pixel(c).toByte)
           to += channels
           count -= 1
 
     /** Reads a code and sets `pixel`; returns how many such pixels follow. */
-    private def pixels(): Int =
+    def pixels(): Int =
       val code = byte()
       var count = 1
       if code == Rgb then loop(3)(c => pixel(c) = byte())
@@ -84,14 +97,13 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
       pixel(2) = (pixel(2) + b) & 255
 
     private def byte(): Int =
-      if at >= file.length then throw ImageError("the file ends within the pixels")
       at += 1
       file(at - 1) & 255
 
-  /** Three channels, sRGB-encoded; values clamped to [0, 1], NaN black. */
   private[image] override def hasEnd(file: Array[Byte]): Boolean =
     file.takeRight(End.length).sameElements(End)
 
+  /** Three channels, sRGB-encoded; values clamped to [0, 1], NaN black. */
   def write(image: Image, metadata: Vector[(String, String)], options: WriteOptions): Array[Byte] =
     val picture = Bitmap.of(image, options.display.copy(bits = 8))
     val (width, height) = (picture.getWidth, picture.getHeight)

@@ -164,8 +164,17 @@ class DamagedFilesSuite extends AnyFunSuite:
     header.put("BM".getBytes).putInt(2, 54 + 64).putInt(10, 54).putInt(14, 40).putInt(18, 4)
       .putInt(22, 4).putShort(26, 1).putShort(28, 32)
     val bitmap = "a.bmp" -> (header.array ++ Array.fill[Byte](64)(99))
+    // Packets of one colour and of 20
+    val packed = java.nio.ByteBuffer.allocate(18).order(java.nio.ByteOrder.LITTLE_ENDIAN)
+    packed.put(2, 10.toByte).putShort(12, 42).putShort(14, 5).put(16, 24.toByte)
+    val packets = Vector(21 | 128, 1, 2, 3, 19) ++ Vector.tabulate(60)(_ % 50)
+    val runs = "b.tga" -> (packed.array ++ Vector.fill(5)(packets).flatten.map(_.toByte))
     TempFolder.use: folder =>
-      for (name, content) <- whole :+ bitmap do
+      val random = scala.util.Random(5)
+      val noise = Image(8, 8, Image.RgbNames, Array.fill(192)(random.nextFloat()))
+      ImageFiles.write(folder.resolve("a.qoi"), noise)
+      val lossless = "a.qoi" -> Files.readAllBytes(folder.resolve("a.qoi"))
+      for (name, content) <- whole ++ Vector(bitmap, runs, lossless) do
         val scene = Files.writeString(folder.resolve("s.pbrt"), texture(name))
         def check(count: Int) =
           Files.write(folder.resolve(name), content.take(count))

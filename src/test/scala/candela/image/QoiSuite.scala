@@ -64,7 +64,21 @@ class QoiSuite extends AnyFunSuite:
     assert(refusal(file(1, 1, 3, 9, 0xc0)) == "unknown colour space 9")
     assert(refusal(file(60000, 50000, 3, 0)).startsWith("60000×50000 pixels can't be in a file of"))
     assert(refusal(file(0, 3, 3, 0)).startsWith("0×3 pixels can't be"))
-    assert(refusal(file(9, 9, 3, 0, 0xfe)) == "the file ends within the pixels")
+
+  test("files that are cut are read as by pbrt-v4, which repeats the last pixel"):
+    val whole = Qoi.write(Samples.random(19, 19, Image.RgbNames, 1), Vector.empty)
+    assert(!Qoi.isShort(whole))
+    val all = Qoi.read(whole).bytes
+    for cut <- Vector(20, 100, whole.length / 2) do
+      val file = whole.dropRight(cut)
+      val bytes = Qoi.read(file).bytes
+      val same = bytes.indices.takeWhile(i => bytes(i) == all(i)).size
+      // Five bytes a pixel at most; the last eight bytes are taken for the end of the file
+      assert(same >= 3 * ((file.length - 14 - 8) / 5) && same < all.length, cut)
+      assert(bytes.drop(same).distinct.size <= 3 && Qoi.isShort(file), cut)
+    // One run of all pixels; its end alone is missing, and taken from the pixels
+    val run = file(9, 5, 3, 0, 0xc0 | 44)
+    assert(!Qoi.isShort(run) && Qoi.isShort(run.dropRight(1)))
 
   test("damaged files are read or refused, never anything else"):
     val file = Qoi.write(Samples.random(19, 19, Image.RgbNames, 1), Vector.empty)
