@@ -9,12 +9,20 @@ import scala.util.control.ControlThrowable
 /** Ends the work on a scene that asks for what it may not have, whatever is caught on the way.
   * [[Refusal.told]] makes an error of it.
   */
-final class Refusal(val problem: Problem) extends ControlThrowable
+final class Refusal(val problem: Problem) extends ControlThrowable:
+
+  private def placed(at: SourcePos): Refusal =
+    if problem.at.nonEmpty then this else new Refusal(problem.copy(at = Some(at)))
 
 object Refusal:
   def apply(at: Option[SourcePos], message: String, help: String): Refusal =
     val problem = at.fold(Problem.general(message))(Problem.error(_, message))
     new Refusal(problem.copy(help = Some(help)))
+
+  /** Runs `body`; a refusal in it that has no place is here. */
+  def placed[A](at: => SourcePos)(body: => A): A =
+    try body
+    catch case r: Refusal => throw r.placed(at)
 
   /** Runs `body`; a refusal in it is an error.
     *
@@ -50,7 +58,7 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
     * @throws Refusal if that is more than allowed
     */
   def check(limit: Limit, amount: Long, at: Option[SourcePos])(what: => String): Unit =
-    checkTime()
+    checkTime(at)
     for most <- limits.get(limit) if amount > most do
       throw Refusal(
         at,
@@ -65,7 +73,7 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
 
   /** Counts bytes as often as they are read, and those that they unpack to. */
   def countBytes(count: Long, file: Path, at: Option[SourcePos]): Unit =
-    checkTime()
+    checkTime(at)
     if limits.contains(Limit.Bytes) then
       val all = bytes.addAndGet(count)
       check(Limit.Bytes, all, at)(s"with `${file.getFileName}`, $all bytes are read")
@@ -80,10 +88,12 @@ final class Allowance(limits: Map[Limit, Long] = Map.empty, endsAt: Option[Long]
     files.clear()
     bytes.set(0)
 
-  /** @throws Refusal if the time is over */
-  def checkTime(): Unit =
+  /** @param at the statement that is read or built
+    * @throws Refusal if the time is over
+    */
+  def checkTime(at: => Option[SourcePos]): Unit =
     for end <- endsAt if System.nanoTime - end >= 0 do
-      throw new Refusal(Allowance.outOfTime(limits.getOrElse(Limit.Time, 0)))
+      throw new Refusal(Allowance.outOfTime(limits.getOrElse(Limit.Time, 0)).copy(at = at))
 
 object Allowance:
   /** @param limit in milliseconds */

@@ -4,9 +4,10 @@ import java.io.{BufferedInputStream, FilterInputStream, InputStream, IOException
 import java.nio.ByteBuffer
 import java.nio.channels.FileChannel
 import java.nio.charset.StandardCharsets.ISO_8859_1
+import java.nio.file.attribute.BasicFileAttributes
 import java.nio.file.{Files, InvalidPathException, Path, StandardOpenOption}
 
-import scala.util.Using
+import scala.util.{Try, Using}
 
 /** A file that exists, to be read. What a scene names is opened by its [[SceneFolder]]; `asked` is
   * for what users name.
@@ -31,7 +32,12 @@ final class InputFile private[base] (
   /** Whether it is a pipe that may be read, once. */
   def isPipe: Boolean = mayBePipe && Files.exists(place) && !isRegular && !isFolder
   def size: Long = Files.size(place)
-  def isSame(other: InputFile): Boolean = Files.isSameFile(place, other.place)
+  def isSame(other: InputFile): Boolean = place == other.place || identity == other.identity
+
+  /** Which file it is, whatever its name; asked for once. */
+  private lazy val identity: AnyRef =
+    val key = attributes.fileKey
+    if key != null then key else place.toRealPath()
 
   /** Counts bytes that are unpacked from the file. */
   def unpacks(bytes: Long): Unit = gate(bytes)
@@ -75,10 +81,12 @@ final class InputFile private[base] (
 
   /** Pipes and devices might never end. */
   private def readable: Path =
-    if isFolder then throw IOException("it is a folder")
-    else if !mayBePipe && Files.exists(place) && !isRegular then
-      throw IOException(InputFile.Irregular)
-    else place
+    for a <- Try(attributes) do
+      if a.isDirectory then throw IOException("it is a folder")
+      else if !mayBePipe && !a.isRegularFile then throw IOException(InputFile.Irregular)
+    place
+
+  private def attributes = Files.readAttributes(place, classOf[BasicFileAttributes])
 
 object InputFile:
   private[base] val Irregular = "it is no regular file, but a pipe or a device"

@@ -42,7 +42,9 @@ final case class Problem(
     help: Option[String] = None,
     excerpt: Option[String] = None,
     standIn: Option[String] = None
-)
+):
+  /** The same, with help on one line. */
+  def withHelp(help: Option[String]): Problem = copy(help = help.map(Problem.line))
 
 object Problem:
 

@@ -1,8 +1,10 @@
 package candela.base
 
 import java.nio.file.{Files, InvalidPathException, LinkOption, Path}
+import java.util.concurrent.ConcurrentHashMap
 
-import scala.util.Try
+import scala.jdk.CollectionConverters.*
+import scala.util.{Try, Using}
 
 /** The folder of a scene: the one door through which files are opened that the scene names.
   *
@@ -52,7 +54,7 @@ final class SceneFolder private (val path: Path, guard: FileGuard):
 
   /** A similar name in the folder, after `find` has found nothing. */
   def suggestion(name: String): Option[String] =
-    SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p))
+    SceneFolder.resolved(path, name).flatMap(p => Suggest.file(p, guard.namesBeside(p)))
 
   /** A file's path from here. */
   def relativize(file: Path): Path = path.relativize(file)
@@ -112,7 +114,7 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
         )
       allowance.countFile(place, at)
       def gate(count: Long) = allowance.countBytes(count, path, at)
-      InputFile(path, place, gate, mayBePipe = false, shown = inside(path).nonEmpty)
+      InputFile(path, place, gate, mayBePipe = false, shown = isInside(path))
 
   /** What the user has named, whatever it is. */
   def asked(path: Path): InputFile =
@@ -125,6 +127,21 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
     Refusal(at, s"expected a file in the scene's folder, found $what", Help)
 
   private val Help = "--sandbox lets scenes read the files of their own folder only"
+
+  /** Listed once, as thousands of files may be missing. */
+  private val listed = ConcurrentHashMap[Path, Vector[String]]()
+
+  /** Of files beside another, if they can be told. */
+  def namesBeside(file: Path): Vector[String] =
+    def list(folder: Path) = Try:
+      Using.resource(Files.list(folder)): all =>
+        all.iterator.asScala.take(FileGuard.MostNames).map(_.getFileName.toString).toVector
+    Option(file.toAbsolutePath.getParent)
+      .fold(Vector.empty)(listed.computeIfAbsent(_, list(_).getOrElse(Vector.empty)))
+
+  /** Remembered, as files may be opened as often as scenes include them. */
+  private val known = ConcurrentHashMap[Path, Boolean]()
+  private def isInside(path: Path) = known.computeIfAbsent(path, inside(_).nonEmpty)
 
   /** The real path of a file that may not exist yet; None if it is outside of the folder. */
   private def inside(path: Path): Option[Path] =
@@ -140,3 +157,6 @@ private final class FileGuard(root: Path, val isConfined: Boolean, val allowance
         if rest == 0 then real else real.resolve(absolute.subpath(parts - rest, parts)).normalize
       if whole.startsWith(root)
     yield whole
+
+private object FileGuard:
+  private val MostNames = 10_000

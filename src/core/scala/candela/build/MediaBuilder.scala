@@ -65,7 +65,7 @@ private[build] final class MediaBuilder(
       indexOf.getOrElse(
         name, {
           val message = s"medium `$name` is not defined"
-          val help = Suggest.help(name, indexOf.keys)
+          def help = Suggest.help(name, indexOf.keys)
           problems.unnamed(NameKind.Medium, at, message, StandIns.LeftOut, help)
           -1
         }

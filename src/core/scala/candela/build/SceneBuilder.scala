@@ -5,7 +5,7 @@ import candela.base.{Limit, Parallel, Problem}
 import candela.build.integrators.{IntegratorPlan, Integrators, Renderers}
 import candela.color.ColorBasis
 import candela.film.{
-  Development, FilterReach, Fireflies, Layer, PixelBounds, ScreenMotion, SpectralBands,
+  Development, FilterReach, Fireflies, Layer, LayerFilm, PixelBounds, ScreenMotion, SpectralBands,
   VisibleSurface
 }
 import candela.guiding.{Guide, GuidingMode}
@@ -85,7 +85,21 @@ object SceneBuilder:
       IdleSettings(context, settings).check(world)
     context.problems.stopAtErrors()
     val made = plan(context, settings, taken, image, crop, integrator, sampling, camera, world)
+    checkSize(context, made)
     (made, context.problems.result)
+
+  /** Whether arrays can have all values of the pixels, their layers and bands. */
+  private def checkSize(context: BuildContext, plan: RenderPlan): Unit =
+    val bands = plan.bands.orElse(plan.development.bands).fold(0)(_.channels.size)
+    val layers = plan.layers.fold(0L)(asked => LayerFilm.size(asked.layers, asked.groups))
+    if plan.crop.pixels * (layers + 2 * bands) > Int.MaxValue - 8 then
+      val what = Vector("layers" -> layers, "bands" -> bands.toLong).maxBy(_._2)._1
+      context.problems.error(
+        context.placeOf(context.description.film),
+        s"can't render ${plan.crop.width}×${plan.crop.height} pixels with all their $what at once",
+        Some(s"ask for fewer $what, or render parts of the image with --cropwindow")
+      )
+      context.problems.stopAtErrors()
 
   /** What a film and its samples need, and how long paths are.
     *

@@ -1,5 +1,6 @@
 package candela.film
 
+import candela.base.loop
 import candela.math.*
 
 /** A reconstruction filter: filter weight at offset (`dx`, `dy`) from the pixel centre. Zero
@@ -21,9 +22,9 @@ private object Filter:
   private val Steps = 4096
 
   def along(radius: Float, value: Float => Float): Double =
-    (0 until Steps)
-      .map(i => value(((2.0 * i + 1) / Steps - 1).toFloat * radius).toDouble)
-      .sum * 2 * radius / Steps
+    var sum = 0.0
+    loop(Steps)(i => sum += value(((2.0 * i + 1) / Steps - 1).toFloat * radius))
+    sum * 2 * radius / Steps
 
 // Scene files name the radii `xwidth`, `ywidth` (pbrt-v2, v3) or `xradius`, `yradius` (v4); all in
 // pixels from the centre. The defaults are given as v2 and v3 / v4.

@@ -99,3 +99,10 @@ final class LayerFilm(
     val tally = statistic.tally
     val at = pixel + offsets(tallies.indexOf(tally))
     PixelTally(sums, at, tally.size, sums(pixel), sums(pixel + 1), sums(pixel + 2), scale)
+
+object LayerFilm:
+  /** Numbers of a pixel, while they are accumulated or in the image, whichever are more. */
+  def size(layers: Vector[Layer], groups: Option[Vector[String]]): Long =
+    val names = groups.getOrElse(Vector.empty)
+    val sums = 3L + layers.map(_.statisticOf(names).tally).distinct.map(_.size.toLong).sum
+    Math.max(sums, 3L + layers.map(_.channelsOf(names).size.toLong).sum)

@@ -61,7 +61,7 @@ private[image] object Qoi extends OutputFormat("qoi", Contents.Display):
     private val pixel = Array(0, 0, 0, 255)
     private val seen = Array.ofDim[Int](64, 4)
 
-    /** The last bytes are no pixels, in files that are cut, neither. */
+    /** The last bytes are never pixels, even if the file is cut. */
     def isAtEnd: Boolean = at >= file.length - End.length
 
     def decode(target: Array[Byte]): Unit =

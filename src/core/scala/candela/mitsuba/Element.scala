@@ -1,6 +1,6 @@
 package candela.mitsuba
 
-import candela.base.{InputFile, IoReason, Problem, SceneError, SourcePos}
+import candela.base.{InputFile, IoReason, Problem, Refusal, SceneError, SourcePos}
 
 import java.io.{BufferedInputStream, InputStream, InputStreamReader, IOException, Reader}
 import java.nio.charset.{CharacterCodingException, Charset}
@@ -34,10 +34,11 @@ object XmlFile:
     def place(l: Location) =
       SourcePos(name, l.getLineNumber.max(1), l.getColumnNumber.max(1), includedFrom)
     try
-      Using.resource(file.stream()): in =>
-        val reader = factory.createXMLStreamReader(text(in))
-        try Document(reader, place).root()
-        finally reader.close()
+      Refusal.placed(SourcePos(name, 1, 1, includedFrom)):
+        Using.resource(file.stream()): in =>
+          val reader = factory.createXMLStreamReader(text(in))
+          try Document(reader, place).root()
+          finally reader.close()
     catch
       case e: XMLStreamException =>
         val at = Option(e.getLocation).fold(SourcePos(name, 1, 1, includedFrom))(place)

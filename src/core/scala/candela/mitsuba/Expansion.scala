@@ -29,7 +29,7 @@ final class Expansion(file: Path, folder: SceneFolder, defines: Map[String, Stri
   private val values = mutable.HashMap.from(defines)
   private val used = mutable.HashSet.empty[String]
   private val aliases = mutable.HashMap.empty[String, String]
-  private val paths = mutable.ArrayBuffer.empty[Path]
+  private val paths = mutable.LinkedHashSet.empty[Path]
   private val sources = mutable.ArrayBuffer(file)
   private var room = Expansion.MostText
 
@@ -50,6 +50,7 @@ final class Expansion(file: Path, folder: SceneFolder, defines: Map[String, Stri
     if root.tag != "scene" then fail(root, s"expected <scene>, found <${root.tag}>")
     val isOld = root("version").flatMap(_.takeWhile(_ != '.').toIntOption).exists(_ < 2)
     root.children.flatMap: child =>
+      folder.allowance.checkTime(Some(child.at))
       child.tag match
         case "default" =>
           val e = substituted(child)

@@ -44,12 +44,16 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
     all.toMap
 
   def report(p: Problem): Unit = if seen.add(p) then problems.add(p)
-  def warn(at: SourcePos, message: String, help: Option[String] = None): Unit =
-    report(Problem.warning(at, message, help))
-  def error(at: SourcePos, message: String, help: Option[String] = None): Unit =
-    report(Problem.error(at, message, help))
-  def missing(at: SourcePos, message: String, standIn: String, help: Option[String]): Unit =
-    report(Problem.missing(at, message, standIn, keepGoing, help))
+  def warn(at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    report(Problem.warning(at, message).withHelp(shown(help)))
+  def error(at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    report(Problem.error(at, message).withHelp(shown(help)))
+  def missing(at: SourcePos, message: String, standIn: String, help: => Option[String]): Unit =
+    report(Problem.missing(at, message, standIn, keepGoing).withHelp(shown(help)))
+
+  /** Not looked for in scenes where everything is missing. */
+  private def shown(help: => Option[String]): Option[String] =
+    if seen.size < Problems.MostErrors then help else None
 
   def found: Vector[Problem] = problems.result()
 
@@ -69,7 +73,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
       error(
         at,
         s"no object has the id `$id`",
-        Suggest.help(id, byId.keySet ++ expanded.aliases.keySet)
+        Suggest.help(id, byId.keySet.view ++ expanded.aliases.keySet)
       )
     there
 
@@ -109,6 +113,7 @@ final class Session(expanded: Expanded, folder: SceneFolder, keepGoing: Boolean)
 
   /** Runs `body` on the properties of an object, then reports those that it did not ask for. */
   def of[A](p: Plugin)(body: Asked => A): A =
+    allowance.checkTime(Some(p.at))
     val asked = Asked(p, this)
     val result = body(asked)
     asked.finish()

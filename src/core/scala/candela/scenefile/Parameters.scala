@@ -39,40 +39,38 @@ final class Parameters(
     * `Shape "trianglemesh" Include "vertices.pbrt"`.
     */
   def list(in: Tokenizer): Vector[Param] =
-    var params = withIncluded(in, Vector.empty)
+    val params = ParamList()
+    withIncluded(in, params)
     var further = if in.current == Token.End then outer else Nil
     while further.nonEmpty do
-      params = parametersHere(further.head, params)
+      parametersHere(further.head, params)
       further = if further.head.current == Token.End then further.tail else Nil
-    params
+    params.result
 
-  private def withIncluded(in: Tokenizer, before: Vector[Param]): Vector[Param] =
-    var params = parametersHere(in, before)
+  private def withIncluded(in: Tokenizer, params: ParamList): Unit =
+    parametersHere(in, params)
     var included = continuation(in)
     while included.nonEmpty do
-      for file <- included do params = parametersHere(file, params)
+      for file <- included do parametersHere(file, params)
       val isWhole = included.forall(_.current == Token.End)
-      if isWhole then params = parametersHere(in, params)
+      if isWhole then parametersHere(in, params)
       included = if isWhole then continuation(in) else None
-    params
 
-  private def parametersHere(in: Tokenizer, before: Vector[Param]): Vector[Param] =
-    var params = before
+  private def parametersHere(in: Tokenizer, params: ParamList): Unit =
     while in.current == Token.Text do
       val at = in.at
       val key = keys.getOrElseUpdate(in.text, keyHere(in))
       in.advance()
       val param = values.read(key.paramType, key.name, at, in)
-      params.find(_.name == param.name) match
-        case None => params = params :+ param
+      params.find(param.name) match
+        case None => params.add(param)
         case Some(earlier) =>
           val (ignored, used) =
             if isTexture(earlier) && !isTexture(param) && !isV4() then (param, earlier)
             else (earlier, param)
           val message = s"`${param.name}` is repeated at ${used.at}; this value is ignored"
           warn(Problem.warning(ignored.at, message))
-          params = params.filterNot(_ eq earlier) :+ used
-    params
+          params.replace(earlier, used)
 
   private def isTexture(param: Param): Boolean = param.paramType == ParamType.Texture
 
@@ -107,3 +105,35 @@ object Parameters:
       "normal3" -> ParamType.Normal,
       "color" -> ParamType.Rgb
     )
+
+/** Parameters, of each name one. */
+private final class ParamList:
+  private var few = Vector.empty[Param]
+  private var many: mutable.LinkedHashMap[String, Param] | Null = null
+
+  def find(name: String): Option[Param] =
+    val all = many
+    if all == null then few.find(_.name == name) else all.get(name)
+
+  def add(param: Param): Unit =
+    val all = many
+    if all != null then all(param.name) = param
+    else
+      few = few :+ param
+      if few.size > ParamList.Few then many = mutable.LinkedHashMap.from(few.map(p => p.name -> p))
+
+  /** What is used is the last of all. */
+  def replace(earlier: Param, used: Param): Unit =
+    val all = many
+    if all == null then few = few.filterNot(_ eq earlier) :+ used
+    else
+      all.remove(used.name): Unit
+      all(used.name) = used
+
+  def result: Vector[Param] =
+    val all = many
+    if all == null then few else all.values.toVector
+
+private object ParamList:
+  /** Up to which a search is faster than a table. */
+  val Few = 16

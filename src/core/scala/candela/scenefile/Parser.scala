@@ -2,7 +2,7 @@ package candela.scenefile
 
 import java.nio.file.Path
 
-import candela.base.{InputFile, Problem, SceneError, SceneFolder}
+import candela.base.{InputFile, Problem, Refusal, SceneError, SceneFolder, SourcePos}
 
 /** Parses scene files. */
 object Parser:
@@ -30,10 +30,12 @@ object Parser:
   ): SceneDescription =
     val folder = within.getOrElse(SceneFolder.of(file))
     val opened = folder.scene(file)
-    Source.read(opened) match
+    Refusal.placed(start(file))(Source.read(opened)) match
       case Right(source) => read(source, folder, Some(opened), dialect, keepGoing, world)
       case Left(why) =>
         throw SceneError(Problem.general(s"can't read the scene file `$file`: $why"))
+
+  private def start(file: Path) = SourcePos(file.toString, 1, 1)
 
   /** The Film statement of a scene's first world, if it can be read; not the world itself. */
   def film(file: Path, dialect: Option[Dialect], within: SceneFolder): Option[Declaration] =

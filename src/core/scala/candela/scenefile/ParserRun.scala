@@ -2,6 +2,9 @@ package candela.scenefile
 
 import java.nio.file.Path
 
+import scala.collection.mutable
+import scala.util.Try
+
 import candela.base.{
   InputFile, Limit, Problem, SceneError, SceneFolder, Severity, SourcePos, Suggest
 }
@@ -23,6 +26,8 @@ private[scenefile] final class ParserRun(
     world: Int,
     isHead: Boolean = false
 ):
+  import ParserRun.*
+
   private val evidence = DialectGuess()
   private val problems = Problems()
   private val doubts = DoubtfulFiles(problems.add)
@@ -30,7 +35,7 @@ private[scenefile] final class ParserRun(
   private var scene = SceneWriter(folder, evidence, () => isV4, doubts.add)
   private val misplaced = Problems()
 
-  private var sources = file.map(_.path).toVector
+  private val sources = mutable.LinkedHashSet.from(file.map(_.path))
   private var lost = Set.empty[NameKind]
 
   /** Whether the rest of the file is ignored. */
@@ -80,7 +85,7 @@ private[scenefile] final class ParserRun(
     read.copy(
       errors = errors,
       lost = lost,
-      sources = sources,
+      sources = sources.toVector,
       isFollowed = isFollowed && dialect != Dialect.V4
     )
 
@@ -131,6 +136,7 @@ private[scenefile] final class ParserRun(
 
   private def statement(in: Tokenizer): Unit =
     val at = in.at
+    folder.allowance.checkTime(Some(at))
     Directives.all.get(in.text).filter(_ => in.current == Token.Word) match
       case None => unknown(in)
       case Some(directive) if scene.worldEnd.nonEmpty && worldsToSkip == 0 =>
@@ -208,31 +214,43 @@ private[scenefile] final class ParserRun(
 
   /** Reads the statements of another file, which `from` includes. */
   private def include(from: Tokenizer)(name: String, nameAt: SourcePos, at: SourcePos): Unit =
-    def missing(message: String, help: Option[String] = None): Unit =
-      val problem = Problem.missing(nameAt, message, "skipped", keepGoing, help)
-      if !keepGoing then throw SceneError(problem)
-      problems.add(problem)
-      // Skips the parameters that continue the missing file's last statement.
-      val _ = parameters.list(from)
+    open(name, nameAt, at) match
+      case Right(opened) => within(from, opened)(statements(opened.text))
+      case Left(why) => skip(why, from, nameAt)
+
+  /** Passes over a file that can't be read, if that is asked for. */
+  private def skip(why: Missing, from: Tokenizer, nameAt: SourcePos): Unit =
+    val problem = Problem.missing(nameAt, why.message, "skipped", keepGoing, why.help)
+    if !keepGoing then throw SceneError(problem)
+    problems.add(problem)
+    // Skips the parameters that continue the missing file's last statement.
+    val _ = parameters.list(from)
+
+  /** Opens a file at its start.
+    *
+    * @throws SceneError if it may not be included
+    */
+  private def open(name: String, nameAt: SourcePos, at: SourcePos): Either[Missing, Included] =
     resolve(name, nameAt) match
       case None =>
         val shown = folders.map(f => if f.toString.isEmpty then "`.`" else s"`$f`")
         val near = folders.flatMap(f => folder.at(f).suggestion(name)).headOption
         val help = near.getOrElse(s"looked in ${shown.mkString(" and ")}")
-        missing(s"can't include `$name`: no such file", Some(help))
+        Left(Missing(s"can't include `$name`: no such file", Some(help)))
       case Some(file) =>
         for why <- circle(file, name) do throw SceneError(Problem.error(nameAt, why))
         countInclude(nameAt)
         Source.readNamed(file) match
-          case Right(source) => within(from, file)(statements(Tokenizer(source, Some(at))))
-          case Left(why) => missing(s"can't include `$name`: $why")
+          case Left(why) => Left(Missing(s"can't include `$name`: $why", None))
+          case Right(source) =>
+            sources += file.path
+            if !file.isShown then doubts.raise(file.toString)
+            Right(Included(file, Tokenizer(source, Some(at))))
 
   /** Runs `body`, which reads the file. */
-  private def within(from: Tokenizer, file: InputFile)(body: => Unit): Unit =
-    if !sources.contains(file.path) then sources :+= file.path
-    if !file.isShown then doubts.raise(file.toString)
+  private def within(from: Tokenizer, included: Included)(body: => Unit): Unit =
     val outer = reading
-    reading = file :: outer
+    reading = included.file :: outer
     try parameters.within(from)(body)
     finally reading = outer
 
@@ -248,30 +266,31 @@ private[scenefile] final class ParserRun(
       from.advance()
       val (name, nameAt) = (from.text, from.at)
       from.advance()
-      val opened = resolve(name, nameAt).filter(circle(_, name).isEmpty)
-        .flatMap(beginsWithParameter(_, at))
+      val opened = Try(open(name, nameAt, at))
+      val beginning = opened.toOption.flatMap(_.toOption).map(_.text).filter(_.nextIsText)
       postponed = Some: () =>
-        opened match
-          case Some((file, text)) => within(from, file)(statementsFromHere(text))
-          case None => include(from)(name, nameAt, at)
-      opened.map((_, text) => text)
-
-  private def beginsWithParameter(file: InputFile, at: SourcePos): Option[(InputFile, Tokenizer)] =
-    Source.readNamed(file).toOption.flatMap: source =>
-      if !file.isShown then doubts.raise(file.toString)
-      val text = Tokenizer(source, Some(at))
-      val isParameter = text.nextIsText
-      if isParameter then text.advance() else source.close()
-      Option.when(isParameter)((file, text))
+        opened.get match
+          case Right(file) =>
+            within(from, file):
+              if beginning.isEmpty then statements(file.text) else statementsFromHere(file.text)
+          case Left(why) => skip(why, from, nameAt)
+      for text <- beginning do
+        try text.advance()
+        catch
+          case e: SceneError =>
+            postponed = None
+            text.source.close()
+            throw e
+      beginning
 
   /** Files that include others several times are read exponentially often. */
   private def countInclude(at: SourcePos): Unit =
     folder.allowance.check(Limit.Depth, reading.size, Some(at)):
       s"includes are nested ${reading.size} deep"
     includes += 1
-    if includes > ParserRun.MostIncludes then
+    if includes > MostIncludes then
       isDone = true
-      throw SceneError(Problem.error(at, s"more than ${ParserRun.MostIncludes} files are included"))
+      throw SceneError(Problem.error(at, s"more than ${MostIncludes} files are included"))
 
   /** Why a file can't be included here. */
   private def circle(file: InputFile, name: String): Option[String] =
@@ -279,8 +298,8 @@ private[scenefile] final class ParserRun(
       val chain = reading.takeWhile(!_.isSame(file)).reverse
       Some(s"`$name` includes itself${chain.map(f => s", through `$f`").mkString}")
     else
-      Option.when(reading.size > ParserRun.DeepestInclude):
-        s"includes are nested more than ${ParserRun.DeepestInclude} deep"
+      Option.when(reading.size > DeepestInclude):
+        s"includes are nested more than ${DeepestInclude} deep"
 
   /** Resolves against the scene's folder, as in all three renderers; else against the including
     * file's.
@@ -292,6 +311,12 @@ private[scenefile] final class ParserRun(
     (folder.path :: reading.headOption.map(f => SceneFolder.of(f.path).path).toList).distinct
 
 private[scenefile] object ParserRun:
+  /** An included file, opened. */
+  private final case class Included(file: InputFile, text: Tokenizer)
+
+  /** Why a file is not included. */
+  private final case class Missing(message: String, help: Option[String])
+
   /** More than any scene needs, and far from a stack overflow. */
   private val DeepestInclude = 200
 

@@ -25,6 +25,9 @@ final class SceneWriter(
   private val objects = mutable.LinkedHashMap.empty[String, Vector[ShapeDescription]]
   private val instances = Vector.newBuilder[InstanceDescription]
   private val coordinateSystems = mutable.HashMap.empty[String, AnimatedTransform]
+  private val texturesByName = mutable.HashMap.empty[(String, String), TextureDescription]
+  private val media = mutable.LinkedHashMap.empty[String, MediumDescription]
+  private var unknownSystems = 0
   private val objectNames = mutable.HashMap.empty[String, String]
   private var inObject = Option.empty[(String, mutable.ArrayBuffer[ShapeDescription])]
   private var result = SceneDescription(Dialect.V4, folder = folder)
@@ -47,7 +50,8 @@ final class SceneWriter(
   /** Warnings about mixtures of materials that are defined after them. */
   def lateParts(dialect: Dialect): Vector[Problem] =
     val all = result.namedMaterials.map((name, made) => name -> made.at).toMap
-    def isNamed(d: Declaration) = result.namedMaterials.exists((_, made) => made.at == d.at)
+    val places = result.namedMaterials.map((_, made) => made.at).toSet
+    def isNamed(d: Declaration) = places(d.at)
     for
       (mixture, part) <- mixed.result()
       // pbrt-v2 looks for the parts of a `Material` when a shape has it
@@ -80,6 +84,7 @@ final class SceneWriter(
       shapes = shapes.result(),
       objects = VectorMap.from(objects),
       instances = instances.result(),
+      media = media.values.toVector,
       warnings = warnings
     )
 
@@ -196,10 +201,10 @@ final class SceneWriter(
 
   def makeNamedMedium(from: Named): Unit =
     val medium = declareByType("Medium", from, "medium")
-    val (same, others) = result.media.partition(_.name == from.name)
-    if same.nonEmpty then refuseInV4(from.at, "medium", from.name)
-    val described = MediumDescription(from.name, medium, state.transform)
-    result = result.copy(media = others :+ described)
+    if media.contains(from.name) then refuseInV4(from.at, "medium", from.name)
+    // A later one goes behind all others
+    media.remove(from.name): Unit
+    media(from.name) = MediumDescription(from.name, medium, state.transform)
 
   /** @param name name of the texture; `from.name` is its class */
   def texture(name: String, at: SourcePos, valueType: String, from: Named): Unit =
@@ -207,20 +212,24 @@ final class SceneWriter(
       TextureDescription(unique, valueType, declare("Texture", from, "texture"), state.transform)
     val scope = state.scope
     val current = scope.textures.getOrElse(name, name)
-    if names.take(valueType, current) then textures += described(current)
+    if names.take(valueType, current) then keep(described(current))
     else
       refuseInV4(at, s"$valueType texture", name)
       val made = described(names.fresh(SceneWriter.TextureKinds, name))
       // Textures of the other value type with this name must resolve by the new name, too.
       for
         kind <- SceneWriter.TextureKinds if kind != valueType
-        twin <- textures.result().find(t => t.name == current && t.valueType == kind)
+        twin <- texturesByName.get((kind, current))
       do
-        textures += twin.copy(name = made.name)
+        keep(twin.copy(name = made.name))
         val _ = names.take(kind, made.name)
-      textures += made
+      keep(made)
       val _ = names.take(valueType, made.name)
       change(_.copy(scope = scope.copy(textures = scope.textures.updated(name, made.name))))
+
+  private def keep(texture: TextureDescription): Unit =
+    textures += texture
+    texturesByName((texture.valueType, texture.name)) = texture
 
   private def refuseInV4(at: SourcePos, kind: String, name: String): Unit =
     if isV4() then
@@ -234,6 +243,8 @@ final class SceneWriter(
       val help = Suggest.help(target, SceneWriter.Targets)
       fail(at, s"unknown Attribute target `$target`", help)
     val earlier = state.defaults.getOrElse(target, Vector.empty)
+    if earlier.size > SceneWriter.MostDefaults then
+      fail(at, s"more than ${SceneWriter.MostDefaults} defaults of \"$target\"", None)
     val all = earlier.filterNot(e => params.exists(_.name == e.name)) ++ params.map(
       _.asDefault(state.colorSpace)
     )
@@ -280,13 +291,19 @@ final class SceneWriter(
     coordinateSystems.get(name) match
       case Some(found) => change(_.copy(transform = found))
       case None =>
-        val help = Suggest.help(name, coordinateSystems.keys)
+        unknownSystems += 1
+        // The search takes its time, and may be asked for a million times
+        val isHelped = unknownSystems <= Problems.MostErrors
+        val help = if isHelped then Suggest.help(name, coordinateSystems.keys) else None
         val message = s"unknown coordinate system `$name`; keeping the current transform"
         problem(Problem.warning(at, message, help))
 
 object SceneWriter:
   private val TextureKinds = List("float", "spectrum")
   private val Targets = List("shape", "light", "material", "medium", "texture")
+
+  /** Far more than there are parameters; each statement takes as long as there are defaults. */
+  private val MostDefaults = 1000
   private val MixedNames = Set("namedmaterial1", "namedmaterial2")
   private val Examples = Map("Material" -> "diffuse", "Medium" -> "homogeneous")
 

@@ -3,7 +3,9 @@ package candela.scenefile
 import java.io.{ByteArrayOutputStream, IOException}
 import java.nio.charset.StandardCharsets.UTF_8
 
-import candela.base.{FloatBuffer, IntBuffer, IoReason, Problem, RestBuffer, SceneError, SourcePos}
+import candela.base.{
+  FloatBuffer, IntBuffer, IoReason, Problem, Refusal, RestBuffer, SceneError, SourcePos
+}
 
 /** Splits a scene file into tokens, with one current token. Reads lists of numbers without creating
   * tokens. Commas are whitespace, which pbrt-v3 allows after numbers.
@@ -237,7 +239,7 @@ final class Tokenizer(val source: Source, val includedFrom: Option[SourcePos]):
     !source.isLast && {
       val here = if start < next then at else nextPlace
       val from = start
-      try source.slide(from)
+      try Refusal.placed(here)(source.slide(from))
       catch
         case e: IOException =>
           source.close()

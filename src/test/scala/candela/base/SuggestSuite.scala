@@ -35,3 +35,19 @@ class SuggestSuite extends AnyFunSuite:
     assert(Suggest.distance("ab", "ba") == 1)
     assert(Suggest.distance("ca", "abc") == 3) // 2 only if a swapped pair could be edited again
     assert(Suggest.distance("same", "same") == 0)
+
+  test("a distance is exact up to the one that is asked for, and more beyond"):
+    val random = scala.util.Random(3)
+    def word() = String(Array.fill(random.nextInt(8))("abc".charAt(random.nextInt(3))))
+    for _ <- 0 until 2000 do
+      val (a, b, most) = (word(), word(), random.nextInt(5))
+      val whole = Suggest.distance(a, b)
+      val found = Suggest.distance(a, b, most)
+      assert(if whole <= most then found == whole else found > most, s"$a $b $most")
+
+  test("of very many names, a few are listed, and some are compared"):
+    val many = (1 to 1_000_000).view.map(i => s"texture-$i")
+    assert(Suggest.help("velvet", many.take(1000).toVector).get.endsWith(" and 995 more"))
+    // Each a million times as many comparisons, were all compared
+    for i <- 1 to 300 do
+      assert(Suggest.help(s"TEXTURE-$i", many).contains(s"did you mean `texture-$i`?"))

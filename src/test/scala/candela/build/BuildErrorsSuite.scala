@@ -267,3 +267,14 @@ final class BuildErrorsSuite extends AnyFunSuite:
     val found = SceneTexts.problems(s"WorldBegin $shape $light WorldEnd").map(_.message)
     assert(found.exists(_.contains("no file `a")))
     assert(found.exists(_.contains("is neither a named spectrum")))
+
+  test("after a thousand errors, or ten thousand warnings, a build says no more"):
+    def world(count: Int)(line: Int => String) =
+      (1 to count).map(line).mkString("WorldBegin\nLightSource \"point\"\n", "\n", "\n")
+    val missing = world(1200)(i => s"NamedMaterial \"m$i\" $sphere")
+    val errors = SceneTexts.problems(missing, Dialect.V4)
+    assert(errors.size == 1001 && errors.last.message == "building stopped after 1000 errors")
+    assert(errors.head.message == "material `m1` is not defined")
+    val warnings =
+      SceneTexts.problems(world(10_200)(_ => "LightSource \"point\" \"float x\" 1"), Dialect.V4)
+    assert(warnings.size == 10_001 && warnings.last.message == "more warnings are omitted")

@@ -2,9 +2,9 @@ package candela.build
 
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.{Parallel, SceneError}
+import candela.base.{Parallel, SceneError, Severity}
 import candela.color.{ColorSpace, Rgb}
-import candela.film.{BoxFilter, GaussianFilter, PixelBounds}
+import candela.film.{BoxFilter, GaussianFilter, Layer, PixelBounds}
 import candela.integrators.{DirectLighting, Integrator, PathTracer}
 import candela.render.{RenderMethod, RenderPlan, Renderer, ThreadPool}
 import candela.build.sampling.{PointChoice, PointSet}
@@ -181,6 +181,22 @@ final class SceneBuilderSuite extends AnyFunSuite:
       assert(image.width == 5 && image.data.exists(_ > 0f), s"$method $sampler")
     val whole = SceneTexts.problems(s"${film("")}$nothing").map(_.message)
     assert(whole == Vector("can't render 45000×46000 pixels at once"))
+
+  test("nor are layers, bands or groups of lights that would need more"):
+    def refused(film: String, layers: Vector[Layer], lights: Int = 1) =
+      val world = "LightSource \"point\" ".repeat(lights)
+      val text = s"Film $film \"integer xresolution\" 9000 \"integer yresolution\" 9000\n" +
+        s"Integrator \"path\"\nWorldBegin $world Shape \"sphere\""
+      intercept[SceneError](SceneTexts.plan(text, Dialect.V4, RenderSettings(layers = layers)))
+        .problems.filter(_.severity == Severity.Error).map(_.message)
+    val all = Layer.values.toVector.filterNot(_.dividesLight)
+    val why = "can't render 9000×9000 pixels with all their"
+    assert(refused("\"rgb\"", all) == Vector(s"$why layers at once"))
+    assert(refused("\"rgb\"", Vector(Layer.Lights), lights = 20) == Vector(s"$why layers at once"))
+    assert(refused(
+      "\"spectral\" \"integer nbuckets\" 40",
+      Vector.empty
+    ) == Vector(s"$why bands at once"))
 
   test("v4's images are the brighter the longer the shutter is open; older ones are not"):
     val camera = "Camera \"perspective\" \"float shutteropen\" 0.25 \"float shutterclose\" 0.75"

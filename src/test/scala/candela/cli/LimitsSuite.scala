@@ -5,10 +5,13 @@ import java.nio.file.{Files, Path}
 import org.scalatest.Assertion
 import org.scalatest.funsuite.AnyFunSuite
 
-import candela.base.Limit
+import candela.base.{Allowance, Limit, Refusal, SceneFolder, SourcePos}
+import candela.build.SceneBuilder
 import candela.cli.options.{CommandLine, LimitTable}
 import candela.cli.terminal.ExitCode
 import candela.image.{Image, ImageFiles}
+import candela.mitsuba.MitsubaScene
+import candela.scenefile.Parser
 import candela.testing.Gzip
 
 /** What a scene may use has limits, each with a message. */
@@ -164,6 +167,33 @@ class LimitsSuite extends AnyFunSuite:
       // Far less than the rendering takes, which is hours
       assert(seconds < 60)
       assert(Files.readString(before) == "before" && Files.exists(film))
+
+  test("time: the statement that is read, or built, is named"):
+    TempFolder.use: folder =>
+      val over = Allowance(Map(Limit.Time -> 90_000L), endsAt = Some(System.nanoTime))
+      def place(body: => Any): Option[SourcePos] =
+        val refusal = intercept[Refusal](body)
+        assert(refusal.problem.message.contains("the time of 90 s is over"))
+        refusal.problem.at
+      val world = scene("Shape \"sphere\"\n")
+      for (name, text) <- Vector("s.pbrt" -> world, "s.xml" -> xml("<shape type=\"sphere\"/>")) do
+        val file = Files.writeString(folder.resolve(name), text)
+        val within = SceneFolder.of(file, allowance = over)
+        val read =
+          if name == "s.xml" then
+            place(MitsubaScene.readable(file, Map.empty, keepGoing = false, Some(within)))
+          else place(Parser.readable(file, None, keepGoing = false, within = Some(within)))
+        assert(read.map(_.toString).contains(s"$file:1:1"), "nothing but the file is read yet")
+      val late = Parser.parseText("s.pbrt", world, folder)
+        .copy(folder = SceneFolder.of(folder.resolve("s.pbrt"), allowance = over))
+      val built = place(SceneBuilder.build(late))
+      assert(built.exists(at => at.file == "s.pbrt" && at.line > 0), built)
+
+  test("bytes: the line at which a scene's own file is too long is named"):
+    val comment = "# " + "x" * 300_000
+    refused("bytes=200kB", "with `s.pbrt`, ", "s.pbrt:3:")(
+      "s.pbrt" -> scene("").replace("\nCamera", s"\n$comment\nCamera")
+    )
 
   test("time: reading and building end, too"):
     TempFolder.use: folder =>

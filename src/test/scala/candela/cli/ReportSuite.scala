@@ -26,12 +26,28 @@ class ReportSuite extends AnyFunSuite:
     assert(text.linesIterator.toVector ==
       Vector("a.pbrt:2:5: error: a", "a.pbrt:10:1: error: b", "2 errors"))
 
+  test("of many files within each other, the first and the last are named"):
+    def nested(depth: Int): SourcePos =
+      val outer = Option.when(depth > 0)(nested(depth - 1))
+      SourcePos(s"$depth.pbrt", 1, 1, outer)
+    def lines(depth: Int) =
+      report()(_.errors(Vector(Problem.error(nested(depth), "a")))).linesIterator
+    assert(lines(10).size == 11 && !lines(10).exists(_.contains("more")))
+    val long = lines(200).toVector
+    assert(long.size == 12 && long(6) == " … 190 more …")
+    assert(long(5) == " included from 195.pbrt:1:1" && long.last == " included from 0.pbrt:1:1")
+
   test("full stacks, interrupted threads and impossible names are errors, not bugs"):
     def caught(e: Throwable): String = report(): r =>
       assert(r.guarded(throw e) == ExitCode.BadInput)
     assert(caught(StackOverflowError()).contains("nested too deeply"))
     val within = RenderFailure(0, 0, 0, StackOverflowError())
     assert(caught(within).contains("nested too deeply"))
+    for e <- Vector(NegativeArraySizeException("-4"), ArithmeticException("integer overflow")) do
+      assert(caught(e).contains("more values are needed at once"))
+    val division =
+      report()(r => assert(r.guarded(throw ArithmeticException("/ by zero")) == ExitCode.Bug))
+    assert(division.contains("bug"))
     for e <- Vector(InterruptedException(), java.nio.channels.ClosedByInterruptException()) do
       assert(caught(e).contains("was interrupted"))
     val zero = java.nio.file.InvalidPathException("a\u0000", "zero")

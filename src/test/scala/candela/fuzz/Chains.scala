@@ -8,14 +8,17 @@ import candela.cli.AnyCommand
   * exponentially many.
   */
 final class Chains(place: Place) extends Attempts:
+  import Chains.*
   import place.random
 
   private val folder = Files.createDirectories(place.folder.resolve("chains"))
 
   private def one[A](all: IndexedSeq[A]): A = all(random.nextInt(all.size))
 
-  /** Of any magnitude. */
-  private def upTo(most: Int): Int = Math.pow(most, random.nextDouble()).toInt
+  /** Of any magnitude; seldom of the largest, which take the time of hundreds of others. */
+  private def upTo(most: Int): Int =
+    val usual = if random.nextInt(100) == 0 then most else Math.min(most, Usual)
+    Math.pow(usual, random.nextDouble()).toInt
 
   /** The number of a node that node `i` names: mostly the one before. */
   private def before(i: Int): Int =
@@ -83,7 +86,9 @@ final class Chains(place: Place) extends Attempts:
   /** Files that include each other; the first is included by the scene. */
   private def files(suffix: String, depth: Int)(text: (String => String, Int) => String): Unit =
     // How often files are read in all: the bounds of includes take seconds to be reached
-    val most = if random.nextInt(2000) == 0 then 1e9 else 3000
+    val most: Double = random.nextInt(5000) match
+      case 0 => 1e9
+      case n => if n < 50 then 3000.0 else Usual.toDouble
     var reached = 1.0
     for i <- 0 to depth do
       val fan = 1 + random.nextInt(3)
@@ -199,3 +204,7 @@ final class Chains(place: Place) extends Attempts:
     val words = (command ++ sandbox) :+ file.toString
     val written = Files.writeString(file, text)
     Attempt(words.mkString(" "), Vector(written), () => AnyCommand.wrong(words))
+
+private object Chains:
+  /** Nodes of all but a few chains, at most. */
+  private val Usual = 200

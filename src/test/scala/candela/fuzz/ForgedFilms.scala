@@ -39,6 +39,9 @@ final class ForgedFilms(place: Place) extends Attempts:
   for (film, values) <- corpus.zip(parsed) do
     require(FilmValues.bytes(values).sameElements(film.bytes), "films are not understood")
 
+  private val texts = parsed.flatten.collect { case FilmValue.Text(t) => t }
+  private val names = (hostile.finite ++ hostile.others).map(_.toString)
+
   private def forged(values: Vector[FilmValue]): Vector[FilmValue] =
     // The state is one value of many, but as hostile as all others
     val at = if random.nextInt(3) == 0 then values.size - 1 else random.nextInt(values.size)
@@ -55,8 +58,6 @@ final class ForgedFilms(place: Place) extends Attempts:
       FilmValue.Real(one(Vector(0f, -0f, 1f, -1f, 1e30f, 1e-45f, Float.NaN, Float.MaxValue) ++
         Vector(Float.PositiveInfinity, Float.NegativeInfinity)))
     case FilmValue.Text(old) =>
-      val texts = parsed.flatten.collect { case FilmValue.Text(t) => t }
-      val names = (hostile.finite ++ hostile.others).map(_.toString)
       FilmValue.Text(one(Vector(
         "",
         s"$old ",
@@ -65,7 +66,7 @@ final class ForgedFilms(place: Place) extends Attempts:
         "\u001b[2J",
         "..",
         "/",
-        "a" * 100000,
+        ForgedFilms.Long,
         "ä\ud83d\ude00",
         "--spp",
         "--seed",
@@ -123,6 +124,8 @@ final class ForgedFilms(place: Place) extends Attempts:
     wrong.orElse(changed.map((f, _) => s"`${f.scene}` was overwritten"))
 
 private object ForgedFilms:
+  private val Long = "a" * 100000
+
   /** Every kind of state: integrators, and options. */
   private val Renderings = Vector(
     "path" -> Vector.empty,

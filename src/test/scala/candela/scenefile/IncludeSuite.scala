@@ -50,6 +50,27 @@ class IncludeSuite extends AnyFunSuite:
         Parser.parseText("test", "WorldBegin Include \"0.pbrt\" WorldEnd", folder)
       assert(why.problems.exists(_.message == "more than 100000 files are included"))
 
+  test("so are those that go on with the parameters before the Include"):
+    val part = "\"float a\" 1" + " Shape \"s\" Include \"NEXT.pbrt\"" * 2
+    val files = (0 to 30).map(i => s"$i.pbrt" -> part.replace("NEXT", s"${i + 1}"))
+    withFolder((files :+ ("31.pbrt" -> "\"float a\" 1"))*): folder =>
+      val why = intercept[SceneError]:
+        Parser.parseText("test", "WorldBegin Shape \"s\" Include \"0.pbrt\" WorldEnd", folder)
+      assert(why.problems.exists(_.message == "more than 100000 files are included"))
+
+  test("a scene consists of every file whose parameters a list has"):
+    withFolder("a.pbrt" -> "\"float a\" 1", "b.pbrt" -> "\"float b\" 2"): folder =>
+      val text = "WorldBegin Shape \"s\" Include \"a.pbrt\" Include \"b.pbrt\" Include \"a.pbrt\""
+      val scene = Parser.parseText("test", text, folder, keepGoing = true)
+      assert(scene.sources == Vector("a.pbrt", "b.pbrt").map(folder.resolve))
+
+  test("a string that is not closed in a file of parameters is an error there, once"):
+    withFolder("a.pbrt" -> "\"float a"): folder =>
+      val text = "WorldBegin Shape \"s\" Include \"a.pbrt\" WorldEnd"
+      val problems = intercept[SceneError](Parser.parseText("test", text, folder)).problems
+      assert(problems.map(_.message) == Vector("string not closed at the end of the file"))
+      assert(problems.head.at.exists(at => at.file.endsWith("a.pbrt") && at.column == 1))
+
   test("an included file shares the graphics state; an imported one gives its back"):
     withFolder("a.pbrt" -> "Translate 1 0 0 Shape \"in\""): folder =>
       def start(directive: String) =

@@ -131,3 +131,16 @@ class ParametersSuite extends AnyFunSuite:
     assert(error("\"\" 45").contains("an empty string"))
     assert(error("\"float fov\"").contains("`fov` must have a value"))
     assert(error("\"float fov\" [ 1 2").contains("no closing `]`"))
+
+  test("of any number of parameters, the last of a name is used, behind all others"):
+    for count <- Vector(3, 17, 20_000) do
+      val many = (1 to count).map(i => s"\"integer n$i\" $i").mkString(" ")
+      val found = params(s"$many \"integer n2\" 7")
+      val others = (1 to count).filter(_ != 2)
+      assert(found.map(_.name) == (others :+ 2).map(i => s"n$i"), count)
+      assert(found.last.ints.toVector == Vector(7) && warnings.size == 1)
+      val old = params(s"\"texture n2\" \"t\" $many", isV4 = false)
+      assert(
+        old.size == count && old.exists(p => p.name == "n2" && p.strings == Vector("t")),
+        count
+      )

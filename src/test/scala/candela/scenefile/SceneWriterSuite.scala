@@ -2,6 +2,7 @@ package candela.scenefile
 
 import java.nio.file.Path
 
+import candela.base.SceneError
 import candela.math.Transform
 import org.scalatest.funsuite.AnyFunSuite
 
@@ -42,3 +43,23 @@ class SceneWriterSuite extends AnyFunSuite:
     val v4 = "MakeNamedMaterial \"both\" \"string type\" \"mix\" \"string materials\" " +
       "[\"red\" \"red\"]\n" + red.replace("matte", "diffuse")
     assert(parse(s"WorldBegin\n$v4", Some(Dialect.V4)).warnings.isEmpty)
+
+  test("a medium or texture that is defined again and again is each time the new one"):
+    def many(line: Int => String) =
+      (1 to 2000).map(line).mkString("WorldBegin\n", "\n", "\nWorldEnd")
+    val media = many: i =>
+      s"MakeNamedMedium \"m${i % 3}\" \"string type\" \"homogeneous\" \"float scale\" $i"
+    val found = parse(media, Some(Dialect.V3)).media
+    assert(found.map(_.name) == Vector("m0", "m1", "m2"))
+    assert(found.map(_.medium.params.head.floats(0)) == Vector(1998f, 1999f, 2000f))
+    val kinds = Vector("float", "spectrum")
+    val textures =
+      parse(many(i => s"Texture \"t\" \"${kinds(i % 2)}\" \"constant\""), Some(Dialect.V3)).textures
+    assert(textures.size > 2000 && textures.map(t =>
+      (t.name, t.valueType)
+    ).distinct == textures.map(t => (t.name, t.valueType)))
+
+  test("more defaults than there are parameters are an error"):
+    val defaults = (1 to 2000).map(i => s"Attribute \"shape\" \"float a$i\" 1").mkString("\n")
+    val problems = intercept[SceneError](parse(s"WorldBegin\n$defaults", Some(Dialect.V4))).problems
+    assert(problems.head.message == "more than 1000 defaults of \"shape\"")

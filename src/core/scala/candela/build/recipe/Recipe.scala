@@ -133,6 +133,7 @@ final class Recipes[A](val category: String, val all: Vector[Recipe[A]]):
     * warning where this dialect's pbrt only warns. Both suggest the nearest known name.
     */
   def build(site: Site): Option[A] =
+    site.allowance.checkTime(Some(site.declaration.at))
     val name = site.declaration.name
     find(name, (r: Recipe[A]) => site.speaks(r.dialects)) match
       case Some(recipe) =>

@@ -89,10 +89,11 @@ final class Resources private (
     val name = p.strings.headOption.getOrElse("")
     sizes.refer(kind, name)
     in.get(name).orElse {
-      val (message, help) =
-        if others(name) then
-          (s"`${p.name}` must be a $kind texture, but `$name` is a $otherKind texture", None)
-        else (s"$kind texture `$name` is not defined", Suggest.help(name, in.keys))
+      val isOther = others(name)
+      val message =
+        if isOther then s"`${p.name}` must be a $kind texture, but `$name` is a $otherKind texture"
+        else s"$kind texture `$name` is not defined"
+      def help = if isOther then None else Suggest.help(name, in.keys)
       problems.unnamed(NameKind.Texture, p.valuesAt, message, standIn, help)
       None
     }

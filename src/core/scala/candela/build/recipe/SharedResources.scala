@@ -65,6 +65,7 @@ final class SharedResources(
   // Each of a hundred colour bases asks again
   private val files = ConcurrentHashMap[(SceneFolder, String), InputFile]()
   private val loaded = ConcurrentHashMap[Path, Either[String, StoredImage]]()
+  private val remarks = ConcurrentHashMap[Path, Option[String]]()
 
   private val images = mutable.Map.empty[Path, Either[String, StoredImage]]
   private val made = java.util.IdentityHashMap[Declaration, mutable.Map[Once[?], Any]]()
@@ -111,7 +112,8 @@ final class SharedResources(
     file(p, from, problems, standIn).flatMap: file =>
       loaded.computeIfAbsent(file.path, _ => load(file, p.valuesAt)) match
         case Right(image) =>
-          for remark <- ImageFiles.remark(file) do problems.warn(p.valuesAt, remark)
+          for remark <- remarks.computeIfAbsent(file.path, _ => ImageFiles.remark(file)) do
+            problems.warn(p.valuesAt, remark)
           Some(image)
         case Left(message) =>
           problems.missing(p.valuesAt, message, standIn)

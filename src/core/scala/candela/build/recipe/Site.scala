@@ -7,7 +7,7 @@ import candela.bsdf.{DiffuseMaterial, Material}
 import candela.color.{ColorBasis, ColorSpace, Rgb}
 import candela.image.{Image, StoredImage}
 import candela.math.Transform
-import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind, Param}
+import candela.scenefile.{Declaration, Dialect, Excerpts, NameKind, Param, Problems}
 import candela.textures.{ConstantFloat, ConstantRgb, FloatTexture, RgbTexture}
 
 /** Context of a recipe: the statement, the dialect and the scene's resources so far.
@@ -45,9 +45,9 @@ final class Site(
   def of(otherType: String): Site =
     Site(declaration.copy(name = otherType), dialect, resources, problems, toWorld)
 
-  def warn(message: String, help: Option[String] = None): Unit =
+  def warn(message: String, help: => Option[String] = None): Unit =
     problems.warn(declaration.at, message, help)
-  def error(message: String, help: Option[String] = None): Unit =
+  def error(message: String, help: => Option[String] = None): Unit =
     problems.error(declaration.at, message, help)
 
   /** Reports a statement that pbrt-v4 refuses, and older ones skip after a message. */
@@ -61,7 +61,7 @@ final class Site(
     else problems.warn(p.at, s"$message; it is ignored, as pbrt does", help)
 
   /** Reports that the statement refers to something missing. */
-  def missing(message: String, standIn: String, help: Option[String] = None): Unit =
+  def missing(message: String, standIn: String, help: => Option[String] = None): Unit =
     problems.missing(declaration.at, message, standIn, help)
 
 /** Collects the problems of a description, so that one run reports them all. Safe for threads.
@@ -77,28 +77,40 @@ final class Findings(
     earlier: Vector[Problem] = Vector.empty
 ):
   private val all = mutable.LinkedHashSet.from(earlier)
+  private val told = mutable.HashSet.empty[(Severity, Option[SourcePos], String)]
   @volatile private var errors = earlier.count(_.severity == Severity.Error)
+  private var warnings = 0
 
-  private def add(problem: Problem): Unit = synchronized:
-    if all.add(problem) && problem.severity == Severity.Error then errors += 1
+  /** Help is looked for only if it is shown: what is missing may be missing a million times. */
+  private def add(problem: Problem, help: => Option[String]): Unit = synchronized:
+    val isError = problem.severity == Severity.Error
+    if isError || warnings <= Problems.MostWarnings then
+      if told.add((problem.severity, problem.at, problem.message)) then
+        if isError then errors += 1 else warnings += 1
+        if isError || warnings <= Problems.MostWarnings then
+          all += problem.withHelp(help): Unit
+        else all += Problem(Severity.Warning, None, "more warnings are omitted"): Unit
+        if errors >= Problems.MostErrors then
+          val stop = s"building stopped after $errors errors"
+          throw SceneError(Problem.byPlace(result) :+ Problem.general(stop))
 
-  def warn(at: SourcePos, message: String, help: Option[String] = None): Unit =
-    add(Problem.warning(at, message, help))
+  def warn(at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    add(Problem.warning(at, message), help)
 
   /** Warns of a choice that no statement need have made, at the statement that has. */
   def warn(at: Option[SourcePos], message: String): Unit =
-    add(Problem(Severity.Warning, at, message))
+    add(Problem(Severity.Warning, at, message), None)
 
-  def error(at: SourcePos, message: String, help: Option[String] = None): Unit =
-    add(Problem.error(at, message, help))
+  def error(at: SourcePos, message: String, help: => Option[String] = None): Unit =
+    add(Problem.error(at, message), help)
 
   /** Reports a missing item: an error, or a warning that names its replacement. */
   def missing(
       at: SourcePos,
       message: String,
       standIn: String,
-      help: Option[String] = None
-  ): Unit = add(Problem.missing(at, message, standIn, keepGoing, help))
+      help: => Option[String] = None
+  ): Unit = add(Problem.missing(at, message, standIn, keepGoing), help)
 
   /** Reports a reference to a name that no statement defines. */
   def unnamed(
@@ -106,7 +118,7 @@ final class Findings(
       at: SourcePos,
       message: String,
       standIn: String,
-      help: Option[String] = None
+      help: => Option[String] = None
   ): Unit = if !lost(kind) then missing(at, message, standIn, help)
 
   def result: Vector[Problem] = Excerpts.fill(all.toVector)

@@ -44,6 +44,7 @@ final class Report(
       case e: Throwable =>
         if causes(e).exists(_.isInstanceOf[OutOfMemoryError]) then outOfMemory()
         else if causes(e).exists(_.isInstanceOf[StackOverflowError]) then tooDeep()
+        else if causes(e).exists(isOverflow) then tooMany()
         else if causes(e).exists(isInterrupt) then
           errors(Vector(Problem.general("the thread of this command was interrupted")))
         else
@@ -99,6 +100,16 @@ final class Report(
   private def isInterrupt(e: Throwable): Boolean = e match
     case _: InterruptedException | _: ClosedByInterruptException => true
     case _ => false
+
+  /** Sizes are computed such that they can't wrap around. */
+  private def isOverflow(e: Throwable): Boolean = e match
+    case a: ArithmeticException => String.valueOf(a.getMessage).endsWith("overflow")
+    case _: NegativeArraySizeException => true
+    case _ => false
+
+  private def tooMany(): ExitCode =
+    val message = "more values are needed at once than an array of Java can have, which are 2³¹"
+    errors(Vector(Problem.general(message, Some("fewer pixels, layers, photons or shapes may do"))))
 
   private def tooDeep(): ExitCode =
     val message = "the scene is nested too deeply: Java's stack is full"
@@ -189,4 +200,12 @@ object ProblemText:
     Vector(s" $number | $text", s" ${" " * number.length} | $shift$missing^")
 
   private def includes(at: SourcePos): Vector[String] =
-    Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))
+    val all =
+      Vector.unfold(at.includedFrom)(_.map(from => (s" included from $from", from.includedFrom)))
+    if all.size <= MostIncludes then all
+    else
+      val half = MostIncludes / 2
+      (all.take(half) :+ s" … ${all.size - 2 * half} more …") ++ all.takeRight(half)
+
+  /** More, of files that include each other, are left out. */
+  private val MostIncludes = 10
