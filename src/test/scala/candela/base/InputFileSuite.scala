@@ -1,6 +1,6 @@
 package candela.base
 
-import candela.cli.TempFolder
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

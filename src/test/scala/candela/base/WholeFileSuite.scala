@@ -10,7 +10,7 @@ import java.nio.file.{Files, Path}
 
 import scala.util.Using
 
-import candela.cli.TempFolder
+import candela.testing.TempFolder
 
 class WholeFileSuite extends AnyFunSuite:
 

@@ -6,8 +6,8 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.{Refusal, SceneError, SceneFolder}
 import candela.build.recipe.Support
-import candela.cli.TempFolder
 import candela.scenefile.{Dialect, Parser}
+import candela.testing.TempFolder
 
 /** Every parameter of every recipe that names a file asks the scene's folder for it. A new string
   * must be one of `Words`, or be refused when it leads out of a confined folder.

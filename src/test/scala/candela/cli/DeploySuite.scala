@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.cli.options.OptionTable
+import candela.testing.TempFolder
 
 import java.nio.file.attribute.PosixFilePermissions
 import java.nio.file.{Files, Path}

@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.ImageFiles
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

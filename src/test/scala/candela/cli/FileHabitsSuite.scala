@@ -6,7 +6,7 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.image.{Image, ImageFiles}
-import candela.testing.Gzip
+import candela.testing.{Gzip, TempFolder}
 
 /** Files as they come: names in any language, compressed, with Windows line ends, in folders. */
 class FileHabitsSuite extends AnyFunSuite:

@@ -2,6 +2,7 @@ package candela.cli
 
 import candela.film.Layer
 import candela.image.ImageFiles
+import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 

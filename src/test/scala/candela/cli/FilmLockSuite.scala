@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.render.storage.FilmLock
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -2,7 +2,7 @@ package candela.cli
 
 import candela.cli.terminal.ExitCode
 import candela.image.{Image, ImageFiles}
-import candela.testing.Gzip
+import candela.testing.{Gzip, TempFolder}
 
 import java.nio.file.{Files, Path}
 

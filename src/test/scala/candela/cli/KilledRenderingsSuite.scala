@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.testing.TempFolder
+
 import org.scalatest.funsuite.AnyFunSuite
 
 import scala.util.Random

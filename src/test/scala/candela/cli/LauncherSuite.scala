@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.testing.{StagedProgram, TempFolder}
+
 import java.nio.file.attribute.FileTime
 import java.nio.file.{Files, Path, StandardCopyOption}
 

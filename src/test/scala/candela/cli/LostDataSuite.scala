@@ -10,6 +10,7 @@ import candela.cli.files.OutputFiles
 import candela.cli.terminal.{Interrupts, Terminal}
 import candela.image.{Image, ImageFiles, OutputFormat}
 import candela.job.Prepared
+import candela.testing.TempFolder
 
 /** No command destroys its input, takes half a file for a whole one, or loses its output. */
 class LostDataSuite extends AnyFunSuite:

@@ -5,6 +5,7 @@ import scala.jdk.StreamConverters.*
 
 import candela.cli.terminal.ExitCode
 import candela.image.ImageFiles
+import candela.testing.TempFolder
 import org.scalatest.funsuite.AnyFunSuite
 
 /** All that `candela check` prints of `errors/missing/NAME.pbrt` is in `NAME.txt`, and what it

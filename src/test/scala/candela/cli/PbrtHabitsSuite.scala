@@ -5,6 +5,7 @@ import candela.image.{Image, ImageFiles}
 import candela.job.{Preparation, SceneLoader}
 import candela.measure.Metrics
 import candela.render.Renderer
+import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 

@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.testing.TempFolder
+
 import java.nio.file.{Files, Path}
 
 import org.scalatest.funsuite.AnyFunSuite

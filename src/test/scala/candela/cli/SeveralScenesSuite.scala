@@ -1,5 +1,7 @@
 package candela.cli
 
+import candela.testing.TempFolder
+
 import org.scalatest.funsuite.AnyFunSuite
 
 import java.nio.file.{Files, Path}

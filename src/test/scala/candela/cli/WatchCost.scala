@@ -1,7 +1,7 @@
 package candela.cli
 
 import candela.image.ImageFiles
-import candela.testing.{Chromium, OpenPage}
+import candela.testing.{Chromium, OpenPage, TempFolder}
 
 import java.io.IOException
 import java.lang.management.ManagementFactory

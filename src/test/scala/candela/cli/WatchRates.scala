@@ -1,6 +1,6 @@
 package candela.cli
 
-import candela.testing.Chromium
+import candela.testing.{Chromium, TempFolder}
 
 import java.net.URI
 import java.nio.file.Files

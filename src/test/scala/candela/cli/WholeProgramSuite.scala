@@ -1,6 +1,7 @@
 package candela.cli
 
 import candela.image.{Image, ImageFiles}
+import candela.testing.TempFolder
 
 import java.nio.file.{Files, Path}
 

@@ -3,11 +3,10 @@ package candela.convert
 import java.nio.file.{Files, Path}
 
 import candela.build.TextureValues
-import candela.cli.TempFolder
 import candela.color.Rgb
 import candela.math.Vec3
 import candela.scenefile.*
-import candela.testing.SceneTexts
+import candela.testing.{SceneTexts, TempFolder}
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Textures that the other dialect lacks become images of the same values. */

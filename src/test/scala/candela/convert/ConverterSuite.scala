@@ -1,11 +1,10 @@
 package candela.convert
 
 import candela.build.{ColorMode, RenderSettings, SceneBuilder}
-import candela.cli.TempFolder
 import candela.image.Image
 import candela.render.{ReferenceScenes, Renderer}
 import candela.scenefile.*
-import candela.testing.Blocks
+import candela.testing.{Blocks, TempFolder}
 import org.scalatest.funsuite.AnyFunSuite
 
 /** Every scene of the `scenes` folder, written in another dialect, looks the same; or the converter

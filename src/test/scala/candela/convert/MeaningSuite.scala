@@ -4,9 +4,8 @@ import org.scalatest.funsuite.AnyFunSuite
 
 import candela.base.InputFile
 import candela.build.shapes.PlyFile
-import candela.cli.TempFolder
 import candela.scenefile.*
-import candela.testing.SceneTexts
+import candela.testing.{SceneTexts, TempFolder}
 
 /** Statements whose numbers must be calculated, so that they mean the same. */
 class MeaningSuite extends AnyFunSuite:

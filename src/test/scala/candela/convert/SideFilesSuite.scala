@@ -3,8 +3,8 @@ package candela.convert
 import java.nio.file.Files
 
 import candela.base.SceneError
-import candela.cli.TempFolder
 import candela.scenefile.{Dialect, Parser}
+import candela.testing.TempFolder
 import org.scalatest.funsuite.AnyFunSuite
 
 class SideFilesSuite extends AnyFunSuite:

@@ -3,8 +3,8 @@ package candela.fuzz
 import java.nio.file.{Files, Path}
 import scala.util.Random
 
-import candela.cli.TempFolder
 import candela.image.ImageFiles
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

@@ -3,8 +3,9 @@ package candela.fuzz
 import java.nio.file.{Files, Path}
 import scala.util.Random
 
-import candela.cli.{Captured, TempFolder}
+import candela.cli.Captured
 import candela.image.{Image, ImageFiles}
+import candela.testing.TempFolder
 
 /** A command that writes a file, of which there are two versions.
   *

@@ -2,7 +2,7 @@ package candela.image
 
 import java.nio.file.Files
 
-import candela.cli.TempFolder
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

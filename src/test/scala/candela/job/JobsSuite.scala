@@ -1,7 +1,7 @@
 package candela.job
 
 import candela.build.RenderSettings
-import candela.cli.TempFolder
+import candela.testing.TempFolder
 
 import org.scalatest.funsuite.AnyFunSuite
 

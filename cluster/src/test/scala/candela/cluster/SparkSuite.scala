@@ -1,6 +1,7 @@
 package candela.cluster
 
-import candela.cli.{Main, TempFolder}
+import candela.cli.Main
+import candela.testing.TempFolder
 
 import org.scalatest.BeforeAndAfterAll
 import org.scalatest.funsuite.AnyFunSuite

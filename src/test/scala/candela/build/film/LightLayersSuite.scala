@@ -5,12 +5,11 @@ import java.nio.file.{Files, Path}
 import org.scalatest.funsuite.AnyFunSuite
 
 import candela.build.{ColorMode, LightGrouping, RenderSettings, SceneBuilder}
-import candela.cli.TempFolder
 import candela.film.Layer
 import candela.image.Image
-import candela.render.{Renderer, RenderPlan}
+import candela.render.{RenderPlan, Renderer}
 import candela.scenefile.{Dialect, Parser}
-import candela.testing.SceneTexts
+import candela.testing.{SceneTexts, TempFolder}
 
 /** Layers of divided light, of whole scenes. */
 final class LightLayersSuite extends AnyFunSuite:

@@ -1,0 +1,62 @@
+package candela.cli.commands
+
+import candela.cli.Captured
+import candela.testing.TempFolder
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class ConvertCommandSuite extends AnyFunSuite:
+
+  private def run(args: String*): (Int, Captured) = Captured.run("convert" +: args*)
+
+  private val old =
+    "WorldBegin\nMaterial \"matte\" \"float sigma\" 20\nShape \"sphere\"\nWorldEnd\n"
+
+  private def scene(folder: Path): Path = Files.writeString(folder.resolve("a.pbrt"), old)
+
+  test("without --outfile the scene is printed, and what is lost is said with its place"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val (code, captured) = run(file.toString, "--to", "v4", "--dialect", "v3")
+      assert(code == 0)
+      assert(captured.out.contains("Material \"diffuse\""))
+      val lost = "`sigma` of \"matte\" is not supported in v4; Lambertian"
+      assert(captured.err.contains(s"$file:2:18: warning: $lost\n 2 | Material"))
+      assert(TempFolder.names(folder) == Set("a.pbrt"))
+
+  test("with --outfile it is written, and one line says so"):
+    TempFolder.use: folder =>
+      val out = folder.resolve("b.pbrt")
+      val (code, captured) =
+        run(scene(folder).toString, "--to", "v4", "--dialect", "v3", "--outfile", out.toString)
+      assert(code == 0)
+      assert(captured.out == s"wrote $out  v4, 1 warning\n")
+      assert(Files.readString(out).contains("Film \"rgb\""))
+      assert(TempFolder.names(folder) == Set("a.pbrt", "b.pbrt"))
+
+  test("a missing include is an error, without the advice to use an option that convert lacks"):
+    TempFolder.use: folder =>
+      val file = Files.writeString(folder.resolve("a.pbrt"), "Include \"none.pbrt\"\n")
+      val (code, captured) = run(file.toString, "--to", "v4")
+      assert(code == 1 && captured.err.contains("can't include `none.pbrt`"))
+      assert(!captured.err.contains("--keep-going"))
+      assert(run(file.toString, "--to", "v4", "--keep-going")(0) == 2)
+
+  test("what is read is not overwritten, nor is a folder"):
+    TempFolder.use: folder =>
+      val file = scene(folder)
+      val (code, captured) = run(file.toString, "--to", "v3", "--outfile", s"$folder/./a.pbrt")
+      assert(code == 1 && captured.err.contains("is an input file"))
+      assert(Files.readString(file) == old)
+      val (other, said) = run(file.toString, "--to", "v3", "--outfile", folder.toString)
+      assert(other == 1 && said.err.contains("it is a folder"))
+
+  test("without a dialect to write it is the scene's own, and v2 is written from v2 alone"):
+    TempFolder.use: folder =>
+      val file = scene(folder).toString
+      val (own, printed) = run(file)
+      assert(own == 0 && printed.out.contains("WorldEnd")) // as in v2 and v3
+      val (code, captured) = run(file, "--to", "v2", "--dialect", "v3")
+      assert(code == 1 && captured.err.contains("can't convert a v3 scene to v2"))

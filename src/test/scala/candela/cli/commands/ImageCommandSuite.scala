@@ -1,0 +1,141 @@
+package candela.cli.commands
+
+import java.nio.file.{Files, Path}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+import candela.cli.{Captured, Main}
+import candela.image.{Image, ImageFiles}
+import candela.testing.TempFolder
+
+/** The commands `image`, `average` and `info`. */
+class ImageCommandSuite extends AnyFunSuite:
+
+  private def run(words: String*): (Int, Captured) =
+    val captured = Captured()
+    (Main.run(words, captured.terminal), captured)
+
+  private val sky = "scenes/textures/sky-latlong.exr"
+  private val square = "scenes/textures/sky-equalarea.exr"
+
+  /** The image that `candela image` makes of a file. */
+  private def made(file: String, words: String*): Image =
+    TempFolder.use: folder =>
+      val out = folder.resolve("out.exr")
+      val (code, captured) = run(Vector("image", file, "--outfile", out.toString) ++ words*)
+      assert(code == 0, captured.err)
+      ImageFiles.read(out)
+
+  private def refusal(words: String*): String =
+    TempFolder.use: folder =>
+      val out = folder.resolve("out.exr")
+      val (code, captured) = run(Vector("image") ++ words ++ Vector("--outfile", out.toString)*)
+      assert(code != 0 && !Files.exists(out))
+      captured.err
+
+  private def same(a: Image, b: Image, tolerance: Float) =
+    assert((a.width, a.height, a.channelNames) == (b.width, b.height, b.channelNames))
+    assert(a.data.zip(b.data).forall((x, y) => Math.abs(x - y) <= tolerance))
+
+  test("image crops, scales and clamps light"):
+    val whole = ImageFiles.read(Path.of(sky))
+    val part = made(sky, "--crop", "10,40,5,-15", "--scale", "2", "--clamp", "1.5")
+    assert((part.width, part.height) == (30, 15))
+    for x <- 0 until 30; y <- 0 until 15 do
+      val values = Vector.tabulate(3)(c => 2 * whole(10 + x, 5 + y, c))
+      val factor = if values.max > 1.5f then 1.5f / values.max else 1f
+      for c <- 0 until 3 do assert(Math.abs(part(x, y, c) - values(c) * factor) < 1e-6f): Unit
+
+  test("image stores the place of a crop in .exr"):
+    TempFolder.use: folder =>
+      val out = folder.resolve("crop.exr")
+      val (code, captured) =
+        run("image", sky, "--crop", "10,40,5,20", "--outfile", out.toString)
+      assert(code == 0, captured.err)
+      assert(run("info", out.toString)._2.out.contains("x 10 to 40, y 5 to 20 of 64x32"))
+
+  test("image resizes by width, height or both"):
+    for (size, width, height) <- Vector(("32", 32, 16), ("x8", 16, 8), ("10x30", 10, 30)) do
+      val small = made(sky, "--resize", size)
+      assert((small.width, small.height) == (width, height))
+
+  test("a list of channels without names is refused"):
+    val message = "error: --channels must be at least one name, found none"
+    for names <- Vector(",", ",,,") do
+      assert(refusal(sky, "--channels", names).startsWith(message))
+      val (code, captured) = run("compare", sky, sky, "--channels", names)
+      assert(code == 2 && captured.err.startsWith(message))
+
+  test("sizes of more values than an image can have are refused"):
+    // As Ints, the first has none, and the second a negative number
+    for size <- Vector("65536x65536", "30000x30000") do
+      val message = s"${size.replace('x', '×')} pixels of 3 channels are too many for an image"
+      assert(refusal(sky, "--resize", size).contains(message))
+    for words <- Vector(Vector(square, "--environment", "latlong", "--resize", "65536")) do
+      assert(refusal(words*).contains("are too many for an image"))
+
+  test("image turns environment maps into the other shape and back"):
+    val whole = ImageFiles.read(Path.of(sky)).toRgb
+    val there = made(sky, "--environment", "equalarea", "--resize", "128")
+    assert((there.width, there.height) == (128, 128))
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      ImageFiles.write(file, there)
+      val back = made(file.toString, "--environment", "latlong", "--resize", "64")
+      // Of values up to 12 in a spot of a few pixels, blurred twice
+      assert(back.data.zip(whole.data).map((a, b) => Math.abs(a - b).toDouble).sum /
+        whole.data.length < 0.02)
+      val truth = ImageFiles.read(Path.of(square)).toRgb
+      same(made(sky, "--environment", "equalarea"), truth, 2.5f)
+
+  test("image writes any format, 16-bit floats and other primaries"):
+    TempFolder.use: folder =>
+      val files = Vector("a.png", "b.pfm", "c.qoi", "d.exr").map(folder.resolve(_).toString)
+      val words = Vector("image", sky, "--half", "--colorspace", "rec2020", "--flip", "--outfile")
+      val (code, captured) = run(words :+ files.mkString(",")*)
+      assert(code == 0 && captured.out.linesIterator.size == 4, captured.err)
+      val exr = ImageFiles.read(Path.of(files(3)))
+      assert(exr.colorSpace.name == "rec2020")
+      val whole = ImageFiles.read(Path.of(sky)).toRgb
+      // Half floats have 11 bits: they are off by up to 5e-4 of the value
+      assert(Math.abs(exr.toRgb(3, 31, 2) - whole(3, 0, 2)) < 1e-3f)
+      assert(ImageFiles.facts(Path.of(files(3))).toMap.apply("image") == sky)
+
+  test("image refuses what can't be, and says why"):
+    assert(refusal(sky, "--crop", "0,100,0,10").contains(s"$sky: window x 0 to 100"))
+    assert(refusal(sky, "--channels", "Q").contains(s"$sky: no channel Q, only R, G, B"))
+    assert(refusal(sky, "--environment", "latlong").contains("square, found 64x32 pixels"))
+    assert(refusal(sky, "--resize", "0").contains("must be WIDTHxHEIGHT"))
+    assert(refusal(sky, "--scale", "0").contains("--scale must be above 0"))
+    assert(refusal("nowhere.exr").contains("nowhere.exr: there is no such file"))
+
+  test("average is the mean of images"):
+    TempFolder.use: folder =>
+      val files = Vector(1f, 2f, 6f).map: v =>
+        val file = folder.resolve(s"$v.exr")
+        ImageFiles.write(file, Image(1, 1, Vector("R", "G", "B", "z"), Array(v, 0f, 1f, 2 * v)))
+        file.toString
+      val out = folder.resolve("mean.exr")
+      val (code, captured) = run(Vector("average") ++ files ++ Vector("--outfile", out.toString)*)
+      assert(code == 0 && captured.out.contains("mean of 3 images"), captured.err)
+      assert(ImageFiles.read(out).data.toVector == Vector(3f, 0f, 1f, 6f))
+      val (other, why) = run("average", files.head, sky, "--outfile", out.toString)
+      assert(other == 1 && why.err.contains("differ in size"))
+
+  test("info prints size, channels, metadata and statistics"):
+    TempFolder.use: folder =>
+      val file = folder.resolve("a.exr")
+      val data = Array(1f, Float.NaN, 3f, Float.PositiveInfinity)
+      ImageFiles.write(file, Image(2, 1, Vector("Y", "z"), data), Vector("scene" -> "küche"))
+      val (code, captured) = run("info", file.toString)
+      assert(code == 0)
+      val lines = captured.out.linesIterator.map(_.trim.split(" {2,}").toVector).toVector
+      assert(lines.contains(Vector("size", "2x1")))
+      assert(lines.contains(Vector("channels", "Y, z, floats, linear")))
+      assert(lines.contains(Vector("scene", "küche")))
+      assert(lines.contains(Vector("Y", "1.000", "3.000", "2.000", "0", "0")))
+      assert(lines.contains(Vector("z", "-", "-", "-", "1", "1")))
+      val (both, pair) = run("info", file.toString, "scenes/textures/chart.png")
+      assert(both == 0 && pair.out.contains("scenes/textures/chart.png\nsize"))
+      assert(pair.out.contains("8 bits, srgb"))
+      assert(run("info", "nowhere.exr")._1 == 1)

@@ -1,0 +1,120 @@
+package candela.cli.rendering
+
+import candela.build.RenderGoal
+import candela.color.Rgb
+import candela.film.{Development, Film}
+import candela.render.{Pass, Renderer, Rendering, TinyPlan}
+
+import org.scalatest.funsuite.AnyFunSuite
+
+class GoalSuite extends AnyFunSuite:
+  /** Uniform numbers around 1: their relative error is the root of 1/12 over the samples. */
+  private val plan = TinyPlan(width = 40, height = 30, spp = 1000): (_, sampler) =>
+    Rgb.gray(0.5f + sampler.next1D())
+
+  private def goal(options: RenderGoal) =
+    Goal(options, 1000, RenderRecorder(Development(), None))
+
+  private def rendered(goal: Goal): Rendering = Renderer.render(plan, 2, listener = goal)
+
+  test("a rendering ends at the first samples whose error is low enough, with whole passes"):
+    // The root of 0.0833 / 44: past 32, before 64
+    val rendering = rendered(goal(RenderGoal(error = Some(0.0436))))
+    assert(rendering.samplesDone == 48 && rendering.isComplete)
+    assert(rendering.samplesTaken == 48 * 40 * 30)
+
+  test("an error of a few samples ends nothing"):
+    assert(rendered(goal(RenderGoal(error = Some(10)))).samplesDone == Goal.Fewest)
+
+  test("the samples that an error needs are told by its trend"):
+    val ended = goal(RenderGoal(error = Some(0.0436)))
+    val _ = rendered(ended)
+    val expected = ended.goal.get
+    // 44 samples: ± 10 %
+    assert(expected.seconds.isEmpty && Math.abs(expected.samples.get - 44) < 5)
+    assert(Math.abs(ended.errorAt(24).get * Math.sqrt(24 * 12) - 1) < 0.08)
+
+  private val film = Film(0, 0, 1, 1)
+
+  /** When a rendering ends whose samples take a second each, the first one, and then `actual`
+    * seconds.
+    *
+    * @param largest samples per pixel of a pass
+    */
+  private def ended(time: Double, largest: Int, actual: Double = 1): Double =
+    val timed = goal(RenderGoal(time = Some(time)))
+    timed.begins(0, film)
+    var clock = 0.0
+    var samples = 0
+    while !timed.isEnough do
+      val size = Math.min(largest, Math.max(1, Integer.highestOneBit(samples) / 2))
+      val rest = size - samples % size
+      val next = Math.min(timed.most, rest)
+      val end = clock + next * (if samples == 0 then 1 else actual)
+      samples += next
+      timed.passed(
+        Pass(samples, clock, end, Vector.empty, isWhole = next == rest, clock = end),
+        film
+      )
+      clock = end
+    clock
+
+  test("a time ends a rendering after a part that ends near it, however long passes are"):
+    assert(ended(20, 64) == 20)
+    assert(ended(20.3, 1) == 20)
+    assert(Math.abs(ended(100, 16, actual = 1.2) - 100) <= 1)
+    // Another sample would end late
+    assert(ended(20.55, 1) == 20)
+
+  test("a slow start does not end a rendering before its time"):
+    val timed = goal(RenderGoal(time = Some(1.2)))
+    timed.begins(0, film)
+    timed.passed(Pass(1, 0, 0.8, Vector.empty, clock = 0.8), film)
+    assert(!timed.isEnough && timed.most == 2)
+
+  test("samples that take longer than expected are not waited for, nor chains, which end anywhere"):
+    val timed = goal(RenderGoal(time = Some(20)))
+    timed.begins(0, film)
+    for i <- 1 to 3 do timed.passed(Pass(i, i - 1, i, Vector.empty, clock = i), film)
+    assert(timed.most == 17 && !timed.isOver(20.3, 0) && timed.isOver(20.5, 0))
+    val chains = goal(RenderGoal(time = Some(20)))
+    chains.begins(0, film)
+    chains.passed(Pass(1, 0, 1, Vector.empty, clock = 1, step = 0), film)
+    assert(!chains.isEnough && !chains.isOver(19.9, 0) && chains.isOver(20, 0))
+
+  test("an error is measured in time, or not at all"):
+    for (clock, isKnown) <- Vector(2.0 -> true, 2.9 -> false) do
+      val timed = goal(RenderGoal(time = Some(2)))
+      timed.begins(0, film)
+      for i <- 1 to 2 do
+        timed.passed(Pass(i, 0, 1, Vector.empty, clock = if i == 1 then 1 else clock), film)
+      assert(timed.errorAt(2).isDefined == isKnown && timed.isEnough, clock)
+    val cancelled = goal(RenderGoal(error = Some(1e9)))
+    cancelled.begins(0, film)
+    for i <- 1 to 2 do cancelled.passed(Pass(i, 0, 1, Vector.empty, isStopped = () => true), film)
+    assert(cancelled.errorAt(2).isEmpty)
+
+  test("where an error is looked at does not depend on a time"):
+    val both = goal(RenderGoal(error = Some(1e9), time = Some(1000)))
+    both.begins(0, film)
+    both.passed(Pass(8, 0, 1, Vector.empty, isWhole = false, clock = 1), film)
+    assert(!both.isEnough)
+
+  test("what ends before its goal because all samples are taken says so, and what to do"):
+    def missed(options: RenderGoal) =
+      val ended = goal(options)
+      ended.missed(rendered(ended))
+    val why = "all 1000 samples per pixel are taken; a larger --spp, or none, allows more"
+    // The root of 0.0833 / 1000
+    val noisy = missed(RenderGoal(error = Some(1e-4))).get
+    assert(noisy.matches(raw"warning: the error is 0\.9\d* %, not 0\.01 %: " + why))
+    val early = missed(RenderGoal(time = Some(3600))).get
+    assert(early.matches(raw"warning: the rendering ended after [\d.]+ m?s, not .*: " + why))
+    val both = missed(RenderGoal(error = Some(1e-4), time = Some(3600))).get
+    assert(both.contains("not 0.01 %, and the rendering ended after "))
+    assert(missed(RenderGoal(error = Some(0.5))).isEmpty)
+    assert(missed(RenderGoal(time = Some(1e-6))).isEmpty)
+
+  test("a time ends a rendering with whole passes"):
+    val rendering = rendered(goal(RenderGoal(time = Some(1e-6))))
+    assert(rendering.samplesDone == 1 && rendering.samplesTaken == 1200)
